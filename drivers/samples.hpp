@@ -1,0 +1,96 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+
+// What the devices deliver, in SI units and in the robot's frame (z up), each with the time at which it was
+// measured: nanoseconds of CLOCK_MONOTONIC. `fresh` is true in the one cycle that first sees the sample.
+namespace sandhopper {
+
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+enum class Side : std::uint8_t { left, right };
+inline constexpr std::size_t kMotorCount = 2;
+
+// One drive's reply. Angle of the upper link from straight down, growing as the leg shortens; torque = torque
+// constant x current, positive when it shortens the leg. `time_ns` is the instant of the state in the reply
+// (that of the command it answers), not of its arrival.
+struct MotorSample {
+  std::int64_t time_ns = 0;
+  double position_rad = 0.0;
+  double velocity_radps = 0.0;
+  double current_A = 0.0;
+  double temperature_C = kNotMeasured;
+  double bus_voltage_V = kNotMeasured;
+  std::uint8_t error_code = 0;
+  bool fresh = false;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("position_rad", self.position_rad);
+    visit("velocity_radps", self.velocity_radps);
+    visit("current_A", self.current_A);
+    visit("temperature_C", self.temperature_C);
+    visit("bus_voltage_V", self.bus_voltage_V);
+    visit("error_code", self.error_code);
+    visit("fresh", self.fresh);
+  }
+};
+
+// Specific force (+9.81 m/s^2 along z at rest) and angular rate. `samples` counts what the sensor delivered since
+// start: the sensor is faster than the cycle, so it grows by 1 or 2 per cycle at 1666 Hz.
+struct ImuSample {
+  std::int64_t time_ns = 0;
+  std::array<double, 3> accel_mps2{};
+  std::array<double, 3> gyro_radps{};
+  std::uint32_t samples = 0;
+  bool fresh = false;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("accel_mps2", self.accel_mps2);
+    visit("gyro_radps", self.gyro_radps);
+    visit("samples", self.samples);
+    visit("fresh", self.fresh);
+  }
+};
+
+// Height of the body (hip axis) over the surface below the sensor. `status` is the device's own (0: good).
+struct TofSample {
+  std::int64_t time_ns = 0;
+  double height_m = kNotMeasured;
+  double amplitude = 0.0;
+  std::int16_t status = 0;
+  std::uint8_t quality = 0;
+  bool fresh = false;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("height_m", self.height_m);
+    visit("amplitude", self.amplitude);
+    visit("status", self.status);
+    visit("quality", self.quality);
+    visit("fresh", self.fresh);
+  }
+};
+
+// Compression of the foot's load cell, positive; tare not yet removed.
+struct LoadCellSample {
+  std::int64_t time_ns = 0;
+  double force_N = 0.0;
+  std::uint32_t samples = 0;
+  bool fresh = false;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("force_N", self.force_N);
+    visit("samples", self.samples);
+    visit("fresh", self.fresh);
+  }
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,22 @@
+#pragma once
+#include "firmware/command.hpp"
+#include "firmware/sensor_frame.hpp"
+
+namespace sandhopper {
+
+// The only seam between the cycle and the world. The Linux board (robot and virtual bench alike), the simulated
+// board and the replay board implement it; the cycle cannot tell them apart.
+class Board {
+ public:
+  virtual ~Board() = default;
+
+  // Fills `frame` with the newest sample of every device. Never waits for a slow bus. `frame` keeps the previous
+  // cycle's samples where nothing new came (fresh = false then). `frame.time_ns`, `.cycle`, `.overruns` and
+  // `.request` belong to the caller.
+  virtual void read(SensorFrame& frame) noexcept = 0;
+
+  // Sends the cycle's command. A drive's reply to it is in a later read().
+  virtual void write(const Command& command) noexcept = 0;
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "config/fields.hpp"
+#include "drivers/samples.hpp"
+
+namespace sandhopper {
+
+// What the operator asks for; part of the frame so that a replay sees it too. Held for one cycle.
+enum class Request : std::uint8_t { none, arm, release, stop, disarm };
+template <>
+struct EnumNames<Request> {
+  static constexpr std::array<std::string_view, 5> value{"none", "arm", "release", "stop", "disarm"};
+};
+
+// Everything one cycle consumes, and therefore everything that is logged of the world: replaying frames gives the
+// same bits.
+struct SensorFrame {
+  std::int64_t time_ns = 0;       // the cycle's place on the 1 ms grid, CLOCK_MONOTONIC
+  std::uint64_t cycle = 0;        // counts grid points since start, so a skipped one shows
+  std::array<MotorSample, kMotorCount> motor{};
+  ImuSample imu_body{};
+  ImuSample imu_foot{};
+  TofSample tof{};
+  LoadCellSample load_cell{};
+  std::uint32_t overruns = 0;     // cumulative
+  std::uint32_t bus_faults = 0;   // cumulative: send failures, receive overflows, error frames
+  bool emergency_stop = false;    // level of the e-stop line: true stops, a cut wire reads true
+  Request request = Request::none;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("cycle", self.cycle);
+    visit("motor", self.motor);
+    visit("imu_body", self.imu_body);
+    visit("imu_foot", self.imu_foot);
+    visit("tof", self.tof);
+    visit("load_cell", self.load_cell);
+    visit("overruns", self.overruns);
+    visit("bus_faults", self.bus_faults);
+    visit("emergency_stop", self.emergency_stop);
+    visit("request", self.request);
+  }
+};
+
+}  // namespace sandhopper
