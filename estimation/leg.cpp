@@ -9,13 +9,15 @@ namespace sandhopper {
 Leg::Leg(const LegParameters& parameters)
     : p_(parameters),
       lower_com_to_toe_m_(p_.lower_link_length_m - p_.lower_link_com_m),
-      total_mass_kg_(p_.body_mass_kg + p_.foot_mass_kg + 2.0 * (p_.upper_link_mass_kg + p_.lower_link_mass_kg)),
+      total_mass_kg_(p_.body_mass_kg + p_.foot_mass_kg +
+                     2.0 * (p_.upper_link_mass_kg + p_.lower_link_mass_kg)),
       rotor_inertia_total_kg_m2_(p_.motor_count * p_.rotor_inertia_kg_m2 * p_.gear_ratio * p_.gear_ratio) {
   if (p_.lower_link_length_m <= p_.upper_link_length_m + p_.hip_offset_m)
     throw std::invalid_argument(
         "leg: lower_link_length_m must exceed upper_link_length_m + hip_offset_m, or the leg locks at pi/2");
   if (!(dynamics(1.2).m22_kg_m2 > 0.0))
-    throw std::invalid_argument("leg: body, link and rotor inertia are all zero, so no torque has a finite response");
+    throw std::invalid_argument(
+        "leg: body, link and rotor inertia are all zero, so no torque has a finite response");
 }
 
 namespace {
@@ -69,10 +71,11 @@ LegDynamics Leg::dynamics(double angle_rad) const noexcept {
 
   d.m11_kg = total_mass_kg_;
   d.m12_kg_m = m_b * dl + 2.0 * m1 * upper_vertical - 2.0 * m2 * e2 * sin_psi * dpsi;
-  d.m22_kg_m2 = m_b * dl * dl + 2.0 * m1 * (upper_vertical * upper_vertical + upper_horizontal * upper_horizontal) +
-                2.0 * p_.upper_link_inertia_kg_m2 + rotor_inertia_total_kg_m2_ + 2.0 * lower_inertia * dpsi * dpsi;
-  d.dm12_kg_m_per_rad = (m_b + 2.0 * m1) * d2l + 2.0 * m1 * c1 * c -
-                        2.0 * m2 * e2 * (cos_psi * dpsi * dpsi + sin_psi * d2psi);
+  d.m22_kg_m2 =
+      m_b * dl * dl + 2.0 * m1 * (upper_vertical * upper_vertical + upper_horizontal * upper_horizontal) +
+      2.0 * p_.upper_link_inertia_kg_m2 + rotor_inertia_total_kg_m2_ + 2.0 * lower_inertia * dpsi * dpsi;
+  d.dm12_kg_m_per_rad =
+      (m_b + 2.0 * m1) * d2l + 2.0 * m1 * c1 * c - 2.0 * m2 * e2 * (cos_psi * dpsi * dpsi + sin_psi * d2psi);
   d.dm22_kg_m2_per_rad = 2.0 * m_b * dl * d2l +
                          2.0 * m1 * (2.0 * upper_vertical * (d2l + c1 * c) - 2.0 * c1 * c1 * s * c) +
                          4.0 * lower_inertia * dpsi * d2psi;
@@ -106,9 +109,9 @@ double mechanical_energy_J(const Leg& leg, double foot_z_m, double foot_velocity
   const double body_z = toe_z + d.leg.length_m;
   const double upper_com_z = body_z - p.upper_link_com_m * c;
   const double lower_com_z = toe_z + (p.lower_link_length_m - p.lower_link_com_m) * cos_psi;
-  const double potential = kGravity_mps2 * (p.body_mass_kg * body_z + p.foot_mass_kg * foot_z_m +
-                                            2.0 * p.upper_link_mass_kg * upper_com_z +
-                                            2.0 * p.lower_link_mass_kg * lower_com_z);
+  const double potential =
+      kGravity_mps2 * (p.body_mass_kg * body_z + p.foot_mass_kg * foot_z_m +
+                       2.0 * p.upper_link_mass_kg * upper_com_z + 2.0 * p.lower_link_mass_kg * lower_com_z);
   const double kinetic = 0.5 * d.m11_kg * foot_velocity_mps * foot_velocity_mps +
                          d.m12_kg_m * foot_velocity_mps * angular_velocity_radps +
                          0.5 * d.m22_kg_m2 * angular_velocity_radps * angular_velocity_radps;

@@ -4,14 +4,15 @@
 
 namespace sandhopper {
 
-// The only seam between the cycle and the world. The Linux board (robot and virtual bench alike), the simulated
-// board and the replay board implement it; the cycle cannot tell them apart.
+// The only seam between the cycle and the world. The Linux board (robot and virtual bench alike), the
+// simulated board and the replay board implement it; the cycle cannot tell them apart.
 class Board {
  public:
   virtual ~Board() = default;
 
-  // Fills `frame` with the newest sample of every device. Never waits for a slow bus. `frame` keeps the previous
-  // cycle's samples where nothing new came (fresh = false then). `frame.time_ns`, `.cycle`, `.overruns` and
+  // Fills `frame` with the newest sample of every device. Never waits for a slow bus. `frame` keeps the
+  // previous cycle's samples where nothing new came (fresh = false then). `frame.time_ns`, `.cycle`,
+  // `.overruns` and
   // `.request` belong to the caller.
   virtual void read(SensorFrame& frame) noexcept = 0;
 

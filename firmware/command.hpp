@@ -7,15 +7,16 @@
 
 namespace sandhopper {
 
-// What the drives are asked to be: off (left motor mode), enable (entering motor mode with zero gains), or run.
+// What the drives are asked to be: off (left motor mode), enable (entering motor mode with zero gains), or
+// run.
 enum class DriveRequest : std::uint8_t { off, enable, run };
 template <>
 struct EnumNames<DriveRequest> {
   static constexpr std::array<std::string_view, 3> value{"off", "enable", "run"};
 };
 
-// Law inside the drive: torque = kp (position - measured) + kd (velocity - measured) + torque. Link side, signs of
-// MotorSample.
+// Law inside the drive: torque = kp (position - measured) + kd (velocity - measured) + torque. Link side,
+// signs of MotorSample.
 struct MotorCommand {
   double position_rad = 0.0;
   double velocity_radps = 0.0;

@@ -14,19 +14,19 @@ struct EnumNames<Request> {
   static constexpr std::array<std::string_view, 5> value{"none", "arm", "release", "stop", "disarm"};
 };
 
-// Everything one cycle consumes, and therefore everything that is logged of the world: replaying frames gives the
-// same bits.
+// Everything one cycle consumes, and therefore everything that is logged of the world: replaying frames gives
+// the same bits.
 struct SensorFrame {
-  std::int64_t time_ns = 0;       // the cycle's place on the 1 ms grid, CLOCK_MONOTONIC
-  std::uint64_t cycle = 0;        // counts grid points since start, so a skipped one shows
+  std::int64_t time_ns = 0;  // the cycle's place on the 1 ms grid, CLOCK_MONOTONIC
+  std::uint64_t cycle = 0;   // counts grid points since start, so a skipped one shows
   std::array<MotorSample, kMotorCount> motor{};
   ImuSample imu_body{};
   ImuSample imu_foot{};
   TofSample tof{};
   LoadCellSample load_cell{};
-  std::uint32_t overruns = 0;     // cumulative
-  std::uint32_t bus_faults = 0;   // cumulative: send failures, receive overflows, error frames
-  bool emergency_stop = false;    // level of the e-stop line: true stops, a cut wire reads true
+  std::uint32_t overruns = 0;    // cumulative
+  std::uint32_t bus_faults = 0;  // cumulative: send failures, receive overflows, error frames
+  bool emergency_stop = false;   // level of the e-stop line: true stops, a cut wire reads true
   Request request = Request::none;
 
   template <class Self, class Visitor>

@@ -1,0 +1,130 @@
+#include "terrain/stiffness_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper {
+
+double acceleration_weight(const WeightConfig& config, double accel_magnitude_mps2) noexcept {
+  const double s =
+      1.0 / (1.0 + std::exp(-config.slope_s2_per_m * (accel_magnitude_mps2 - config.threshold_mps2)));
+  const double sigma = config.sigma_good_N + (config.sigma_bad_N - config.sigma_good_N) * s;
+  return 1.0 / (sigma * sigma);
+}
+
+void RecursiveRegression::reset() noexcept {
+  sums_ = {};
+  newest_ = 0;
+  filled_ = 0;
+}
+
+void RecursiveRegression::add(const FitSample& sample) noexcept {
+  const double z = sample.depth_m;
+  const double f = sample.force_N;
+  const double w = sample.weight;
+  const Products a{w * f, w, w * z, w * z * f, w * z * z};
+  sums_.w += w;
+  sums_.wz += a[2];
+  sums_.wzz += a[4];
+  sums_.wf += a[0];
+  sums_.wzf += a[3];
+  sums_.depth_min_m = sums_.samples == 0 ? z : std::min(sums_.depth_min_m, z);
+  sums_.depth_max_m = sums_.samples == 0 ? z : std::max(sums_.depth_max_m, z);
+  ++sums_.samples;
+
+  // Half of the lag-0 term and all positive lags; solve_stiffness symmetrises.
+  Products kernel_sum{};
+  for (std::size_t i = 0; i < 5; ++i) kernel_sum[i] = 0.5 * a[i];
+  for (int lag = 1; lag <= filled_; ++lag) {
+    const double kernel = 1.0 - static_cast<double>(lag) / lags_;
+    const auto& past = recent_[static_cast<std::size_t>((newest_ - lag + 1 + kMaxLags) % kMaxLags)];
+    for (std::size_t i = 0; i < 5; ++i) kernel_sum[i] += kernel * past[i];
+  }
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < 5; ++j) sums_.scores[5 * i + j] += a[i] * kernel_sum[j];
+
+  newest_ = (newest_ + 1) % kMaxLags;
+  recent_[static_cast<std::size_t>(newest_)] = a;
+  filled_ = std::min(filled_ + 1, lags_ - 1);
+}
+
+double fixed_b_critical_value(double b) noexcept { return 1.9600 + b * (2.9694 + b * (0.4160 - b * 0.5324)); }
+
+namespace {
+
+// u^T (G + G^T) v for the score rows u, v.
+double score_moment(const RegressionSums& sums, const std::array<double, 5>& u,
+                    const std::array<double, 5>& v) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < 5; ++j)
+      total += u[i] * (sums.scores[5 * i + j] + sums.scores[5 * j + i]) * v[j];
+  return total;
+}
+
+struct Line {
+  double intercept;
+  double slope;
+  double slope_variance;
+};
+
+Line solve_free(const RegressionSums& s) {
+  const double det = s.w * s.wzz - s.wz * s.wz;
+  const double slope = (s.w * s.wzf - s.wz * s.wf) / det;
+  const double intercept = (s.wzz * s.wf - s.wz * s.wzf) / det;
+  const std::array<double, 5> first{1.0, -intercept, -slope, 0.0, 0.0};
+  const std::array<double, 5> second{0.0, 0.0, -intercept, 1.0, -slope};
+  // The inverse normal matrix's row that belongs to the slope.
+  const double a = -s.wz / det;
+  const double b = s.w / det;
+  std::array<double, 5> row{};
+  for (std::size_t i = 0; i < 5; ++i) row[i] = a * first[i] + b * second[i];
+  return {intercept, slope, score_moment(s, row, row)};
+}
+
+Line solve_through_origin(const RegressionSums& s) {
+  const double slope = s.wzf / s.wzz;
+  const std::array<double, 5> row{0.0, 0.0, 0.0, 1.0 / s.wzz, -slope / s.wzz};
+  return {0.0, slope, score_moment(s, row, row)};
+}
+
+Validity judge(const RegressionSums& sums, const StiffnessConfig& config, const StiffnessEstimate& e) {
+  if (!std::isfinite(e.ci95_low_N_per_m) || !std::isfinite(e.ci95_high_N_per_m))
+    return Validity::interval_unbounded;
+  if (!(e.value_N_per_m > 0.0)) return Validity::not_positive;
+  if (sums.depth_max_m > config.max_depth_m) return Validity::deeper_than_foot;
+  return Validity::valid;
+}
+
+}  // namespace
+
+StiffnessEstimate solve_stiffness(const RegressionSums& sums, const StiffnessConfig& config) noexcept {
+  StiffnessEstimate e;
+  e.samples = sums.samples;
+  if (sums.samples == 0) {
+    e.validity = Validity::no_new_penetration;
+    return e;
+  }
+  if (sums.samples < config.min_samples) {
+    e.validity = Validity::too_few_samples;
+    return e;
+  }
+  if (sums.depth_max_m - sums.depth_min_m < config.min_depth_span_m) {
+    e.validity = Validity::too_shallow;
+    return e;
+  }
+  const Line line = config.free_intercept ? solve_free(sums) : solve_through_origin(sums);
+  const double n = sums.samples;
+  const double parameters = config.free_intercept ? 2.0 : 1.0;
+  e.value_N_per_m = line.slope;
+  e.intercept_N = line.intercept;
+  e.standard_error_N_per_m = std::sqrt(std::max(line.slope_variance, 0.0) * n / (n - parameters));
+  const double b = std::min(1.0, config.autocorrelation_lags / n);
+  const double half = fixed_b_critical_value(b) * e.standard_error_N_per_m;
+  e.ci95_low_N_per_m = line.slope - half;
+  e.ci95_high_N_per_m = line.slope + half;
+  e.validity = judge(sums, config, e);
+  return e;
+}
+
+}  // namespace sandhopper

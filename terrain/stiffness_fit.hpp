@@ -1,0 +1,148 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "config/fields.hpp"
+
+// Stiffness of the ground from force and depth: F = F0 + k z by (weighted) least squares, accumulated
+// recursively in bounded memory so that the cycle can do it, solved afterwards. The standard error respects
+// the residuals' autocorrelation: a sandwich estimate with a Bartlett kernel over `autocorrelation_lags`
+// samples (Newey & West 1987), and an interval from fixed-b asymptotics (Kiefer & Vogelsang 2005), which
+// stays honest when lags/n is not small.
+namespace sandhopper {
+
+// Which samples of a stance count.
+enum class SampleWindow : std::uint8_t {
+  penetrating,   // contact to greatest depth, foot faster than min_speed downward
+  new_depth,     // only samples at a depth never reached before
+  to_max_depth,  // everything from contact to greatest depth
+  whole_stance,  // everything from contact to liftoff
+  compression    // everything from contact to the stance switch
+};
+template <>
+struct EnumNames<SampleWindow> {
+  static constexpr std::array<std::string_view, 5> value{"penetrating", "new_depth", "to_max_depth",
+                                                         "whole_stance", "compression"};
+};
+
+// Acceleration weights: s = 1/(1 + exp(-slope (|zdd| - threshold))), sigma = good + (bad - good) s, w =
+// 1/sigma^2.
+struct WeightConfig {
+  double sigma_good_N = 1.0;
+  double sigma_bad_N = 10.0;
+  double threshold_mps2 = 6.0;  // a0: s = 1/2 there
+  double slope_s2_per_m = 1.0;  // k
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("sigma_good_N", self.sigma_good_N, Range{1e-3, 1e3});
+    visit("sigma_bad_N", self.sigma_bad_N, Range{1e-3, 1e4});
+    visit("threshold_mps2", self.threshold_mps2, Range{0.0, 1e3});
+    visit("slope_s2_per_m", self.slope_s2_per_m, Range{1e-3, 1e3});
+  }
+};
+
+double acceleration_weight(const WeightConfig& config, double accel_magnitude_mps2) noexcept;
+
+struct StiffnessConfig {
+  SampleWindow window = SampleWindow::penetrating;
+  bool free_intercept = true;
+  double min_speed_mps = 0.03;
+  int autocorrelation_lags = 30;  // samples, i.e. cycles
+  int min_samples = 30;
+  double min_depth_span_m = 0.005;
+  double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
+  WeightConfig weights{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("window", self.window);
+    visit("free_intercept", self.free_intercept);
+    visit("min_speed_mps", self.min_speed_mps, Range{0.0, 1.0});
+    visit("autocorrelation_lags", self.autocorrelation_lags, Range{1, 64});
+    visit("min_samples", self.min_samples, Range{3, 10000});
+    visit("min_depth_span_m", self.min_depth_span_m, Range{0.0, 1.0});
+    visit("max_depth_m", self.max_depth_m, Range{0.001, 1.0});
+    visit("weights", self.weights);
+  }
+};
+
+// Sums of one regression. `scores` holds the kernel-weighted second moments of the five products from which
+// every residual score is built: w [F, 1, z, z F, z^2].
+struct RegressionSums {
+  double w = 0.0, wz = 0.0, wzz = 0.0, wf = 0.0, wzf = 0.0;
+  double depth_min_m = 0.0, depth_max_m = 0.0;
+  std::array<double, 25> scores{};
+  std::int32_t samples = 0;
+};
+
+struct FitSample {
+  double depth_m;
+  double force_N;
+  double weight;
+};
+
+// Adds samples to sums; the last `lags` products are kept for the autocorrelation. Never allocates.
+class RecursiveRegression {
+ public:
+  static constexpr int kMaxLags = 64;
+  explicit RecursiveRegression(int lags) noexcept : lags_(lags) {}
+  void add(const FitSample& sample) noexcept;
+  const RegressionSums& sums() const noexcept { return sums_; }
+  void reset() noexcept;
+
+ private:
+  using Products = std::array<double, 5>;
+  RegressionSums sums_{};
+  std::array<Products, kMaxLags> recent_{};
+  int lags_;
+  int newest_ = 0;
+  int filled_ = 0;
+};
+
+// Why a stiffness must not be used; `valid` when nothing speaks against it.
+enum class Validity : std::uint8_t {
+  valid,
+  no_new_penetration,
+  too_few_samples,
+  too_shallow,
+  deeper_than_foot,
+  interval_unbounded,
+  not_positive
+};
+template <>
+struct EnumNames<Validity> {
+  static constexpr std::array<std::string_view, 7> value{
+      "valid",       "no_new_penetration", "too_few_samples",
+      "too_shallow", "deeper_than_foot",   "interval_unbounded",
+      "not_positive"};
+};
+
+struct StiffnessEstimate {
+  double value_N_per_m = 0.0;
+  double standard_error_N_per_m = 0.0;
+  double ci95_low_N_per_m = 0.0;
+  double ci95_high_N_per_m = 0.0;
+  double intercept_N = 0.0;
+  std::int32_t samples = 0;
+  Validity validity = Validity::too_few_samples;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("value_N_per_m", self.value_N_per_m);
+    visit("standard_error_N_per_m", self.standard_error_N_per_m);
+    visit("ci95_low_N_per_m", self.ci95_low_N_per_m);
+    visit("ci95_high_N_per_m", self.ci95_high_N_per_m);
+    visit("intercept_N", self.intercept_N);
+    visit("samples", self.samples);
+    visit("validity", self.validity);
+  }
+};
+
+// Two-sided 95 % critical value of a t-statistic with a Bartlett kernel of relative bandwidth b = lags/n
+// (Kiefer & Vogelsang 2005, fixed-b asymptotics), for 0 <= b <= 1.
+double fixed_b_critical_value(double b) noexcept;
+
+StiffnessEstimate solve_stiffness(const RegressionSums& sums, const StiffnessConfig& config) noexcept;
+
+}  // namespace sandhopper
