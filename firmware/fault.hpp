@@ -21,7 +21,7 @@ enum class Fault : std::uint8_t {
   estimate_not_finite,
   bus_fault,
   motor_temperature,
-  touchdown_missing
+  phase_timeout
 };
 inline constexpr std::size_t kFaultCount = 14;
 
@@ -40,7 +40,7 @@ struct EnumNames<Fault> {
                                                                    "estimate_not_finite",
                                                                    "bus_fault",
                                                                    "motor_temperature",
-                                                                   "touchdown_missing"};
+                                                                   "phase_timeout"};
 };
 
 // What the robot does about a fault. damp: viscous leg until still, then limp. limp: zero torque at once.
@@ -89,9 +89,8 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "check bus load, wiring and termination; restart the interface after bus-off"},
     {Fault::motor_temperature, Reaction::damp, "a motor is hotter than limits.motor_temperature_C",
      "let it cool; lower the torque limit or the hop rate"},
-    {Fault::touchdown_missing, Reaction::damp,
-     "no touchdown within limits.flight_time_s of release or liftoff",
-     "check that the robot was released over the bed and that the ToF sensor sees it"},
+    {Fault::phase_timeout, Reaction::damp, "flight or stance lasted longer than limits.phase_time_s",
+     "check that the robot was released over the bed, that the ToF sensor sees it and that the leg can reach its extension length"},
 }};
 
 constexpr bool faults_are_in_order() {

@@ -94,7 +94,8 @@ struct StepOutput {
 struct StrideSummary {
   std::uint32_t stride = 0;  // 1 is the first
   std::int64_t release_ns = 0;
-  std::int64_t touchdown_ns = 0;
+  std::int64_t contact_ns = 0;    // foot meets the ground: where its downward speed is greatest
+  std::int64_t touchdown_ns = 0;  // the controller notices, some milliseconds later
   std::int64_t switch_ns = 0;
   std::int64_t liftoff_ns = 0;
   double touchdown_speed_mps = 0.0;  // foot, downward, at contact
@@ -108,6 +109,7 @@ struct StrideSummary {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("stride", self.stride);
     visit("release_ns", self.release_ns);
+    visit("contact_ns", self.contact_ns);
     visit("touchdown_ns", self.touchdown_ns);
     visit("switch_ns", self.switch_ns);
     visit("liftoff_ns", self.liftoff_ns);
@@ -118,6 +120,14 @@ struct StrideSummary {
     visit("crater_depth_m", self.crater_depth_m);
     visit("liftoff_depth_m", self.liftoff_depth_m);
   }
+};
+
+// All that the stiffness of a stride is solved from: what the cycle hands to the solving thread.
+struct StrideSums {
+  StrideSummary summary{};
+  RegressionSums quasi_static_ols{};
+  RegressionSums observer_ols{};
+  RegressionSums observer_wls{};
 };
 
 // A stride's result: its summary and the stiffness by the three treatments.

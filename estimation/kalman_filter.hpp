@@ -1,0 +1,100 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "config/fields.hpp"
+
+// Kalman filter of body and foot on the rail (paper, state estimation):
+//   x = [z_b, v_b, z_f, v_f],  u = [a_b, a_f] (IMU specific force minus gravity and bias)
+//   x+ = A x + B u,  A = blkdiag([1 T; 0 1]) twice,  B = blkdiag([T^2/2; T]) twice,  Q = B diag(sigma_a^2) B^T
+//   y = [ToF height; leg length + foot height; leg rate],  H = [1 0 0 0; 1 0 -1 0; 0 1 0 -1]
+// Each measurement is used once, when it is fresh, and at its own age: the row is that of the state `age` earlier,
+// obtained by inverting the very prediction steps made since (z(t-a) = z - a v + displacement of the known input).
+namespace sandhopper {
+
+struct KalmanConfig {
+  double body_accel_noise_mps2 = 0.5;
+  double foot_accel_noise_mps2 = 1.0;
+  double tof_noise_m = 0.006;
+  double leg_length_noise_m = 1.0e-4;
+  double leg_rate_noise_mps = 0.03;
+  double tof_gate_sigma = 6.0;           // a ToF reading farther off than this is not used
+  double initial_height_noise_m = 0.01;
+  double initial_speed_noise_mps = 0.01;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("body_accel_noise_mps2", self.body_accel_noise_mps2, Range{1e-4, 100.0});
+    visit("foot_accel_noise_mps2", self.foot_accel_noise_mps2, Range{1e-4, 100.0});
+    visit("tof_noise_m", self.tof_noise_m, Range{1e-5, 1.0});
+    visit("leg_length_noise_m", self.leg_length_noise_m, Range{1e-6, 0.1});
+    visit("leg_rate_noise_mps", self.leg_rate_noise_mps, Range{1e-4, 10.0});
+    visit("tof_gate_sigma", self.tof_gate_sigma, Range{1.0, 1000.0});
+    visit("initial_height_noise_m", self.initial_height_noise_m, Range{1e-5, 1.0});
+    visit("initial_speed_noise_mps", self.initial_speed_noise_mps, Range{1e-5, 10.0});
+  }
+};
+
+struct BodyFootState {
+  double body_z_m;
+  double body_velocity_mps;
+  double foot_z_m;
+  double foot_velocity_mps;
+};
+
+struct BodyFootAccel {
+  double body_mps2;
+  double foot_mps2;
+};
+
+// What came of one measurement: innovation and its normalised square (NaN when it was not used or gated out).
+struct Innovation {
+  double value;
+  double normalised_squared;
+  bool gated = false;
+};
+
+class KalmanFilter {
+ public:
+  static constexpr std::size_t kHistory = 16;  // prediction steps a measurement may lie back
+
+  explicit KalmanFilter(const KalmanConfig& config) noexcept;
+  void reset(const BodyFootState& state) noexcept;
+
+  // One step of dt_s with the acceleration of that step.
+  void predict(const BodyFootAccel& accel, double dt_s) noexcept;
+
+  Innovation update_body_height(double height_m, double age_s) noexcept;
+  // Hip-to-sole distance, i.e. leg length plus foot height.
+  Innovation update_leg_length(double distance_m, double age_s) noexcept;
+  Innovation update_leg_rate(double rate_mps, double age_s) noexcept;
+
+  BodyFootState state() const noexcept;
+  // The state `age_s` ago according to all that is known now; ages beyond the history are cut to it.
+  BodyFootState state_before(double age_s) const noexcept;
+  const Eigen::Matrix4d& covariance() const noexcept { return p_; }
+
+ private:
+  // What the inputs of the last age_s did: z(t-a) = z - a v + dz, v(t-a) = v - dv, per mass.
+  struct Lookback {
+    double age_s;
+    std::array<double, 2> displacement_m;
+    std::array<double, 2> speed_mps;
+  };
+  struct Step {
+    BodyFootAccel accel;
+    double dt_s;
+  };
+  Lookback look_back(double age_s) const noexcept;
+  Innovation update(const Eigen::Vector4d& row, double residual, double noise, double gate_sigma) noexcept;
+
+  KalmanConfig config_;
+  Eigen::Vector4d x_ = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d p_ = Eigen::Matrix4d::Zero();
+  std::array<Step, kHistory> history_{};
+  std::size_t newest_ = 0;
+  std::size_t filled_ = 0;
+};
+
+}  // namespace sandhopper
