@@ -91,7 +91,8 @@ constexpr double kNoGate = std::numeric_limits<double>::infinity();
 Innovation KalmanFilter::update_body_height(double height_m, double age_s) noexcept {
   const auto back = look_back(age_s);
   const Eigen::Vector4d row(1.0, -back.age_s, 0.0, 0.0);
-  return update(row, height_m - (row.dot(x_) + back.displacement_m[0]), config_.tof_noise_m, config_.tof_gate_sigma);
+  return update(row, height_m - (row.dot(x_) + back.displacement_m[0]), config_.tof_noise_m,
+                config_.tof_gate_sigma);
 }
 
 Innovation KalmanFilter::update_leg_length(double distance_m, double age_s) noexcept {

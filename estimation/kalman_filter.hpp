@@ -7,10 +7,11 @@
 
 // Kalman filter of body and foot on the rail (paper, state estimation):
 //   x = [z_b, v_b, z_f, v_f],  u = [a_b, a_f] (IMU specific force minus gravity and bias)
-//   x+ = A x + B u,  A = blkdiag([1 T; 0 1]) twice,  B = blkdiag([T^2/2; T]) twice,  Q = B diag(sigma_a^2) B^T
-//   y = [ToF height; leg length + foot height; leg rate],  H = [1 0 0 0; 1 0 -1 0; 0 1 0 -1]
-// Each measurement is used once, when it is fresh, and at its own age: the row is that of the state `age` earlier,
-// obtained by inverting the very prediction steps made since (z(t-a) = z - a v + displacement of the known input).
+//   x+ = A x + B u,  A = blkdiag([1 T; 0 1]) twice,  B = blkdiag([T^2/2; T]) twice,  Q = B diag(sigma_a^2)
+//   B^T y = [ToF height; leg length + foot height; leg rate],  H = [1 0 0 0; 1 0 -1 0; 0 1 0 -1]
+// Each measurement is used once, when it is fresh, and at its own age: the row is that of the state `age`
+// earlier, obtained by inverting the very prediction steps made since (z(t-a) = z - a v + displacement of the
+// known input).
 namespace sandhopper {
 
 struct KalmanConfig {
@@ -19,7 +20,7 @@ struct KalmanConfig {
   double tof_noise_m = 0.006;
   double leg_length_noise_m = 1.0e-4;
   double leg_rate_noise_mps = 0.03;
-  double tof_gate_sigma = 6.0;           // a ToF reading farther off than this is not used
+  double tof_gate_sigma = 6.0;  // a ToF reading farther off than this is not used
   double initial_height_noise_m = 0.01;
   double initial_speed_noise_mps = 0.01;
 

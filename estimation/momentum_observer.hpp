@@ -1,8 +1,8 @@
 #pragma once
 #include <cmath>
 
-// Momentum observer of the ground's force on the foot (paper, force estimation; De Luca's residual for one reduced
-// coordinate). With the leg's reduced quantities (estimation/leg.hpp)
+// Momentum observer of the ground's force on the foot (paper, force estimation; De Luca's residual for one
+// reduced coordinate). With the leg's reduced quantities (estimation/leg.hpp)
 //   p = M_f(phi) v_f,   pdot = psi + F_c,   psi = -beta tau - C phid^2 - M_f g + M_f' phid v_f
 //   rdot = k (F_c - r)
 // Discretised exactly for a momentum that changes linearly within the step:

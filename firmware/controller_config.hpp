@@ -23,7 +23,8 @@ struct EstimatorConfig {
   }
 };
 
-// Virtual spring along the leg, F = K (L0 - L) - B dL/dt, tau = F L' over both motors, and when phases change.
+// Virtual spring along the leg, F = K (L0 - L) - B dL/dt, tau = F L' over both motors, and when phases
+// change.
 struct ControllerConfig {
   double compression_stiffness_N_per_m = 375.0;
   double extension_stiffness_N_per_m = 500.0;
@@ -57,8 +58,9 @@ struct ControllerConfig {
   }
 };
 
-// What happens between the request to arm and being ready: drives on with zero gains, then everything held still for
-// `window_s` while both encoders are checked against the pose and IMU bias, load-cell tare and height are measured.
+// What happens between the request to arm and being ready: drives on with zero gains, then everything held
+// still for `window_s` while both encoders are checked against the pose and IMU bias, load-cell tare and
+// height are measured.
 struct ArmingConfig {
   double enable_s = 0.05;
   double window_s = 0.20;
@@ -121,8 +123,8 @@ struct LimitsConfig {
   }
 };
 
-// Everything Controller needs. `torque_constant_Nm_per_A` is each motor's calibrated constant; it stands in the motor
-// tables of the robot's file and is copied here.
+// Everything Controller needs. `torque_constant_Nm_per_A` is each motor's calibrated constant; it stands in
+// the motor tables of the robot's file and is copied here.
 struct CycleConfig {
   LegParameters robot{};
   std::array<double, kMotorCount> torque_constant_Nm_per_A{0.0868, 0.0868};

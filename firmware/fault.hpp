@@ -90,7 +90,8 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
     {Fault::motor_temperature, Reaction::damp, "a motor is hotter than limits.motor_temperature_C",
      "let it cool; lower the torque limit or the hop rate"},
     {Fault::phase_timeout, Reaction::damp, "flight or stance lasted longer than limits.phase_time_s",
-     "check that the robot was released over the bed, that the ToF sensor sees it and that the leg can reach its extension length"},
+     "check that the robot was released over the bed, that the ToF sensor sees it and that the leg can reach "
+     "its extension length"},
 }};
 
 constexpr bool faults_are_in_order() {

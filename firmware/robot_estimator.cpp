@@ -60,7 +60,8 @@ void RobotEstimator::update(const SensorFrame& frame, Estimate& estimate) noexce
   filter_.predict({estimate.body_accel_mps2, estimate.foot_accel_mps2}, dt);
   update_height(frame, estimate);
   update_leg(frame, estimate);
-  if (frame.load_cell.fresh) estimate.load_cell_force_N = frame.load_cell.force_N - calibration_.load_cell_tare_N;
+  if (frame.load_cell.fresh)
+    estimate.load_cell_force_N = frame.load_cell.force_N - calibration_.load_cell_tare_N;
   write_state(estimate);
 }
 
@@ -99,8 +100,8 @@ RobotEstimator::ForceTerms RobotEstimator::force_terms(const LegDynamics& d,
   const double v = state.foot_velocity_mps;
   const double rate = (state.body_velocity_mps - v) / d.leg.dlength_m_per_rad;
   return {.momentum_kg_mps = d.reduced_mass_kg * v,
-          .psi_without_torque_N = -d.coriolis_N_s2_per_rad2 * rate * rate - d.reduced_mass_kg * kGravity_mps2 +
-                                  d.dreduced_mass_kg_per_rad * rate * v,
+          .psi_without_torque_N = -d.coriolis_N_s2_per_rad2 * rate * rate -
+                                  d.reduced_mass_kg * kGravity_mps2 + d.dreduced_mass_kg_per_rad * rate * v,
           .torque_gain_per_m = d.torque_gain_per_m};
 }
 

@@ -19,7 +19,8 @@ struct StaticCalibration {
   double body_height_m = 0.0;
 };
 
-// Mean of the motors' link angles, rates and total torque; with a single motor the left one drives both sides.
+// Mean of the motors' link angles, rates and total torque; with a single motor the left one drives both
+// sides.
 struct LegMeasurement {
   double angle_rad;
   double rate_radps;
@@ -27,9 +28,9 @@ struct LegMeasurement {
 };
 LegMeasurement leg_measurement(const SensorFrame& frame, const CycleConfig& config) noexcept;
 
-// Body, foot and ground force from one frame after the other. Kalman state at the cycle's time; forces at the instant
-// of the newest motor reply, with the Kalman state carried back to that instant, so that force, depth and speed belong
-// together.
+// Body, foot and ground force from one frame after the other. Kalman state at the cycle's time; forces at the
+// instant of the newest motor reply, with the Kalman state carried back to that instant, so that force, depth
+// and speed belong together.
 class RobotEstimator {
  public:
   RobotEstimator(const CycleConfig& config, const Leg& leg) noexcept;

@@ -1,0 +1,61 @@
+#include "firmware/arming.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper {
+
+Arming::Arming(const CycleConfig& config, const Leg& leg) noexcept
+    : config_(config), expected_angle_rad_(leg.angle_at_length(config.arming.zero_pose_length_m)) {}
+
+void Arming::begin(std::int64_t now_ns) noexcept {
+  begin_ns_ = now_ns;
+  angle_rad_ = {};
+  body_accel_ = foot_accel_ = load_cell_ = tof_ = {};
+  max_speed_radps_ = 0.0;
+}
+
+std::optional<Arming::Verdict> Arming::update(const SensorFrame& frame) noexcept {
+  const double elapsed_s = static_cast<double>(frame.time_ns - begin_ns_) * 1e-9;
+  const auto& c = config_.arming;
+  if (elapsed_s < c.enable_s) return std::nullopt;
+  for (std::size_t i = 0; i < kMotorCount; ++i) {
+    if (!frame.motor[i].fresh) continue;
+    angle_rad_[i].add(frame.motor[i].position_rad);
+    max_speed_radps_ = std::max(max_speed_radps_, std::abs(frame.motor[i].velocity_radps));
+  }
+  if (frame.imu_body.fresh) body_accel_.add(frame.imu_body.accel_mps2[2]);
+  if (frame.imu_foot.fresh) foot_accel_.add(frame.imu_foot.accel_mps2[2]);
+  if (frame.load_cell.fresh) load_cell_.add(frame.load_cell.force_N);
+  if (frame.tof.fresh && std::isfinite(frame.tof.height_m)) tof_.add(frame.tof.height_m);
+  if (elapsed_s < c.enable_s + c.window_s) return std::nullopt;
+  return judge();
+}
+
+Arming::Verdict Arming::judge() const noexcept {
+  const double left = angle_rad_[0].value();
+  const bool two = config_.robot.motor_count == 2;
+  const double right = two ? angle_rad_[1].value() : left;
+  Verdict v{.passed = false,
+            .reason = Reason::zero_confirmed,
+            .values = {left, right, expected_angle_rad_, max_speed_radps_},
+            .calibration = {.body_bias_mps2 = body_accel_.value() - kGravity_mps2,
+                            .foot_bias_mps2 = foot_accel_.value() - kGravity_mps2,
+                            .load_cell_tare_N = load_cell_.value(),
+                            .body_height_m = tof_.value()}};
+  const bool motors = angle_rad_[0].count > 0 && (!two || angle_rad_[1].count > 0);
+  if (!motors || !body_accel_.count || !foot_accel_.count || !load_cell_.count || !tof_.count)
+    v.reason = Reason::sensor_missing;
+  else if (max_speed_radps_ > config_.arming.still_speed_radps)
+    v.reason = Reason::moving;
+  else if (std::abs(left - right) > config_.limits.encoder_mismatch_rad)
+    v.reason = Reason::encoders_disagree;
+  else if (std::max(std::abs(left - expected_angle_rad_), std::abs(right - expected_angle_rad_)) >
+           config_.arming.zero_tolerance_rad)
+    v.reason = Reason::not_at_zero_pose;
+  else
+    v.passed = true;
+  return v;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "estimation/leg.hpp"
+#include "firmware/controller_config.hpp"
+#include "firmware/event.hpp"
+#include "firmware/robot_estimator.hpp"
+
+namespace sandhopper {
+
+// The check made at every start while the robot hangs still: both encoders must read the angle of the hanging
+// pose and agree with each other, nothing may move, and every sensor must deliver. The means of the same
+// window give IMU bias, load-cell tare and body height.
+class Arming {
+ public:
+  Arming(const CycleConfig& config, const Leg& leg) noexcept;
+
+  void begin(std::int64_t now_ns) noexcept;
+
+  struct Verdict {
+    bool passed;
+    Reason reason;
+    std::array<double, 4> values;  // left, right, expected angle [rad], largest speed [rad/s]
+    StaticCalibration calibration;
+  };
+  // Nothing until enable_s + window_s have passed.
+  std::optional<Verdict> update(const SensorFrame& frame) noexcept;
+
+ private:
+  struct Mean {
+    double sum = 0.0;
+    int count = 0;
+    void add(double value) noexcept {
+      sum += value;
+      ++count;
+    }
+    double value() const noexcept { return count > 0 ? sum / count : 0.0; }
+  };
+  Verdict judge() const noexcept;
+
+  const CycleConfig& config_;
+  double expected_angle_rad_;
+  std::int64_t begin_ns_ = 0;
+  std::array<Mean, kMotorCount> angle_rad_{};
+  Mean body_accel_, foot_accel_, load_cell_, tof_;
+  double max_speed_radps_ = 0.0;
+};
+
+}  // namespace sandhopper

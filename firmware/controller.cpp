@@ -1,0 +1,232 @@
+#include "firmware/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+bool drives_on(State state) noexcept { return state != State::idle && state != State::fault; }
+
+bool hopping(State state) noexcept {
+  return state == State::flight || state == State::compression || state == State::extension;
+}
+
+double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+Controller::Controller(const CycleConfig& config)
+    : config_(config),
+      leg_(config_.robot),
+      estimator_(config_, leg_),
+      arming_(config_, leg_),
+      recorder_(config_.stiffness),
+      supervisor_(config_) {}
+
+const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
+  event_count_ = 0;
+  stride_finished_ = false;
+  out_.time_ns = frame.time_ns;
+  out_.cycle = frame.cycle;
+
+  serve_request(frame);
+  if (ready_ || hopping(out_.state) || out_.state == State::soft_stop) {
+    estimator_.update(frame, out_.estimate);
+    out_.estimate.surface_z_m = recorder_.surface_z_m();
+  }
+  if (drives_on(out_.state)) supervise(frame);
+  if (out_.state == State::armed) step_armed(frame);
+  if (hopping(out_.state)) step_hop(frame);
+  if (out_.state == State::soft_stop) step_soft_stop(frame);
+  out_.stride = recorder_.strides_begun();
+  write_command(frame);
+  return out_;
+}
+
+double Controller::time_in_state_s(const SensorFrame& frame) const noexcept {
+  return seconds(frame.time_ns - state_since_ns_);
+}
+
+LegObservation Controller::observation() const noexcept {
+  const auto& e = out_.estimate;
+  return {.leg_length_m = e.leg_length_m,
+          .leg_rate_mps = e.leg_rate_mps,
+          .foot_z_m = e.foot_z_m,
+          .body_velocity_mps = e.body_velocity_mps,
+          .surface_z_m = recorder_.surface_z_m()};
+}
+
+void Controller::emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept {
+  if (event_count_ == events_.size()) return;
+  events_[event_count_++] = {.time_ns = out_.time_ns,
+                             .kind = kind,
+                             .reason = reason,
+                             .fault = out_.fault,
+                             .stride = recorder_.strides_begun(),
+                             .values = values};
+}
+
+void Controller::enter(State state, const SensorFrame& frame) noexcept {
+  out_.state = state;
+  state_since_ns_ = still_since_ns_ = frame.time_ns;
+}
+
+void Controller::serve_request(const SensorFrame& frame) noexcept {
+  switch (frame.request) {
+    case Request::arm:
+      if (out_.state != State::idle) return;
+      arming_.begin(frame.time_ns);
+      supervisor_.begin(frame);
+      ready_ = stop_requested_ = false;
+      free_fall_count_ = 0;
+      out_.command.open_catch = false;
+      enter(State::armed, frame);
+      return;
+    case Request::release:
+      if (out_.state != State::armed || !ready_) return;
+      out_.command.open_catch = true;
+      return;
+    case Request::stop:
+      if (!drives_on(out_.state) || out_.state == State::soft_stop) return;
+      emit(EventKind::stop_requested, Reason::operator_request, {});
+      stop_requested_ = true;
+      if (out_.state == State::armed) enter(out_.command.open_catch ? State::soft_stop : State::idle, frame);
+      if (out_.state == State::compression || out_.state == State::extension) enter(State::soft_stop, frame);
+      return;
+    case Request::disarm:
+      if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return;
+      out_.fault = Fault::none;
+      ready_ = false;
+      enter(State::idle, frame);
+      emit(EventKind::disarmed, Reason::operator_request, {});
+      return;
+    case Request::none:
+      return;
+  }
+}
+
+void Controller::supervise(const SensorFrame& frame) noexcept {
+  // While drives are being switched on they may not answer yet and nothing has been estimated.
+  const bool checking = out_.state == State::armed && !ready_;
+  if (checking) {
+    if (frame.emergency_stop) raise({Fault::emergency_stop, {1.0, 0.0}}, frame);
+    supervisor_.begin(frame);
+    return;
+  }
+  const double phase_time_s = hopping(out_.state) ? time_in_state_s(frame) : 0.0;
+  if (const auto found = supervisor_.check(frame, out_.estimate, phase_time_s); found.fault != Fault::none)
+    raise(found, frame);
+}
+
+void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexcept {
+  out_.fault = found.fault;
+  ready_ = false;
+  enter(State::fault, frame);
+  emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
+}
+
+void Controller::step_armed(const SensorFrame& frame) noexcept {
+  if (!ready_) {
+    const auto verdict = arming_.update(frame);
+    if (!verdict) return;
+    if (!verdict->passed) {
+      emit(EventKind::arming_refused, verdict->reason, verdict->values);
+      enter(State::idle, frame);
+      return;
+    }
+    emit(EventKind::zero_check, verdict->reason, verdict->values);
+    emit(EventKind::armed, Reason::zero_confirmed, {});
+    estimator_.start(verdict->calibration, frame);
+    recorder_.on_release(frame.time_ns);
+    ready_ = true;
+    return;
+  }
+  const double body_force = frame.imu_body.accel_mps2[2];
+  free_fall_count_ = body_force < config_.arming.free_fall_accel_mps2 ? free_fall_count_ + 1 : 0;
+  if (free_fall_count_ < config_.arming.free_fall_cycles) return;
+  const auto& e = out_.estimate;
+  emit(EventKind::released, out_.command.open_catch ? Reason::catch_opened : Reason::free_fall,
+       {body_force, e.foot_z_m, e.body_z_m, 0.0});
+  ready_ = false;
+  estimator_.hold_force_at_zero(false);
+  recorder_.on_release(frame.time_ns);
+  enter(State::flight, frame);
+}
+
+void Controller::step_hop(const SensorFrame& frame) noexcept {
+  recorder_.update(out_.estimate, out_.state);
+  if (const auto transition = next_phase(out_.state, observation(), config_.controller))
+    apply(*transition, frame);
+}
+
+void Controller::apply(const Transition& transition, const SensorFrame& frame) noexcept {
+  const auto& e = out_.estimate;
+  const std::array<double, 4> values{e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps};
+  const bool done = recorder_.strides_begun() >= static_cast<std::uint32_t>(config_.limits.strides);
+  if (transition.to == State::compression && (done || stop_requested_)) {
+    emit(transition.event, done ? Reason::strides_done : Reason::operator_request, values);
+    enter(State::soft_stop, frame);
+    return;
+  }
+  if (transition.to == State::compression) recorder_.on_touchdown(frame.time_ns);
+  if (transition.to == State::extension) recorder_.on_switch(frame.time_ns);
+  if (transition.to == State::flight) {
+    recorder_.on_liftoff(frame.time_ns);
+    stride_finished_ = true;
+  }
+  emit(transition.event, transition.reason, values);
+  enter(transition.to, frame);
+}
+
+void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
+  const auto& e = out_.estimate;
+  const bool still = std::abs(e.leg_rate_mps) < config_.limits.settled_speed_mps &&
+                     std::abs(e.body_velocity_mps) < config_.limits.settled_speed_mps;
+  const double still_s = seconds(frame.time_ns - still_since_ns_);
+  const bool ramping = still_s > config_.limits.settle_s;
+  if (!still && !ramping) still_since_ns_ = frame.time_ns;
+  if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
+  emit(EventKind::stopped, Reason::settled,
+       {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
+  enter(State::idle, frame);
+}
+
+void Controller::write_command(const SensorFrame& frame) noexcept {
+  out_.command.motor = {};
+  if (out_.state == State::idle) {
+    out_.command.drive = DriveRequest::off;
+    return;
+  }
+  if (out_.state == State::fault) {
+    write_fault_command(frame);
+    return;
+  }
+  if (out_.state == State::armed && !ready_) {
+    out_.command.drive = DriveRequest::enable;
+    return;
+  }
+  out_.command.drive = DriveRequest::run;
+  double force_N = spring_force_N(spring_law(out_.state, config_.controller), observation());
+  if (out_.state == State::soft_stop) {
+    const double ramped_s = seconds(frame.time_ns - still_since_ns_) - config_.limits.settle_s;
+    if (ramped_s > 0.0) force_N *= std::clamp(1.0 - ramped_s / config_.limits.ramp_down_s, 0.0, 1.0);
+  }
+  const auto leg = leg_.kinematics(out_.estimate.leg_angle_rad);
+  const double motors = config_.robot.motor_count;
+  const double limit = config_.limits.motor_torque_Nm;
+  const double torque = std::clamp(force_N * leg.dlength_m_per_rad / motors, -limit, limit);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i)
+    out_.command.motor[i].torque_Nm = torque;
+}
+
+// Damping is left to the drives' own law: it needs no reply to reach the controller.
+void Controller::write_fault_command(const SensorFrame& frame) noexcept {
+  const bool damp =
+      entry_of(out_.fault).reaction == Reaction::damp && time_in_state_s(frame) < config_.limits.fault_damp_s;
+  out_.command.drive = damp ? DriveRequest::run : DriveRequest::off;
+  if (!damp) return;
+  for (auto& motor : out_.command.motor) motor.kd_Nm_s_per_rad = config_.limits.fault_damping_Nm_s_per_rad;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "estimation/leg.hpp"
+#include "firmware/arming.hpp"
+#include "firmware/controller_config.hpp"
+#include "firmware/gait.hpp"
+#include "firmware/records.hpp"
+#include "firmware/robot_estimator.hpp"
+#include "firmware/sensor_frame.hpp"
+#include "firmware/stride_recorder.hpp"
+#include "firmware/supervisor.hpp"
+
+namespace sandhopper {
+
+// The cycle: sensors in, command out. Pure: reads no clock, does no I/O, allocates nothing, throws nothing,
+// and gives the same bits for the same frames.
+//
+//   idle --arm--> armed (zero check) --free fall--> flight --> compression --> extension --> flight --> ...
+//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; any fault:
+//   fault state, which damps the leg or leaves it limp as the fault's entry says, and is left only by
+//   `disarm`.
+class Controller {
+ public:
+  // Throws std::invalid_argument where the configuration describes no leg.
+  explicit Controller(const CycleConfig& config);
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  const StepOutput& step(const SensorFrame& frame) noexcept;
+
+  // Events of the last step, oldest first.
+  std::span<const Event> events() const noexcept { return {events_.data(), event_count_}; }
+  // Whether the last step finished a stride; its sums then.
+  bool stride_finished() const noexcept { return stride_finished_; }
+  const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
+  const CycleConfig& config() const noexcept { return config_; }
+
+ private:
+  void serve_request(const SensorFrame& frame) noexcept;
+  void supervise(const SensorFrame& frame) noexcept;
+  void step_armed(const SensorFrame& frame) noexcept;
+  void step_hop(const SensorFrame& frame) noexcept;
+  void step_soft_stop(const SensorFrame& frame) noexcept;
+  void apply(const Transition& transition, const SensorFrame& frame) noexcept;
+  void enter(State state, const SensorFrame& frame) noexcept;
+  void raise(const FaultFound& found, const SensorFrame& frame) noexcept;
+  void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
+  void write_command(const SensorFrame& frame) noexcept;
+  void write_fault_command(const SensorFrame& frame) noexcept;
+  LegObservation observation() const noexcept;
+  double time_in_state_s(const SensorFrame& frame) const noexcept;
+
+  const CycleConfig config_;
+  const Leg leg_;
+  RobotEstimator estimator_;
+  Arming arming_;
+  StrideRecorder recorder_;
+  Supervisor supervisor_;
+  StepOutput out_{};
+  std::array<Event, 8> events_{};
+  std::size_t event_count_ = 0;
+  std::int64_t state_since_ns_ = 0;
+  std::int64_t still_since_ns_ = 0;
+  int free_fall_count_ = 0;
+  bool ready_ = false;  // armed and checked
+  bool stop_requested_ = false;
+  bool stride_finished_ = false;
+};
+
+}  // namespace sandhopper

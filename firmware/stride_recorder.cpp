@@ -1,0 +1,110 @@
+#include "firmware/stride_recorder.hpp"
+
+#include <algorithm>
+
+namespace sandhopper {
+
+StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept
+    : config_(config),
+      quasi_static_(config.autocorrelation_lags),
+      observer_(config.autocorrelation_lags),
+      weighted_(config.autocorrelation_lags) {}
+
+void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
+  current_ = {};
+  deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
+  begin_flight(now_ns);
+}
+
+void StrideRecorder::begin_flight(std::int64_t release_ns) noexcept {
+  const std::uint32_t stride = current_.stride;
+  current_ = {};
+  current_.stride = stride;
+  current_.release_ns = release_ns;
+  current_.crater_depth_m = crater_depth_m_;
+  committed_ = {};
+  quasi_static_.reset();
+  observer_.reset();
+  weighted_.reset();
+}
+
+void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
+  ++current_.stride;
+  current_.touchdown_ns = now_ns;
+}
+
+void StrideRecorder::on_switch(std::int64_t now_ns) noexcept {
+  current_.switch_ns = now_ns;
+  if (config_.window == SampleWindow::compression) commit();
+}
+
+void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
+  current_.liftoff_ns = now_ns;
+  current_.liftoff_depth_m = -last_foot_z_m_;
+  if (config_.window == SampleWindow::whole_stance) commit();
+  done_ = committed_;
+  done_.summary = current_;
+  crater_depth_m_ = deepest_m_;
+  surface_z_m_ = std::min(last_foot_z_m_, 0.0);
+  begin_flight(now_ns);
+}
+
+void StrideRecorder::update(const Estimate& e, State state) noexcept {
+  last_foot_z_m_ = e.foot_z_m;
+  if (state == State::flight && -e.foot_velocity_mps > current_.touchdown_speed_mps) {
+    current_.touchdown_speed_mps = -e.foot_velocity_mps;
+    current_.contact_ns = e.force_time_ns;
+  }
+  const bool stance = state == State::compression || state == State::extension;
+  if (stance) {
+    current_.peak_force_N = std::max(current_.peak_force_N, e.contact_force_N);
+    current_.peak_quasi_static_N = std::max(current_.peak_quasi_static_N, e.quasi_static_force_N);
+    current_.max_depth_m = std::max(current_.max_depth_m, e.force_depth_m);
+  }
+  const bool falling_into_sand =
+      state == State::flight && e.force_depth_m > -surface_z_m_ && e.force_velocity_mps > 0.0;
+  if (stance || falling_into_sand) accumulate(e);
+}
+
+bool StrideRecorder::counts(const Estimate& e) const noexcept {
+  switch (config_.window) {
+    case SampleWindow::penetrating:
+      return e.force_velocity_mps > config_.min_speed_mps;
+    case SampleWindow::new_depth:
+      return e.force_depth_m > deepest_m_;
+    default:
+      return true;
+  }
+}
+
+void StrideRecorder::accumulate(const Estimate& e) noexcept {
+  // In the old crater the ground answers with its unloading line, which says nothing about the virgin bed.
+  const bool virgin = e.force_depth_m > 0.0 && e.force_depth_m >= crater_depth_m_;
+  const bool through_stance =
+      config_.window == SampleWindow::whole_stance || config_.window == SampleWindow::compression;
+  if ((virgin || through_stance) && counts(e)) {
+    const double weight = acceleration_weight(config_.weights, e.weighting_accel_mps2);
+    quasi_static_.add({e.force_depth_m, e.quasi_static_force_N, 1.0});
+    observer_.add({e.force_depth_m, e.contact_force_N, 1.0});
+    weighted_.add({e.force_depth_m, e.contact_force_N, weight});
+  }
+  if (e.force_depth_m > deepest_m_) {
+    deepest_m_ = e.force_depth_m;
+    if (!through_stance) commit();
+  }
+}
+
+void StrideRecorder::commit() noexcept {
+  committed_.quasi_static_ols = quasi_static_.sums();
+  committed_.observer_ols = observer_.sums();
+  committed_.observer_wls = weighted_.sums();
+}
+
+StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept {
+  return {.summary = sums.summary,
+          .quasi_static_ols = solve_stiffness(sums.quasi_static_ols, config),
+          .observer_ols = solve_stiffness(sums.observer_ols, config),
+          .observer_wls = solve_stiffness(sums.observer_wls, config)};
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,48 @@
+#pragma once
+#include "firmware/controller_config.hpp"
+#include "firmware/records.hpp"
+
+namespace sandhopper {
+
+// Accumulates a stride's regressions in the cycle. Sums are committed each time a new greatest depth is
+// reached, so that what is handed over ends at the end of penetration without knowing in advance when that
+// is.
+class StrideRecorder {
+ public:
+  explicit StrideRecorder(const StiffnessConfig& config) noexcept;
+
+  void on_release(std::int64_t now_ns) noexcept;
+  void on_touchdown(std::int64_t now_ns) noexcept;
+  void on_switch(std::int64_t now_ns) noexcept;
+  // Closes the stride; sums() is complete afterwards and the next flight begins.
+  void on_liftoff(std::int64_t now_ns) noexcept;
+
+  void update(const Estimate& estimate, State state) noexcept;
+
+  const StrideSums& sums() const noexcept { return done_; }
+  std::uint32_t strides_begun() const noexcept { return current_.stride; }
+  // Where the foot should meet the ground next: the surface at first, then the floor of its own crater.
+  double surface_z_m() const noexcept { return surface_z_m_; }
+
+ private:
+  void begin_flight(std::int64_t release_ns) noexcept;
+  void accumulate(const Estimate& estimate) noexcept;
+  void commit() noexcept;
+  bool counts(const Estimate& estimate) const noexcept;
+
+  StiffnessConfig config_;
+  RecursiveRegression quasi_static_;
+  RecursiveRegression observer_;
+  RecursiveRegression weighted_;
+  StrideSummary current_{};
+  StrideSums committed_{};
+  StrideSums done_{};
+  double deepest_m_ = 0.0;       // of this and all former strides
+  double crater_depth_m_ = 0.0;  // of former strides
+  double surface_z_m_ = 0.0;
+  double last_foot_z_m_ = 0.0;
+};
+
+StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept;
+
+}  // namespace sandhopper
