@@ -1,0 +1,84 @@
+#pragma once
+#include "estimation/leg.hpp"
+#include "terrain/bed.hpp"
+#include "tools/plant/world_config.hpp"
+
+namespace sandhopper {
+
+struct PlantState {
+  double foot_z_m = 0.0;  // sole over the undisturbed surface
+  double foot_velocity_mps = 0.0;
+  double angle_rad = 0.0;  // upper link from straight down
+  double angular_velocity_radps = 0.0;
+};
+
+// What follows from the state and the motors' torque at one instant.
+struct PlantMotion {
+  double foot_accel_mps2 = 0.0;
+  double angular_accel_radps2 = 0.0;
+  double body_z_m = 0.0;
+  double body_velocity_mps = 0.0;
+  double body_accel_mps2 = 0.0;
+  double leg_length_m = 0.0;
+  double contact_force_N = 0.0;
+  double rail_force_N = 0.0;     // on the body, up positive; with the cable
+  double joint_torque_Nm = 0.0;  // friction, cogging and end stops on the upper links
+};
+
+// Body, foot, leg and bed, coupled, on a 0.1 ms grid (RK4):
+//   M_f a_f = Q1 - beta (tau + Q2) - C phid^2 - M_f g + F_c,   phidd from the second row of
+//   estimation/leg.hpp Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable Q2 = Q1 L' - n
+//   joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops, n motors
+// F_c is the bed's (terrain/bed.hpp), solved together with a_f; the deepest point grows after each step and
+// stays for later strides, which land in the crater. On rigid ground the foot stops dead (plastic impact) and
+// stands until the force would be negative. Accurate to about 0.03 % of peak force at this step size.
+class Plant {
+ public:
+  static constexpr double kStep_s = 1e-4;
+
+  struct Options {
+    double cable_force_N = 0.0;  // constant, pulls the body down
+    bool bed_memory = true;      // false: the surface closes as soon as the foot is above it
+  };
+
+  // Throws std::invalid_argument where the leg is impossible.
+  Plant(const WorldConfig& config, const Bed& bed, const Options& options);
+  Plant(const WorldConfig& config, const Bed& bed) : Plant(config, bed, Options{}) {}
+
+  void place(const PlantState& state) noexcept;
+
+  // One step of 0.1 ms with the motors' summed torque held through it.
+  void step(double torque_Nm) noexcept;
+
+  PlantMotion motion(double torque_Nm) const noexcept;
+  const PlantState& state() const noexcept { return state_; }
+  const Leg& leg() const noexcept { return leg_; }
+  const Bed& bed() const noexcept { return bed_; }
+  double max_depth_m() const noexcept { return max_depth_m_; }
+  // Integral of the contact force since place(): its difference over an interval is the mean force there.
+  double contact_impulse_Ns() const noexcept { return contact_impulse_Ns_; }
+
+ private:
+  struct Rates {
+    LegDynamics dynamics;
+    double foot_accel_mps2, angular_accel_radps2, contact_force_N, rail_force_N, joint_torque_Nm;
+  };
+  Rates rates(const PlantState& state, double torque_Nm) const noexcept;
+  double joint_torque_Nm(const PlantState& state) const noexcept;
+  void settle_on_rigid_ground(double torque_Nm) noexcept;
+
+  RobotConfig robot_;
+  double gravity_mps2_;
+  Leg leg_;
+  Bed bed_;
+  Options options_;
+  double motors_;
+  bool rigid_;
+
+  PlantState state_{};
+  double max_depth_m_ = 0.0;
+  double contact_impulse_Ns_ = 0.0;
+  bool standing_ = false;  // on rigid ground
+};
+
+}  // namespace sandhopper

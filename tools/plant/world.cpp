@@ -1,0 +1,114 @@
+#include "tools/plant/world.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/plant/trial_draw.hpp"
+
+namespace sandhopper {
+
+World::World(const WorldConfig& config, const TrialSetup& setup, std::int64_t start_ns)
+    : World(config, setup,
+            TrialDraw(config, {.seed = setup.seed, .noise = setup.noise, .start_ns = start_ns}), start_ns) {}
+
+World::World(const WorldConfig& config, const TrialSetup& setup, const TrialDraw& draw, std::int64_t start_ns)
+    : gravity_mps2_(config.gravity_mps2),
+      release_speed_mps_(draw.release().speed_mps),
+      surface_height_m_(draw.release().surface_height_m),
+      motors_(static_cast<std::size_t>(config.robot.leg.motor_count)),
+      start_ns_(start_ns),
+      now_ns_(start_ns),
+      plant_(config, draw.bed(), {.cable_force_N = draw.cable_force_N(), .bed_memory = setup.bed_memory}),
+      drive_{draw.drive(Side::left), draw.drive(Side::right)},
+      imu_body_(draw.imu_body()),
+      imu_foot_(draw.imu_foot()),
+      tof_(draw.tof()),
+      load_cell_(draw.load_cell()),
+      mocap_(draw.mocap()) {
+  const double foot_z_m = setup.release_height_m + draw.release().height_m - surface_height_m_;
+  if (!(foot_z_m >= 0.0))
+    throw std::invalid_argument("trial: release_height_m puts the foot below the surface; raise it");
+  const double angle_rad = plant_.leg().angle_at_length(config.controller.compression_length_m);
+  plant_.place({.foot_z_m = foot_z_m, .angle_rad = angle_rad});
+  for (auto& drive : drive_) drive.place(angle_rad);
+  imu_body_.reset(gravity_mps2_);
+  imu_foot_.reset(gravity_mps2_);
+  take_truth();
+  tof_.reset(truth_.body_z_m);
+  mocap_.reset({truth_.body_z_m + surface_height_m_, truth_.foot_z_m + surface_height_m_});
+}
+
+void World::open_catch() noexcept {
+  if (truth_.released) return;
+  truth_.released = true;
+  PlantState state = plant_.state();
+  state.foot_velocity_mps = release_speed_mps_;
+  plant_.place(state);
+}
+
+void World::command(Side side, const MotorCommand& command, bool enabled) noexcept {
+  drive_[static_cast<std::size_t>(side)].command(command, enabled);
+}
+
+MotorSample World::read_motor(Side side) const noexcept {
+  return drive_[static_cast<std::size_t>(side)].sample(now_ns_);
+}
+
+double World::motor_torque_Nm() const noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < motors_; ++i) sum += drive_[i].torque_Nm();
+  return sum;
+}
+
+void World::advance_to(std::int64_t time_ns) noexcept {
+  while (now_ns_ + kStep_ns <= time_ns) step();
+}
+
+void World::step() noexcept {
+  for (auto& drive : drive_) drive.step();
+  if (truth_.released) plant_.step(motor_torque_Nm());
+  const GridStep step{.from_ns = now_ns_, .to_ns = now_ns_ + kStep_ns};
+  now_ns_ = step.to_ns;
+  for (auto& drive : drive_) drive.measure(plant_.state().angle_rad);
+  take_truth();
+
+  const bool stance = truth_.contact_force_N > 0.0;
+  const bool released = truth_.released;
+  imu_body_.step(step, {truth_.body_accel_mps2 + gravity_mps2_, stance, released});
+  imu_foot_.step(step, {truth_.foot_accel_mps2 + gravity_mps2_, stance, released});
+  tof_.step(step, truth_.body_z_m);
+  load_cell_.step(step, truth_.contact_force_N);
+  mocap_.step(step, {truth_.body_z_m + surface_height_m_, truth_.foot_z_m + surface_height_m_});
+  truth_.mocap_time_ns = mocap_.frame().time_ns;
+  truth_.mocap_body_z_m = mocap_.frame().body_z_m;
+  truth_.mocap_foot_z_m = mocap_.frame().foot_z_m;
+}
+
+void World::take_truth() noexcept {
+  const auto& state = plant_.state();
+  const PlantMotion motion = plant_.motion(motor_torque_Nm());
+  const bool released = truth_.released;
+  truth_.time_ns = now_ns_;
+  truth_.body_z_m = motion.body_z_m;
+  truth_.body_velocity_mps = motion.body_velocity_mps;
+  truth_.body_accel_mps2 = released ? motion.body_accel_mps2 : 0.0;
+  truth_.foot_z_m = state.foot_z_m;
+  truth_.foot_velocity_mps = state.foot_velocity_mps;
+  truth_.foot_accel_mps2 = released ? motion.foot_accel_mps2 : 0.0;
+  truth_.leg_angle_rad = state.angle_rad;
+  truth_.leg_velocity_radps = state.angular_velocity_radps;
+  truth_.leg_length_m = motion.leg_length_m;
+  truth_.motor_torque_Nm = motor_torque_Nm();
+  truth_.contact_force_N = released ? motion.contact_force_N : 0.0;
+  truth_.contact_impulse_Ns = plant_.contact_impulse_Ns();
+  truth_.max_depth_m = plant_.max_depth_m();
+}
+
+std::int64_t World::next_sample_ns() const noexcept {
+  const std::int64_t earliest_ns = std::min({imu_body_.next_sample_ns(), imu_foot_.next_sample_ns(),
+                                             tof_.next_sample_ns(), load_cell_.next_sample_ns()});
+  const std::int64_t since_start_ns = earliest_ns - start_ns_;
+  return start_ns_ + (since_start_ns + kStep_ns - 1) / kStep_ns * kStep_ns;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,86 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "drivers/samples.hpp"
+#include "firmware/command.hpp"
+#include "tools/plant/drive.hpp"
+#include "tools/plant/plant.hpp"
+#include "tools/plant/plant_truth.hpp"
+#include "tools/plant/sensors.hpp"
+#include "tools/plant/world_config.hpp"
+
+namespace sandhopper {
+
+class TrialDraw;
+
+// One trial of the simulated robot. `noise = false` switches off every random thing (noise, offsets, spread,
+// clock errors, rounding) and leaves rates, bandwidths, latencies and ages.
+struct TrialSetup {
+  double release_height_m = 0.0618;
+  std::uint64_t seed = 1;
+  bool noise = true;
+  bool bed_memory = true;  // later strides land in the crater of earlier ones
+};
+
+// Robot, bed and sensors in plant time, which moves on a 0.1 ms grid from `start_ns` and only when asked.
+// Held by the catch until open_catch(): foot at the release height, leg at its flight length, motors act but
+// nothing moves. The same seed gives the same bits; nothing depends on how often a sensor is looked at.
+class World {
+ public:
+  static constexpr std::int64_t kStep_ns = 100'000;
+
+  // Throws std::invalid_argument where the leg is impossible or the release height puts the foot into the
+  // bed.
+  World(const WorldConfig& config, const TrialSetup& setup, std::int64_t start_ns);
+
+  std::int64_t now_ns() const noexcept { return now_ns_; }
+
+  // Steps plant and sensors up to the last grid point <= time_ns; a time in the past does nothing.
+  void advance_to(std::int64_t time_ns) noexcept;
+
+  // The body is free from the next step on.
+  void open_catch() noexcept;
+
+  // In force from the next step until the next command; not enabled = no torque.
+  void command(Side side, const MotorCommand& command, bool enabled) noexcept;
+
+  // What the drive measures now.
+  MotorSample read_motor(Side side) const noexcept;
+
+  // Newest completed sample; time_ns = 0 before the first.
+  const ImuSample& imu_body() const noexcept { return imu_body_.sample(); }
+  const ImuSample& imu_foot() const noexcept { return imu_foot_.sample(); }
+  const TofSample& tof() const noexcept { return tof_.sample(); }
+  const LoadCellSample& load_cell() const noexcept { return load_cell_.sample(); }
+
+  // Earliest grid time at which any of those four changes.
+  std::int64_t next_sample_ns() const noexcept;
+
+  const PlantTruth& truth() const noexcept { return truth_; }
+  const Plant& plant() const noexcept { return plant_; }
+
+ private:
+  World(const WorldConfig& config, const TrialSetup& setup, const TrialDraw& draw, std::int64_t start_ns);
+
+  void step() noexcept;
+  void take_truth() noexcept;
+  double motor_torque_Nm() const noexcept;
+
+  double gravity_mps2_;
+  double release_speed_mps_;
+  double surface_height_m_;
+  std::size_t motors_;
+  std::int64_t start_ns_;
+  std::int64_t now_ns_;
+  Plant plant_;
+  std::array<Drive, kMotorCount> drive_;
+  Imu imu_body_;
+  Imu imu_foot_;
+  TimeOfFlight tof_;
+  LoadCell load_cell_;
+  Mocap mocap_;
+  PlantTruth truth_{};
+};
+
+}  // namespace sandhopper
