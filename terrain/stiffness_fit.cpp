@@ -14,8 +14,8 @@ double acceleration_weight(const WeightConfig& config, double accel_magnitude_mp
 
 void RecursiveRegression::reset() noexcept {
   sums_ = {};
-  newest_ = 0;
-  filled_ = 0;
+  recent_sum_ = kernel_sum_ = {};
+  next_ = filled_ = 0;
 }
 
 void RecursiveRegression::add(const FitSample& sample) noexcept {
@@ -33,22 +33,23 @@ void RecursiveRegression::add(const FitSample& sample) noexcept {
   ++sums_.samples;
 
   // Half of the lag-0 term and all positive lags; solve_stiffness symmetrises.
-  Products kernel_sum{};
-  for (std::size_t i = 0; i < 5; ++i) kernel_sum[i] = 0.5 * a[i];
-  for (int lag = 1; lag <= filled_; ++lag) {
-    const double kernel = 1.0 - static_cast<double>(lag) / lags_;
-    const auto& past = recent_[static_cast<std::size_t>((newest_ - lag + 1 + kMaxLags) % kMaxLags)];
-    for (std::size_t i = 0; i < 5; ++i) kernel_sum[i] += kernel * past[i];
-  }
   for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j) sums_.scores[5 * i + j] += a[i] * kernel_sum[j];
+    for (std::size_t j = 0; j < 5; ++j) sums_.scores[5 * i + j] += a[i] * (0.5 * a[j] + kernel_sum_[j]);
 
-  newest_ = (newest_ + 1) % kMaxLags;
-  recent_[static_cast<std::size_t>(newest_)] = a;
-  filled_ = std::min(filled_ + 1, lags_ - 1);
+  const double lag = static_cast<double>(lags_);
+  for (std::size_t i = 0; i < 5; ++i) kernel_sum_[i] += (1.0 - 1.0 / lag) * a[i] - recent_sum_[i] / lag;
+  if (lags_ == 1) return;
+  const std::size_t window = lags_ - 1;
+  for (std::size_t i = 0; i < 5; ++i) recent_sum_[i] += a[i] - (filled_ == window ? recent_[next_][i] : 0.0);
+  recent_[next_] = a;
+  next_ = (next_ + 1) % window;
+  filled_ = std::min(filled_ + 1, window);
 }
 
-double fixed_b_critical_value(double b) noexcept { return 1.9600 + b * (2.9694 + b * (0.4160 - b * 0.5324)); }
+double fixed_b_critical_value(double b, bool free_intercept) noexcept {
+  return free_intercept ? 1.96 + b * (6.32 + b * (-3.80 + b * 1.36))
+                        : 1.96 + b * (4.62 + b * (-0.41 - b * 0.42));
+}
 
 namespace {
 
@@ -119,8 +120,8 @@ StiffnessEstimate solve_stiffness(const RegressionSums& sums, const StiffnessCon
   e.value_N_per_m = line.slope;
   e.intercept_N = line.intercept;
   e.standard_error_N_per_m = std::sqrt(std::max(line.slope_variance, 0.0) * n / (n - parameters));
-  const double b = std::min(1.0, config.autocorrelation_lags / n);
-  const double half = fixed_b_critical_value(b) * e.standard_error_N_per_m;
+  const double b = config.autocorrelation_lags / n;
+  const double half = fixed_b_critical_value(b, config.free_intercept) * e.standard_error_N_per_m;
   e.ci95_low_N_per_m = line.slope - half;
   e.ci95_high_N_per_m = line.slope + half;
   e.validity = judge(sums, config, e);

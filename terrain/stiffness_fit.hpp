@@ -48,7 +48,7 @@ struct StiffnessConfig {
   SampleWindow window = SampleWindow::penetrating;
   bool free_intercept = true;
   double min_speed_mps = 0.03;
-  int autocorrelation_lags = 30;  // samples, i.e. cycles
+  int autocorrelation_lags = 256;  // samples; at least the sample count: no bandwidth to choose
   int min_samples = 30;
   double min_depth_span_m = 0.005;
   double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
@@ -59,7 +59,7 @@ struct StiffnessConfig {
     visit("window", self.window);
     visit("free_intercept", self.free_intercept);
     visit("min_speed_mps", self.min_speed_mps, Range{0.0, 1.0});
-    visit("autocorrelation_lags", self.autocorrelation_lags, Range{1, 64});
+    visit("autocorrelation_lags", self.autocorrelation_lags, Range{1, 256});
     visit("min_samples", self.min_samples, Range{3, 10000});
     visit("min_depth_span_m", self.min_depth_span_m, Range{0.0, 1.0});
     visit("max_depth_m", self.max_depth_m, Range{0.001, 1.0});
@@ -82,11 +82,13 @@ struct FitSample {
   double weight;
 };
 
-// Adds samples to sums; the last `lags` products are kept for the autocorrelation. Never allocates.
+// Adds samples to sums. The kernel sum K_i = sum_{l=1}^{L-1} (1 - l/L) a_{i-l} moves from sample to sample by
+//   K_{i+1} = K_i + (1 - 1/L) a_i - (1/L) sum_{l=1}^{L-1} a_{i-l},
+// so a sample costs the same whatever L. Never allocates.
 class RecursiveRegression {
  public:
-  static constexpr int kMaxLags = 64;
-  explicit RecursiveRegression(int lags) noexcept : lags_(lags) {}
+  static constexpr std::size_t kMaxLags = 256;
+  explicit RecursiveRegression(int lags) noexcept : lags_(static_cast<std::size_t>(lags)) {}
   void add(const FitSample& sample) noexcept;
   const RegressionSums& sums() const noexcept { return sums_; }
   void reset() noexcept;
@@ -94,10 +96,12 @@ class RecursiveRegression {
  private:
   using Products = std::array<double, 5>;
   RegressionSums sums_{};
-  std::array<Products, kMaxLags> recent_{};
-  int lags_;
-  int newest_ = 0;
-  int filled_ = 0;
+  std::array<Products, kMaxLags> recent_{};  // a_{i-1}, a_{i-2}, … in a ring
+  Products recent_sum_{};
+  Products kernel_sum_{};
+  std::size_t lags_;
+  std::size_t next_ = 0;
+  std::size_t filled_ = 0;
 };
 
 // Why a stiffness must not be used; `valid` when nothing speaks against it.
@@ -139,9 +143,11 @@ struct StiffnessEstimate {
   }
 };
 
-// Two-sided 95 % critical value of a t-statistic with a Bartlett kernel of relative bandwidth b = lags/n
-// (Kiefer & Vogelsang 2005, fixed-b asymptotics), for 0 <= b <= 1.
-double fixed_b_critical_value(double b) noexcept;
+// Two-sided 95 % critical value of the slope's t-statistic with a Bartlett kernel of relative bandwidth b =
+// lags/n, for a regressor that grows steadily through the sample, with or without an intercept. Kiefer and
+// Vogelsang's published polynomial is for a mean; these are cubic fits to a simulation of the same statistic
+// for a trend (400 points, 40,000 runs), within 0.04 for 0 < b <= 1; the unit test repeats it.
+double fixed_b_critical_value(double b, bool free_intercept) noexcept;
 
 StiffnessEstimate solve_stiffness(const RegressionSums& sums, const StiffnessConfig& config) noexcept;
 

@@ -5,8 +5,8 @@
 namespace sandhopper {
 namespace {
 
-// Reference figures from a symbolic derivation independent of this code; each is compared to half a unit of its
-// last printed digit.
+// Reference figures from a symbolic derivation independent of this code; each is compared to half a unit of
+// its last printed digit.
 struct Vector {
   double angle, dl, m12, m22, mf, beta, c, dmf, length, dm12, dm22;
 };
@@ -28,14 +28,13 @@ TEST_P(LegVectors, AgreeWithTheSymbolicDerivationInEveryPrintedDigit) {
   EXPECT_NEAR(d.dm22_kg_m2_per_rad, v.dm22, 0.5e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    DefaultRobot, LegVectors,
-    ::testing::Values(Vector{0.8, -.118207, -.197934, .0238305, .685983, -8.305905, -.007363, -.122305, .307636,
-                             -.1426975, .03258767},
-                      Vector{1.2, -.134748, -.224395, .0303041, .668408, -7.404772, .000914, .013537, .255829,
-                             .0109646, -.00271461},
-                      Vector{1.6, -.117927, -.194398, .0231074, .694578, -8.412773, .007531, .126714, .204372,
-                             .1260754, -.02818199}));
+INSTANTIATE_TEST_SUITE_P(DefaultRobot, LegVectors,
+                         ::testing::Values(Vector{0.8, -.118207, -.197934, .0238305, .685983, -8.305905,
+                                                  -.007363, -.122305, .307636, -.1426975, .03258767},
+                                           Vector{1.2, -.134748, -.224395, .0303041, .668408, -7.404772,
+                                                  .000914, .013537, .255829, .0109646, -.00271461},
+                                           Vector{1.6, -.117927, -.194398, .0231074, .694578, -8.412773,
+                                                  .007531, .126714, .204372, .1260754, -.02818199}));
 
 TEST(Leg, HipOffsetVectorAgrees) {
   LegParameters p;
@@ -71,7 +70,8 @@ TEST(Leg, DerivativesAreThoseOfTheFunctions) {
 
 TEST(Leg, AngleAtLengthInvertsTheLength) {
   const Leg leg(LegParameters{});
-  for (double a = 0.2; a < 2.6; a += 0.05) EXPECT_NEAR(leg.angle_at_length(leg.kinematics(a).length_m), a, 1e-12);
+  for (double a = 0.2; a < 2.6; a += 0.05)
+    EXPECT_NEAR(leg.angle_at_length(leg.kinematics(a).length_m), a, 1e-12);
 }
 
 TEST(Leg, OneGearedMotorReflectsItsRotorBySquareOfTheRatio) {
@@ -110,10 +110,12 @@ TEST(Leg, EnergyIsKeptInFlight) {
   const auto rhs = [&](const S& s) {
     const auto d = leg.dynamics(s.a);
     const double tau = -k_spring * (s.a - 0.9);
-    const double xdd = (-d.torque_gain_per_m * tau - d.coriolis_N_s2_per_rad2 * s.w * s.w) / d.reduced_mass_kg -
-                       kGravity_mps2;
+    const double xdd =
+        (-d.torque_gain_per_m * tau - d.coriolis_N_s2_per_rad2 * s.w * s.w) / d.reduced_mass_kg -
+        kGravity_mps2;
     const double gravity = d.m12_kg_m * kGravity_mps2;
-    const double add = (tau - d.m12_kg_m * xdd - d.dm22_kg_m2_per_rad * s.w * s.w / 2 - gravity) / d.m22_kg_m2;
+    const double add =
+        (tau - d.m12_kg_m * xdd - d.dm22_kg_m2_per_rad * s.w * s.w / 2 - gravity) / d.m22_kg_m2;
     return S{s.v, xdd, s.w, add};
   };
   const auto plus = [](const S& s, const S& d, double h) {
