@@ -1,0 +1,103 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "config/fields.hpp"
+#include "firmware/log/append_file.hpp"
+#include "firmware/log/cdr.hpp"
+#include "firmware/log/mcap_format.hpp"
+#include "firmware/log/schema_text.hpp"
+
+namespace sandhopper::mcap {
+
+struct WriterOptions {
+  std::string library = "sandhopper";
+  std::size_t chunk_bytes = 256 * 1024;       // a chunk is closed when it holds this much …
+  std::int64_t chunk_span_ns = 100'000'000;   // … or a message is this much younger than its first
+  std::int64_t sync_span_ns = 1'000'000'000;  // message time between two fdatasync(2); 0: never
+};
+
+// Writes an MCAP file (profile "ros2") front to back and never goes back: after a crash or a power cut
+// everything up to the last closed chunk is in the file, which the reader uses. Chunks are closed by what
+// they hold, not by the clock, and no time is read here: the same calls give the same bytes. Refuses to
+// overwrite a file. Throws std::system_error when the file cannot be made or written. One thread.
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path& file, WriterOptions options = {});
+  ~Writer();  // closes; a failure is lost here, so call close()
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  // Returns the channel's number. `schema_name` is "package/msg/Name"; equal schemas are stored once.
+  std::uint16_t add_channel(std::string_view topic, std::string_view schema_name,
+                            std::string_view schema_text);
+  template <HasFields Record>
+  std::uint16_t add_channel(std::string_view topic) {
+    return add_channel(topic, schema::message_name<Record>(), schema::text_of<Record>());
+  }
+
+  void write(std::uint16_t channel, Stamp stamp, Bytes data);
+  template <HasFields Record>
+  void write(std::uint16_t channel, Stamp stamp, const Record& record) {
+    cdr::encode(record, open_message(channel, stamp, cdr::size_of<Record>()));
+    close_message(stamp);
+  }
+
+  // Both close the open chunk first.
+  void attach(std::string_view name, std::string_view media_type, std::int64_t time_ns, Bytes data);
+  void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
+
+  void flush();  // closes the open chunk and hands it to the system
+  void close();  // flush, summary, footer; nothing may follow
+
+ private:
+  struct Schema {
+    std::string name;
+    std::string text;
+  };
+  struct Channel {
+    std::string topic;
+    std::uint16_t schema = 0;
+    std::uint64_t messages = 0;
+    std::vector<std::pair<std::int64_t, std::uint64_t>> index;  // time and place in the open chunk
+  };
+
+  std::byte* open_message(std::uint16_t channel, Stamp stamp, std::size_t bytes);
+  void close_message(Stamp stamp);
+  void close_chunk();
+  void put_schema(Buffer& out, std::size_t number) const;
+  void put_channel(Buffer& out, std::size_t number) const;
+  void put_statistics(Buffer& out) const;
+  void append(Bytes data);
+
+  AppendFile file_;
+  WriterOptions options_;
+  std::uint64_t position_ = 0;
+  std::uint32_t data_crc_ = 0;
+
+  std::vector<Schema> schemas_;  // number i is stored as i + 1: 0 means "none" in the format
+  std::vector<Channel> channels_;
+  Buffer chunk_;  // the open chunk, its head included
+  std::uint64_t chunk_messages_ = 0;
+  Stamp chunk_first_;
+  std::int64_t chunk_low_ns_ = 0;
+  std::int64_t chunk_high_ns_ = 0;
+
+  Buffer chunk_indexes_;
+  Buffer attachment_indexes_;
+  Buffer metadata_indexes_;
+  std::uint32_t chunks_ = 0;
+  std::uint32_t attachments_ = 0;
+  std::uint32_t metadata_ = 0;
+  std::uint64_t messages_ = 0;
+  std::int64_t low_ns_ = 0;
+  std::int64_t high_ns_ = 0;
+  std::int64_t synced_ns_ = 0;
+};
+
+}  // namespace sandhopper::mcap
