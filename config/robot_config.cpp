@@ -1,0 +1,79 @@
+#include "config/robot_config.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+namespace sandhopper {
+namespace {
+
+using Report = std::function<void(std::string_view, std::string)>;
+
+struct Named {
+  std::string_view key;
+  double value;
+};
+
+void expect_below(const Report& report, Named low, Named high) {
+  if (low.value < high.value) return;
+  report(low.key, fmt::format("expected less than {} ({}), got {}", high.key, high.value, low.value));
+}
+
+std::optional<Leg> check_leg(const Report& report, const LegParameters& parameters) {
+  try {
+    return Leg(parameters);
+  } catch (const std::invalid_argument& error) {
+    report("robot", error.what());
+    return std::nullopt;
+  }
+}
+
+// Every length the leg is asked to take lies where its angle limits let it go.
+void check_reach(const Report& report, const RobotConfig& c, const Leg& leg) {
+  const double longest_m = leg.kinematics(c.limits.leg_angle_min_rad).length_m;
+  const double shortest_m = leg.kinematics(c.limits.leg_angle_max_rad).length_m;
+  for (const auto& [key, value] :
+       {Named{"controller.compression_length_m", c.controller.compression_length_m},
+        Named{"controller.extension_length_m", c.controller.extension_length_m},
+        Named{"arming.zero_pose_length_m", c.arming.zero_pose_length_m}}) {
+    if (value > shortest_m && value < longest_m) continue;
+    report(key, fmt::format("expected a length this leg reaches within limits.leg_angle_min_rad and "
+                            "leg_angle_max_rad, {:.4f} to {:.4f} m, got {}",
+                            shortest_m, longest_m, value));
+  }
+}
+
+}  // namespace
+
+void RobotConfig::check(const Report& report) const {
+  const auto leg = check_leg(report, robot);
+  expect_below(report, {"limits.leg_angle_min_rad", limits.leg_angle_min_rad},
+               {"limits.leg_angle_max_rad", limits.leg_angle_max_rad});
+  if (leg && limits.leg_angle_min_rad < limits.leg_angle_max_rad) check_reach(report, *this, *leg);
+  if (controller.extension_length_m < controller.compression_length_m)
+    report(
+        "controller.extension_length_m",
+        fmt::format("expected at least compression_length_m ({}), or the leg pulls at the switch instead of "
+                    "pushing, got {}",
+                    controller.compression_length_m, controller.extension_length_m));
+  if (stiffness.weights.sigma_bad_N < stiffness.weights.sigma_good_N)
+    report("stiffness.weights.sigma_bad_N",
+           fmt::format("expected at least sigma_good_N ({}), got {}", stiffness.weights.sigma_good_N,
+                       stiffness.weights.sigma_bad_N));
+  expect_below(report, {"stiffness.min_depth_span_m", stiffness.min_depth_span_m},
+               {"stiffness.max_depth_m", stiffness.max_depth_m});
+}
+
+CycleConfig cycle_config(const RobotConfig& c) {
+  CycleConfig cycle;
+  cycle.robot = c.robot;
+  cycle.estimator = c.estimator;
+  cycle.controller = c.controller;
+  cycle.arming = c.arming;
+  cycle.stiffness = c.stiffness;
+  cycle.limits = c.limits;
+  return cycle;
+}
+
+}  // namespace sandhopper

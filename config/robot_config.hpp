@@ -1,0 +1,37 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "firmware/controller_config.hpp"
+
+namespace sandhopper {
+
+// The robot's file, config/robot.toml: one table a role. Each role's keys, units and ranges stand in its own
+// struct.
+struct RobotConfig {
+  LegParameters robot{};
+  EstimatorConfig estimator{};
+  ControllerConfig controller{};
+  ArmingConfig arming{};
+  StiffnessConfig stiffness{};
+  LimitsConfig limits{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("robot", self.robot);
+    visit("estimator", self.estimator);
+    visit("controller", self.controller);
+    visit("arming", self.arming);
+    visit("stiffness", self.stiffness);
+    visit("limits", self.limits);
+  }
+
+  // Rules that span keys and roles; called by the loader (config/load.hpp).
+  void check(const std::function<void(std::string_view key, std::string text)>& report) const;
+};
+
+// What the cycle needs of it.
+CycleConfig cycle_config(const RobotConfig& config);
+
+}  // namespace sandhopper

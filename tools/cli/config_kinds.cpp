@@ -1,0 +1,38 @@
+#include "tools/cli/config_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "config/load.hpp"
+#include "config/robot_config.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+template <class T, MissingKeys missing>
+ConfigNode load(const std::string& path) {
+  return to_node(load_file<T>(path, missing));
+}
+
+constexpr std::array kKinds{
+    ConfigKind{"robot", "the robot and its cycle", load<RobotConfig, MissingKeys::error>},
+};
+
+}  // namespace
+
+const ConfigKind& kind_of_file(const std::string& path) {
+  if (!std::filesystem::exists(path)) parse_config_file(path);  // says why not
+  const auto name = std::filesystem::path(path).filename().string();
+  const auto start = name.substr(0, name.find_first_of(".-"));
+  for (const auto& kind : kKinds)
+    if (kind.name == start) return kind;
+  std::string names;
+  for (const auto& kind : kKinds)
+    names += fmt::format("{}{}*.toml ({})", names.empty() ? "" : ", ", kind.name, kind.about);
+  throw ConfigError(
+      {{path, {0, 0}, "", fmt::format("its name does not say what it configures: name it {}", names)}});
+}
+
+}  // namespace sandhopper::cli

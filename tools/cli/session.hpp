@@ -1,0 +1,36 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/cli/failure.hpp"
+
+namespace sandhopper::cli {
+
+// What every verb is given: where to print, and where the configuration lies.
+//
+// Text for people goes to standard output; with --json it goes to standard error, and `result` is printed as
+// the one object on standard output when the verb ends.
+class Session {
+ public:
+  template <class... Args>
+  void say(fmt::format_string<Args...> text, Args&&... args) {
+    say_line(fmt::format(text, std::forward<Args>(args)...));
+  }
+  void say_line(const std::string& line);
+
+  // The directory as the user chose it, see config/directory.hpp; found when first asked for.
+  const std::filesystem::path& config_directory();
+  std::string config_file(const std::string& name) { return (config_directory() / name).string(); }
+
+  bool json = false;
+  std::string config_option;
+  nlohmann::ordered_json result = nlohmann::ordered_json::object();
+
+ private:
+  std::filesystem::path config_directory_;
+};
+
+}  // namespace sandhopper::cli

@@ -1,0 +1,74 @@
+#include <algorithm>
+
+#include "config/dump.hpp"
+#include "config/json.hpp"
+#include "config/problem.hpp"
+#include "tools/cli/config_kinds.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+std::vector<std::string> files_to_read(Session& session, const std::vector<std::string>& named) {
+  if (!named.empty()) return named;
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(session.config_directory()))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw Failure(ExitCode::usage, "no .toml file in " + session.config_directory().string(),
+                  "name files, or another directory with --config DIR");
+  return files;
+}
+
+std::size_t count_keys(const ConfigNode& node) {
+  if (node.kind != ConfigNode::Kind::table && node.kind != ConfigNode::Kind::array) return 1;
+  if (node.kind == ConfigNode::Kind::array &&
+      (node.children.empty() || node.children.front().kind != ConfigNode::Kind::table))
+    return 1;
+  std::size_t count = 0;
+  for (const auto& child : node.children) count += count_keys(child);
+  return count;
+}
+
+ExitCode check(Session& session, const std::vector<std::string>& named) {
+  std::vector<ConfigProblem> problems;
+  session.result["files"] = nlohmann::ordered_json::array();
+  for (const auto& file : files_to_read(session, named)) {
+    try {
+      const auto keys = count_keys(kind_of_file(file).load(file));
+      session.say("{}: right, {} keys", file, keys);
+      session.result["files"].push_back({{"file", file}, {"keys", keys}});
+    } catch (const ConfigError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw ConfigError(std::move(problems));
+  return ExitCode::ok;
+}
+
+ExitCode show(Session& session, const std::vector<std::string>& named) {
+  for (const auto& file : files_to_read(session, named)) {
+    const auto node = kind_of_file(file).load(file);
+    session.say("# {}\n{}", file, to_toml(node));
+    session.result[file] = to_json(node);
+  }
+  return ExitCode::ok;
+}
+
+Run set_up(CLI::App& app) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  app.require_subcommand(1);
+  auto* checking = app.add_subcommand("check", "say whether the files are right, and what is wrong where");
+  auto* showing = app.add_subcommand("show", "print every key as the program understands it");
+  for (auto* sub : {checking, showing})
+    sub->add_option("FILES", *files, "TOML files; default: all of the configuration directory");
+  return [files, checking](Session& session) {
+    return checking->parsed() ? check(session, *files) : show(session, *files);
+  };
+}
+
+const VerbRegistration kConfig({"config", "check or show the configuration files", set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli
