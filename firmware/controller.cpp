@@ -207,11 +207,13 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
     return;
   }
   out_.command.drive = DriveRequest::run;
-  double force_N = spring_force_N(spring_law(out_.state, config_.controller), observation());
+  auto law = spring_law(out_.state, config_.controller);
   if (out_.state == State::soft_stop) {
+    // The spring fades while the damping stays: the robot sits down instead of dropping.
     const double ramped_s = seconds(frame.time_ns - still_since_ns_) - config_.limits.settle_s;
-    if (ramped_s > 0.0) force_N *= std::clamp(1.0 - ramped_s / config_.limits.ramp_down_s, 0.0, 1.0);
+    law.stiffness_N_per_m *= std::clamp(1.0 - ramped_s / config_.limits.ramp_down_s, 0.0, 1.0);
   }
+  const double force_N = spring_force_N(law, observation());
   const auto leg = leg_.kinematics(out_.estimate.leg_angle_rad);
   const double motors = config_.robot.motor_count;
   const double limit = config_.limits.motor_torque_Nm;

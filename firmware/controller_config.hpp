@@ -33,7 +33,7 @@ struct ControllerConfig {
   double stance_damping_N_s_per_m = 0.0;
   double flight_stiffness_N_per_m = 500.0;
   double flight_damping_N_s_per_m = 15.0;
-  double soft_stop_damping_N_s_per_m = 40.0;
+  double soft_stop_damping_N_s_per_m = 80.0;
   double touchdown_deflection_m = 0.002;
   double touchdown_rate_mps = 0.05;
   double touchdown_height_margin_m = 0.015;  // how far over the expected ground touchdown is believed
@@ -97,7 +97,7 @@ struct LimitsConfig {
   int strides = 3;  // then a soft stop
   double settle_s = 0.2;
   double settled_speed_mps = 0.03;
-  double ramp_down_s = 0.3;
+  double ramp_down_s = 1.0;
   double fault_damping_Nm_s_per_rad = 0.3;
   double fault_damp_s = 1.0;
 
@@ -117,7 +117,7 @@ struct LimitsConfig {
     visit("strides", self.strides, Range{1, 1000000});
     visit("settle_s", self.settle_s, Range{0.01, 10.0});
     visit("settled_speed_mps", self.settled_speed_mps, Range{1e-3, 1.0});
-    visit("ramp_down_s", self.ramp_down_s, Range{0.0, 10.0});
+    visit("ramp_down_s", self.ramp_down_s, Range{0.01, 10.0});
     visit("fault_damping_Nm_s_per_rad", self.fault_damping_Nm_s_per_rad, Range{0.0, 5.0});
     visit("fault_damp_s", self.fault_damp_s, Range{0.0, 60.0});
   }

@@ -4,11 +4,7 @@
 
 namespace sandhopper {
 
-StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept
-    : config_(config),
-      quasi_static_(config.autocorrelation_lags),
-      observer_(config.autocorrelation_lags),
-      weighted_(config.autocorrelation_lags) {}
+StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept : config_(config) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};

@@ -12,12 +12,6 @@ double acceleration_weight(const WeightConfig& config, double accel_magnitude_mp
   return 1.0 / (sigma * sigma);
 }
 
-void RecursiveRegression::reset() noexcept {
-  sums_ = {};
-  recent_sum_ = kernel_sum_ = {};
-  next_ = filled_ = 0;
-}
-
 void RecursiveRegression::add(const FitSample& sample) noexcept {
   const double z = sample.depth_m;
   const double f = sample.force_N;
@@ -32,35 +26,22 @@ void RecursiveRegression::add(const FitSample& sample) noexcept {
   sums_.depth_max_m = sums_.samples == 0 ? z : std::max(sums_.depth_max_m, z);
   ++sums_.samples;
 
-  // Half of the lag-0 term and all positive lags; solve_stiffness symmetrises.
+  for (std::size_t i = 0; i < 5; ++i) {
+    distance_[i] += total_[i];
+    total_[i] += a[i];
+  }
   for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j) sums_.scores[5 * i + j] += a[i] * (0.5 * a[j] + kernel_sum_[j]);
-
-  const double lag = static_cast<double>(lags_);
-  for (std::size_t i = 0; i < 5; ++i) kernel_sum_[i] += (1.0 - 1.0 / lag) * a[i] - recent_sum_[i] / lag;
-  if (lags_ == 1) return;
-  const std::size_t window = lags_ - 1;
-  for (std::size_t i = 0; i < 5; ++i) recent_sum_[i] += a[i] - (filled_ == window ? recent_[next_][i] : 0.0);
-  recent_[next_] = a;
-  next_ = (next_ + 1) % window;
-  filled_ = std::min(filled_ + 1, window);
-}
-
-double fixed_b_critical_value(double b, bool free_intercept) noexcept {
-  return free_intercept ? 1.96 + b * (6.32 + b * (-3.80 + b * 1.36))
-                        : 1.96 + b * (4.62 + b * (-0.41 - b * 0.42));
+    for (std::size_t j = 0; j < 5; ++j) sums_.spread[5 * i + j] += a[i] * distance_[j];
 }
 
 namespace {
 
-// u^T (G + G^T) v for the score rows u, v.
-double score_moment(const RegressionSums& sums, const std::array<double, 5>& u,
-                    const std::array<double, 5>& v) {
+// -(1/n) sum_ij |i - j| (row . a_i)(row . a_j): the variance of the sum of the scores that `row` picks.
+double score_variance(const RegressionSums& sums, const std::array<double, 5>& row) {
   double total = 0.0;
   for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j)
-      total += u[i] * (sums.scores[5 * i + j] + sums.scores[5 * j + i]) * v[j];
-  return total;
+    for (std::size_t j = 0; j < 5; ++j) total += row[i] * sums.spread[5 * i + j] * row[j];
+  return -2.0 * total / sums.samples;
 }
 
 struct Line {
@@ -80,13 +61,13 @@ Line solve_free(const RegressionSums& s) {
   const double b = s.w / det;
   std::array<double, 5> row{};
   for (std::size_t i = 0; i < 5; ++i) row[i] = a * first[i] + b * second[i];
-  return {intercept, slope, score_moment(s, row, row)};
+  return {intercept, slope, score_variance(s, row)};
 }
 
 Line solve_through_origin(const RegressionSums& s) {
   const double slope = s.wzf / s.wzz;
   const std::array<double, 5> row{0.0, 0.0, 0.0, 1.0 / s.wzz, -slope / s.wzz};
-  return {0.0, slope, score_moment(s, row, row)};
+  return {0.0, slope, score_variance(s, row)};
 }
 
 Validity judge(const RegressionSums& sums, const StiffnessConfig& config, const StiffnessEstimate& e) {
@@ -120,8 +101,8 @@ StiffnessEstimate solve_stiffness(const RegressionSums& sums, const StiffnessCon
   e.value_N_per_m = line.slope;
   e.intercept_N = line.intercept;
   e.standard_error_N_per_m = std::sqrt(std::max(line.slope_variance, 0.0) * n / (n - parameters));
-  const double b = config.autocorrelation_lags / n;
-  const double half = fixed_b_critical_value(b, config.free_intercept) * e.standard_error_N_per_m;
+  const double half = e.standard_error_N_per_m *
+                      (config.free_intercept ? kCriticalValueFreeIntercept : kCriticalValueThroughOrigin);
   e.ci95_low_N_per_m = line.slope - half;
   e.ci95_high_N_per_m = line.slope + half;
   e.validity = judge(sums, config, e);

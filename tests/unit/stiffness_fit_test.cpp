@@ -24,8 +24,8 @@ Samples noisy_line(std::mt19937_64& rng, int n, double correlation, double inter
   return out;
 }
 
-RegressionSums sums_of(const Samples& samples, int lags) {
-  RecursiveRegression r(lags);
+RegressionSums sums_of(const Samples& samples) {
+  RecursiveRegression r;
   for (const auto& s : samples) r.add(s);
   return r.sums();
 }
@@ -35,7 +35,7 @@ struct Direct {
   Eigen::Vector2d theta;
   double slope_variance;
 };
-Direct direct_fit(const Samples& samples, int lags) {
+Direct direct_fit(const Samples& samples) {
   const auto n = static_cast<Eigen::Index>(samples.size());
   Eigen::MatrixXd x(n, 2);
   Eigen::VectorXd f(n), w(n);
@@ -51,8 +51,8 @@ Direct direct_fit(const Samples& samples, int lags) {
   Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double kernel = 1.0 - static_cast<double>(std::abs(i - j)) / lags;
-      if (kernel > 0.0) meat += kernel * w(i) * e(i) * w(j) * e(j) * x.row(i).transpose() * x.row(j);
+      const double kernel = -static_cast<double>(std::abs(i - j)) / static_cast<double>(n);
+      meat += kernel * w(i) * e(i) * w(j) * e(j) * x.row(i).transpose() * x.row(j);
     }
   const Eigen::Matrix2d cov = bread * meat * bread;
   return {theta, cov(1, 1) * static_cast<double>(n) / static_cast<double>(n - 2)};
@@ -62,9 +62,8 @@ TEST(StiffnessFit, RecursionEqualsTheMatrixFormula) {
   std::mt19937_64 rng(7);
   const auto samples = noisy_line(rng, 150, 0.9, 3.0, 1500.0);
   StiffnessConfig config;
-  config.autocorrelation_lags = 24;
-  const auto fit = solve_stiffness(sums_of(samples, 24), config);
-  const auto direct = direct_fit(samples, 24);
+  const auto fit = solve_stiffness(sums_of(samples), config);
+  const auto direct = direct_fit(samples);
   EXPECT_NEAR(fit.value_N_per_m / direct.theta(1), 1.0, 1e-11);
   EXPECT_NEAR(fit.intercept_N, direct.theta(0), 1e-9);
   EXPECT_NEAR(fit.standard_error_N_per_m / std::sqrt(direct.slope_variance), 1.0, 1e-7);
@@ -72,43 +71,21 @@ TEST(StiffnessFit, RecursionEqualsTheMatrixFormula) {
 
 TEST(StiffnessFit, IntervalsHoldTheTruthAsOftenAsTheySayWithCorrelatedResiduals) {
   StiffnessConfig config;
-  for (const double correlation : {0.0, 0.6, 0.9}) {
-    std::mt19937_64 rng(11);
-    int held = 0;
-    const int runs = 2000;
-    for (int i = 0; i < runs; ++i) {
-      const auto fit = solve_stiffness(sums_of(noisy_line(rng, 150, correlation, 2.0, 1500.0), 256), config);
-      held += fit.ci95_low_N_per_m <= 1500.0 && 1500.0 <= fit.ci95_high_N_per_m;
-    }
-    const double share = static_cast<double>(held) / runs;
-    printf("AR(1) %.1f: 95 %% interval holds the truth in %.1f %% of %d lines\n", correlation, 100 * share,
-           runs);
-    EXPECT_GE(share, 0.90) << correlation;
-    EXPECT_LE(share, 0.985) << correlation;
-  }
-}
-
-// The slope's statistic with white residuals and a steadily growing regressor, simulated.
-TEST(StiffnessFit, CriticalValuesAgreeWithASimulationOfTheirDistribution) {
-  std::mt19937_64 rng(3);
-  std::normal_distribution<double> normal;
-  const int n = 200, runs = 12000;
   for (const bool free_intercept : {true, false}) {
-    for (const double b : {0.1, 0.4, 0.8}) {
-      StiffnessConfig config;
-      config.free_intercept = free_intercept;
-      config.autocorrelation_lags = static_cast<int>(b * n);
-      config.min_depth_span_m = 0.0;
-      std::vector<double> t;
-      for (int run = 0; run < runs; ++run) {
-        RecursiveRegression r(config.autocorrelation_lags);
-        for (int i = 0; i < n; ++i) r.add({1e-4 * (i + 0.5), normal(rng), 1.0});
-        const auto fit = solve_stiffness(r.sums(), config);
-        t.push_back(std::abs(fit.value_N_per_m) / fit.standard_error_N_per_m);
+    config.free_intercept = free_intercept;
+    for (const double correlation : {0.0, 0.6, 0.9}) {
+      std::mt19937_64 rng(11);
+      int held = 0;
+      const int runs = 2000;
+      for (int i = 0; i < runs; ++i) {
+        const auto fit = solve_stiffness(sums_of(noisy_line(rng, 150, correlation, 0.0, 1500.0)), config);
+        held += fit.ci95_low_N_per_m <= 1500.0 && 1500.0 <= fit.ci95_high_N_per_m;
       }
-      std::sort(t.begin(), t.end());
-      EXPECT_NEAR(t[static_cast<std::size_t>(0.95 * runs)], fixed_b_critical_value(b, free_intercept), 0.12)
-          << b << free_intercept;
+      const double share = static_cast<double>(held) / runs;
+      printf("AR(1) %.1f, %s: 95 %% interval holds the truth in %.1f %% of %d lines\n", correlation,
+             free_intercept ? "free intercept" : "through origin", 100 * share, runs);
+      EXPECT_GE(share, 0.935) << correlation;
+      EXPECT_LE(share, 0.99) << correlation;
     }
   }
 }
@@ -117,10 +94,9 @@ TEST(StiffnessFit, ThroughOriginForcesTheInterceptToZero) {
   std::mt19937_64 rng(5);
   StiffnessConfig config;
   config.free_intercept = false;
-  const auto fit = solve_stiffness(sums_of(noisy_line(rng, 150, 0.5, 0.0, 1500.0), 256), config);
+  const auto fit = solve_stiffness(sums_of(noisy_line(rng, 150, 0.5, 0.0, 1500.0)), config);
   EXPECT_EQ(fit.intercept_N, 0.0);
-  EXPECT_LT(fit.ci95_low_N_per_m, 1500.0);
-  EXPECT_GT(fit.ci95_high_N_per_m, 1500.0);
+  EXPECT_NEAR(fit.value_N_per_m, 1500.0, 30.0);
   EXPECT_EQ(fit.validity, Validity::valid);
 }
 
@@ -128,19 +104,19 @@ TEST(StiffnessFit, SaysWhyItCannotTell) {
   std::mt19937_64 rng(5);
   StiffnessConfig config;
   EXPECT_EQ(solve_stiffness({}, config).validity, Validity::no_new_penetration);
-  EXPECT_EQ(solve_stiffness(sums_of(noisy_line(rng, 10, 0, 0, 1500), 256), config).validity,
+  EXPECT_EQ(solve_stiffness(sums_of(noisy_line(rng, 10, 0, 0, 1500)), config).validity,
             Validity::too_few_samples);
   auto shallow = noisy_line(rng, 100, 0, 0, 1500);
   for (auto& s : shallow) s.depth_m *= 0.1;
-  EXPECT_EQ(solve_stiffness(sums_of(shallow, 256), config).validity, Validity::too_shallow);
+  EXPECT_EQ(solve_stiffness(sums_of(shallow), config).validity, Validity::too_shallow);
   auto deep = noisy_line(rng, 100, 0, 0, 1500);
   for (auto& s : deep) s.depth_m *= 2.0;
-  EXPECT_EQ(solve_stiffness(sums_of(deep, 256), config).validity, Validity::deeper_than_foot);
-  EXPECT_EQ(solve_stiffness(sums_of(noisy_line(rng, 100, 0, 90, -1500), 256), config).validity,
+  EXPECT_EQ(solve_stiffness(sums_of(deep), config).validity, Validity::deeper_than_foot);
+  EXPECT_EQ(solve_stiffness(sums_of(noisy_line(rng, 100, 0, 90, -1500)), config).validity,
             Validity::not_positive);
   auto flat = noisy_line(rng, 100, 0, 0, 1500);
   flat[50].force_N = std::nan("");
-  EXPECT_EQ(solve_stiffness(sums_of(flat, 256), config).validity, Validity::interval_unbounded);
+  EXPECT_EQ(solve_stiffness(sums_of(flat), config).validity, Validity::interval_unbounded);
 }
 
 TEST(AccelerationWeight, IsHalfWayAtTheThresholdAndSpansTheSigmas) {
