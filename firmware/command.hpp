@@ -3,36 +3,10 @@
 #include <cstdint>
 
 #include "config/fields.hpp"
+#include "drivers/motor_command.hpp"
 #include "drivers/samples.hpp"
 
 namespace sandhopper {
-
-// What the drives are asked to be: off (left motor mode), enable (entering motor mode with zero gains), or
-// run.
-enum class DriveRequest : std::uint8_t { off, enable, run };
-template <>
-struct EnumNames<DriveRequest> {
-  static constexpr std::array<std::string_view, 3> value{"off", "enable", "run"};
-};
-
-// Law inside the drive: torque = kp (position - measured) + kd (velocity - measured) + torque. Link side,
-// signs of MotorSample.
-struct MotorCommand {
-  double position_rad = 0.0;
-  double velocity_radps = 0.0;
-  double kp_Nm_per_rad = 0.0;
-  double kd_Nm_s_per_rad = 0.0;
-  double torque_Nm = 0.0;
-
-  template <class Self, class Visitor>
-  static constexpr void fields(Self& self, Visitor&& visit) {
-    visit("position_rad", self.position_rad);
-    visit("velocity_radps", self.velocity_radps);
-    visit("kp_Nm_per_rad", self.kp_Nm_per_rad);
-    visit("kd_Nm_s_per_rad", self.kd_Nm_s_per_rad);
-    visit("torque_Nm", self.torque_Nm);
-  }
-};
 
 struct Command {
   std::array<MotorCommand, kMotorCount> motor{};

@@ -1,0 +1,101 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "config/fields.hpp"
+#include "drivers/can/mit_protocol.hpp"
+#include "drivers/samples.hpp"
+
+namespace sandhopper {
+
+// Which of the three incompatible CubeMars protocols a drive speaks. Sending the wrong one can damage the
+// board, so it is named per motor. Only `mit` (standard identifiers, board V1/V2 in MIT mode) is implemented.
+enum class Dialect : std::uint8_t { mit, servo, v3 };
+template <>
+struct EnumNames<Dialect> {
+  static constexpr std::array<std::string_view, 3> value{"mit", "servo", "v3"};
+};
+
+// One motor with its drive. Link angle = zero_offset_rad + sign * drive position / gear_ratio.
+struct CubeMarsConfig {
+  std::string name;   // in messages
+  int can_id = 1;     // standard identifier of commands, byte 0 of replies
+  int master_id = 0;  // identifier of replies; 0 (default of many drives) and can_id are accepted too
+  Dialect dialect = Dialect::mit;
+  ReplyFlavour reply = ReplyFlavour::temperature_offset_40;
+  double position_range_rad = 12.5;
+  double velocity_range_radps = 50.0;
+  double kp_range_Nm_per_rad = 500.0;
+  double kd_range_Nm_s_per_rad = 5.0;
+  double torque_range_Nm = 18.0;
+  int sign = 1;             // +1 or -1: drive positive shortens the leg, or lengthens it
+  double gear_ratio = 1.0;  // between the drive's output and the link; the drive's own gearbox is not counted
+  double zero_offset_rad = 0.0;  // link angle at the drive's zero
+  // Output torque per q-axis ampere: as calibrated, and as the drive's firmware believes when it turns its
+  // torque field into current. Nameplates are off by 13-20 %.
+  double torque_constant_Nm_per_A = 0.0868;
+  double drive_torque_constant_Nm_per_A = 0.0868;
+  // From the hand-over of a command to the kernel until the drive takes the state it replies with: the
+  // command's time on the wire (0.11-0.14 ms at 1 Mbit/s; twice that for the second motor of a bus).
+  double state_delay_s = 0.0;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("can_id", self.can_id, Range{1, 0x7E});
+    visit("master_id", self.master_id, Range{0, 0x7FF});
+    visit("dialect", self.dialect);
+    visit("reply", self.reply);
+    visit("position_range_rad", self.position_range_rad, Range{0.1, 1000.0});
+    visit("velocity_range_radps", self.velocity_range_radps, Range{0.1, 1000.0});
+    visit("kp_range_Nm_per_rad", self.kp_range_Nm_per_rad, Range{0.1, 10000.0});
+    visit("kd_range_Nm_s_per_rad", self.kd_range_Nm_s_per_rad, Range{0.01, 1000.0});
+    visit("torque_range_Nm", self.torque_range_Nm, Range{0.01, 1000.0});
+    visit("sign", self.sign, Range{-1, 1});
+    visit("gear_ratio", self.gear_ratio, Range{0.01, 200.0});
+    visit("zero_offset_rad", self.zero_offset_rad, Range{-100.0, 100.0});
+    visit("torque_constant_Nm_per_A", self.torque_constant_Nm_per_A, Range{1e-3, 100.0});
+    visit("drive_torque_constant_Nm_per_A", self.drive_torque_constant_Nm_per_A, Range{1e-3, 100.0});
+    visit("state_delay_s", self.state_delay_s, Range{0.0, 0.001});
+  }
+
+  // Rules the ranges above do not express: problem(key, what is wrong and what to do).
+  template <class Problem>
+  void check(Problem&& problem) const {
+    if (dialect != Dialect::mit)
+      problem("dialect",
+              "only \"mit\" is implemented: switch the drive to MIT mode with CubeMars' serial tool, "
+              "power-cycle it, and set dialect = \"mit\"");
+    if (sign == 0) problem("sign", "must be 1 or -1");
+  }
+};
+
+struct CanConfig {
+  std::string interface = "can0";
+  // While the drives are off they are asked for their state every so many cycles (by a leave frame, which
+  // energises nothing).
+  int idle_query_cycles = 10;
+  std::array<CubeMarsConfig, kMotorCount> motor{
+      CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
+      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("interface", self.interface);
+    visit("idle_query_cycles", self.idle_query_cycles, Range{1, 1000});
+    visit("motor", self.motor);
+  }
+
+  template <class Problem>
+  void check(Problem&& problem) const {
+    if (motor[0].can_id == motor[1].can_id)
+      problem("motor",
+              "both motors have the same can_id: give each drive its own, one drive connected at a time");
+    for (std::size_t i = 0; i < kMotorCount; ++i)
+      if (motor[i].master_id == motor[1 - i].can_id)
+        problem("motor", "one motor's master_id is the other's can_id: replies would collide with commands");
+  }
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,125 @@
+#pragma once
+#include <linux/can.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "drivers/can/can_config.hpp"
+#include "drivers/motor_command.hpp"
+#include "drivers/samples.hpp"
+
+namespace sandhopper {
+
+// Put in MotorSample::error_code beside the drive's own 0..7: the position field nears the end of its range,
+// where it saturates or wraps.
+inline constexpr std::uint8_t kErrorPositionNearRangeEnd = 100;
+
+// One motor's conversion between link side (MotorSample, MotorCommand) and drive side (MIT fields):
+//   position_link = zero_offset + sign p / gear,  torque_drive = sign torque_link / gear . K_drive / K,
+// gains likewise by 1 / gear^2; current = sign torque_drive / K_drive with K_drive the drive's own torque
+// constant. Throws std::invalid_argument for a dialect that is not implemented.
+class CubeMarsCodec {
+ public:
+  explicit CubeMarsCodec(const CubeMarsConfig& config);
+
+  // A command with a value that is not finite becomes one without gains and torque.
+  MitCommand to_drive(const MotorCommand& command) const noexcept;
+  MotorCommand to_link(const MitCommand& command) const noexcept;
+  MotorSample to_sample(const MitReply& reply, std::int64_t time_ns) const noexcept;
+  MitReply to_reply(const MotorSample& sample) const noexcept;
+
+  can_frame command_frame(const MotorCommand& command) const noexcept;
+  can_frame special_frame(const MitPayload& payload) const noexcept;
+
+  const CubeMarsConfig& config() const noexcept { return config_; }
+  const MitRanges& ranges() const noexcept { return ranges_; }
+
+ private:
+  CubeMarsConfig config_;
+  MitRanges ranges_;
+  double torque_to_drive_;
+};
+
+struct CubeMarsCounters {
+  std::uint32_t replies = 0;
+  std::uint32_t missed = 0;       // commands that were not answered before the next one
+  std::uint32_t unsolicited = 0;  // replies with no command outstanding: two drives with one id, or a trace
+  std::uint32_t rejected = 0;     // frames that do not look like the dialect
+  std::uint32_t foreign = 0;      // of those, servo-style status frames: the drive is in another mode
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("replies", self.replies);
+    visit("missed", self.missed);
+    visit("unsolicited", self.unsolicited);
+    visit("rejected", self.rejected);
+    visit("foreign", self.foreign);
+  }
+};
+
+struct MotorReading {
+  Side side = Side::left;
+  MotorSample sample{};
+};
+
+// The drives of one bus without the bus: which motor a frame belongs to and which command it answers. A drive
+// takes its state when the command arrives, so a reply carries the command's time.
+class CubeMarsBus {
+ public:
+  // Throws std::invalid_argument when two drives cannot be told apart or a dialect is not implemented.
+  explicit CubeMarsBus(const CanConfig& config);
+
+  // The identifiers that may carry a reply, and those of drives in another mode.
+  std::vector<can_filter> filters() const;
+
+  const CubeMarsCodec& codec(Side side) const noexcept { return codecs_[index(side)]; }
+
+  // A command for this motor went out at `time_ns`; one still unanswered counts as missed.
+  void command_sent(Side side, std::int64_t time_ns) noexcept;
+
+  // A frame that arrived at `time_ns`. Nothing when it is no reply of these drives.
+  std::optional<MotorReading> receive(const can_frame& frame, std::int64_t time_ns) noexcept;
+
+  const CubeMarsCounters& counters(Side side) const noexcept { return counters_[index(side)]; }
+
+  // Frames that belong to no motor.
+  std::uint32_t strangers() const noexcept { return strangers_; }
+
+ private:
+  static constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
+  std::int64_t state_time(std::size_t i, std::int64_t time_ns) noexcept;
+
+  struct Outstanding {
+    bool waiting = false;
+    bool previous_missed = false;
+    std::int64_t sent_ns = 0;
+    std::int64_t previous_ns = 0;
+  };
+
+  std::array<CubeMarsCodec, kMotorCount> codecs_;
+  std::array<CubeMarsCounters, kMotorCount> counters_{};
+  std::array<Outstanding, kMotorCount> outstanding_{};
+  std::uint32_t strangers_ = 0;
+};
+
+// Reads a recorded trace: commands and replies of both motors in the order of the bus.
+enum class FrameDirection : std::uint8_t { unknown, sent, received };
+
+class CanTraceDecoder {
+ public:
+  explicit CanTraceDecoder(const CanConfig& config) : bus_(config) {}
+
+  // A reply gives a reading; a command sets the time of the reply to come. Without a direction, a frame on a
+  // motor's command identifier is a reply only if byte 0 is that identifier, as in every reply.
+  std::optional<MotorReading> decode(const can_frame& frame, std::int64_t time_ns,
+                                     FrameDirection direction = FrameDirection::unknown) noexcept;
+
+  const CubeMarsBus& bus() const noexcept { return bus_; }
+
+ private:
+  CubeMarsBus bus_;
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "drivers/gpio/line_config.hpp"
+
+// GPIO lines through libgpiod 1.6; only gpio.cpp knows the library. `role` names the line in messages.
+// Constructors throw DeviceError.
+namespace sandhopper {
+
+class GpioLine;
+
+// A level to be read each cycle, such as the e-stop. `active_low` with a normally closed switch and a pull
+// towards ground: a cut wire reads active, and so does a line that cannot be read any more.
+class GpioInput {
+ public:
+  GpioInput(std::string_view role, const LineConfig& config);
+  ~GpioInput();
+  GpioInput(GpioInput&&) noexcept;
+  bool active() noexcept;
+
+ private:
+  std::unique_ptr<GpioLine> line_;
+  bool failed_ = false;
+};
+
+class GpioOutput {
+ public:
+  GpioOutput(std::string_view role, const LineConfig& config, bool initially_active);
+  ~GpioOutput();
+  GpioOutput(GpioOutput&&) noexcept;
+  // Writes only a change; false when it could not.
+  bool set(bool active) noexcept;
+
+ private:
+  std::unique_ptr<GpioLine> line_;
+  bool active_;
+};
+
+// Edges of a data-ready line with the kernel's CLOCK_MONOTONIC time of the interrupt.
+class GpioEdges {
+ public:
+  struct Edge {
+    std::int64_t time_ns;  // of the newest
+    std::uint32_t count;   // waiting edges that were taken with it
+  };
+
+  // Edges from inactive to active.
+  GpioEdges(std::string_view role, const LineConfig& config);
+  ~GpioEdges();
+  GpioEdges(GpioEdges&&) noexcept;
+
+  // Waits for an edge, then empties the queue: the kernel keeps 16 and throws away the newest.
+  std::optional<Edge> wait(std::int64_t timeout_ns) noexcept;
+
+ private:
+  std::unique_ptr<GpioLine> line_;
+};
+
+}  // namespace sandhopper

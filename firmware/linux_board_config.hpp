@@ -1,0 +1,41 @@
+#pragma once
+#include "drivers/adc/load_cell_config.hpp"
+#include "drivers/can/can_config.hpp"
+#include "drivers/gpio/line_config.hpp"
+#include "drivers/imu/imu_config.hpp"
+#include "drivers/tof/tof_config.hpp"
+
+namespace sandhopper {
+
+// Every device node of the robot. Defaults are those of a Raspberry-Pi-like board; the virtual bench has its
+// own file.
+struct LinuxBoardConfig {
+  CanConfig can{};
+  ImuConfig imu_body{.device = "/dev/spidev0.0", .data_ready = {.chip = "", .line = "IMU_BODY_DRDY"}};
+  ImuConfig imu_foot{.device = "/dev/spidev0.1", .data_ready = {.chip = "", .line = "IMU_FOOT_DRDY"}};
+  LoadCellConfig load_cell{.ready = {.chip = "", .line = "ADC_RDY", .active_low = true}};
+  TofConfig tof{};
+  // Active is stop. Normally closed switch to the supply with a pull to ground: a cut wire stops.
+  LineConfig estop{.chip = "", .line = "ESTOP", .active_low = true, .bias = Bias::pull_down};
+  // Active holds the body, inactive lets go. Line empty: no catch.
+  LineConfig body_catch{.chip = "", .line = "CATCH"};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("can", self.can);
+    visit("imu_body", self.imu_body);
+    visit("imu_foot", self.imu_foot);
+    visit("load_cell", self.load_cell);
+    visit("tof", self.tof);
+    visit("estop", self.estop);
+    visit("catch", self.body_catch);
+  }
+
+  template <class Problem>
+  void check(Problem&& problem) const {
+    if (!estop.fitted()) problem("estop", "an e-stop line must be given");
+    if (imu_body.device == imu_foot.device) problem("imu_foot", "both IMUs have the same device");
+  }
+};
+
+}  // namespace sandhopper
