@@ -1,0 +1,182 @@
+// Opens reports in headless Chromium as a reader would and checks what is drawn and what the mouse does.
+//   node page_test.mjs BUILD_DIRECTORY [REPORT.html]     screenshots go to BUILD_DIRECTORY/report_screenshots
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { Browser } from './browser.mjs';
+
+const build = resolve(process.argv[2]);
+const shots = join(build, 'report_screenshots');
+mkdirSync(shots, { recursive: true });
+let checks = 0;
+
+async function check(name, work) {
+  await work();
+  checks += 1;
+  console.log(`ok ${name}`);
+}
+
+// Middle of the n-th element, and its size, in the window.
+function place(browser, selector, n = 0) {
+  return browser.run((wanted, which) => {
+    const element = document.querySelectorAll(wanted)[which];
+    element.scrollIntoView({ block: 'center' });
+    const box = element.getBoundingClientRect();
+    return { left: box.left, top: box.top, width: box.width, height: box.height };
+  }, selector, n);
+}
+
+// Share of the pixels of each canvas that are not of its commonest colour.
+function inked(browser, selector) {
+  return browser.run(wanted => [...document.querySelectorAll(wanted)].map(canvas => {
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext('2d', { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    const counts = new Map();
+    for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) || 0) + 1);
+    return 1 - Math.max(...counts.values()) / pixels.length;
+  }), selector);
+}
+
+// Labels of the time axis of each panel: what part of the trial it shows.
+function axes(browser) {
+  return browser.run(() => [...document.querySelectorAll('.plot')].map(plot =>
+    [...plot.querySelectorAll('.dygraph-axis-label-x')].map(label => Number(label.textContent))));
+}
+
+async function checkPage(browser, name, { panels, strides }) {
+  await check(`${name}: every panel and the force-depth plot are drawn`, async () => {
+    const lines = await inked(browser, '.plot canvas:nth-of-type(1)');
+    assert.equal(lines.length, panels);
+    for (const share of lines) assert.ok(share > 0.005, `a panel is blank: ${lines}`);
+    const [scatter] = await inked(browser, '#force-depth canvas');
+    assert.ok(scatter > 0.01, `force-depth is blank: ${scatter}`);
+  });
+
+  await check(`${name}: a row for each stride`, async () => {
+    assert.equal(await browser.run(() => document.querySelectorAll('#stride-table tbody tr').length), strides);
+  });
+
+  await check(`${name}: dragging in one panel zooms all, a double click shows all`, async () => {
+    const before = await axes(browser);
+    const plot = await place(browser, '.plot', 2);
+    const y = plot.top + plot.height / 2;
+    await browser.drag([plot.left + plot.width * 0.5, y], [plot.left + plot.width * 0.7, y]);
+    await sleep(300);
+    const zoomed = await axes(browser);
+    const span = labels => labels[labels.length - 1] - labels[0];
+    for (let i = 0; i < zoomed.length; ++i) {
+      assert.ok(span(zoomed[i]) < 0.5 * span(before[i]), `panel ${i}: ${before[i]} became ${zoomed[i]}`);
+      assert.deepEqual(zoomed[i], zoomed[0]);
+    }
+    await browser.doubleClick(plot.left + plot.width / 2, y);
+    await sleep(300);
+    const whole = await axes(browser);
+    for (const labels of whole) assert.ok(span(labels) > span(zoomed[0]), `${labels}`);
+  });
+
+  await check(`${name}: the pointer reads values in every panel`, async () => {
+    await browser.run(() => document.querySelectorAll('#views button')[1].click());
+    const plot = await place(browser, '.plot', 1);
+    await browser.point(plot.left + plot.width * 0.5, plot.top + plot.height / 2);
+    await sleep(100);
+    const read = await browser.run(() => ({
+      clock: document.getElementById('clock').textContent,
+      values: [...document.querySelectorAll('#time-plots .panel')].map(panel => panel.querySelector('.legend .value').textContent),
+    }));
+    assert.match(read.clock, /^t = \d+\.\d{3} s$/);
+    for (const value of read.values) assert.match(value, /^-?\d/);
+  });
+
+  await check(`${name}: a legend's name hides its line`, async () => {
+    const before = await inked(browser, '#force-depth canvas');
+    await browser.run(() => document.querySelectorAll('#force-depth .legend button[aria-pressed=true]').forEach(b => b.click()));
+    const after = await inked(browser, '#force-depth canvas');
+    assert.ok(after[0] < before[0], `${before} then ${after}`);
+    await browser.run(() => document.querySelectorAll('#force-depth .legend button').forEach(b => b.click()));
+  });
+
+  await check(`${name}: dragging a rectangle zooms force against depth`, async () => {
+    const plot = await place(browser, '#force-depth canvas');
+    const before = await inked(browser, '#force-depth canvas');
+    await browser.drag([plot.left + plot.width * 0.4, plot.top + plot.height * 0.3],
+      [plot.left + plot.width * 0.6, plot.top + plot.height * 0.6]);
+    const after = await inked(browser, '#force-depth canvas');
+    assert.notDeepEqual(after, before);
+    await browser.doubleClick(plot.left + plot.width / 2, plot.top + plot.height / 2);
+  });
+
+  await check(`${name}: no complaint on the console, no request to a network`, async () => {
+    assert.deepEqual(await browser.complaints(), []);
+  });
+}
+
+async function open(browser, file) {
+  await browser.open(file);
+  await sleep(500);
+}
+
+function sample(name, strides, idle_s) {
+  const file = join(build, `${name}.html`);
+  execFileSync(join(build, 'bin', 'sample_page'), [file, String(strides), String(idle_s)]);
+  return file;
+}
+
+async function wholePage(browser, width, file) {
+  const height = await browser.run(() => document.documentElement.scrollHeight);
+  await browser.resize(width, height + 150);
+  await sleep(300);
+  await browser.screenshot(join(shots, file));
+}
+
+async function laptop() {
+  const browser = await Browser.start({ width: 1440, height: 900 });
+  try {
+    await open(browser, sample('sample_one', 1, 0.2));
+    await checkPage(browser, 'one stride', { panels: 6, strides: 1 });
+    await check('text of a log is shown as text', async () => {
+      assert.equal(await browser.run(() => document.title), 'Sample <trial> & co.');
+    });
+
+    await check('a request would be noticed, and is not let out', async () => {
+      await browser.run(() => { document.body.append(Object.assign(new Image(), { src: 'http://127.0.0.1:9/x.png' })); });
+      await sleep(100);
+      const complaints = await browser.complaints();
+      assert.ok(complaints.some(line => line.includes('Content Security Policy')), `${complaints}`);
+    });
+
+    await open(browser, sample('sample_many', 12, 0.2));
+    await checkPage(browser, 'twelve strides', { panels: 6, strides: 12 });
+    await browser.screenshot(join(shots, 'twelve_strides.png'));
+
+    // 20 minutes; the spike is one row three quarters through, and the heights of the whole trial must show it.
+    await open(browser, sample('sample_long', 20, 60));
+    await checkPage(browser, 'twenty minutes', { panels: 6, strides: 20 });
+    await check('twenty minutes: one row that stands out is not lost', async () => {
+      await browser.run(() => document.querySelector('#views button').click());
+      await sleep(300);
+      const top = await browser.run(() => Math.max(...[...document.querySelectorAll('.plot')[5]
+        .querySelectorAll('.dygraph-axis-label-y')].map(label => Number(label.textContent))));
+      assert.ok(top >= 400, `the force panel ends at ${top} N`);
+    });
+    await wholePage(browser, 1440, 'twenty_minutes.png');
+
+    if (process.argv[3]) {
+      await browser.resize(1440, 900);
+      await open(browser, resolve(process.argv[3]));
+      await browser.screenshot(join(shots, 'trial_first_screen.png'));
+      await wholePage(browser, 1440, 'trial.png');
+      await browser.print(join(shots, 'trial.pdf'));
+      assert.deepEqual(await browser.complaints(), []);
+    }
+  } finally {
+    await browser.stop();
+  }
+}
+
+await laptop();
+console.log(`${checks} checks`);

@@ -1,0 +1,7 @@
+# A report opened in headless Chromium: plots drawn, zoom, no complaint on the console, no request to any network.
+add_executable(sample_page tests/report/sample_page.cpp)
+target_link_libraries(sample_page PRIVATE sandhopper_report)
+set_target_properties(sample_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+add_test(NAME report.page_in_browser
+         COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/page_test.mjs ${CMAKE_BINARY_DIR})
+set_tests_properties(report.page_in_browser PROPERTIES LABELS report TIMEOUT 300)

@@ -1,0 +1,34 @@
+# Embeds the report's page and Debian's dygraphs into the library, so that a program writes reports on a machine
+# that has neither. Run again whenever one of the files changes.
+function(sandhopper_embed_report_assets target)
+  set(page ${PROJECT_SOURCE_DIR}/tools/report/page)
+  find_path(DYGRAPHS_DIR dygraph.min.js PATHS /usr/share/javascript/dygraphs NO_DEFAULT_PATH)
+  if(NOT DYGRAPHS_DIR)
+    message(FATAL_ERROR "dygraphs not found: run tools/setup (Debian package libjs-dygraphs), "
+                        "or set DYGRAPHS_DIR to the folder that holds dygraph.min.js")
+  endif()
+
+  set(scripts data theme legend panels time_plots force_depth stiffness_chart tables main)
+  list(TRANSFORM scripts APPEND .js)
+  list(TRANSFORM scripts PREPEND ${page}/)
+  foreach(asset "kPage|${page}/page.html" "kStyle|${page}/page.css" "kPlotStyle|${DYGRAPHS_DIR}/dygraph.min.css"
+                "kPlotScript|${DYGRAPHS_DIR}/dygraph.min.js")
+    string(REPLACE "|" ";" asset "${asset}")
+    list(GET asset 0 name)
+    list(GET asset 1 file)
+    file(READ ${file} content)
+    # Developer tools would ask for the source map.
+    string(REGEX REPLACE "(//|/\\*)# sourceMappingURL=[^\n]*" "" ${name} "${content}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  endforeach()
+  set(kScript "")
+  foreach(file ${scripts})
+    file(READ ${file} content)
+    string(APPEND kScript "${content}\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  endforeach()
+
+  configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
+                 ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)
+  target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/report_assets.cpp)
+endfunction()

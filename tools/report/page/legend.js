@@ -1,0 +1,28 @@
+// A row of names above a plot. A click hides or shows a line; under the pointer each shows its value.
+class Legend {
+  // entries: [{ label, color, style, shown }]
+  constructor(container, entries, onToggle, withValues = true) {
+    this.values = entries.map(() => (withValues ? element('span', { className: 'value' }) : ''));
+    this.buttons = entries.map((entry, i) => {
+      const swatch = element('i', { className: entry.style || 'line' });
+      swatch.style.color = `var(--${entry.color})`;
+      if (entry.style !== 'points') swatch.style.borderTopColor = `var(--${entry.color})`;
+      const button = element('button', { type: 'button' }, swatch, entry.label, this.values[i]);
+      button.setAttribute('aria-pressed', String(entry.shown));
+      button.onclick = () => {
+        entry.shown = !entry.shown;
+        button.setAttribute('aria-pressed', String(entry.shown));
+        onToggle(i, entry.shown);
+      };
+      return button;
+    });
+    container.append(element('div', { className: 'legend' }, ...this.buttons));
+  }
+
+  show(values, digits) {
+    this.values.forEach((span, i) => {
+      const value = values ? values[i] : null;
+      span.textContent = value === null || value === undefined || Number.isNaN(value) ? '' : value.toFixed(digits);
+    });
+  }
+}

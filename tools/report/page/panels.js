@@ -1,0 +1,68 @@
+// Which channels are drawn where. A channel that the trial does not have is left out, and a panel without any.
+// Channels are in SI units; a panel shows them times `scale`.
+const PANELS = [
+  {
+    title: 'Leg length', unit: 'mm', scale: 1000, digits: 1,
+    series: [{ channel: 'estimate_leg_length_m', label: 'from encoders', color: 'blue' }],
+  },
+  {
+    title: 'Body height', unit: 'mm', scale: 1000, digits: 1,
+    series: [
+      { channel: 'tof_height_m', label: 'time of flight', color: 'grey', style: 'points' },
+      { channel: 'mocap_body_z_m', label: 'motion capture', color: 'purple', style: 'points' },
+      { channel: 'truth_body_z_m', label: 'truth', color: 'text', style: 'dashed' },
+      { channel: 'estimate_body_z_m', label: 'estimate', color: 'blue' },
+    ],
+  },
+  {
+    title: 'Foot height', unit: 'mm', scale: 1000, digits: 1,
+    series: [
+      { channel: 'estimate_surface_z_m', label: 'surface', color: 'sand' },
+      { channel: 'mocap_foot_z_m', label: 'motion capture', color: 'purple', style: 'points' },
+      { channel: 'truth_foot_z_m', label: 'truth', color: 'text', style: 'dashed' },
+      { channel: 'estimate_foot_z_m', label: 'estimate', color: 'orange' },
+    ],
+  },
+  {
+    title: 'Velocity', unit: 'm/s', scale: 1, digits: 3,
+    series: [
+      { channel: 'truth_body_velocity_mps', label: 'body, truth', color: 'text', style: 'dashed' },
+      { channel: 'truth_foot_velocity_mps', label: 'foot, truth', color: 'text', style: 'dashed' },
+      { channel: 'estimate_body_velocity_mps', label: 'body', color: 'blue' },
+      { channel: 'estimate_foot_velocity_mps', label: 'foot', color: 'orange' },
+    ],
+  },
+  {
+    title: 'Acceleration', unit: 'm/s²', scale: 1, digits: 1,
+    series: [
+      { channel: 'estimate_body_accel_mps2', label: 'body', color: 'blue' },
+      { channel: 'estimate_foot_accel_mps2', label: 'foot', color: 'orange' },
+      { channel: 'estimate_weighting_accel_mps2', label: 'foot, for weights', color: 'green', shown: false },
+    ],
+  },
+  {
+    title: 'Force of the ground', unit: 'N', scale: 1, digits: 1, tall: true,
+    series: [
+      { channel: 'load_cell_force_N', label: 'load cell', color: 'green' },
+      { channel: 'truth_contact_force_N', label: 'truth', color: 'text', style: 'dashed' },
+      { channel: 'quasi_static_force_N', label: 'quasi-static', color: 'orange' },
+      { channel: 'estimate_contact_force_N', label: 'momentum observer', color: 'blue' },
+    ],
+  },
+  {
+    title: 'Motor torque', unit: 'N·m', scale: 1, digits: 2,
+    series: [
+      { channel: 'command_left_torque_Nm', label: 'left, command', color: 'blue', style: 'dashed' },
+      { channel: 'command_right_torque_Nm', label: 'right, command', color: 'orange', style: 'dashed' },
+      { channel: 'motor_left_torque_Nm', label: 'left', color: 'blue' },
+      { channel: 'motor_right_torque_Nm', label: 'right', color: 'orange' },
+    ],
+  },
+];
+
+// The three treatments of the force-depth data, and how they are drawn everywhere.
+const TREATMENTS = [
+  { key: 'qs_ols', label: 'quasi-static, OLS', color: 'orange' },
+  { key: 'mo_ols', label: 'observer, OLS', color: 'purple' },
+  { key: 'mo_wls', label: 'observer, weighted', color: 'blue' },
+];

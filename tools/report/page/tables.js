@@ -1,0 +1,63 @@
+// The words and numbers around the plots.
+function fillText(data) {
+  const facts = document.getElementById('facts');
+  for (const [label, text] of data.facts) facts.append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
+  const notes = document.getElementById('notes');
+  for (const note of data.notes) notes.append(element('p', {}, note));
+  if (data.envelope_rows > 1) {
+    notes.append(element('p', {}, `Long trial: between strides the figures show the least and greatest value of each ${data.envelope_rows} cycles.`));
+  }
+  document.getElementById('configuration').textContent = data.configuration;
+  if (!data.configuration) document.querySelector('details').remove();
+  fillEvents(data, document.getElementById('event-table'));
+}
+
+function headerCell(title, unit, className) {
+  return element('th', { className: className || '' }, title, ...(unit ? [element('small', {}, unit)] : []));
+}
+
+function fixed(value, digits) {
+  return value === null ? '–' : value.toFixed(digits);
+}
+
+// onChoose(stride) when a row is clicked; returns the rows, in the order of the strides.
+function fillStrides(data, table, onChoose) {
+  table.append(element('thead', {}, element('tr', {},
+    headerCell('Stride'), headerCell('Touchdown speed', 'm/s'), headerCell('Touchdown', 's'), headerCell('Switch', 's'),
+    headerCell('Liftoff', 's'), headerCell('Peak force', 'N'), headerCell('Depth', 'mm'),
+    ...TREATMENTS.map(treatment => headerCell(treatment.label, 'N/m, 95 % interval')))));
+  const rows = data.strides.map(stride => {
+    const row = element('tr', { tabIndex: 0, title: 'Show this stride' },
+      element('td', {}, String(stride.number)),
+      element('td', {}, fixed(stride.touchdown_speed_mps, 3)),
+      element('td', {}, fixed(stride.touchdown_s, 3)),
+      element('td', {}, fixed(stride.switch_s, 3)),
+      element('td', {}, fixed(stride.liftoff_s, 3)),
+      element('td', {}, fixed(stride.peak_force_N, 1)),
+      element('td', {}, fixed(stride.max_depth_m === null ? null : 1000 * stride.max_depth_m, 1)),
+      ...TREATMENTS.map(treatment => stiffnessCell(stride[treatment.key])));
+    row.onclick = () => onChoose(stride);
+    row.onkeydown = event => { if (event.key === 'Enter') onChoose(stride); };
+    return row;
+  });
+  table.append(element('tbody', {}, ...rows));
+  if (!rows.length) table.append(element('caption', {}, 'No stride in this trial.'));
+  return rows;
+}
+
+function stiffnessCell(fit) {
+  const value = element('span', { className: fit.valid ? 'valid' : 'invalid' }, fixed(fit.value_N_per_m, 0));
+  const [low, high] = fit.ci95_N_per_m;
+  return element('td', { title: `${fit.samples} samples` }, value, fit.valid
+    ? element('small', {}, `${fixed(low, 0)} to ${fixed(high, 0)}`)
+    : element('small', { className: 'why' }, `not valid: ${fit.reason}`));
+}
+
+function fillEvents(data, table) {
+  table.append(element('thead', {}, element('tr', {}, headerCell('Time', 's'), headerCell('Stride'),
+    headerCell('Event', '', 'text'), headerCell('Reason', '', 'text'), headerCell('Values', '', 'text'))));
+  table.append(element('tbody', {}, ...data.events.map(event => element('tr', {},
+    element('td', {}, event.time_s.toFixed(3)), element('td', {}, event.stride ? String(event.stride) : ''),
+    element('td', { className: 'text' }, event.name), element('td', { className: 'text' }, event.reason),
+    element('td', { className: 'text' }, event.values)))));
+}

@@ -1,0 +1,236 @@
+// The panels over time. All show the same part of the trial and the same instant under the pointer.
+class TimePlots {
+  static kMaxRows = 20000;  // more are drawn as least and greatest of groups, finer where the view is
+
+  constructor(data, container, onHover, onView) {
+    this.data = data;
+    this.onHover = onHover;
+    this.onView = onView;
+    this.thinned = data.time.length > TimePlots.kMaxRows;
+    this.rowIndex = this.groupRows(data.time[0], data.time[data.time.length - 1]);
+    this.busy = false;
+    this.plots = [];
+    for (const panel of PANELS) {
+      const series = panel.series.filter(entry => data.columns[entry.channel]);
+      if (series.length) this.plots.push(this.makePlot(panel, series, container));
+    }
+    container.append(element('div', { className: 'axis-label' }, 'time since release, s'));
+    theme.redraw.push(() => this.recolor());
+    addEventListener('beforeprint', () => this.resize());
+    addEventListener('afterprint', () => this.resize());
+  }
+
+  makePlot(panel, series, container) {
+    const entries = series.map(entry => ({ ...entry, shown: entry.shown !== false }));
+    const caption = element('figcaption', {}, element('b', {}, `${panel.title} `, element('span', {}, panel.unit)));
+    const area = element('div', { className: panel.tall ? 'plot tall' : 'plot' });
+    const cursor = element('div', { className: 'cursor' });
+    container.append(element('figure', { className: 'panel' }, caption, area));
+    const plot = { panel, series: entries, cursor };
+    plot.legend = new Legend(caption, entries, (i, shown) => plot.graph.setVisibility(i, shown));
+    plot.rows = this.rowsOf(plot);
+    plot.graph = new Dygraph(area, plot.rows, {
+      labels: ['t', ...entries.map(entry => entry.label)],
+      series: Object.fromEntries(entries.map(entry => [entry.label, TimePlots.stroke(entry)])),
+      visibility: entries.map(entry => entry.shown),
+      legend: 'never',
+      connectSeparatedPoints: true,
+      highlightCircleSize: 3,
+      xRangePad: 0,
+      yRangePad: this.plots.length ? 6 : 13, // the first holds the names of the marks
+      axisLabelFontSize: 11,
+      axes: {
+        x: { pixelsPerLabel: 70, axisLabelFormatter: (t, granularity, options, graph) => t.toFixed(TimePlots.digits(graph)) },
+        y: { axisLabelWidth: 44, pixelsPerLabel: 26 },
+      },
+      ...this.colors(entries),
+      underlayCallback: (context, box, graph) => this.drawPhases(context, box, graph, plot),
+      drawCallback: (graph, initial) => { if (!initial) this.follow(graph); },
+      highlightCallback: (event, t, points, row) => this.hover(t, row),
+      unhighlightCallback: () => this.hover(null),
+    });
+    area.append(cursor);
+    return plot;
+  }
+
+  static stroke(entry) {
+    if (entry.style === 'points') return { strokeWidth: 0, drawPoints: true, pointSize: 1.2 };
+    return { strokeWidth: entry.style === 'dashed' ? 1.2 : 1.6, strokePattern: entry.style === 'dashed' ? [5, 4] : null };
+  }
+
+  // Decimals of a time label: enough to tell neighbours apart.
+  static digits(graph) {
+    const [from, to] = graph.xAxisRange();
+    return Math.max(0, Math.min(4, 1 - Math.floor(Math.log10((to - from) / 1.2))));
+  }
+
+  colors(entries) {
+    return {
+      colors: entries.map(entry => theme.color(entry.color)),
+      gridLineColor: theme.color('grid'),
+      axisLineColor: theme.color('rule'),
+    };
+  }
+
+  recolor() {
+    for (const plot of this.plots) plot.graph.updateOptions(this.colors(plot.series));
+  }
+
+  resize() {
+    for (const plot of this.plots) plot.graph.resize();
+  }
+
+  // Groups of rows to draw as one: [first, count]. Fine groups in the view and half of it around, coarse elsewhere.
+  groupRows(from, to) {
+    const time = this.data.time;
+    if (!this.thinned) return null;
+    const margin = (to - from) / 2;
+    const first = rowAt(time, from - margin);
+    const last = rowAt(time, to + margin);
+    const groups = [];
+    const add = (start, end, most) => {
+      const count = Math.max(1, Math.ceil((2 * (end - start)) / most));
+      for (let row = start; row < end; row += count) groups.push([row, Math.min(count, end - row)]);
+    };
+    add(0, first, TimePlots.kMaxRows / 8);
+    add(first, last, TimePlots.kMaxRows);
+    add(last, time.length, TimePlots.kMaxRows / 8);
+    return groups;
+  }
+
+  rowsOf(plot) {
+    const time = this.data.time;
+    const columns = plot.series.map(entry => this.data.columns[entry.channel]);
+    const scale = plot.panel.scale;
+    const value = (column, row) => (Number.isNaN(column[row]) ? null : column[row] * scale);
+    const rows = [];
+    if (!this.rowIndex) {
+      for (let row = 0; row < time.length; ++row) rows.push([time[row], ...columns.map(column => value(column, row))]);
+      return rows;
+    }
+    for (const [first, count] of this.rowIndex) {
+      if (count === 1) {
+        rows.push([time[first], ...columns.map(column => value(column, first))]);
+        continue;
+      }
+      const least = [time[first]];
+      const greatest = [time[first + (count >> 1)]];
+      for (const column of columns) {
+        let low = Infinity;
+        let high = -Infinity;
+        for (let row = first; row < first + count; ++row) {
+          if (column[row] < low) low = column[row];
+          if (column[row] > high) high = column[row];
+        }
+        least.push(low === Infinity ? null : low * scale);
+        greatest.push(high === -Infinity ? null : high * scale);
+      }
+      rows.push(least, greatest);
+    }
+    return rows;
+  }
+
+  // One panel was zoomed or moved by hand: the others go along.
+  follow(graph) {
+    if (this.busy) return;
+    const [from, to] = graph.xAxisRange();
+    const [shownFrom, shownTo] = this.range();
+    if (from === shownFrom && to === shownTo) return;
+    requestAnimationFrame(() => this.show(from, to));
+  }
+
+  range() {
+    return this.view || [this.data.time[0], this.data.time[this.data.time.length - 1]];
+  }
+
+  show(from, to) {
+    this.view = [from, to];
+    if (this.thinned) this.rowIndex = this.groupRows(from, to);
+    this.busy = true;
+    for (const plot of this.plots) {
+      const options = { dateWindow: [from, to] };
+      if (this.thinned) options.file = plot.rows = this.rowsOf(plot);
+      plot.graph.updateOptions(options);
+    }
+    this.busy = false;
+    this.onView(from, to);
+  }
+
+  // Heights fitted by hand are forgotten.
+  unlockHeights() {
+    for (const plot of this.plots) plot.graph.updateOptions({ valueRange: null }, true);
+  }
+
+  drawPhases(context, box, graph, plot) {
+    context.save();
+    context.beginPath();
+    context.rect(box.x, box.y, box.w, box.h);
+    context.clip();
+    for (const phase of this.data.phases) {
+      if (phase.name !== 'compression' && phase.name !== 'extension') continue;
+      const left = graph.toDomXCoord(phase.from_s);
+      context.fillStyle = theme.color(phase.name);
+      context.fillRect(left, box.y, graph.toDomXCoord(phase.to_s) - left, box.h);
+    }
+    context.strokeStyle = context.fillStyle = theme.color('quiet');
+    context.font = '10px system-ui, "DejaVu Sans", sans-serif';
+    context.setLineDash([2, 3]);
+    let labelEnd = -Infinity;
+    for (const stride of this.data.strides) {
+      for (const [name, t] of [['touchdown', stride.touchdown_s], ['switch', stride.switch_s], ['liftoff', stride.liftoff_s]]) {
+        if (t === null) continue;
+        const x = Math.round(graph.toDomXCoord(t)) + 0.5;
+        context.beginPath();
+        context.moveTo(x, box.y);
+        context.lineTo(x, box.y + box.h);
+        context.stroke();
+        if ((this.plots[0] || plot) === plot && x > labelEnd) {
+          context.fillText(name, x + 3, box.y + 9);
+          labelEnd = x + 8 + context.measureText(name).width;
+        }
+      }
+    }
+    context.restore();
+  }
+
+  // Shows the instant t, row `row` of the plotted rows, in every panel and legend; null: none.
+  hover(t, row) {
+    if (this.busy) return;
+    this.busy = true;
+    for (const plot of this.plots) {
+      if (t === null) {
+        plot.graph.clearSelection();
+        plot.legend.show(null);
+      } else {
+        plot.graph.setSelection(row);
+        plot.legend.show(plot.series.map((entry, i) => TimePlots.newest(plot.rows, row, i + 1)), plot.panel.digits);
+        plot.cursor.style.left = `${plot.graph.toDomXCoord(t)}px`;
+      }
+      plot.cursor.style.display = t === null ? 'none' : 'block';
+    }
+    this.busy = false;
+    this.onHover(t);
+  }
+
+  // The value of a column at a row, or the last one before it: slow sensors have rows without.
+  static newest(rows, row, column) {
+    for (let back = row; back >= 0 && back > row - 50; --back) {
+      if (rows[back][column] !== null) return rows[back][column];
+    }
+    return null;
+  }
+
+  // Shows the row nearest to an instant, as if the pointer were there.
+  point(t) {
+    if (t === null) { this.hover(null); return; }
+    const rows = this.plots.length ? this.plots[0].rows : [];
+    let low = 0;
+    let high = rows.length - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (rows[middle][0] < t) low = middle + 1;
+      else high = middle;
+    }
+    if (rows.length) this.hover(rows[low][0], low);
+  }
+}
