@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/log/candump.hpp"
+#include "firmware/log/spsc_ring.hpp"
+
+namespace sandhopper {
+
+// The CAN half of a trial's log: frames from any number of interfaces, each fed by one thread, into one
+// candump file in the order of their times. Frames come a little out of order (a reply is read a cycle after
+// the command that followed it): they are held for 50 ms of their own time and sorted, so neither the
+// threads' nor the logger's timing shows in the file.
+class CanLog {
+ public:
+  CanLog(const std::filesystem::path& file, std::int64_t realtime_offset_ns, std::size_t slots);
+
+  // Before the first frame. Returns the number for push().
+  std::size_t add_interface(std::string name);
+
+  // Wait-free, from one thread per interface; `frame.time_ns` is CLOCK_MONOTONIC. What does not fit is lost,
+  // counted, and noted in the file as a comment.
+  void push(std::size_t interface, const CandumpFrame& frame) noexcept;
+
+  // The logger's thread from here on. Throw std::system_error.
+  void drain();
+  void close();
+
+  std::uint64_t dropped() const;
+
+ private:
+  static constexpr std::int64_t kHold_ns = 50'000'000;
+
+  struct Interface {
+    Interface(std::string its_name, std::size_t slots) : name(std::move(its_name)), ring(slots) {}
+    std::string name;
+    SpscRing<CandumpFrame> ring;
+    std::uint64_t noted_drops = 0;
+  };
+  struct Held {
+    CandumpFrame frame;
+    std::size_t interface = 0;
+  };
+
+  void hold(const CandumpFrame& frame, std::size_t interface);
+  void write_until(std::int64_t time_ns);
+  void note_drops();
+
+  CandumpWriter writer_;
+  std::int64_t realtime_offset_ns_;
+  std::size_t slots_;
+  std::vector<std::unique_ptr<Interface>> interfaces_;
+  std::vector<Held> held_;  // sorted
+  std::int64_t newest_ns_ = INT64_MIN;
+};
+
+}  // namespace sandhopper

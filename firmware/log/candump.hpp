@@ -1,0 +1,84 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "firmware/log/append_file.hpp"
+
+// CAN traffic as `candump -L` text, one line a frame, which canplayer, log2asc and every other CAN tool read:
+//   (1700000000.123456789) can0 00A#7FFF7FF0000007FF T
+// Three hexadecimal digits are a standard identifier, eight an extended one or, with bit 0x20000000, an error
+// frame; R in place of data is a remote request.
+namespace sandhopper {
+
+enum class CanDirection : std::uint8_t { unknown, received, sent };
+
+struct CandumpFrame {
+  std::int64_t time_ns = 0;  // since 1970, or whatever zero the recording used
+  std::uint32_t id =
+      0;  // with the flags of linux/can.h: 0x80000000 extended, 0x40000000 remote, 0x20000000 error
+  std::uint8_t length = 0;  // data bytes; of a remote request: those asked for
+  std::array<std::uint8_t, 8> data{};
+  CanDirection direction = CanDirection::unknown;
+};
+
+struct CandumpFormat {
+  int decimals = 9;       // 6 or 9
+  bool direction = true;  // R or T at the line's end, where known
+};
+
+// The line without its end.
+std::string format_candump(const CandumpFrame& frame, std::string_view interface, CandumpFormat format = {});
+
+class CandumpError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct CandumpLine {
+  CandumpFrame frame;
+  std::string_view interface;  // part of the text given
+};
+
+// Empty for a line that does not begin with '(' (blank, a comment), which every CAN tool passes over. Tokens
+// after the frame are ignored but for R and T. Throws CandumpError on anything else, CAN FD and CAN XL among
+// it.
+std::optional<CandumpLine> parse_candump(std::string_view line);
+
+// Appends to a new file. Throws std::system_error.
+class CandumpWriter {
+ public:
+  explicit CandumpWriter(const std::filesystem::path& file, CandumpFormat format = {});
+  void write(const CandumpFrame& frame, std::string_view interface);
+  void comment(std::string_view text);  // a line that CAN tools pass over
+  void flush();                         // hands what is buffered to the system
+  void close();
+
+ private:
+  AppendFile file_;
+  CandumpFormat format_;
+  std::string buffer_;
+};
+
+// Reads a file line by line; errors are "file:line: what".
+class CandumpReader {
+ public:
+  explicit CandumpReader(const std::filesystem::path& file);
+
+  // False at the end. `interface` stays valid until the next call.
+  [[nodiscard]] bool next(CandumpFrame& frame, std::string_view& interface);
+  std::uint64_t line_number() const { return line_number_; }
+
+ private:
+  std::string name_;
+  std::ifstream in_;
+  std::string line_;
+  std::uint64_t line_number_ = 0;
+};
+
+}  // namespace sandhopper

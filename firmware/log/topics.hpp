@@ -1,0 +1,62 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "config/fields.hpp"
+#include "firmware/log/mcap_reader.hpp"
+
+// Names of a trial log's topics, and how a program picks their records out of a log again.
+namespace sandhopper {
+
+namespace topic {
+inline constexpr std::string_view kFrame = "/frame";    // SensorFrame: what the cycle consumed
+inline constexpr std::string_view kOutput = "/output";  // StepOutput: what it made of it
+inline constexpr std::string_view kEvent = "/event";    // Event
+inline constexpr std::string_view kStride = "/stride";  // StrideResult
+inline constexpr std::string_view kTruth = "/truth";    // PlantTruth, simulated robot only
+inline constexpr std::string_view kGap = "/gap";        // LogGap
+}  // namespace topic
+
+// Records that the logger was too slow to take; stands in the log where they are missing.
+struct LogGap {
+  std::int64_t time_ns = 0;  // of the first record after the gap
+  std::int64_t first_lost_ns = 0;
+  std::int64_t last_lost_ns = 0;
+  std::uint64_t lost = 0;
+  std::uint8_t lane = 0;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("time_ns", self.time_ns);
+    visit("first_lost_ns", self.first_lost_ns);
+    visit("last_lost_ns", self.last_lost_ns);
+    visit("lost", self.lost);
+    visit("lane", self.lane);
+  }
+};
+
+// One topic of a log:  TopicOf<Event> events("/event");  while (log.next(m)) if (events.take(m, event)) …
+// The schema is compared at the topic's first message; another version's throws mcap::Error.
+template <HasFields Record>
+class TopicOf {
+ public:
+  explicit TopicOf(std::string_view name) : name_(name) {}
+
+  bool take(const mcap::Message& message, Record& record) {
+    if (message.channel != channel_) {
+      if (channel_ != nullptr || message.channel->topic != name_) return false;
+      mcap::require_schema<Record>(*message.channel);
+      channel_ = message.channel;
+    }
+    if (cdr::decode(message.data, record)) return true;
+    throw mcap::Error("topic " + name_ + ": byte " + std::to_string(message.offset) + ": a message of " +
+                      std::to_string(message.data.size()) + " bytes, expected " +
+                      std::to_string(cdr::size_of<Record>()));
+  }
+
+ private:
+  std::string name_;
+  const mcap::Channel* channel_ = nullptr;
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,138 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "firmware/log/can_log.hpp"
+#include "firmware/log/mcap_writer.hpp"
+#include "firmware/log/spsc_ring.hpp"
+#include "firmware/log/topics.hpp"
+
+namespace sandhopper {
+
+// Which thread a topic's records come from: the cycle, or the one that works after a stride.
+enum class Lane : std::uint8_t { cycle, background };
+
+template <class Record>
+struct LogTopic {
+  std::uint16_t number = 0;
+};
+
+struct TrialLogOptions {
+  std::filesystem::path mcap_file;
+  std::filesystem::path candump_file;   // empty: CAN traffic is not logged
+  std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; stamps what is attached
+  std::int64_t realtime_offset_ns = 0;  // sample_realtime_offset_ns(), or a fixed date for repeatable files
+  std::size_t slots = 8192;             // about 2.7 s of three records a cycle
+  std::size_t can_slots = 16384;        // per interface; about 4 s of four frames a cycle
+  bool own_thread = true;               // false: push() itself writes when the ring is full (simulation)
+  mcap::WriterOptions mcap{};
+};
+
+// The logger of a running trial. The cycle pushes records, which costs a copy: no wait, no lock, no
+// allocation. A thread of ordinary priority takes them out every 5 ms, encodes and writes. When it falls
+// behind, records are lost and counted, and a LogGap stands in the log where they are missing. What the files
+// hold depends only on what was pushed, not on when the thread ran: two runs in virtual time, or one with and
+// one without the thread, give the same bytes.
+//
+// Order of calls: add_topic, add_can_interface, attach, add_metadata; start; push, push_can; stop; attach,
+// close.
+class TrialLogger {
+ public:
+  // Throws std::system_error when a file cannot be made.
+  explicit TrialLogger(TrialLogOptions options);
+  ~TrialLogger();
+
+  template <HasFields Record>
+  LogTopic<Record> add_topic(std::string_view name, Lane lane = Lane::cycle) {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    static_assert(sizeof(Record) <= kMaxRecordBytes, "raise kMaxRecordBytes");
+    topics_.push_back({writer_.add_channel<Record>(name), lane, &write_record<Record>});
+    return {static_cast<std::uint16_t>(topics_.size() - 1)};
+  }
+  // Returns the number for push_can().
+  std::size_t add_can_interface(std::string name);
+  void attach(std::string_view name, std::string_view media_type, std::string_view text);
+  void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
+
+  void start();
+
+  // From the one thread of the topic's lane. `time_ns` is the record's own, CLOCK_MONOTONIC.
+  template <HasFields Record>
+  void push(LogTopic<Record> topic, std::int64_t time_ns, const Record& record) noexcept {
+    push_bytes(topic.number, time_ns, &record, sizeof record);
+  }
+  // From one thread per interface.
+  void push_can(std::size_t interface, const CandumpFrame& frame) noexcept;
+
+  // Everything pushed so far is in the files' hands. Throws what went wrong while writing.
+  void stop();
+  void close();
+
+  // Any thread. Writing failed (disk full): nothing more is logged, and stop() will say why.
+  bool failed() const noexcept { return failed_.load(std::memory_order_acquire); }
+  std::uint64_t lost_records() const noexcept;
+  std::uint64_t lost_can_frames() const noexcept { return can_ ? can_->dropped() : 0; }
+
+ private:
+  static constexpr std::size_t kMaxRecordBytes = 1000;
+  // A result is solved some time after the instant it belongs to. It is written before the first record of
+  // the cycle that is this much younger, by when it has long been pushed.
+  static constexpr std::int64_t kBackgroundHold_ns = 100'000'000;
+
+  struct Slot {
+    std::int64_t time_ns = 0;
+    std::uint16_t topic = 0;
+    alignas(std::max_align_t) std::byte record[kMaxRecordBytes]{};
+  };
+  struct TopicEntry {
+    std::uint16_t channel;
+    Lane lane;
+    void (*write)(mcap::Writer&, std::uint16_t channel, mcap::Stamp, const std::byte* record);
+  };
+  struct LaneState {
+    explicit LaneState(std::size_t slots) : ring(slots) {}
+    SpscRing<Slot> ring;
+    LogGap gap{};  // the producer's: what is lost since the last record that fitted
+  };
+
+  template <class Record>
+  static void write_record(mcap::Writer& writer, std::uint16_t channel, mcap::Stamp stamp,
+                           const std::byte* bytes) {
+    Record record;
+    std::memcpy(&record, bytes, sizeof record);
+    writer.write(channel, stamp, record);
+  }
+
+  void push_bytes(std::uint16_t topic, std::int64_t time_ns, const void* record, std::size_t bytes) noexcept;
+  bool put(LaneState& lane, std::uint16_t topic, std::int64_t time_ns, const void* record,
+           std::size_t bytes) noexcept;
+  void run();
+  void drain() noexcept;
+  void write_background_until(std::int64_t time_ns);
+  void write_final_gap(LaneState& lane);
+  void write_slot(const Slot& slot);
+  LaneState& lane_of(Lane lane) { return lane == Lane::cycle ? cycle_ : background_; }
+
+  TrialLogOptions options_;
+  mcap::Writer writer_;
+  std::unique_ptr<CanLog> can_;
+  std::vector<TopicEntry> topics_;
+  LogTopic<LogGap> gap_topic_;
+  LaneState cycle_;
+  LaneState background_;
+  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> failed_{false};
+  std::string error_;
+};
+
+}  // namespace sandhopper
