@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 
+#include "firmware/log/can_log_tap.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/trial_logger.hpp"
 #include "firmware/records.hpp"
@@ -125,6 +126,21 @@ TEST_F(TrialLog, CanFramesAreInTheOrderOfTheirTimes) {
     EXPECT_EQ(interface, "can0");
   }
   EXPECT_EQ(count, 2'000);
+}
+
+TEST_F(TrialLog, ATapLogsBothDirectionsOfItsSocket) {
+  TrialLogger logger(options("a", false));
+  CanLogTap tap(logger, "can1");
+  can_frame frame{};
+  frame.can_id = 0x123;
+  frame.can_dlc = 2;
+  frame.data[1] = 0xAB;
+  tap.on_frame(frame, 5'000, true);
+  frame.can_id = 0x868 | CAN_EFF_FLAG;
+  tap.on_frame(frame, 6'000, false);
+  logger.stop();
+  EXPECT_EQ(content("a.can.log"),
+            "(1700000000.000005000) can1 123#00AB T\n(1700000000.000006000) can1 00000868#00AB R\n");
 }
 
 TEST_F(TrialLog, WhatDoesNotFitLeavesAGapRecordInItsPlace) {
