@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/plant/nominal_controller.hpp"
-#include "tools/plant/world.hpp"
+#include "tests/unit/nominal_stride.hpp"
 
 // The default robot and bed without noise against 15 strides of an independent program, and against the
 // printed matrix of what those strides show.
@@ -36,41 +35,6 @@ constexpr std::array<Cell, 15> kCells{{{.2, 250, .0025},
                                        {1.2, 250, .0890},
                                        {1.2, 375, .0890},
                                        {1.2, 500, .0890}}};
-
-struct Row {
-  PlantTruth truth;
-  double mean_force_N = 0.0;  // over the millisecond that follows
-  NominalPhase phase = NominalPhase::flight;
-};
-
-// One row a millisecond, and every grid point in between.
-struct Stride {
-  std::vector<Row> rows;
-  std::vector<PlantTruth> grid;
-};
-
-Stride simulate(const Cell& cell, int milliseconds) {
-  const WorldConfig config;
-  World world(config, {.release_height_m = cell.height_m, .noise = false}, 0);
-  NominalController controller(config.controller, cell.stiffness_N_per_m);
-  world.open_catch();
-  Stride stride;
-  for (int ms = 0; ms < milliseconds; ++ms) {
-    Row row{.truth = world.truth()};
-    const double torque_Nm = controller.step(
-        world.plant().leg(), {row.truth.foot_z_m, row.truth.leg_angle_rad, row.truth.leg_velocity_radps});
-    row.phase = controller.phase();
-    world.command(Side::left, {.torque_Nm = torque_Nm / 2}, true);
-    world.command(Side::right, {.torque_Nm = torque_Nm / 2}, true);
-    for (int i = 0; i < 10; ++i) {
-      stride.grid.push_back(world.truth());
-      world.advance_to(world.now_ns() + World::kStep_ns);
-    }
-    row.mean_force_N = (world.truth().contact_impulse_Ns - row.truth.contact_impulse_Ns) / 1e-3;
-    stride.rows.push_back(row);
-  }
-  return stride;
-}
 
 struct ReferenceRow {
   double t_s, body_z_m, body_velocity_mps, foot_z_m, foot_velocity_mps, angle_rad, angular_velocity_radps,
@@ -109,7 +73,9 @@ TEST_P(ReferenceStrides, AreReproduced) {
   if (expected.empty())
     GTEST_SKIP() << "NOT CHECKED: no reference strides in " << shared_data()
                  << "; set SANDHOPPER_SHARED_DATA to the folder that holds reference_strides/";
-  const auto stride = simulate(cell, static_cast<int>(expected.size()));
+  const auto stride = nominal_stride({.release_height_m = cell.height_m,
+                                      .compression_stiffness_N_per_m = cell.stiffness_N_per_m,
+                                      .milliseconds = static_cast<int>(expected.size())});
   double force2 = 0.0, body2 = 0.0, foot2 = 0.0, torque_worst = 0.0;
   int phase_mismatches = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {

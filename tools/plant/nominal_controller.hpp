@@ -19,7 +19,8 @@ struct EnumNames<NominalPhase> {
 //   flight       K 500, L0 0.30, B 15   until x_f <= 0 and (L0 - L > 2 mm or Ldot < -50 mm/s)
 //   compression  K k_c, L0 0.30, B 0    until Ldot >= 0 and L0 - L > 4 mm
 //   extension    K 500, L0 0.34, B 0    until L >= L0 - 0.5 mm, then flight
-// After a liftoff below the surface a touchdown counts only once the foot has been above it.
+// After a liftoff below the surface a touchdown counts only once the foot has been above it. For a later
+// stride the caller gives the foot's height over the surface it will land on, which is then the crater's.
 class NominalController {
  public:
   struct Input {

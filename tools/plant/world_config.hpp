@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "config/fields.hpp"
 #include "estimation/leg.hpp"
 #include "terrain/bed.hpp"
@@ -182,6 +184,25 @@ struct WorldConfig {
     visit("terrain", self.terrain);
     visit("sensors", self.sensors);
     visit("spread", self.spread);
+  }
+
+  // What one key alone cannot show: the leg must not lock, and must reach the lengths asked of it.
+  template <class Report>
+  void check(Report&& report) const {
+    const auto& leg = robot.leg;
+    const auto got = [](double value_m) { return ", got " + std::to_string(value_m); };
+    const double lock_m = leg.upper_link_length_m + leg.hip_offset_m;
+    const double reach_m = leg.upper_link_length_m + leg.lower_link_length_m;
+    if (leg.lower_link_length_m <= lock_m)
+      report("robot.lower_link_length_m",
+             "expected more than upper_link_length_m + hip_offset_m, or the leg locks" +
+                 got(leg.lower_link_length_m));
+    if (controller.compression_length_m >= reach_m)
+      report("controller.compression_length_m",
+             "expected less than both links' lengths together" + got(controller.compression_length_m));
+    if (controller.extension_length_m >= reach_m)
+      report("controller.extension_length_m",
+             "expected less than both links' lengths together" + got(controller.extension_length_m));
   }
 };
 

@@ -1,0 +1,185 @@
+#include "tools/plant/plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config/load.hpp"
+#include "tests/unit/nominal_stride.hpp"
+
+namespace sandhopper {
+namespace {
+
+WorldConfig frictionless() {
+  WorldConfig config;
+  config.robot.rail_coulomb_N = 0.0;
+  config.robot.joint_coulomb_Nm = 0.0;
+  config.robot.cogging_amplitude_Nm = 0.0;
+  return config;
+}
+
+double touchdown_speed_mps(const NominalStride& stride) {
+  for (const auto& t : stride.grid)
+    if (t.foot_z_m <= 0.0) return -t.foot_velocity_mps;
+  return 0.0;
+}
+
+TEST(Plant, TwoMillimetresOfFreeFallTouchAt198MillimetresPerSecond) {
+  EXPECT_NEAR(
+      touchdown_speed_mps(nominal_stride({.release_height_m = 0.002, .milliseconds = 60}, frictionless())),
+      0.198, 0.001);
+}
+
+// Drop heights that friction of 4 N makes necessary for the touchdown speeds of the matrix.
+TEST(Plant, RailFrictionCostsTheStatedSpeed) {
+  struct Drop {
+    double height_m, speed_mps;
+  };
+  for (const auto& d :
+       {Drop{.0025, .2}, Drop{.0125, .45}, Drop{.0303, .7}, Drop{.0618, 1.0}, Drop{.0890, 1.2}})
+    EXPECT_NEAR(touchdown_speed_mps(nominal_stride({.release_height_m = d.height_m})), d.speed_mps,
+                0.055 * d.speed_mps);
+}
+
+TEST(Plant, EnergyChangesByTheWorkOfEveryForce) {
+  const WorldConfig config;
+  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+  plant.place({.foot_z_m = 0.03, .angle_rad = plant.leg().angle_at_length(0.30)});
+  NominalController controller(config.controller, 375.0);
+  const auto energy_J = [&] {
+    const auto& s = plant.state();
+    return mechanical_energy_J(plant.leg(), s.foot_z_m, s.foot_velocity_mps, s.angle_rad,
+                               s.angular_velocity_radps);
+  };
+  const auto power_W = [&](double torque_Nm) {
+    const auto m = plant.motion(torque_Nm);
+    return m.contact_force_N * plant.state().foot_velocity_mps + m.rail_force_N * m.body_velocity_mps +
+           (torque_Nm + m.joint_torque_Nm) * plant.state().angular_velocity_radps;
+  };
+  const double start_J = energy_J();
+  double work_J = 0.0, lost_in_bed_J = 0.0;
+  for (int ms = 0; ms < 500; ++ms) {
+    const auto& s = plant.state();
+    const double torque_Nm =
+        controller.step(plant.leg(), {s.foot_z_m, s.angle_rad, s.angular_velocity_radps});
+    for (int i = 0; i < 10; ++i) {
+      const double before_W = power_W(torque_Nm);
+      plant.step(torque_Nm);
+      work_J += 0.5 * Plant::kStep_s * (before_W + power_W(torque_Nm));
+      lost_in_bed_J -=
+          Plant::kStep_s * plant.motion(torque_Nm).contact_force_N * plant.state().foot_velocity_mps;
+    }
+  }
+  std::printf("energy %.4f -> %.4f J, work %.4f J, lost in the bed %.3f J, mismatch %.1e J\n", start_J,
+              energy_J(), work_J, lost_in_bed_J, energy_J() - start_J - work_J);
+  EXPECT_NEAR(energy_J() - start_J, work_J, 2e-3);  // the sum over 0.1 ms is coarser than the integration
+  EXPECT_GT(lost_in_bed_J, 0.5);
+}
+
+TEST(Plant, MomentumChangesByWeightContactAndRail) {
+  const WorldConfig config = frictionless();
+  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+  plant.place({.foot_z_m = 0.01, .angle_rad = 0.9});
+  const auto momentum = [&] {
+    const auto d = plant.leg().dynamics(plant.state().angle_rad);
+    return d.m11_kg * plant.state().foot_velocity_mps + d.m12_kg_m * plant.state().angular_velocity_radps;
+  };
+  for (int i = 0; i < 2000; ++i) plant.step(-1.5);
+  EXPECT_NEAR(momentum(), plant.contact_impulse_Ns() - plant.leg().total_mass_kg() * 9.81 * 0.2, 1e-5);
+  EXPECT_GT(plant.contact_impulse_Ns(), 0.5);
+}
+
+// Thrown out of a crater with a stiff leg: without memory the surface has closed when it comes back, with
+// memory it falls to the crater's floor, stops on the unloading line and goes on where the virgin bed begins.
+TEST(Plant, LaterStrideLandsOnTheCraterFloor) {
+  const WorldConfig config;
+  for (const bool memory : {true, false}) {
+    Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m), {.bed_memory = memory});
+    const double angle_rad = plant.leg().angle_at_length(0.30);
+    const double crater_m = 0.03;
+    plant.place({.foot_z_m = -crater_m, .foot_velocity_mps = 1.0, .angle_rad = angle_rad});
+    double first_force_depth_m = 0.0;
+    bool falling = false;
+    for (int i = 0; i < 10000; ++i) {
+      plant.step(200.0 * (angle_rad - plant.state().angle_rad) - 3.0 * plant.state().angular_velocity_radps);
+      falling = falling || (plant.state().foot_z_m > 0.0 && plant.state().foot_velocity_mps < 0.0);
+      if (falling && first_force_depth_m == 0.0 && plant.motion(0.0).contact_force_N > 0.0)
+        first_force_depth_m = -plant.state().foot_z_m;
+    }
+    ASSERT_TRUE(falling);
+    EXPECT_NEAR(first_force_depth_m, memory ? plant.bed().crater_floor_m(crater_m) : 0.0, 2e-4);
+    EXPECT_NEAR(-plant.state().foot_z_m, plant.bed().crater_floor_m(plant.max_depth_m()), 2e-3);
+    EXPECT_LT(std::abs(plant.state().foot_velocity_mps), 1e-3);
+  }
+}
+
+TEST(Plant, RigidGroundHoldsTheFootAndCarriesTheWeight) {
+  WorldConfig config;
+  config.terrain.rigid = true;
+  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+  const double angle_rad = plant.leg().angle_at_length(0.30);
+  plant.place({.foot_z_m = 0.02, .angle_rad = angle_rad});
+  const auto leg_spring = [&] {
+    return 60.0 * (angle_rad - plant.state().angle_rad) - 0.6 * plant.state().angular_velocity_radps;
+  };
+  for (int i = 0; i < 20000; ++i) plant.step(leg_spring());
+  EXPECT_EQ(plant.state().foot_z_m, 0.0);
+  EXPECT_EQ(plant.state().foot_velocity_mps, 0.0);
+  EXPECT_NEAR(plant.motion(leg_spring()).contact_force_N, plant.leg().total_mass_kg() * 9.81, 1e-2);
+  EXPECT_NEAR(plant.contact_impulse_Ns() / 2.0, plant.leg().total_mass_kg() * 9.81,
+              2.0);  // mean over the 2 s
+
+  for (int i = 0; i < 2000 && plant.state().foot_z_m == 0.0; ++i) plant.step(-5.0);  // kick off
+  EXPECT_GT(plant.state().foot_z_m, 0.0);
+  EXPECT_EQ(plant.motion(0.0).contact_force_N, 0.0);
+}
+
+TEST(WorldConfig, EveryKeyOfTheFormatIsReadAndAnUnknownOneIsNot) {
+  const auto config = load_text<WorldConfig>("nominal.toml", R"(
+gravity_mps2 = 9.81
+[robot]
+body_mass_kg = 1.7
+hip_offset_m = 0.01
+rail_coulomb_N = 3.0
+rail_viscous_N_s_per_m = 0.1
+joint_coulomb_Nm = 0.01
+cogging_amplitude_Nm = 0.03
+cogging_periods_per_rev = 252
+[motor]
+torque_constant_Nm_per_A = 0.0752
+torque_limit_Nm = 2.8
+current_loop_time_constant_s = 0.0005
+[controller]
+rate_Hz = 1000
+touchdown_deflection_m = 0.002
+[terrain]
+stiffness_N_per_m = 1200
+rigid = true
+[sensors]
+imu_noise_mps2 = 0.02
+[spread]
+bed_stiffness_relative = 0.05
+)",
+                                             MissingKeys::use_default);
+  EXPECT_EQ(config.robot.leg.body_mass_kg, 1.7);
+  EXPECT_EQ(config.robot.rail_coulomb_N, 3.0);
+  EXPECT_EQ(config.motor.torque_constant_Nm_per_A, 0.0752);
+  EXPECT_EQ(config.terrain.stiffness_N_per_m, 1200.0);
+  EXPECT_TRUE(config.terrain.rigid);
+  EXPECT_EQ(config.spread.bed_stiffness_relative, 0.05);
+  EXPECT_THROW(load_text<WorldConfig>("nominal.toml", "[terrain]\nstiffnes_N_per_m = 1200\n",
+                                      MissingKeys::use_default),
+               ConfigError);
+}
+
+TEST(WorldConfig, ALegThatLocksOrCannotReachIsRefused) {
+  EXPECT_THROW(load_text<WorldConfig>("nominal.toml", "[robot]\nlower_link_length_m = 0.1\n",
+                                      MissingKeys::use_default),
+               ConfigError);
+  EXPECT_THROW(load_text<WorldConfig>("nominal.toml", "[controller]\nextension_length_m = 0.4\n",
+                                      MissingKeys::use_default),
+               ConfigError);
+}
+
+}  // namespace
+}  // namespace sandhopper
