@@ -18,26 +18,25 @@
 // called when every key of that table is right by itself.
 namespace sandhopper {
 
-// Throw ConfigError with everything that is wrong. With MissingKeys::use_default an absent key keeps the
-// struct's own default; unknown keys remain errors.
+// Throw ConfigError with everything that is wrong. With MissingKeys::use_default an absent key keeps its
+// value in `base`; unknown keys remain errors.
 template <HasFields T>
-T load_document(const ConfigDocument& document, MissingKeys missing = MissingKeys::error) {
-  T value{};
+T load_document(const ConfigDocument& document, MissingKeys missing = MissingKeys::error, T base = {}) {
   ConfigReader reader(document.name, missing);
-  reader.read(document.root, "", value);
+  reader.read(document.root, "", base);
   if (auto problems = reader.take_problems(); !problems.empty()) throw ConfigError(std::move(problems));
-  return value;
+  return base;
 }
 
 template <HasFields T>
-T load_file(const std::string& path, MissingKeys missing = MissingKeys::error) {
-  return load_document<T>(parse_config_file(path), missing);
+T load_file(const std::string& path, MissingKeys missing = MissingKeys::error, T base = {}) {
+  return load_document<T>(parse_config_file(path), missing, std::move(base));
 }
 
 // `name` stands for the file in messages.
 template <HasFields T>
-T load_text(std::string name, std::string_view text, MissingKeys missing = MissingKeys::error) {
-  return load_document<T>(parse_config_text(std::move(name), text), missing);
+T load_text(std::string name, std::string_view text, MissingKeys missing = MissingKeys::error, T base = {}) {
+  return load_document<T>(parse_config_text(std::move(name), text), missing, std::move(base));
 }
 
 }  // namespace sandhopper

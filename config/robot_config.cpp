@@ -48,6 +48,7 @@ void check_reach(const Report& report, const RobotConfig& c, const Leg& leg) {
 
 void RobotConfig::check(const Report& report) const {
   const auto leg = check_leg(report, robot);
+  check_motors(motor, report);
   expect_below(report, {"limits.leg_angle_min_rad", limits.leg_angle_min_rad},
                {"limits.leg_angle_max_rad", limits.leg_angle_max_rad});
   if (leg && limits.leg_angle_min_rad < limits.leg_angle_max_rad) check_reach(report, *this, *leg);
@@ -68,6 +69,8 @@ void RobotConfig::check(const Report& report) const {
 CycleConfig cycle_config(const RobotConfig& c) {
   CycleConfig cycle;
   cycle.robot = c.robot;
+  for (std::size_t i = 0; i < kMotorCount; ++i)
+    cycle.torque_constant_Nm_per_A[i] = c.motor[i].torque_constant_Nm_per_A;
   cycle.estimator = c.estimator;
   cycle.controller = c.controller;
   cycle.arming = c.arming;

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/can/can_config.hpp"
 #include "firmware/controller_config.hpp"
 
 namespace sandhopper {
@@ -11,6 +12,7 @@ namespace sandhopper {
 // struct.
 struct RobotConfig {
   LegParameters robot{};
+  MotorConfigs motor = CanConfig{}.motor;  // left, right
   EstimatorConfig estimator{};
   ControllerConfig controller{};
   ArmingConfig arming{};
@@ -20,6 +22,7 @@ struct RobotConfig {
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("robot", self.robot);
+    visit("motor", self.motor);
     visit("estimator", self.estimator);
     visit("controller", self.controller);
     visit("arming", self.arming);

@@ -71,30 +71,38 @@ struct CubeMarsConfig {
   }
 };
 
+using MotorConfigs = std::array<CubeMarsConfig, kMotorCount>;
+
+// Rules between the motors of one bus.
+template <class Problem>
+void check_motors(const MotorConfigs& motor, Problem&& problem) {
+  if (motor[0].can_id == motor[1].can_id)
+    problem("motor[1].can_id",
+            "both motors have the same can_id: give each drive its own, one drive connected at a time");
+  for (std::size_t i = 0; i < kMotorCount; ++i)
+    if (motor[i].master_id == motor[1 - i].can_id)
+      problem(i == 0 ? "motor[0].master_id" : "motor[1].master_id",
+              "one motor's master_id is the other's can_id: replies would collide with commands");
+}
+
 struct CanConfig {
   std::string interface = "can0";
   // While the drives are off they are asked for their state every so many cycles (by a leave frame, which
   // energises nothing).
   int idle_query_cycles = 10;
-  std::array<CubeMarsConfig, kMotorCount> motor{
-      CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
-      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
+  // Not a key here: the motors stand in the robot's file and are the same on every bus (config/files.hpp).
+  MotorConfigs motor{CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
+                     CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("interface", self.interface);
     visit("idle_query_cycles", self.idle_query_cycles, Range{1, 1000});
-    visit("motor", self.motor);
   }
 
   template <class Problem>
   void check(Problem&& problem) const {
-    if (motor[0].can_id == motor[1].can_id)
-      problem("motor",
-              "both motors have the same can_id: give each drive its own, one drive connected at a time");
-    for (std::size_t i = 0; i < kMotorCount; ++i)
-      if (motor[i].master_id == motor[1 - i].can_id)
-        problem("motor", "one motor's master_id is the other's can_id: replies would collide with commands");
+    check_motors(motor, problem);
   }
 };
 

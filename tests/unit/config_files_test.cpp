@@ -6,8 +6,9 @@
 #include <set>
 #include <sstream>
 
+#include "config/files.hpp"
 #include "config/load.hpp"
-#include "config/robot_config.hpp"
+#include "tools/plant/load_world.hpp"
 
 namespace sandhopper {
 namespace {
@@ -40,22 +41,81 @@ void expect_file_lists_the_keys_of(const std::string& name) {
   EXPECT_NO_THROW(load_file<T>(path));
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+template <class T>
+void expect_same(const T& in_file, const T& in_struct) {
+  const auto file = lines_of(to_toml(in_file)), defaults = lines_of(to_toml(in_struct));
+  ASSERT_EQ(file.size(), defaults.size());
+  for (std::size_t i = 0; i < file.size(); ++i) EXPECT_EQ(file[i], defaults[i]);
+}
+
 TEST(ConfigFiles, RobotFileAndStructListTheSameKeys) {
   expect_file_lists_the_keys_of<RobotConfig>("robot.toml");
 }
 
-TEST(ConfigFiles, RobotFileHoldsTheStructsDefaults) {
-  std::istringstream file(to_toml(load_file<RobotConfig>((kConfig / "robot.toml").string())));
-  std::istringstream defaults(to_toml(RobotConfig{}));
-  std::string in_file, in_struct;
-  while (std::getline(file, in_file) && std::getline(defaults, in_struct)) EXPECT_EQ(in_file, in_struct);
+TEST(ConfigFiles, RobotFileHoldsTheStructsDefaults) { expect_same(load_robot(kConfig), RobotConfig{}); }
+
+TEST(ConfigFiles, LinuxFileAndStructListTheSameKeys) {
+  expect_file_lists_the_keys_of<LinuxBoardConfig>("linux.toml");
+}
+
+TEST(ConfigFiles, LinuxFileHoldsTheStructsDefaults) {
+  expect_same(load_file<LinuxBoardConfig>((kConfig / "linux.toml").string()), LinuxBoardConfig{});
+}
+
+TEST(ConfigFiles, BenchFileAndStructListTheSameKeys) {
+  expect_file_lists_the_keys_of<LinuxBoardConfig>("bench.toml");
+}
+
+TEST(ConfigFiles, BenchDiffersFromTheRobotOnlyInTheCanInterface) {
+  auto bench = load_file<LinuxBoardConfig>((kConfig / "bench.toml").string());
+  EXPECT_EQ(bench.can.interface, "vcan0");
+  bench.can.interface = "can0";
+  expect_same(bench, load_file<LinuxBoardConfig>((kConfig / "linux.toml").string()));
+}
+
+TEST(ConfigFiles, WorldFileLeavesOutOnlyWhatFollowsFromTheRobot) {
+  const auto path = (kConfig / "world.toml").string();
+  const auto in_file = keys_of(parse_config_file(path).root);
+  for (const auto& key : keys_of(to_node(WorldConfig{}))) {
+    const bool of_the_leg = keys_of(to_node(LegParameters{})).contains(key.substr(key.find('.') + 1));
+    const bool follows =
+        of_the_leg || key.starts_with("controller.") || key == "motor.torque_constant_Nm_per_A";
+    EXPECT_NE(in_file.contains(key), follows) << key;
+  }
+}
+
+TEST(ConfigFiles, WorldFileHoldsTheStructsDefaults) {
+  expect_same(load_world(kConfig, RobotConfig{}), WorldConfig{});
+}
+
+TEST(ConfigFiles, TheSimulatedRobotIsThatOfTheRobotFile) {
+  RobotConfig robot;
+  robot.robot.foot_mass_kg = 0.7;
+  robot.motor[0].torque_constant_Nm_per_A = 0.08;
+  const auto world = load_world(kConfig, robot);
+  EXPECT_EQ(world.robot.leg.foot_mass_kg, 0.7);
+  EXPECT_EQ(world.motor.torque_constant_Nm_per_A, 0.08);
+}
+
+TEST(ConfigFiles, TheBoardsMotorsAreThoseOfTheRobotFile) {
+  RobotConfig robot;
+  robot.motor[1].can_id = 5;
+  EXPECT_EQ(load_linux_board(kConfig, "linux.toml", robot).can.motor[1].can_id, 5);
+  EXPECT_EQ(cycle_config(robot).torque_constant_Nm_per_A[1], robot.motor[1].torque_constant_Nm_per_A);
 }
 
 TEST(ConfigFiles, EveryFileIsTested) {
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(kConfig))
     if (entry.path().extension() == ".toml") files.insert(entry.path().filename().string());
-  EXPECT_THAT(files, ::testing::ElementsAre("robot.toml"));
+  EXPECT_THAT(files, ::testing::ElementsAre("bench.toml", "linux.toml", "robot.toml", "world.toml"));
 }
 
 // A file that is right but for one line: the first line that starts with `key` is replaced.
@@ -101,6 +161,16 @@ TEST(RobotConfigRules, ExtensionMustNotPull) {
 TEST(RobotConfigRules, BadSamplesAreNotTrustedMoreThanGoodOnes) {
   EXPECT_THAT(problem_when("0.5", "stiffness.weights", "sigma_bad_N"),
               HasSubstr("'stiffness.weights.sigma_bad_N' does not fit"));
+}
+
+TEST(RobotConfigRules, MotorsNeedTheirOwnIds) {
+  EXPECT_THAT(problem_when("2", "[motor]", "can_id"),
+              HasSubstr("'motor[1].can_id' does not fit: both motors"));
+}
+
+TEST(RobotConfigRules, DialectThatIsNotImplementedIsRefused) {
+  EXPECT_THAT(problem_when("\"v3\"", "[motor]", "dialect"),
+              HasSubstr("'motor[0].dialect' does not fit: only \"mit\" is implemented"));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include "config/load.hpp"
 #include "config/robot_config.hpp"
+#include "firmware/linux_board_config.hpp"
+#include "tools/plant/world_config.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -18,6 +20,9 @@ ConfigNode load(const std::string& path) {
 
 constexpr std::array kKinds{
     ConfigKind{"robot", "the robot and its cycle", load<RobotConfig, MissingKeys::error>},
+    ConfigKind{"linux", "the robot's device nodes", load<LinuxBoardConfig, MissingKeys::error>},
+    ConfigKind{"bench", "the virtual bench's device nodes", load<LinuxBoardConfig, MissingKeys::error>},
+    ConfigKind{"world", "the simulated world", load<WorldConfig, MissingKeys::use_default>},
 };
 
 }  // namespace
