@@ -99,9 +99,11 @@ TEST(ConfigFiles, TheSimulatedRobotIsThatOfTheRobotFile) {
   RobotConfig robot;
   robot.robot.foot_mass_kg = 0.7;
   robot.motor[0].torque_constant_Nm_per_A = 0.08;
+  robot.controller.extension_length_m = 0.33;
   const auto world = load_world(kConfig, robot);
   EXPECT_EQ(world.robot.leg.foot_mass_kg, 0.7);
   EXPECT_EQ(world.motor.torque_constant_Nm_per_A, 0.08);
+  EXPECT_EQ(world.controller.extension_length_m, 0.33);
 }
 
 TEST(ConfigFiles, TheBoardsMotorsAreThoseOfTheRobotFile) {

@@ -6,9 +6,9 @@
 
 namespace sandhopper {
 
-// The world the robot of this configuration lives in: its leg and torque constants, everything else as in
-// `directory`/world.toml, whose keys may each be left out. A leg key there makes the simulated robot another
-// one than the firmware believes. Throws ConfigError.
+// The world the robot of this configuration lives in: its leg, neutral lengths and torque constants,
+// everything else as in `directory`/world.toml, whose keys may each be left out. A leg key there makes the
+// simulated robot another one than the firmware believes. Throws ConfigError.
 WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig& robot);
 
 }  // namespace sandhopper

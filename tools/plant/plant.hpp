@@ -67,7 +67,7 @@ class Plant {
   double joint_torque_Nm(const PlantState& state) const noexcept;
   void settle_on_rigid_ground(double torque_Nm) noexcept;
 
-  RobotConfig robot_;
+  WorldRobotConfig robot_;
   double gravity_mps2_;
   Leg leg_;
   Bed bed_;

@@ -10,7 +10,7 @@
 namespace sandhopper {
 
 // [robot]: leg figures per link and per rotor; joint friction and cogging per motor, on the link's side.
-struct RobotConfig {
+struct WorldRobotConfig {
   LegParameters leg{};
   double rail_coulomb_N = 4.0;
   double rail_viscous_N_s_per_m = 0.0;
@@ -168,7 +168,7 @@ struct SpreadConfig {
 
 struct WorldConfig {
   double gravity_mps2 = kGravity_mps2;
-  RobotConfig robot{};
+  WorldRobotConfig robot{};
   MotorConfig motor{};
   NominalControllerConfig controller{};
   BedParameters terrain{};
