@@ -9,7 +9,11 @@ namespace sandhopper {
 
 RobotConfig load_robot(const std::filesystem::path& directory);
 
-// `file` is linux.toml on the robot, bench.toml on the virtual bench. The motors are the robot's.
+// The board's file on this machine: bench.toml on the virtual bench (a User Mode Linux kernel), else
+// linux.toml.
+const char* board_file();
+
+// `file`: see board_file(). The motors are the robot's.
 LinuxBoardConfig load_linux_board(const std::filesystem::path& directory, const char* file,
                                   const RobotConfig& robot);
 

@@ -14,7 +14,7 @@ std::string sentence(std::string_view device, std::string_view cause, std::strin
 }  // namespace
 
 DeviceError::DeviceError(std::string_view device, std::string_view cause, std::string_view cure)
-    : std::runtime_error(sentence(device, cause, cure)) {}
+    : std::runtime_error(sentence(device, cause, cure)), cause_(cause), cure_(cure) {}
 
 std::string errno_cause(std::string_view action) {
   const int error = errno;

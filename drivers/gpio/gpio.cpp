@@ -120,4 +120,11 @@ std::optional<GpioEdges::Edge> GpioEdges::wait(std::int64_t timeout_ns) noexcept
   }
 }
 
+std::string user_of_gpio_line(std::string_view role, const LineConfig& config) {
+  const auto line = find(describe(role, config), config);
+  if (!line.is_used()) return "";
+  const auto user = line.consumer();
+  return user.empty() ? "the kernel" : user;
+}
+
 }  // namespace sandhopper

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "drivers/gpio/line_config.hpp"
@@ -58,5 +59,8 @@ class GpioEdges {
  private:
   std::unique_ptr<GpioLine> line_;
 };
+
+// Who holds the line, empty when nobody does. Looks without taking it or changing its direction.
+std::string user_of_gpio_line(std::string_view role, const LineConfig& config);
 
 }  // namespace sandhopper

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/statvfs.h>
+#include <sys/timex.h>
+#include <sys/utsname.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "tools/cli/doctor.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+Finding kernel() {
+  utsname name{};
+  ::uname(&name);
+  const auto found = fmt::format("{} {}", name.release, name.version);
+  if (found.find("PREEMPT_RT") != std::string::npos || first_line("/sys/kernel/realtime") == "1")
+    return {Health::ok, "kernel", found, ""};
+  return {Health::warn, "kernel", found + ": no PREEMPT_RT, wake-ups can be milliseconds late",
+          "install the real-time kernel: apt-get install linux-image-rt-amd64 (or -arm64), then reboot"};
+}
+
+// Asks for the priority in a thread of its own, so that this one keeps its scheduling.
+Finding priority() {
+  constexpr int kPriority = 80;
+  int error = 0;
+  std::thread([&error] {
+    const sched_param parameters{kPriority};
+    error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
+  }).join();
+  if (error == 0) return {Health::ok, "SCHED_FIFO", fmt::format("priority {} granted", kPriority), ""};
+  return {Health::fail, "SCHED_FIFO", fmt::format("priority {} refused: {}", kPriority, std::strerror(error)),
+          "run as root, or write '* - rtprio 95' to /etc/security/limits.d/sandhopper.conf and log in again"};
+}
+
+Finding throttling() {
+  const auto runtime = first_line("/proc/sys/kernel/sched_rt_runtime_us");
+  const auto period = first_line("/proc/sys/kernel/sched_rt_period_us");
+  const auto found = fmt::format("{} of {} us for real-time threads", runtime, period);
+  if (runtime.empty()) return {Health::ok, "throttling", "none in this kernel", ""};
+  if (runtime != "0") return {Health::ok, "throttling", found, ""};
+  return {Health::fail, "throttling", found, "sysctl kernel.sched_rt_runtime_us=950000"};
+}
+
+Finding locked_memory() {
+  constexpr std::size_t kBytes = std::size_t{64} << 20;
+  auto* const memory = ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const bool locked = memory != MAP_FAILED && ::mlock(memory, kBytes) == 0;
+  const int error = errno;
+  if (memory != MAP_FAILED) ::munmap(memory, kBytes);
+  if (locked) return {Health::ok, "memory lock", "64 MiB granted", ""};
+  return {Health::fail, "memory lock", fmt::format("64 MiB refused: {}", std::strerror(error)),
+          "run as root, or write '* - memlock unlimited' to /etc/security/limits.d/sandhopper.conf and log "
+          "in again"};
+}
+
+Finding governor() {
+  const auto name = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  if (name.empty()) return {Health::ok, "CPU governor", "no frequency scaling", ""};
+  if (name == "performance") return {Health::ok, "CPU governor", name, ""};
+  return {Health::warn, "CPU governor", name + ": the clock rate follows the load, late",
+          "echo performance | tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"};
+}
+
+Finding monotonic_clock() {
+  timespec resolution{};
+  ::clock_getres(CLOCK_MONOTONIC, &resolution);
+  const auto source = first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource");
+  const auto found =
+      fmt::format("resolution {} ns, source {}", resolution.tv_nsec, source.empty() ? "?" : source);
+  if (resolution.tv_sec != 0 || resolution.tv_nsec > 1000)
+    return {Health::fail, "clock", found,
+            "boot a kernel with CONFIG_HIGH_RES_TIMERS and without highres=off"};
+  if (source == "hpet" || source == "acpi_pm" || source == "jiffies")
+    return {Health::warn, "clock", found + ": slow to read",
+            "see why the kernel left the faster one: dmesg | grep -i clocksource"};
+  return {Health::ok, "clock", found, ""};
+}
+
+Finding date() {
+  timex state{};
+  const bool synchronised = ::adjtimex(&state) != TIME_ERROR;
+  if (synchronised) return {Health::ok, "date", "synchronised", ""};
+  return {Health::warn, "date", "not synchronised: logs carry this machine's idea of the date",
+          "timedatectl set-ntp true, or set the date by hand"};
+}
+
+Finding disk_space() {
+  struct statvfs disk {};
+  if (::statvfs(".", &disk) != 0)
+    return {Health::warn, "disk", std::strerror(errno), "change to a folder that is there"};
+  const double free_GB = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) * 1e-9;
+  const auto found = fmt::format("{:.1f} GB free here", free_GB);
+  if (free_GB > 1.0) return {Health::ok, "disk", found, ""};
+  return {Health::warn, "disk", found, "a minute of log takes up to 100 MB: make room"};
+}
+
+}  // namespace
+
+std::vector<Finding> examine_machine() {
+  return {kernel(),   priority(),        throttling(), locked_memory(),
+          governor(), monotonic_clock(), date(),       disk_space()};
+}
+
+}  // namespace sandhopper::cli
