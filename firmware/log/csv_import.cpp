@@ -1,0 +1,221 @@
+#include "firmware/log/csv_import.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+namespace sandhopper {
+namespace {
+
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+struct Cell {
+  std::string_view text;
+  std::uint64_t column = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+  return text;
+}
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text.precision(9);
+  text << value;
+  return text.str();
+}
+
+class Reading {
+ public:
+  Reading(std::istream& in, const CsvReadOptions& options) : in_(in), options_(options) {}
+
+  CsvTable run() {
+    if (!next_line() || trimmed(line_).empty()) {
+      report(CsvIssue::Severity::error, 1, "no header: the first line must name the columns");
+      return std::move(table_);
+    }
+    read_header();
+    while (next_line())
+      if (!trimmed(line_).empty()) read_row();
+    note_gaps();
+    if (table_.rows() == 0) report(CsvIssue::Severity::error, 1, "no rows below the header");
+    std::stable_sort(table_.issues.begin(), table_.issues.end(),
+                     [](const CsvIssue& a, const CsvIssue& b) { return a.line < b.line; });
+    return std::move(table_);
+  }
+
+ private:
+  bool next_line() {
+    if (!std::getline(in_, line_)) return false;
+    ++line_number_;
+    if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
+    if (line_.ends_with('\r')) line_.pop_back();
+    return true;
+  }
+
+  void split() {
+    cells_.clear();
+    const std::string_view line = line_;
+    std::size_t start = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i <= line.size(); ++i) {
+      if (i < line.size() && line[i] == '"') quoted = !quoted;
+      if (i < line.size() && (quoted || line[i] != separator_)) continue;
+      cells_.push_back({trimmed(line.substr(start, i - start)), start + 1});
+      start = i + 1;
+    }
+  }
+
+  void read_header() {
+    for (const char separator : {',', ';', '\t'}) {
+      separator_ = separator;
+      if (line_.find(separator) != std::string::npos) break;
+      separator_ = ',';
+    }
+    split();
+    for (const Cell& cell : cells_) {
+      const bool known = table_.find(cell.text) != nullptr;
+      if (known)
+        report(CsvIssue::Severity::error, cell.column,
+               "a second column is called \"" + std::string(cell.text) + "\"; rename one of them");
+      const bool used = !known && !cell.text.empty();  // a row index often has no name
+      place_of_cell_.push_back(used ? std::optional(table_.names.size()) : std::nullopt);
+      if (!used) continue;
+      if (cell.text == options_.time_column) time_ = table_.names.size();
+      table_.names.emplace_back(cell.text);
+      table_.columns.emplace_back();
+    }
+    row_.resize(table_.names.size());
+    if (!time_ && !options_.time_column.empty())
+      report(CsvIssue::Severity::error, 1,
+             "no column is called \"" + options_.time_column + "\", so gaps and order cannot be checked");
+  }
+
+  void read_row() {
+    split();
+    if (cells_.size() != place_of_cell_.size()) {
+      report(CsvIssue::Severity::error, line_.size() + 1,
+             std::to_string(cells_.size()) + " cells where the header names " +
+                 std::to_string(place_of_cell_.size()) + "; row left out");
+      return;
+    }
+    std::uint64_t time_column = 1;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (!place_of_cell_[i]) continue;
+      row_[*place_of_cell_[i]] = number(cells_[i], table_.names[*place_of_cell_[i]]);
+      if (place_of_cell_[i] == time_) time_column = cells_[i].column;
+    }
+    if (!time_is_in_order(time_column)) return;
+    for (std::size_t i = 0; i < row_.size(); ++i) table_.columns[i].push_back(row_[i]);
+    line_of_row_.push_back(line_number_);
+  }
+
+  double number(const Cell& cell, const std::string& name) {
+    if (cell.text.empty()) return kEmpty;
+    std::string_view digits = cell.text;
+    if (digits.front() == '+') digits.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(value)) return value;
+    const bool is_number = error == std::errc{} && end == digits.data() + digits.size();
+    report(CsvIssue::Severity::error, cell.column,
+           name + ": \"" + std::string(cell.text) + "\" is not a " + (is_number ? "finite " : "") +
+               "number; leave the cell empty where there is no sample");
+    return kEmpty;
+  }
+
+  bool time_is_in_order(std::uint64_t column) {
+    if (!time_) return true;
+    const double time_s = row_[*time_];
+    const auto& times_s = table_.columns[*time_];
+    if (std::isnan(time_s)) {
+      report(CsvIssue::Severity::error, column, options_.time_column + ": no time; row left out");
+      return false;
+    }
+    if (times_s.empty() || time_s > times_s.back()) return true;
+    const std::string times = " from " + shown(times_s.back()) + " to " + shown(time_s) + " s";
+    if (time_s < times_s.back()) {
+      report(CsvIssue::Severity::error, column,
+             options_.time_column + ": time goes backwards," + times + "; row left out");
+      return false;
+    }
+    report(CsvIssue::Severity::note, column,
+           options_.time_column + ": time stands still at " + shown(time_s) + " s");
+    return true;
+  }
+
+  void note_gaps() {
+    if (!time_ || table_.rows() < 3) return;
+    const auto& times_s = table_.columns[*time_];
+    std::vector<double> steps_s(times_s.size() - 1);
+    for (std::size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = times_s[i + 1] - times_s[i];
+    auto sorted = steps_s;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    if (*middle <= 0.0) return;
+    for (std::size_t i = 0; i < steps_s.size(); ++i) {
+      if (steps_s[i] <= options_.gap_steps * *middle) continue;
+      line_number_ = line_of_row_[i + 1];
+      report(CsvIssue::Severity::note, 1,
+             "a gap of " + shown(steps_s[i]) + " s before this row (median step " + shown(*middle) + " s)");
+    }
+  }
+
+  void report(CsvIssue::Severity severity, std::uint64_t column, std::string text) {
+    if (table_.issues.size() >= options_.max_issues) {
+      ++table_.more_issues;
+      return;
+    }
+    table_.issues.push_back({severity, std::max<std::uint64_t>(line_number_, 1), column, std::move(text)});
+  }
+
+  std::istream& in_;
+  const CsvReadOptions& options_;
+  CsvTable table_;
+  std::string line_;
+  std::uint64_t line_number_ = 0;
+  char separator_ = ',';
+  std::vector<Cell> cells_;
+  std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
+  std::optional<std::size_t> time_;
+  std::vector<double> row_;
+  std::vector<std::uint64_t> line_of_row_;
+};
+
+}  // namespace
+
+std::string describe(std::string_view file, const CsvIssue& issue) {
+  return std::string(file) + ':' + std::to_string(issue.line) + ':' + std::to_string(issue.column) + ": " +
+         issue.text;
+}
+
+const std::vector<double>* CsvTable::find(std::string_view name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+bool CsvTable::has_errors() const {
+  return std::any_of(issues.begin(), issues.end(),
+                     [](const CsvIssue& issue) { return issue.severity == CsvIssue::Severity::error; });
+}
+
+CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
+
+CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {
+  std::ifstream in(file);
+  if (!in) throw std::system_error(errno, std::generic_category(), file.string());
+  return read_csv(in, options);
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sandhopper {
+
+// Something the reader of a recording should know, at its place in the file.
+struct CsvIssue {
+  enum class Severity : std::uint8_t {
+    note,  // the recording can be used as it is: a gap, a repeated time
+    error  // a value or row had to be left out
+  };
+  Severity severity = Severity::error;
+  std::uint64_t line = 0;    // from 1; the header is line 1
+  std::uint64_t column = 0;  // character in the line, from 1
+  std::string text;
+};
+
+// "file:line:column: text"
+std::string describe(std::string_view file, const CsvIssue& issue);
+
+struct CsvTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  // as names; NaN: no sample
+  std::vector<CsvIssue> issues;   // in the order of the file, at most CsvReadOptions::max_issues …
+  std::uint64_t more_issues = 0;  // … and this many besides
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  const std::vector<double>* find(std::string_view name) const;  // null when there is none
+  bool has_errors() const;
+};
+
+struct CsvReadOptions {
+  std::string time_column = "t_s";  // empty: rows have no time
+  double gap_steps = 5.0;           // a step longer than this many median steps is a gap
+  std::size_t max_issues = 50;
+};
+
+// Reads a recording: a header of unique names, then numbers; an empty cell is no sample. Cells are divided by
+// commas or, where the header has none, by semicolons or tabs; quotes around a cell, a byte order mark and
+// \r\n are tolerated. What is wrong is listed with its place and left out, the rest is read: a cell that is
+// not a number (NaN and infinity included) becomes an empty one; a row with a missing or extra cell, without
+// a time, or whose time goes backwards is dropped. A second column of the same name is an error and ignored.
+CsvTable read_csv(std::istream& in, const CsvReadOptions& options = {});
+// Throws std::system_error when the file cannot be opened.
+CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options = {});
+
+}  // namespace sandhopper
