@@ -22,6 +22,7 @@ LinuxBoardConfig load_linux_board(const std::filesystem::path& directory, const 
                                   const RobotConfig& robot) {
   auto board = load_file<LinuxBoardConfig>((directory / file).string());
   board.can.motor = robot.motor;
+  board.can.motor_count = robot.robot.motor_count;
   return board;
 }
 

@@ -90,7 +90,9 @@ struct CanConfig {
   // While the drives are off they are asked for their state every so many cycles (by a leave frame, which
   // energises nothing).
   int idle_query_cycles = 10;
-  // Not a key here: the motors stand in the robot's file and are the same on every bus (config/files.hpp).
+  // Not keys here: the motors stand in the robot's file and are the same on every bus (config/files.hpp). A
+  // leg whose single motor drives both sides has only the first.
+  int motor_count = kMotorCount;
   MotorConfigs motor{CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
                      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
 

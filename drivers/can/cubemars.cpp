@@ -107,7 +107,7 @@ can_frame CubeMarsCodec::special_frame(const MitPayload& payload) const noexcept
 }
 
 CubeMarsBus::CubeMarsBus(const CanConfig& config)
-    : codecs_{CubeMarsCodec(checked(config).motor[0]), CubeMarsCodec(config.motor[1])} {}
+    : codecs_(checked(config).motor.begin(), config.motor.begin() + config.motor_count) {}
 
 std::vector<can_filter> CubeMarsBus::filters() const {
   std::vector<canid_t> ids{0};
@@ -149,7 +149,7 @@ std::int64_t CubeMarsBus::state_time(std::size_t i, std::int64_t time_ns) noexce
 }
 
 std::optional<MotorReading> CubeMarsBus::receive(const can_frame& frame, std::int64_t time_ns) noexcept {
-  for (std::size_t i = 0; i < kMotorCount; ++i) {
+  for (std::size_t i = 0; i < codecs_.size(); ++i) {
     const auto& c = codecs_[i].config();
     const auto can_id = static_cast<canid_t>(c.can_id);
     if ((frame.can_id & CAN_EFF_FLAG) != 0) {
@@ -176,7 +176,8 @@ std::optional<MotorReading> CubeMarsBus::receive(const can_frame& frame, std::in
 std::optional<MotorReading> CanTraceDecoder::decode(const can_frame& frame, std::int64_t time_ns,
                                                     FrameDirection direction) noexcept {
   if (direction != FrameDirection::received) {
-    for (const Side side : {Side::left, Side::right}) {
+    for (std::size_t i = 0; i < bus_.motor_count(); ++i) {
+      const auto side = static_cast<Side>(i);
       const auto can_id = static_cast<canid_t>(bus_.codec(side).config().can_id);
       if (frame.can_id != can_id) continue;
       if (direction == FrameDirection::unknown && frame.data[0] == can_id) continue;

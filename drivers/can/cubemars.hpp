@@ -74,6 +74,7 @@ class CubeMarsBus {
   // The identifiers that may carry a reply, and those of drives in another mode.
   std::vector<can_filter> filters() const;
 
+  std::size_t motor_count() const noexcept { return codecs_.size(); }
   const CubeMarsCodec& codec(Side side) const noexcept { return codecs_[index(side)]; }
 
   // A command for this motor went out at `time_ns`; one still unanswered counts as missed.
@@ -98,7 +99,7 @@ class CubeMarsBus {
     std::int64_t previous_ns = 0;
   };
 
-  std::array<CubeMarsCodec, kMotorCount> codecs_;
+  std::vector<CubeMarsCodec> codecs_;
   std::array<CubeMarsCounters, kMotorCount> counters_{};
   std::array<Outstanding, kMotorCount> outstanding_{};
   std::uint32_t strangers_ = 0;

@@ -1,5 +1,6 @@
 #include "drivers/can/cubemars_drives.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "drivers/clock.hpp"
@@ -8,7 +9,6 @@
 namespace sandhopper {
 
 namespace {
-constexpr std::array kSides{Side::left, Side::right};
 constexpr int kProbeTries = 10;
 constexpr std::int64_t kProbeWait_ns = 10'000'000;
 }  // namespace
@@ -17,16 +17,20 @@ CubeMarsDrives::CubeMarsDrives(const CanConfig& config)
     : config_(config),
       bus_(config),
       socket_(config.interface, bus_.filters()),
-      sequence_(config.idle_query_cycles) {}
+      sequence_(config.idle_query_cycles) {
+  for (std::size_t i = 0; i < bus_.motor_count(); ++i) sides_.push_back(static_cast<Side>(i));
+}
 
 void CubeMarsDrives::probe() {
-  const auto answered = [&](Side side) { return bus_.counters(side).replies > 0; };
-  for (int i = 0; i < kProbeTries && !(answered(Side::left) && answered(Side::right)); ++i) {
-    for (const Side side : kSides) send(side, bus_.codec(side).special_frame(kMitLeave));
+  const auto all_answered = [&] {
+    return std::ranges::all_of(sides_, [&](Side side) { return bus_.counters(side).replies > 0; });
+  };
+  for (int i = 0; i < kProbeTries && !all_answered(); ++i) {
+    for (const Side side : sides_) send(side, bus_.codec(side).special_frame(kMitLeave));
     sleep_ns(kProbeWait_ns);
     drain([](const MotorReading&) {});
   }
-  for (const Side side : kSides) require_single_answer(side);
+  for (const Side side : sides_) require_single_answer(side);
 }
 
 void CubeMarsDrives::require_single_answer(Side side) const {
@@ -58,7 +62,7 @@ void CubeMarsDrives::send(Side side, const can_frame& frame) noexcept {
 void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& command,
                              DriveRequest request) noexcept {
   const auto action = sequence_.next(socket_.counters().bus_off ? DriveRequest::off : request);
-  for (const Side side : kSides) {
+  for (const Side side : sides_) {
     const auto i = static_cast<std::size_t>(side);
     const auto& codec = bus_.codec(side);
     switch (action) {

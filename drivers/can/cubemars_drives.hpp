@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars.hpp"
@@ -51,6 +52,7 @@ class CubeMarsDrives {
   CubeMarsBus bus_;
   CanSocket socket_;
   DriveSequence sequence_;
+  std::vector<Side> sides_;
   std::array<double, kMotorCount> last_position_rad_{};
 };
 
