@@ -18,7 +18,7 @@ class ForceDepth {
     this.lines = TREATMENTS.map(treatment => ({ ...treatment, style: 'dashed', shown: true }));
     this.caption = element('figcaption', {}, element('b', {}, 'Force against depth ', this.scope = element('span')));
     const entries = [...this.paths, ...this.lines.map(line => Object.assign(line, { label: `fit: ${line.label}` }))];
-    this.legend = new Legend(this.caption, entries, () => this.draw(), false);
+    this.legend = new Legend(this.caption, entries, () => { this.fit(); this.draw(); }, false);
     this.canvas = element('canvas');
     figure.append(this.caption, this.canvas);
     this.collect();
@@ -60,11 +60,11 @@ class ForceDepth {
     return columns.estimate_foot_z_m ? -columns.estimate_foot_z_m[row] : NaN;
   }
 
-  // The view that holds every sample.
+  // The view that holds every sample shown.
   fit() {
     const view = { left: 0, right: 1, bottom: 0, top: 1 };
     for (const path of this.paths) {
-      for (const point of path.points) {
+      for (const point of path.shown ? path.points : []) {
         if (!point) continue;
         view.left = Math.min(view.left, point[0]);
         view.right = Math.max(view.right, point[0]);
@@ -188,7 +188,7 @@ class ForceDepth {
     if (path && path.shown) {
       for (const stride of this.strides) {
         const at = path.points.find(point => point && point[2] >= stride.switch_s);
-        if (stride.switch_s !== null && at) this.dot(context, at, theme.color(path.color), 'switch');
+        if (stride.switch_s !== null && at) this.dot(context, at, theme.color(path.color), this.strides.length > 1 ? '' : 'switch');
       }
     }
     if (this.nearest) this.dot(context, this.nearest, theme.color('text'), ForceDepth.reading(this.nearest));

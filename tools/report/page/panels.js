@@ -17,7 +17,7 @@ const PANELS = [
   {
     title: 'Foot height', unit: 'mm', scale: 1000, digits: 1,
     series: [
-      { channel: 'estimate_surface_z_m', label: 'surface', color: 'sand' },
+      { channel: 'estimate_surface_z_m', label: 'surface', color: 'sand', style: 'steps' },
       { channel: 'mocap_foot_z_m', label: 'motion capture', color: 'purple', style: 'points' },
       { channel: 'truth_foot_z_m', label: 'truth', color: 'text', style: 'dashed' },
       { channel: 'estimate_foot_z_m', label: 'estimate', color: 'orange' },
@@ -35,6 +35,8 @@ const PANELS = [
   {
     title: 'Acceleration', unit: 'm/s²', scale: 1, digits: 1,
     series: [
+      { channel: 'truth_body_accel_mps2', label: 'body, truth', color: 'text', style: 'dashed', shown: false },
+      { channel: 'truth_foot_accel_mps2', label: 'foot, truth', color: 'text', style: 'dashed', shown: false },
       { channel: 'estimate_body_accel_mps2', label: 'body', color: 'blue' },
       { channel: 'estimate_foot_accel_mps2', label: 'foot', color: 'orange' },
       { channel: 'estimate_weighting_accel_mps2', label: 'foot, for weights', color: 'green', shown: false },
@@ -50,12 +52,11 @@ const PANELS = [
     ],
   },
   {
-    title: 'Motor torque', unit: 'N·m', scale: 1, digits: 2,
+    title: 'Torque of both motors', unit: 'N·m', scale: 1, digits: 2,
     series: [
-      { channel: 'command_left_torque_Nm', label: 'left, command', color: 'blue', style: 'dashed' },
-      { channel: 'command_right_torque_Nm', label: 'right, command', color: 'orange', style: 'dashed' },
-      { channel: 'motor_left_torque_Nm', label: 'left', color: 'blue' },
-      { channel: 'motor_right_torque_Nm', label: 'right', color: 'orange' },
+      { channel: 'truth_leg_torque_Nm', label: 'truth', color: 'text', style: 'dashed' },
+      { channel: 'command_leg_torque_Nm', label: 'command', color: 'orange' },
+      { channel: 'estimate_leg_torque_Nm', label: 'from currents', color: 'blue' },
     ],
   },
 ];

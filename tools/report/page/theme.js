@@ -1,4 +1,4 @@
-// Colours come from the style sheet; canvases ask here and are drawn again when the theme changes.
+// Colours come from the style sheet; canvases ask here and are drawn again when the theme or the medium changes.
 const theme = {
   choices: ['auto', 'light', 'dark'],
   choice: 'auto',
@@ -13,9 +13,15 @@ const theme = {
     };
     this.system.onchange = () => this.apply(button);
     this.apply(button);
-    // Paper is white.
-    addEventListener('beforeprint', () => this.show('light'));
-    addEventListener('afterprint', () => this.apply(button));
+    // Paper is white and has its own width.
+    addEventListener('beforeprint', () => {
+      document.documentElement.classList.add('printing');
+      this.show('light');
+    });
+    addEventListener('afterprint', () => {
+      document.documentElement.classList.remove('printing');
+      this.apply(button);
+    });
   },
 
   apply(button) {

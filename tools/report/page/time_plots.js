@@ -2,6 +2,8 @@
 class TimePlots {
   static kMaxRows = 20000;  // more are drawn as least and greatest of groups, finer where the view is
 
+  static kGapRows = 30;     // a line ends where a channel has nothing for longer
+
   constructor(data, container, onHover, onView) {
     this.data = data;
     this.onHover = onHover;
@@ -15,9 +17,8 @@ class TimePlots {
       if (series.length) this.plots.push(this.makePlot(panel, series, container));
     }
     container.append(element('div', { className: 'axis-label' }, 'time since release, s'));
-    theme.redraw.push(() => this.recolor());
-    addEventListener('beforeprint', () => this.resize());
-    addEventListener('afterprint', () => this.resize());
+    theme.redraw.push(() => this.redraw());
+    new ResizeObserver(() => this.redraw()).observe(container);
   }
 
   makePlot(panel, series, container) {
@@ -41,7 +42,7 @@ class TimePlots {
       axisLabelFontSize: 11,
       axes: {
         x: { pixelsPerLabel: 70, axisLabelFormatter: (t, granularity, options, graph) => t.toFixed(TimePlots.digits(graph)) },
-        y: { axisLabelWidth: 44, pixelsPerLabel: 26 },
+        y: { axisLabelWidth: 44, pixelsPerLabel: 17 },
       },
       ...this.colors(entries),
       underlayCallback: (context, box, graph) => this.drawPhases(context, box, graph, plot),
@@ -54,6 +55,7 @@ class TimePlots {
   }
 
   static stroke(entry) {
+    if (entry.style === 'steps') return { strokeWidth: 1.6, stepPlot: true };
     if (entry.style === 'points') return { strokeWidth: 0, drawPoints: true, pointSize: 1.2 };
     return { strokeWidth: entry.style === 'dashed' ? 1.2 : 1.6, strokePattern: entry.style === 'dashed' ? [5, 4] : null };
   }
@@ -72,12 +74,12 @@ class TimePlots {
     };
   }
 
-  recolor() {
-    for (const plot of this.plots) plot.graph.updateOptions(this.colors(plot.series));
-  }
-
-  resize() {
-    for (const plot of this.plots) plot.graph.resize();
+  redraw() {
+    this.hover(null);
+    for (const plot of this.plots) {
+      plot.graph.updateOptions(this.colors(plot.series), true);
+      plot.graph.resize();
+    }
   }
 
   // Groups of rows to draw as one: [first, count]. Fine groups in the view and half of it around, coarse elsewhere.
@@ -102,30 +104,27 @@ class TimePlots {
     const time = this.data.time;
     const columns = plot.series.map(entry => this.data.columns[entry.channel]);
     const scale = plot.panel.scale;
-    const value = (column, row) => (Number.isNaN(column[row]) ? null : column[row] * scale);
     const rows = [];
-    if (!this.rowIndex) {
-      for (let row = 0; row < time.length; ++row) rows.push([time[row], ...columns.map(column => value(column, row))]);
-      return rows;
-    }
-    for (const [first, count] of this.rowIndex) {
-      if (count === 1) {
-        rows.push([time[first], ...columns.map(column => value(column, first))]);
-        continue;
-      }
+    const known = columns.map(() => -Infinity); // last row with a value
+    // null: no sample yet, the line goes on; NaN: nothing for long, the line ends.
+    const none = (i, row) => (row - known[i] > TimePlots.kGapRows ? NaN : null);
+    const groups = this.rowIndex || Array.from(time, (t, row) => [row, 1]);
+    for (const [first, count] of groups) {
       const least = [time[first]];
       const greatest = [time[first + (count >> 1)]];
-      for (const column of columns) {
+      columns.forEach((column, i) => {
         let low = Infinity;
         let high = -Infinity;
         for (let row = first; row < first + count; ++row) {
           if (column[row] < low) low = column[row];
           if (column[row] > high) high = column[row];
         }
-        least.push(low === Infinity ? null : low * scale);
-        greatest.push(high === -Infinity ? null : high * scale);
-      }
-      rows.push(least, greatest);
+        if (low <= high) known[i] = first + count - 1;
+        least.push(low <= high ? low * scale : none(i, first));
+        greatest.push(low <= high ? high * scale : none(i, first));
+      });
+      rows.push(least);
+      if (count > 1) rows.push(greatest);
     }
     return rows;
   }
@@ -145,6 +144,7 @@ class TimePlots {
 
   show(from, to) {
     this.view = [from, to];
+    this.hover(null);
     if (this.thinned) this.rowIndex = this.groupRows(from, to);
     this.busy = true;
     for (const plot of this.plots) {
@@ -175,8 +175,8 @@ class TimePlots {
     context.strokeStyle = context.fillStyle = theme.color('quiet');
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
     context.setLineDash([2, 3]);
-    let labelEnd = -Infinity;
     for (const stride of this.data.strides) {
+      const named = graph.toDomXCoord(stride.liftoff_s) - graph.toDomXCoord(stride.touchdown_s) > 140;
       for (const [name, t] of [['touchdown', stride.touchdown_s], ['switch', stride.switch_s], ['liftoff', stride.liftoff_s]]) {
         if (t === null) continue;
         const x = Math.round(graph.toDomXCoord(t)) + 0.5;
@@ -184,10 +184,7 @@ class TimePlots {
         context.moveTo(x, box.y);
         context.lineTo(x, box.y + box.h);
         context.stroke();
-        if ((this.plots[0] || plot) === plot && x > labelEnd) {
-          context.fillText(name, x + 3, box.y + 9);
-          labelEnd = x + 8 + context.measureText(name).width;
-        }
+        if (named && (this.plots[0] || plot) === plot) context.fillText(name, x + 3, box.y + 9);
       }
     }
     context.restore();
@@ -215,7 +212,7 @@ class TimePlots {
   // The value of a column at a row, or the last one before it: slow sensors have rows without.
   static newest(rows, row, column) {
     for (let back = row; back >= 0 && back > row - 50; --back) {
-      if (rows[back][column] !== null) return rows[back][column];
+      if (rows[back][column] !== null) return rows[back][column]; // NaN too: nothing there
     }
     return null;
   }

@@ -1,0 +1,49 @@
+#include <filesystem>
+
+#include "firmware/log/mcap_reader.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/report/log_report.hpp"
+#include "tools/report/trial_page.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+struct Options {
+  std::string log;
+  std::string output;
+};
+
+ReportData read(const std::filesystem::path& log) {
+  try {
+    return report_data_from_log(log);
+  } catch (const mcap::Error& error) {
+    throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial made by this build");
+  }
+}
+
+ExitCode report(Session& session, const Options& options) {
+  const std::filesystem::path log = options.log;
+  std::filesystem::path page = options.output;
+  if (page.empty()) page = std::filesystem::path(log).replace_extension(".html");
+  const ReportData data = read(log);
+  write_trial_report(data, page);
+  for (const std::string& note : data.notes) session.say_line(note);
+  session.say("{} strides, {} cycles: {}", data.strides.size(), data.time_s.size(), page.string());
+  session.result["report"] = page.string();
+  session.result["strides"] = data.strides.size();
+  session.result["cycles"] = data.time_s.size();
+  session.result["notes"] = data.notes;
+  return ExitCode::ok;
+}
+
+Run set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("LOG", options->log, "a trial's .mcap file")->required()->check(CLI::ExistingFile);
+  app.add_option("--output", options->output, "page to write; default: beside the log, ending in .html");
+  return [options](Session& session) { return report(session, *options); };
+}
+
+const VerbRegistration kReport({"report", "make a trial's report page from its log", set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli

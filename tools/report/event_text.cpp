@@ -1,0 +1,33 @@
+#include "tools/report/event_text.hpp"
+
+#include <fmt/format.h>
+
+namespace sandhopper {
+
+std::string values_of(const Event& event) {
+  const auto& v = event.values;
+  switch (event.kind) {
+    case EventKind::zero_check:
+    case EventKind::arming_refused:
+      return fmt::format("left {:.4f} rad, right {:.4f} rad, expected {:.4f} rad, speed {:.3f} rad/s", v[0],
+                         v[1], v[2], v[3]);
+    case EventKind::released:
+      return fmt::format("body feels {:.2f} m/s², foot at {:.1f} mm, body at {:.1f} mm", v[0], 1e3 * v[1],
+                         1e3 * v[2]);
+    case EventKind::touchdown:
+    case EventKind::stance_switch:
+    case EventKind::liftoff:
+      return fmt::format("leg {:.1f} mm changing by {:.3f} m/s, foot at {:.1f} mm moving at {:.3f} m/s",
+                         1e3 * v[0], v[1], 1e3 * v[2], v[3]);
+    case EventKind::fault_raised:
+      return fmt::format("{}: {:.4g}, {:.4g}", entry_of(event.fault).meaning, v[0], v[1]);
+    case EventKind::armed:
+    case EventKind::stop_requested:
+    case EventKind::stopped:
+    case EventKind::disarmed:
+      return {};
+  }
+  return {};
+}
+
+}  // namespace sandhopper

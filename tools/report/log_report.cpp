@@ -1,0 +1,112 @@
+#include "tools/report/log_report.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <optional>
+
+#include "firmware/log/topics.hpp"
+#include "tools/report/report_builder.hpp"
+
+namespace sandhopper {
+namespace {
+
+template <HasFields Record>
+bool pass_on(TopicOf<Record>& topic, const mcap::Message& message, Record& record, ReportBuilder& builder) {
+  if (!topic.take(message, record)) return false;
+  builder.add(record);
+  return true;
+}
+
+// Feeds every record to the builder; returns the lost ones.
+struct Feed {
+  TopicOf<SensorFrame> frames{topic::kFrame};
+  TopicOf<StepOutput> outputs{topic::kOutput};
+  TopicOf<Event> events{topic::kEvent};
+  TopicOf<StrideResult> strides{topic::kStride};
+  TopicOf<PlantTruth> truths{topic::kTruth};
+  TopicOf<LogGap> gaps{topic::kGap};
+  SensorFrame frame{};
+  StepOutput output{};
+  Event event{};
+  StrideResult stride{};
+  PlantTruth truth{};
+  LogGap gap{};
+  std::uint64_t lost = 0;
+
+  void take(const mcap::Message& message, ReportBuilder& builder) {
+    if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
+        pass_on(events, message, event, builder) || pass_on(strides, message, stride, builder) ||
+        pass_on(truths, message, truth, builder))
+      return;
+    if (gaps.take(message, gap)) lost += gap.lost;
+  }
+};
+
+std::string in_words(std::string text) {
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+std::string utc(std::int64_t realtime_ns) {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC",
+                     fmt::gmtime(static_cast<std::time_t>(realtime_ns / 1'000'000'000)));
+}
+
+void add_attached(const mcap::Reader& log, ReportData& data) {
+  for (const mcap::Metadata& metadata : log.metadata()) {
+    for (const auto& [label, text] : metadata.entries) data.facts.emplace_back(in_words(label), text);
+  }
+  for (const mcap::Attachment& attachment : log.attachments()) {
+    const bool is_text =
+        attachment.media_type.starts_with("text/") || attachment.media_type == "application/toml";
+    if (!is_text) continue;
+    if (!data.configuration.empty()) data.configuration += '\n';
+    data.configuration += fmt::format("# {}\n{}", attachment.name, mcap::text_of(attachment.data));
+  }
+}
+
+void add_notes(const mcap::Reader& log, std::uint64_t lost, ReportData& data) {
+  if (log.truncated_at()) {
+    data.notes.push_back(
+        fmt::format("The log was cut: it is read up to byte {} of {}, its last whole record.",
+                    *log.truncated_at(), log.file_bytes()));
+  }
+  if (!log.damaged_chunks().empty()) {
+    data.notes.push_back(
+        fmt::format("{} damaged chunks of the log were passed over.", log.damaged_chunks().size()));
+  }
+  if (lost > 0)
+    data.notes.push_back(fmt::format("{} records are missing: the logger was too slow for them.", lost));
+  if (data.time_s.empty()) data.notes.push_back("The log holds no cycle.");
+}
+
+}  // namespace
+
+ReportData report_data_from_log(const std::filesystem::path& file) {
+  mcap::Reader log(file, {.check_crc = true, .skip_damaged = true});
+  ReportBuilder builder;
+  Feed feed;
+  std::optional<std::int64_t> began_ns;
+  mcap::Message message;
+  while (log.next(message)) {
+    if (!began_ns) began_ns = message.stamp.log_ns;
+    feed.take(message, builder);
+  }
+
+  ReportData data = builder.data();
+  data.title = "Hop trial " + file.stem().string();
+  if (began_ns) data.facts.emplace_back("Date", utc(*began_ns));
+  if (!data.time_s.empty()) {
+    data.facts.emplace_back("Length", fmt::format("{:.2f} s", data.time_s.back() - data.time_s.front()));
+    data.facts.emplace_back("Cycles", std::to_string(data.time_s.size()));
+    data.facts.emplace_back("Overruns", std::to_string(feed.frame.overruns));
+  }
+  add_attached(log, data);
+  add_notes(log, feed.lost, data);
+  return data;
+}
+
+}  // namespace sandhopper
