@@ -43,7 +43,7 @@ class Drive {
  private:
   double encoder_reading_rad(double angle_rad) noexcept;
 
-  MotorConfig motor_;
+  WorldMotorConfig motor_;
   Imperfection imperfection_;
   double lag_decay_;
   double velocity_gain_;

@@ -31,7 +31,7 @@ struct WorldRobotConfig {
 
 // [motor]: each drive, on the link's side. 0.0868 = 60/(2 pi 110 rpm/V) for the KV110; the
 // amplitude-invariant convention would give 0.0752.
-struct MotorConfig {
+struct WorldMotorConfig {
   double torque_constant_Nm_per_A = 0.0868;
   double torque_limit_Nm = 2.8;
   double current_loop_time_constant_s = 0.0005;
@@ -169,7 +169,7 @@ struct SpreadConfig {
 struct WorldConfig {
   double gravity_mps2 = kGravity_mps2;
   WorldRobotConfig robot{};
-  MotorConfig motor{};
+  WorldMotorConfig motor{};
   NominalControllerConfig controller{};
   BedParameters terrain{};
   SensorConfig sensors{};

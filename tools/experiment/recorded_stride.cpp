@@ -1,0 +1,63 @@
+#include "tools/experiment/recorded_stride.hpp"
+
+#include "firmware/controller.hpp"
+#include "tools/plant/sim_board.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr std::int64_t kLongest_cycles = 5000;
+
+}  // namespace
+
+RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_config,
+                             const TrialSetup& setup) {
+  World world(world_config, setup, 0);
+  SimBoard board(world);
+  Controller controller(cycle);
+  SensorFrame frame;
+  RecordedStride stride;
+  PlantTruth truth{};
+  Request request = Request::arm;
+  for (std::int64_t k = 1; k < kLongest_cycles; ++k) {
+    frame.time_ns = k * kPeriod_ns;
+    frame.cycle = static_cast<std::uint64_t>(k);
+    frame.request = request;
+    request = Request::none;
+    const PlantTruth before = truth;  // at the instant of the newest motor reply: the previous cycle's
+    board.read(frame);
+    truth = world.truth();
+    const auto& out = controller.step(frame);
+    board.write(out.command);
+    for (const auto& event : controller.events())
+      if (event.kind == EventKind::armed) request = Request::release;
+    if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
+    if (out.state != State::armed || out.command.open_catch)
+      stride.samples.push_back({out.estimate, out.state, before.contact_force_N, before.foot_z_m,
+                                before.foot_velocity_mps, before.foot_accel_mps2});
+    if (controller.stride_finished()) {
+      stride.complete = true;
+      return stride;
+    }
+  }
+  return stride;
+}
+
+StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {
+  StrideRecorder recorder(config);
+  State state = State::armed;
+  for (const auto& sample : stride.samples) {
+    const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;
+    // A cycle's sample belongs to the state before its transition.
+    if (state != State::armed) recorder.update(sample.estimate, state);
+    if (state == State::armed && sample.state == State::flight) recorder.on_release(now_ns);
+    if (state == State::flight && sample.state == State::compression) recorder.on_touchdown(now_ns);
+    if (state == State::compression && sample.state == State::extension) recorder.on_switch(now_ns);
+    if (state == State::extension && sample.state == State::flight) recorder.on_liftoff(now_ns);
+    state = sample.state;
+  }
+  return solve_stride(recorder.sums(), config);
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "firmware/controller_config.hpp"
+#include "firmware/records.hpp"
+#include "tools/plant/world.hpp"
+
+namespace sandhopper {
+
+// One cycle of a simulated stride: what the firmware believed and what was true, both at the instant the
+// forces belong to (Estimate::force_time_ns).
+struct StrideSample {
+  Estimate estimate;
+  State state;
+  double true_force_N;
+  double true_foot_z_m;
+  double true_foot_velocity_mps;
+  double true_foot_accel_mps2;
+};
+
+// The first stride of a trial run by the firmware's own Controller on the simulated board, release to
+// liftoff.
+struct RecordedStride {
+  std::vector<StrideSample> samples;
+  bool complete = false;  // liftoff was reached without a fault
+};
+
+RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup);
+
+// The same stride evaluated with another sample window, intercept or weights: bit for bit what the firmware
+// would have said with that configuration.
+StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config);
+
+}  // namespace sandhopper
