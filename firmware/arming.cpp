@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sandhopper {
 
@@ -12,7 +13,8 @@ void Arming::begin(std::int64_t now_ns) noexcept {
   begin_ns_ = now_ns;
   angle_rad_ = {};
   body_accel_ = foot_accel_ = load_cell_ = tof_ = {};
-  max_speed_radps_ = 0.0;
+  lowest_rad_.fill(std::numeric_limits<double>::infinity());
+  highest_rad_.fill(-std::numeric_limits<double>::infinity());
 }
 
 std::optional<Arming::Verdict> Arming::update(const SensorFrame& frame) noexcept {
@@ -22,7 +24,8 @@ std::optional<Arming::Verdict> Arming::update(const SensorFrame& frame) noexcept
   for (std::size_t i = 0; i < kMotorCount; ++i) {
     if (!frame.motor[i].fresh) continue;
     angle_rad_[i].add(frame.motor[i].position_rad);
-    max_speed_radps_ = std::max(max_speed_radps_, std::abs(frame.motor[i].velocity_radps));
+    lowest_rad_[i] = std::min(lowest_rad_[i], frame.motor[i].position_rad);
+    highest_rad_[i] = std::max(highest_rad_[i], frame.motor[i].position_rad);
   }
   if (frame.imu_body.fresh) body_accel_.add(frame.imu_body.accel_mps2[2]);
   if (frame.imu_foot.fresh) foot_accel_.add(frame.imu_foot.accel_mps2[2]);
@@ -36,9 +39,11 @@ Arming::Verdict Arming::judge() const noexcept {
   const double left = angle_rad_[0].value();
   const bool two = config_.robot.motor_count == 2;
   const double right = two ? angle_rad_[1].value() : left;
+  const double range =
+      std::max(highest_rad_[0] - lowest_rad_[0], two ? highest_rad_[1] - lowest_rad_[1] : 0.0);
   Verdict v{.passed = false,
             .reason = Reason::zero_confirmed,
-            .values = {left, right, expected_angle_rad_, max_speed_radps_},
+            .values = {left, right, expected_angle_rad_, range},
             .calibration = {.body_bias_mps2 = body_accel_.value() - kGravity_mps2,
                             .foot_bias_mps2 = foot_accel_.value() - kGravity_mps2,
                             .load_cell_tare_N = load_cell_.value(),
@@ -46,7 +51,7 @@ Arming::Verdict Arming::judge() const noexcept {
   const bool motors = angle_rad_[0].count > 0 && (!two || angle_rad_[1].count > 0);
   if (!motors || !body_accel_.count || !foot_accel_.count || !load_cell_.count || !tof_.count)
     v.reason = Reason::sensor_missing;
-  else if (max_speed_radps_ > config_.arming.still_speed_radps)
+  else if (range > config_.arming.still_range_rad)
     v.reason = Reason::moving;
   else if (std::abs(left - right) > config_.limits.encoder_mismatch_rad)
     v.reason = Reason::encoders_disagree;

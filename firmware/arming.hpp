@@ -22,7 +22,7 @@ class Arming {
   struct Verdict {
     bool passed;
     Reason reason;
-    std::array<double, 4> values;  // left, right, expected angle [rad], largest speed [rad/s]
+    std::array<double, 4> values;  // left, right, expected angle, largest range [rad]
     StaticCalibration calibration;
   };
   // Nothing until enable_s + window_s have passed.
@@ -44,8 +44,8 @@ class Arming {
   double expected_angle_rad_;
   std::int64_t begin_ns_ = 0;
   std::array<Mean, kMotorCount> angle_rad_{};
+  std::array<double, kMotorCount> lowest_rad_{}, highest_rad_{};
   Mean body_accel_, foot_accel_, load_cell_, tof_;
-  double max_speed_radps_ = 0.0;
 };
 
 }  // namespace sandhopper

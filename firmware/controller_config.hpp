@@ -66,7 +66,7 @@ struct ArmingConfig {
   double window_s = 0.20;
   double zero_pose_length_m = 0.30;  // hip-to-toe length in which the robot hangs when armed
   double zero_tolerance_rad = 0.03;
-  double still_speed_radps = 0.5;
+  double still_range_rad = 0.005;     // largest minus smallest angle in the window
   double free_fall_accel_mps2 = 5.0;  // body specific force below this means released
   int free_fall_cycles = 3;
 
@@ -76,7 +76,7 @@ struct ArmingConfig {
     visit("window_s", self.window_s, Range{0.02, 10.0});
     visit("zero_pose_length_m", self.zero_pose_length_m, Range{0.02, 2.0});
     visit("zero_tolerance_rad", self.zero_tolerance_rad, Range{1e-3, 0.5});
-    visit("still_speed_radps", self.still_speed_radps, Range{0.01, 10.0});
+    visit("still_range_rad", self.still_range_rad, Range{1e-4, 1.0});
     visit("free_fall_accel_mps2", self.free_fall_accel_mps2, Range{0.5, 9.0});
     visit("free_fall_cycles", self.free_fall_cycles, Range{1, 100});
   }

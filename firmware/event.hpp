@@ -65,7 +65,7 @@ struct EnumNames<Reason> {
 };
 
 // Something that happened, with the values that triggered it. Their meaning by kind:
-//   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest speed [rad/s]
+//   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest range [rad]
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
 //   fault_raised: the two values the fault's entry names, 0, 0

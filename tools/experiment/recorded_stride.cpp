@@ -35,7 +35,7 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
     if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
     if (out.state != State::armed || out.command.open_catch)
       stride.samples.push_back({out.estimate, out.state, before.contact_force_N, before.foot_z_m,
-                                before.foot_velocity_mps, before.foot_accel_mps2});
+                                before.foot_velocity_mps, before.foot_accel_mps2, truth.contact_force_N});
     if (controller.stride_finished()) {
       stride.complete = true;
       return stride;

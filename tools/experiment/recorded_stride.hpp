@@ -17,6 +17,7 @@ struct StrideSample {
   double true_foot_z_m;
   double true_foot_velocity_mps;
   double true_foot_accel_mps2;
+  double true_force_now_N;  // at the cycle's own time
 };
 
 // The first stride of a trial run by the firmware's own Controller on the simulated board, release to

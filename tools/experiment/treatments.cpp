@@ -68,7 +68,7 @@ struct ErrorSums {
       const auto square = [](double x) { return x * x; };
       quasi_static += square(s.estimate.quasi_static_force_N - s.true_force_N);
       observer += square(s.estimate.contact_force_N - s.true_force_N);
-      load_cell += square(s.estimate.load_cell_force_N - s.true_force_N);
+      load_cell += square(s.estimate.load_cell_force_N - s.true_force_now_N);
       depth += square(s.estimate.force_depth_m + s.true_foot_z_m);
       velocity += square(s.estimate.force_velocity_mps + s.true_foot_velocity_mps);
       samples += 1.0;
