@@ -94,14 +94,14 @@ struct StepOutput {
 struct StrideSummary {
   std::uint32_t stride = 0;  // 1 is the first
   std::int64_t release_ns = 0;
-  std::int64_t contact_ns = 0;    // foot meets the ground: where its downward speed is greatest
+  std::int64_t contact_ns = 0;    // foot meets the ground
   std::int64_t touchdown_ns = 0;  // the controller notices, some milliseconds later
   std::int64_t switch_ns = 0;
   std::int64_t liftoff_ns = 0;
   double touchdown_speed_mps = 0.0;  // foot, downward, at contact
   double peak_force_N = 0.0;         // momentum observer
   double peak_quasi_static_N = 0.0;
-  double max_depth_m = 0.0;     // below the undisturbed surface
+  double max_depth_m = 0.0;     // below where the first stride met the surface
   double crater_depth_m = 0.0;  // deepest point before this stride
   double liftoff_depth_m = 0.0;
 

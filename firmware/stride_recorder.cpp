@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "estimation/leg.hpp"
+
 namespace sandhopper {
 
 StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept : config_(config) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
-  deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
+  datum_m_ = deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
   begin_flight(now_ns);
 }
 
@@ -18,10 +20,7 @@ void StrideRecorder::begin_flight(std::int64_t release_ns) noexcept {
   current_.stride = stride;
   current_.release_ns = release_ns;
   current_.crater_depth_m = crater_depth_m_;
-  committed_ = {};
-  quasi_static_.reset();
-  observer_.reset();
-  weighted_.reset();
+  restart_sums();
 }
 
 void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
@@ -36,7 +35,7 @@ void StrideRecorder::on_switch(std::int64_t now_ns) noexcept {
 
 void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   current_.liftoff_ns = now_ns;
-  current_.liftoff_depth_m = -last_foot_z_m_;
+  current_.liftoff_depth_m = -last_foot_z_m_ - datum_m_;
   if (config_.window == SampleWindow::whole_stance) commit();
   done_ = committed_;
   done_.summary = current_;
@@ -47,47 +46,65 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
 
 void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
-  if (state == State::flight && -e.foot_velocity_mps > current_.touchdown_speed_mps) {
-    current_.touchdown_speed_mps = -e.foot_velocity_mps;
+  if (state == State::flight && still_falling(e)) {
+    current_.touchdown_speed_mps = std::max(current_.touchdown_speed_mps, e.force_velocity_mps);
     current_.contact_ns = e.force_time_ns;
+    if (current_.stride == 0) datum_m_ = e.force_depth_m;
+    restart_sums();
+    return;
   }
+  const double depth = e.force_depth_m - datum_m_;
   const bool stance = state == State::compression || state == State::extension;
   if (stance) {
     current_.peak_force_N = std::max(current_.peak_force_N, e.contact_force_N);
     current_.peak_quasi_static_N = std::max(current_.peak_quasi_static_N, e.quasi_static_force_N);
-    current_.max_depth_m = std::max(current_.max_depth_m, e.force_depth_m);
+    current_.max_depth_m = std::max(current_.max_depth_m, depth);
   }
-  const bool falling_into_sand =
-      state == State::flight && e.force_depth_m > -surface_z_m_ && e.force_velocity_mps > 0.0;
-  if (stance || falling_into_sand) accumulate(e);
+  if (stance || (state == State::flight && e.force_velocity_mps > 0.0)) accumulate(e, depth);
 }
 
-bool StrideRecorder::counts(const Estimate& e) const noexcept {
+// Until the first contact the foot falls freely, and what its accelerometer feels beyond that is the ground:
+// that marks the surface within a fraction of a millimetre and free of the height sensor's offset. Later
+// flights begin with the leg swinging back, so there the greatest downward speed marks contact.
+bool StrideRecorder::still_falling(const Estimate& e) const noexcept {
+  if (current_.stride == 0) return e.foot_accel_mps2 + kGravity_mps2 < config_.contact_accel_mps2;
+  return e.force_velocity_mps > current_.touchdown_speed_mps;
+}
+
+bool StrideRecorder::counts(const Estimate& e, double depth_m) const noexcept {
   switch (config_.window) {
     case SampleWindow::penetrating:
       return e.force_velocity_mps > config_.min_speed_mps;
     case SampleWindow::new_depth:
-      return e.force_depth_m > deepest_m_;
+      return depth_m > deepest_m_;
     default:
       return true;
   }
 }
 
-void StrideRecorder::accumulate(const Estimate& e) noexcept {
+void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   // In the old crater the ground answers with its unloading line, which says nothing about the virgin bed.
-  const bool virgin = e.force_depth_m > 0.0 && e.force_depth_m >= crater_depth_m_;
+  const bool virgin = depth_m > 0.0 && depth_m >= crater_depth_m_;
   const bool through_stance =
       config_.window == SampleWindow::whole_stance || config_.window == SampleWindow::compression;
-  if ((virgin || through_stance) && counts(e)) {
+  if ((virgin || through_stance) && counts(e, depth_m)) {
     const double weight = acceleration_weight(config_.weights, e.weighting_accel_mps2);
-    quasi_static_.add({e.force_depth_m, e.quasi_static_force_N, 1.0});
-    observer_.add({e.force_depth_m, e.contact_force_N, 1.0});
-    weighted_.add({e.force_depth_m, e.contact_force_N, weight});
+    quasi_static_.add({depth_m, e.quasi_static_force_N, 1.0});
+    observer_.add({depth_m, e.contact_force_N, 1.0});
+    weighted_.add({depth_m, e.contact_force_N, weight});
   }
-  if (e.force_depth_m > deepest_m_) {
-    deepest_m_ = e.force_depth_m;
-    if (!through_stance) commit();
+  if (depth_m > deepest_m_) {
+    deepest_m_ = depth_m;
+    // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
+    if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
   }
+}
+
+void StrideRecorder::restart_sums() noexcept {
+  committed_ = {};
+  quasi_static_.reset();
+  observer_.reset();
+  weighted_.reset();
 }
 
 void StrideRecorder::commit() noexcept {

@@ -26,9 +26,11 @@ class StrideRecorder {
 
  private:
   void begin_flight(std::int64_t release_ns) noexcept;
-  void accumulate(const Estimate& estimate) noexcept;
+  bool still_falling(const Estimate& estimate) const noexcept;
+  void restart_sums() noexcept;
+  void accumulate(const Estimate& estimate, double depth_m) noexcept;
   void commit() noexcept;
-  bool counts(const Estimate& estimate) const noexcept;
+  bool counts(const Estimate& estimate, double depth_m) const noexcept;
 
   StiffnessConfig config_;
   RecursiveRegression quasi_static_;
@@ -37,7 +39,8 @@ class StrideRecorder {
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};
-  double deepest_m_ = 0.0;       // of this and all former strides
+  double datum_m_ = 0.0;         // what the filter calls depth where the first stride met the surface
+  double deepest_m_ = 0.0;       // of this and all former strides, below that datum
   double crater_depth_m_ = 0.0;  // of former strides
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
