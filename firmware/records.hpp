@@ -35,6 +35,7 @@ struct Estimate {
   double force_depth_m = 0.0;       // -foot height at force_time_ns
   double force_velocity_mps = 0.0;  // downward
   double contact_force_N = 0.0;     // momentum observer
+  double direct_force_N = 0.0;      // from the foot's acceleration, unfiltered; marks the first contact
   double quasi_static_force_N = 0.0;
   double load_cell_force_N = 0.0;      // tare removed
   double weighting_accel_mps2 = 0.0;   // |zdd| of the weights: low-passed foot IMU
@@ -59,6 +60,7 @@ struct Estimate {
     visit("force_depth_m", self.force_depth_m);
     visit("force_velocity_mps", self.force_velocity_mps);
     visit("contact_force_N", self.contact_force_N);
+    visit("direct_force_N", self.direct_force_N);
     visit("quasi_static_force_N", self.quasi_static_force_N);
     visit("load_cell_force_N", self.load_cell_force_N);
     visit("weighting_accel_mps2", self.weighting_accel_mps2);

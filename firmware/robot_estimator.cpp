@@ -99,10 +99,12 @@ RobotEstimator::ForceTerms RobotEstimator::force_terms(const LegDynamics& d,
                                                        const BodyFootState& state) const noexcept {
   const double v = state.foot_velocity_mps;
   const double rate = (state.body_velocity_mps - v) / d.leg.dlength_m_per_rad;
+  const double coriolis = d.coriolis_N_s2_per_rad2 * rate * rate;
   return {.momentum_kg_mps = d.reduced_mass_kg * v,
-          .psi_without_torque_N = -d.coriolis_N_s2_per_rad2 * rate * rate -
-                                  d.reduced_mass_kg * kGravity_mps2 + d.dreduced_mass_kg_per_rad * rate * v,
-          .torque_gain_per_m = d.torque_gain_per_m};
+          .psi_without_torque_N =
+              -coriolis - d.reduced_mass_kg * kGravity_mps2 + d.dreduced_mass_kg_per_rad * rate * v,
+          .torque_gain_per_m = d.torque_gain_per_m,
+          .coriolis_N = coriolis};
 }
 
 void RobotEstimator::update_force(const SensorFrame& frame, const LegMeasurement& leg, const LegDynamics& d,
@@ -127,6 +129,8 @@ void RobotEstimator::update_force(const SensorFrame& frame, const LegMeasurement
   estimate.force_depth_m = -state.foot_z_m;
   estimate.force_velocity_mps = -state.foot_velocity_mps;
   estimate.contact_force_N = observer_.force_N();
+  estimate.direct_force_N = d.reduced_mass_kg * (estimate.foot_accel_mps2 + kGravity_mps2) +
+                            terms.torque_gain_per_m * leg.torque_Nm + terms.coriolis_N;
   estimate.quasi_static_force_N = leg.torque_Nm / d.leg.dlength_m_per_rad;
 }
 

@@ -47,6 +47,7 @@ class RobotEstimator {
     double momentum_kg_mps;
     double psi_without_torque_N;
     double torque_gain_per_m;
+    double coriolis_N;
   };
   ForceTerms force_terms(const LegDynamics& d, const BodyFootState& state) const noexcept;
   void update_leg(const SensorFrame& frame, Estimate& estimate) noexcept;

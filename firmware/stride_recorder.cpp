@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "estimation/leg.hpp"
-
 namespace sandhopper {
 
 StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept : config_(config) {}
@@ -48,10 +46,14 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
   if (state == State::flight && still_falling(e)) {
     current_.touchdown_speed_mps = std::max(current_.touchdown_speed_mps, e.force_velocity_mps);
-    current_.contact_ns = e.force_time_ns;
-    if (current_.stride == 0) datum_m_ = e.force_depth_m;
+    touched_ = false;
     restart_sums();
     return;
+  }
+  if (!touched_) {
+    touched_ = true;
+    current_.contact_ns = e.force_time_ns;
+    if (current_.stride == 0) datum_m_ = e.force_depth_m;
   }
   const double depth = e.force_depth_m - datum_m_;
   const bool stance = state == State::compression || state == State::extension;
@@ -63,11 +65,11 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   if (stance || (state == State::flight && e.force_velocity_mps > 0.0)) accumulate(e, depth);
 }
 
-// Until the first contact the foot falls freely, and what its accelerometer feels beyond that is the ground:
-// that marks the surface within a fraction of a millimetre and free of the height sensor's offset. Later
-// flights begin with the leg swinging back, so there the greatest downward speed marks contact.
+// What the foot's accelerometer feels beyond the leg's own forces is the ground: that marks the surface
+// within a fraction of a millimetre, free of the height sensor's offset and of the observer's lag. A later
+// flight begins in the crater with the leg swinging back; there the greatest downward speed marks contact.
 bool StrideRecorder::still_falling(const Estimate& e) const noexcept {
-  if (current_.stride == 0) return e.foot_accel_mps2 + kGravity_mps2 < config_.contact_accel_mps2;
+  if (current_.stride == 0) return e.direct_force_N < config_.contact_force_N;
   return e.force_velocity_mps > current_.touchdown_speed_mps;
 }
 

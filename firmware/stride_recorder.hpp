@@ -44,6 +44,7 @@ class StrideRecorder {
   double crater_depth_m_ = 0.0;  // of former strides
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
+  bool touched_ = false;  // contact of this stride has been noticed
 };
 
 StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept;

@@ -50,7 +50,7 @@ struct StiffnessConfig {
   SampleWindow window = SampleWindow::penetrating;
   bool free_intercept = true;
   double min_speed_mps = 0.03;
-  double contact_accel_mps2 = 1.5;  // foot's specific force that marks the first contact
+  double contact_force_N = 1.5;  // direct force that marks the first contact
   int min_samples = 30;
   double min_depth_span_m = 0.005;
   double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
@@ -61,7 +61,7 @@ struct StiffnessConfig {
     visit("window", self.window);
     visit("free_intercept", self.free_intercept);
     visit("min_speed_mps", self.min_speed_mps, Range{0.0, 1.0});
-    visit("contact_accel_mps2", self.contact_accel_mps2, Range{0.1, 9.0});
+    visit("contact_force_N", self.contact_force_N, Range{0.1, 100.0});
     visit("min_samples", self.min_samples, Range{3, 10000});
     visit("min_depth_span_m", self.min_depth_span_m, Range{0.0, 1.0});
     visit("max_depth_m", self.max_depth_m, Range{0.001, 1.0});
