@@ -18,10 +18,11 @@ constexpr const char* kInstalled = "/etc/sandhopper";
 
 fs::path named_directory(const std::string& name, const std::string& said_by) {
   std::error_code error;
-  if (!fs::is_directory(name, error))
-    refuse(name, fmt::format("{} must name a directory with robot.toml; this is {}", said_by,
-                             fs::exists(name, error) ? "a file" : "not there"));
-  return name;
+  if (fs::exists(fs::path(name) / "robot.toml", error)) return name;
+  const auto* const instead = fs::is_directory(name, error) ? "this one has none"
+                              : fs::exists(name, error)     ? "this is a file"
+                                                            : "this is not there";
+  refuse(name, fmt::format("{} must name a directory with robot.toml; {}", said_by, instead));
 }
 
 // As short as it can be said from where the user is.

@@ -11,8 +11,9 @@ namespace sandhopper {
 struct ConfigProblem {
   std::string file;
   ConfigPosition position;
-  std::string key;   // full path, "motor[1].can_id"; empty for the file as a whole
-  std::string text;  // what is wrong, what was expected, what was found, and the cure
+  std::string key;       // full path, "motor[1].can_id"; empty for the file as a whole
+  std::string text;      // what is wrong, what was expected, what was found, and the cure
+  bool missing = false;  // a key that is not there
 };
 
 // "file:line:column: text"

@@ -60,11 +60,6 @@ std::string interval(Range range) {
   return "";
 }
 
-std::string in_unit(std::string_view key) {
-  const auto unit = unit_of_key(key);
-  return unit.empty() ? "" : " " + unit;
-}
-
 std::string header_of(const std::string& path) {
   return path.empty() ? "the top of the file" : fmt::format("[{}]", path);
 }
@@ -89,12 +84,16 @@ std::string ConfigReader::element(const std::string& path, std::size_t index) {
   return fmt::format("{}[{}]", path, index);
 }
 
-std::string ConfigReader::expected_table(std::string_view key) { return fmt::format("a table [{}]", key); }
+std::string ConfigReader::expected_table(std::string_view path, const ConfigNode& keys) {
+  std::vector<std::string_view> names;
+  for (const auto& child : keys.children) names.push_back(child.key);
+  return fmt::format("a table [{}] with {}", path, fmt::join(names, ", "));
+}
 
-std::string ConfigReader::expected_number(std::string_view what, std::string_view key, Range range) {
+std::string ConfigReader::expected_number(std::string_view what, std::string_view path, Range range) {
   const auto limits = interval(range);
-  return fmt::format("{}{}{}{}", what, limits, limits.empty() && !unit_of_key(key).empty() ? " in" : "",
-                     in_unit(key));
+  const auto unit = unit_of_key(last_key(path));
+  return fmt::format("{}{}{}{}", what, limits, unit.empty() ? "" : limits.empty() ? " in " : " ", unit);
 }
 
 std::string ConfigReader::expected_name(std::span<const std::string_view> names) {
@@ -104,11 +103,12 @@ std::string ConfigReader::expected_name(std::span<const std::string_view> names)
   return text;
 }
 
-std::string ConfigReader::expected_array(std::string_view key, bool of_tables,
+std::string ConfigReader::expected_array(std::string_view path, bool of_tables,
                                          std::optional<std::size_t> size) {
   const auto count = size ? fmt::format(" {}", *size) : std::string();
-  if (of_tables) return fmt::format("an array of{} tables [[{}]]", count, key);
-  return fmt::format("an array of{} numbers{}", count, in_unit(key));
+  if (of_tables) return fmt::format("an array of{} tables [[{}]]", count, path);
+  const auto unit = unit_of_key(last_key(path));
+  return fmt::format("an array of{} numbers{}{}", count, unit.empty() ? "" : " in ", unit);
 }
 
 void ConfigReader::read(const ConfigNode& node, const std::string& path, bool& value, Range) {
@@ -123,7 +123,7 @@ void ConfigReader::read(const ConfigNode& node, const std::string& path, std::st
 
 bool ConfigReader::read_real(const ConfigNode& node, const std::string& path, Range range, double& value) {
   if (node.kind != Kind::real && node.kind != Kind::integer) {
-    wrong_type(node, path, expected_number("a number", last_key(path), range));
+    wrong_type(node, path, expected_number("a number", path, range));
     return false;
   }
   value = node.kind == Kind::real ? node.real : static_cast<double>(node.integer);
@@ -133,7 +133,7 @@ bool ConfigReader::read_real(const ConfigNode& node, const std::string& path, Ra
 bool ConfigReader::read_integer(const ConfigNode& node, const std::string& path, Range range,
                                 std::int64_t& value) {
   if (node.kind != Kind::integer) {
-    wrong_type(node, path, expected_number("an integer", last_key(path), range));
+    wrong_type(node, path, expected_number("an integer", path, range));
     return false;
   }
   value = node.integer;
@@ -146,7 +146,7 @@ bool ConfigReader::is_within(const ConfigNode& node, const std::string& path, st
   add(node.position, path,
       fmt::format("key '{}' is {}: expected {}, got {}", path,
                   std::isfinite(value) ? "out of range" : "not a finite number",
-                  expected_number(what, last_key(path), range), what_it_is(node)));
+                  expected_number(what, path, range), what_it_is(node)));
   return false;
 }
 
@@ -193,6 +193,7 @@ void ConfigReader::missing(const ConfigNode& table, const std::string& path, std
   if (!default_line.empty())
     text += fmt::format("; add '{}' (the default) to {}", default_line, header_of(path));
   add(table.key_position, join(path, key), std::move(text));
+  problems_.back().missing = true;
 }
 
 void ConfigReader::unknown_keys(const ConfigNode& table, const std::string& path,
@@ -205,9 +206,21 @@ void ConfigReader::unknown_keys(const ConfigNode& table, const std::string& path
     std::optional<double> value;
     if (child.kind == Kind::real) value = child.real;
     if (child.kind == Kind::integer) value = static_cast<double>(child.integer);
+    const auto cure = cure_for_unknown_key(child.key, value, candidates);
+    forget_missing_named_in(cure, path, known);
     add(child.key_position, join(path, child.key),
-        fmt::format("key '{}' is unknown in {}: {}", join(path, child.key), header_of(path),
-                    cure_for_unknown_key(child.key, value, candidates)));
+        fmt::format("key '{}' is unknown in {}: {}", join(path, child.key), header_of(path), cure));
+  }
+}
+
+// A key that is spelt wrong is also missing; said once is enough.
+void ConfigReader::forget_missing_named_in(std::string_view cure, const std::string& path,
+                                           std::span<const std::string> known) {
+  for (const auto& key : known) {
+    const bool named = cure.find(fmt::format("'{}'", key)) != std::string_view::npos ||
+                       cure.find(fmt::format("'{} =", key)) != std::string_view::npos;
+    if (named)
+      std::erase_if(problems_, [&](const ConfigProblem& p) { return p.missing && p.key == join(path, key); });
   }
 }
 

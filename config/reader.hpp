@@ -49,11 +49,12 @@ class ConfigReader {
     std::vector<std::string> known;
     T::fields(value, [&]<class Member>(std::string_view key, Member& member, Range range = {}) {
       known.emplace_back(key);
-      if (const auto* child = node.find(key)) return read(*child, join(path, key), member, range);
+      const auto member_path = join(path, key);
+      if (const auto* child = node.find(key)) return read(*child, member_path, member, range);
       if constexpr (!detail::is_optional<Member>) {
         if (missing_ == MissingKeys::use_default) return;
-        const auto line = detail::is_tabular<Member> ? std::string() : to_toml_line(key, to_node(member));
-        missing(node, path, key, expected<Member>(key, range), line);
+        missing(node, path, key, expected<Member>(member_path, member, range),
+                detail::is_tabular<Member> ? std::string() : to_toml_line(key, to_node(member)));
       }
     });
     unknown_keys(node, path, known);
@@ -111,21 +112,21 @@ class ConfigReader {
 
   // What a missing key should hold.
   template <class T>
-  static std::string expected(std::string_view key, Range range) {
+  static std::string expected(const std::string& path, const T& by_default, Range range) {
     if constexpr (HasFields<T>) {
-      return expected_table(key);
+      return expected_table(path, to_node(by_default));
     } else if constexpr (std::same_as<T, bool>) {
       return "true or false";
     } else if constexpr (std::integral<T>) {
-      return expected_number("an integer", key, within_type<T>(range));
+      return expected_number("an integer", path, within_type<T>(range));
     } else if constexpr (std::floating_point<T>) {
-      return expected_number("a number", key, range);
+      return expected_number("a number", path, range);
     } else if constexpr (NamedEnum<T>) {
       return expected_name(EnumNames<T>::value);
     } else if constexpr (std::same_as<T, std::string>) {
       return "text in quotes";
     } else {
-      return expected_array(key, HasFields<typename T::value_type>, array_size<T>());
+      return expected_array(path, HasFields<typename T::value_type>, array_size<T>());
     }
   }
 
@@ -142,10 +143,10 @@ class ConfigReader {
     return {range.low > type.low ? range.low : type.low, range.high < type.high ? range.high : type.high};
   }
 
-  static std::string expected_table(std::string_view key);
-  static std::string expected_number(std::string_view what, std::string_view key, Range range);
+  static std::string expected_table(std::string_view path, const ConfigNode& keys);
+  static std::string expected_number(std::string_view what, std::string_view path, Range range);
   static std::string expected_name(std::span<const std::string_view> names);
-  static std::string expected_array(std::string_view key, bool of_tables, std::optional<std::size_t> size);
+  static std::string expected_array(std::string_view path, bool of_tables, std::optional<std::size_t> size);
 
   bool read_real(const ConfigNode& node, const std::string& path, Range range, double& value);
   bool read_integer(const ConfigNode& node, const std::string& path, Range range, std::int64_t& value);
@@ -159,6 +160,8 @@ class ConfigReader {
   void missing(const ConfigNode& table, const std::string& path, std::string_view key,
                std::string_view expected, std::string_view default_line);
   void unknown_keys(const ConfigNode& table, const std::string& path, std::span<const std::string> known);
+  void forget_missing_named_in(std::string_view cure, const std::string& path,
+                               std::span<const std::string> known);
   void broken_rule(const ConfigNode& table, const std::string& path, std::string_view key,
                    std::string_view text);
   void add(ConfigPosition position, std::string path, std::string text);

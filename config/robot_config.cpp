@@ -21,6 +21,13 @@ void expect_below(const Report& report, Named low, Named high) {
 }
 
 std::optional<Leg> check_leg(const Report& report, const LegParameters& parameters) {
+  const auto& p = parameters;
+  if (p.lower_link_length_m <= p.upper_link_length_m + p.hip_offset_m) {
+    report("robot.lower_link_length_m",
+           fmt::format("expected more than upper_link_length_m + hip_offset_m ({}), or the leg locks, got {}",
+                       p.upper_link_length_m + p.hip_offset_m, p.lower_link_length_m));
+    return std::nullopt;
+  }
   try {
     return Leg(parameters);
   } catch (const std::invalid_argument& error) {

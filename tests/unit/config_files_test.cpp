@@ -140,7 +140,7 @@ using ::testing::HasSubstr;
 
 TEST(RobotConfigRules, LegThatCannotFoldIsRefused) {
   EXPECT_THAT(problem_when("0.11", "robot", "lower_link_length_m"),
-              HasSubstr("key 'robot' does not fit: leg: lower"));
+              HasSubstr("'robot.lower_link_length_m' does not fit: expected more than"));
 }
 
 TEST(RobotConfigRules, AngleLimitsMustLeaveRoom) {

@@ -166,6 +166,20 @@ TEST(ConfigLoader, MissingKeyNamesTheLineOfItsTableAndTheLineToAdd) {
                                          "[[motor]]"));
 }
 
+TEST(ConfigLoader, MissingTableListsItsKeys) {
+  EXPECT_THAT(
+      problems_of("count = 3", MissingKeys::error),
+      ::testing::Contains("f.toml:1:1: key 'inner' is missing: expected a table [inner] with mass_kg, id"));
+}
+
+TEST(ConfigLoader, KeySpeltWrongIsNotCalledMissingToo) {
+  auto text = to_toml(Sample{});
+  text.replace(text.find("mass_kg = 1.0"), 13, "mass_g = 1000");
+  EXPECT_THAT(
+      problems_of(text, MissingKeys::error),
+      ElementsAre(HasSubstr("'inner.mass_g' is unknown in [inner]: the unit is kg: write 'mass_kg = 1'")));
+}
+
 TEST(ConfigLoader, OptionalKeyMayBeLeftOut) {
   EXPECT_FALSE(load_text<Sample>("f.toml", to_toml(Sample{}), MissingKeys::error).trim_rad.has_value());
 }

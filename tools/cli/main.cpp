@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "config/problem.hpp"
+#include "drivers/device_error.hpp"
 #include "tools/cli/command_line.hpp"
 
 // The `hop` command: reads the command line, runs one verb, turns what went wrong into a message, a cure and
@@ -71,6 +72,11 @@ int run(int argc, char** argv) {
     return complain(session, command_line.understood(), {failure.exit(), failure.what(), failure.cure()});
   } catch (const ConfigError& error) {
     return complain(session, command_line.understood(), about(error));
+  } catch (const DeviceError& error) {
+    const auto message = std::string_view(error.what());
+    return complain(session, command_line.understood(),
+                    {ExitCode::fault, std::string(message.substr(0, message.size() - error.cure().size())),
+                     error.cure()});
   } catch (const std::exception& error) {
     return complain(session, command_line.understood(), {ExitCode::fault, error.what(), ""});
   }

@@ -33,17 +33,20 @@ std::size_t count_keys(const ConfigNode& node) {
 
 ExitCode check(Session& session, const std::vector<std::string>& named) {
   std::vector<ConfigProblem> problems;
-  session.result["files"] = nlohmann::ordered_json::array();
+  std::vector<std::pair<std::string, std::size_t>> right;
   for (const auto& file : files_to_read(session, named)) {
     try {
-      const auto keys = count_keys(kind_of_file(file).load(file));
-      session.say("{}: right, {} keys", file, keys);
-      session.result["files"].push_back({{"file", file}, {"keys", keys}});
+      right.emplace_back(file, count_keys(kind_of_file(file).load(file)));
     } catch (const ConfigError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   if (!problems.empty()) throw ConfigError(std::move(problems));
+  session.result["files"] = nlohmann::ordered_json::array();
+  for (const auto& [file, keys] : right) {
+    session.say("{}: right, {} keys", file, keys);
+    session.result["files"].push_back({{"file", file}, {"keys", keys}});
+  }
   return ExitCode::ok;
 }
 

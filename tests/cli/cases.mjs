@@ -1,0 +1,68 @@
+// What is broken, and what must be said about it. A configuration case changes one file of a copy of config/:
+// `change` [file, text there, text instead] (null: the file is removed). A command case is a command line.
+// `says` must all stand in the message; one of them is the cure.
+
+const changed = (name, file, from, to, ...says) => ({ name, file, from, to, says });
+const command = (name, args, ...says) => ({ name, args, says });
+
+export const configurations = [
+  changed('key misspelt', 'robot.toml', 'foot_mass_kg', 'foot_mas_kg',
+    "key 'robot.foot_mas_kg' is unknown in [robot]", "did you mean 'foot_mass_kg'?", 'robot.toml:7:1:'),
+  changed('mass in grams', 'robot.toml', 'body_mass_kg = 1.60', 'body_mass_g = 1600',
+    "the unit is kg: write 'body_mass_kg = 1.6'"),
+  changed('stiffness in N/cm', 'robot.toml', 'compression_stiffness_N_per_m = 375.0', 'compression_stiffness_N_per_cm = 3.75',
+    "the unit is N/m: write 'compression_stiffness_N_per_m = 375'"),
+  changed('key missing', 'robot.toml', /^rotor_inertia_kg_m2.*\n/m, '',
+    "key 'robot.rotor_inertia_kg_m2' is missing", "add 'rotor_inertia_kg_m2 = 0.0002'"),
+  changed('table missing', 'robot.toml', /^\[arming\][^[]*/m, '', "key 'arming' is missing: expected a table [arming]"),
+  changed('text for a number', 'robot.toml', 'foot_mass_kg = 0.55', 'foot_mass_kg = "0.55 kg"',
+    'expected a number from 0 to 20 kg, got the text "0.55 kg"', 'write the number alone, without quotes or unit'),
+  changed('decimals in a count', 'robot.toml', 'motor_count = 2', 'motor_count = 2.0', 'write it without decimals'),
+  changed('number for yes or no', 'robot.toml', 'free_intercept = true', 'free_intercept = 1', 'expected true or false, got 1'),
+  changed('mass out of range', 'robot.toml', 'body_mass_kg = 1.60', 'body_mass_kg = 1600',
+    "key 'robot.body_mass_kg' is out of range: expected a number from 0 to 50 kg, got 1600"),
+  changed('NaN', 'robot.toml', 'observer_gain_per_s = 400.0', 'observer_gain_per_s = nan', 'is not a finite number'),
+  changed('key given twice', 'robot.toml', 'hip_offset_m = 0.0', 'hip_offset_m = 0.0\nhip_offset_m = 0.045',
+    "key 'hip_offset_m' is given twice: keep one of the two"),
+  changed('no value', 'robot.toml', 'foot_radius_m = 0.040', 'foot_radius_m =', 'this is not TOML', "'key = value'"),
+  changed('one motor table', 'robot.toml', /\[\[motor\]\]\nname = "right"[^[]*/, '',
+    "key 'motor' has the wrong size: expected an array of 2, got an array of 1"),
+  changed('same CAN id twice', 'robot.toml', 'can_id = 2', 'can_id = 1',
+    "key 'motor[1].can_id' does not fit", 'give each drive its own'),
+  changed('dialect without a driver', 'robot.toml', 'dialect = "mit"', 'dialect = "v3"',
+    'only "mit" is implemented', 'set dialect = "mit"'),
+  changed('dialect misspelt', 'robot.toml', 'dialect = "mit"', 'dialect = "MIT2"', 'did you mean "mit"?'),
+  changed('leg that locks', 'robot.toml', 'lower_link_length_m = 0.24', 'lower_link_length_m = 0.11',
+    "key 'robot.lower_link_length_m' does not fit", 'expected more than upper_link_length_m + hip_offset_m (0.12)'),
+  changed('angle limits crossed', 'robot.toml', 'leg_angle_min_rad = 0.15', 'leg_angle_min_rad = 2.9',
+    'expected less than limits.leg_angle_max_rad (2.7), got 2.9'),
+  changed('leg longer than its links', 'robot.toml', 'extension_length_m = 0.34', 'extension_length_m = 0.50',
+    'expected a length this leg reaches', '0.1260 to 0.3580 m, got 0.5'),
+  changed('unknown sample window', 'robot.toml', 'window = "penetrating"', 'window = "all"',
+    'expected one of "penetrating", "new_depth"'),
+  changed('IMU at 1000 Hz', 'linux.toml', 'rate_Hz = 1666', 'rate_Hz = 1000',
+    "key 'imu_body.rate_Hz' does not fit", '416, 833, 1666, 3332 or 6667'),
+  changed('no e-stop', 'linux.toml', 'line = "ESTOP"', 'line = ""', "key 'estop' does not fit", 'must be given'),
+  changed('two IMUs on one node', 'linux.toml', '/dev/spidev0.1', '/dev/spidev0.0', 'both IMUs have the same device'),
+  changed('IMU mounted inside out', 'linux.toml', 'mount = [1, 0, 0,', 'mount = [-1, 0, 0,', 'must be a rotation'),
+  changed('negative bed', 'world.toml', 'stiffness_N_per_m = 1500.0', 'stiffness_N_per_m = -1500.0',
+    "key 'terrain.stiffness_N_per_m' is out of range", 'got -1500'),
+  changed('file missing', 'robot.toml', null, null, '--config must name a directory with robot.toml; this one has none'),
+  changed('file empty', 'robot.toml', /[^]*/, '', "key 'robot' is missing: expected a table [robot]"),
+];
+
+export const commands = [
+  command('no verb', [], "choose one of those 'hop --help' lists"),
+  command('verb misspelt', ['docter'], "unknown verb 'docter'", "did you mean 'doctor'?"),
+  command('verb of a verb misspelt', ['config', 'chekc'], "did you mean 'check'?"),
+  command('verb of a verb missing', ['config'], 'needs one of: check, show'),
+  command('option misspelt', ['doctor', '--bord', 'sim'], "unknown option '--bord'", "did you mean '--board'?"),
+  command('option without its value', ['doctor', '--board'], '--board', "'hop doctor --help'"),
+  command('value not among those', ['doctor', '--board', 'moon'], 'moon not in {linux,sim}', "'hop doctor --help'"),
+  command('one argument too many', ['doctor', 'now'], "'now' is one argument too many", "'hop doctor --help'"),
+  command('configuration not there', ['doctor', '--config', 'nowhere'],
+    '--config must name a directory with robot.toml; this is not there'),
+  command('configuration is a file', ['doctor', '--config', '/etc/passwd'], '--config must name a directory', 'this is a file'),
+  command('file of no known kind', ['config', 'check', '/etc/passwd'], 'name it robot*.toml'),
+  command('file to check not there', ['config', 'check', 'robto.toml'], 'robto.toml: cannot be read'),
+];
