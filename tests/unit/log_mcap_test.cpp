@@ -189,6 +189,30 @@ TEST_F(McapLog, DamageInAChunkIsNamedWithItsPlace) {
   EXPECT_EQ(rest.cycles.back(), all.cycles.back());
 }
 
+// Any damage, CRCs unchecked: an Error or fewer messages, never more than the file holds, and no fault.
+TEST_F(McapLog, NoDamageLeadsOutsideTheFile) {
+  const std::string whole = content(write_log("a.mcap", 15, 2'048));
+  std::mt19937 random(3);
+  const auto below = [&random](std::size_t limit) { return static_cast<std::size_t>(random()) % limit; };
+  mcap::ReaderOptions unchecked;
+  unchecked.check_crc = false;
+  int refused = 0;
+  for (int i = 0; i < 5'000; ++i) {
+    std::string bytes = whole.substr(0, i % 3 == 0 ? below(whole.size()) : whole.size());
+    for (std::size_t flips = 1 + below(8); flips > 0 && bytes.size() > 8; --flips)
+      bytes[8 + below(bytes.size() - 8)] = static_cast<char>(random());
+    try {
+      mcap::Reader reader(mcap::bytes_of(bytes), "damaged", unchecked);
+      std::size_t sum = 0;
+      for (mcap::Message message; reader.next(message);) sum += message.data.size();
+      ASSERT_LE(sum, bytes.size());
+    } catch (const mcap::Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
 TEST_F(McapLog, UnknownRecordsArePassedOver) {
   std::string bytes = content(write_log("a.mcap", 5, 65'536));
   const std::string unknown = std::string("\x90\x03\0\0\0\0\0\0\0abc", 12);
