@@ -20,6 +20,14 @@ struct CycleChannel {
   const char* name;
   double (*value)(const StepOutput&);
 };
+template <std::size_t i>
+double innovation(const StepOutput& o) {
+  return o.estimate.innovation[i];
+}
+template <std::size_t i>
+double normalised(const StepOutput& o) {
+  return o.estimate.normalised_innovation_squared[i];
+}
 double command_torque_Nm(const StepOutput& out) {
   return out.command.motor[0].torque_Nm + out.command.motor[1].torque_Nm;
 }
@@ -38,6 +46,12 @@ constexpr std::array kCycleChannels{
                  [](const StepOutput& o) { return o.estimate.weighting_accel_mps2; }},
     CycleChannel{"estimate_leg_torque_Nm", [](const StepOutput& o) { return o.estimate.leg_torque_Nm; }},
     CycleChannel{"command_leg_torque_Nm", command_torque_Nm},
+    CycleChannel{"innovation_tof_m", innovation<0>},
+    CycleChannel{"innovation_leg_length_m", innovation<1>},
+    CycleChannel{"innovation_leg_rate_mps", innovation<2>},
+    CycleChannel{"normalised_tof", normalised<0>},
+    CycleChannel{"normalised_leg_length", normalised<1>},
+    CycleChannel{"normalised_leg_rate", normalised<2>},
 };
 
 // Channels that stand at the time of their own measurement.

@@ -18,7 +18,7 @@ function start() {
     return;
   }
   forceDepth = new ForceDepth(data, document.getElementById('force-depth'), t => timePlots.point(t));
-  timePlots = new TimePlots(data, document.getElementById('time-plots'), t => {
+  timePlots = new TimePlots(data, document.getElementById('time-plots'), document.getElementById('folded-plots'), t => {
     showInstant(t);
     forceDepth.point(t);
   }, (from, to) => marked(from, to));
@@ -32,7 +32,7 @@ function start() {
     timePlots.show(...view.range);
     forceDepth.show(view.strides);
   };
-  const rows = fillStrides(data, document.getElementById('stride-table'), stride => choose(views.find(view => view.strides.length === 1 && view.strides[0] === stride && view.range !== whole)));
+  const rows = fillStrides(data, document.getElementById('stride-table'), stride => choose(views[1 + data.strides.indexOf(stride)]));
   const buttons = views.map(view => element('button', { type: 'button', onclick: () => choose(view) }, view.name));
   document.getElementById('views').append(...buttons);
 

@@ -1,5 +1,5 @@
 // Which channels are drawn where. A channel that the trial does not have is left out, and a panel without any.
-// Channels are in SI units; a panel shows them times `scale`.
+// Channels are in SI units; a panel shows them times `scale`. A folded one is shown when the reader asks.
 const PANELS = [
   {
     title: 'Leg length', unit: 'mm', scale: 1000, digits: 1,
@@ -57,6 +57,25 @@ const PANELS = [
       { channel: 'truth_leg_torque_Nm', label: 'truth', color: 'text', style: 'dashed' },
       { channel: 'command_leg_torque_Nm', label: 'command', color: 'orange' },
       { channel: 'estimate_leg_torque_Nm', label: 'from currents', color: 'blue' },
+    ],
+  },
+  {
+    title: 'Innovation, heights', unit: 'mm', scale: 1000, digits: 2, folded: true,
+    series: [
+      { channel: 'innovation_tof_m', label: 'time of flight', color: 'grey', style: 'points' },
+      { channel: 'innovation_leg_length_m', label: 'leg length', color: 'blue', style: 'points' },
+    ],
+  },
+  {
+    title: 'Innovation, leg rate', unit: 'm/s', scale: 1, digits: 3, folded: true,
+    series: [{ channel: 'innovation_leg_rate_mps', label: 'leg rate', color: 'orange', style: 'points' }],
+  },
+  {
+    title: 'Innovation squared over its variance', unit: '95 % below 3.84', scale: 1, digits: 2, folded: true,
+    series: [
+      { channel: 'normalised_tof', label: 'time of flight', color: 'grey', style: 'points' },
+      { channel: 'normalised_leg_length', label: 'leg length', color: 'blue', style: 'points' },
+      { channel: 'normalised_leg_rate', label: 'leg rate', color: 'orange', style: 'points' },
     ],
   },
 ];

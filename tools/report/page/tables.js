@@ -8,7 +8,7 @@ function fillText(data) {
     notes.append(element('p', {}, `Long trial: between strides the figures show the least and greatest value of each ${data.envelope_rows} cycles.`));
   }
   document.getElementById('configuration').textContent = data.configuration;
-  if (!data.configuration) document.querySelector('details').remove();
+  if (!data.configuration) document.getElementById('configuration').parentElement.remove();
   fillEvents(data, document.getElementById('event-table'));
 }
 

@@ -4,7 +4,7 @@ class TimePlots {
 
   static kGapRows = 30;     // a line ends where a channel has nothing for longer
 
-  constructor(data, container, onHover, onView) {
+  constructor(data, container, folded, onHover, onView) {
     this.data = data;
     this.onHover = onHover;
     this.onView = onView;
@@ -14,11 +14,16 @@ class TimePlots {
     this.plots = [];
     for (const panel of PANELS) {
       const series = panel.series.filter(entry => data.columns[entry.channel]);
-      if (series.length) this.plots.push(this.makePlot(panel, series, container));
+      if (series.length) this.plots.push(this.makePlot(panel, series, panel.folded ? folded : container));
     }
-    container.append(element('div', { className: 'axis-label' }, 'time since release, s'));
+    for (const part of [container, folded]) {
+      if (part.childElementCount) part.append(element('div', { className: 'axis-label' }, 'time since release, s'));
+      else part.parentElement.hidden = true;
+    }
     theme.redraw.push(() => this.redraw());
-    new ResizeObserver(() => this.redraw()).observe(container);
+    const resized = new ResizeObserver(() => this.redraw());
+    resized.observe(container);
+    resized.observe(folded);
   }
 
   makePlot(panel, series, container) {
