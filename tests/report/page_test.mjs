@@ -80,7 +80,7 @@ async function checkPage(browser, name, { panels, strides }) {
   });
 
   await check(`${name}: the pointer reads values in every panel`, async () => {
-    await browser.run(() => document.querySelectorAll('#views button')[1].click());
+    await browser.run(() => document.querySelector('#stride-table tbody tr').click());
     const plot = await place(browser, '.plot', 1);
     await browser.point(plot.left + plot.width * 0.5, plot.top + plot.height / 2);
     await sleep(100);

@@ -32,19 +32,36 @@ function start() {
     timePlots.show(...view.range);
     forceDepth.show(view.strides);
   };
-  const rows = fillStrides(data, document.getElementById('stride-table'), stride => choose(views[1 + data.strides.indexOf(stride)]));
-  const buttons = views.map(view => element('button', { type: 'button', onclick: () => choose(view) }, view.name));
-  document.getElementById('views').append(...buttons);
+  const rows = fillStrides(data, document.getElementById('stride-table'),
+    stride => choose(views[1 + data.strides.indexOf(stride)]));
+  const switcher = views.length > 12 ? strideMenu(views, choose) : strideButtons(views, choose);
 
   // Shows which of the views, if any, the panels are at.
   function marked(from, to) {
-    views.forEach((view, i) => {
-      const here = view.range[0] === from && view.range[1] === to;
-      buttons[i].setAttribute('aria-pressed', String(here));
-      if (i > 0) rows[i - 1].classList.toggle('shown', here);
-    });
+    const here = views.findIndex(view => view.range[0] === from && view.range[1] === to);
+    switcher(here);
+    rows.forEach((row, i) => row.classList.toggle('shown', i + 1 === here));
   }
   choose(views[Math.min(1, views.length - 1)]);
+}
+
+// The ways to choose a view; each returns what shows the number of the chosen one, -1 for none.
+function strideButtons(views, choose) {
+  const buttons = views.map(view => element('button', { type: 'button', onclick: () => choose(view) }, view.name));
+  document.getElementById('views').append(...buttons);
+  return here => buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(i === here)));
+}
+
+function strideMenu(views, choose) {
+  const menu = element('select', { title: 'Part shown', onchange: () => choose(views[menu.selectedIndex]) },
+    ...views.map(view => element('option', {}, view.name)));
+  const step = by => () => choose(views[Math.max(0, Math.min(views.length - 1, menu.selectedIndex + by))]);
+  document.getElementById('views').append(
+    element('button', { type: 'button', onclick: () => choose(views[0]) }, views[0].name),
+    element('button', { type: 'button', title: 'Stride before', onclick: step(-1) }, '‹'),
+    menu,
+    element('button', { type: 'button', title: 'Next stride', onclick: step(1) }, '›'));
+  return here => { menu.selectedIndex = here; };
 }
 
 // A stride with what leads to it and what follows, inside the trial.

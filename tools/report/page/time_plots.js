@@ -181,15 +181,15 @@ class TimePlots {
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
     context.setLineDash([2, 3]);
     for (const stride of this.data.strides) {
-      const named = graph.toDomXCoord(stride.liftoff_s) - graph.toDomXCoord(stride.touchdown_s) > 140;
+      const width = graph.toDomXCoord(stride.liftoff_s ?? this.data.time[this.data.time.length - 1]) - graph.toDomXCoord(stride.touchdown_s);
       for (const [name, t] of [['touchdown', stride.touchdown_s], ['switch', stride.switch_s], ['liftoff', stride.liftoff_s]]) {
-        if (t === null) continue;
+        if (t === null || (width < 12 && name !== 'touchdown')) continue;
         const x = Math.round(graph.toDomXCoord(t)) + 0.5;
         context.beginPath();
         context.moveTo(x, box.y);
         context.lineTo(x, box.y + box.h);
         context.stroke();
-        if (named && (this.plots[0] || plot) === plot) context.fillText(name, x + 3, box.y + 9);
+        if (width > 140 && (this.plots[0] || plot) === plot) context.fillText(name, x + 3, box.y + 9);
       }
     }
     context.restore();
