@@ -149,9 +149,23 @@ async function laptop() {
       assert.ok(complaints.some(line => line.includes('Content Security Policy')), `${complaints}`);
     });
 
-    await open(browser, sample('sample_many', 12, 0.2));
-    await checkPage(browser, 'twelve strides', { panels: 6, strides: 12 });
-    await browser.screenshot(join(shots, 'twelve_strides.png'));
+    await open(browser, sample('sample_none', 0, 0));
+    await check('a trial without a cycle says so', async () => {
+      assert.match(await browser.run(() => document.body.innerText), /holds no cycle/);
+      assert.deepEqual(await browser.complaints(), []);
+    });
+
+    await open(browser, sample('sample_many', 30, 0.2));
+    await checkPage(browser, 'thirty strides', { panels: 6, strides: 30 });
+    await check('thirty strides: one after the other by button', async () => {
+      const next = () => browser.run(() => {
+        document.querySelector('#views button[title="Next stride"]').click();
+        return document.querySelector('#views select').value;
+      });
+      await browser.run(() => document.querySelector('#views button').click());
+      assert.deepEqual([await next(), await next()], ['Stride 1', 'Stride 2']);
+    });
+    await browser.screenshot(join(shots, 'thirty_strides.png'));
 
     // 20 minutes; the spike is one row three quarters through, and the heights of the whole trial must show it.
     await open(browser, sample('sample_long', 20, 60));
