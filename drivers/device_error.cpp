@@ -8,7 +8,7 @@ namespace sandhopper {
 namespace {
 std::string sentence(std::string_view device, std::string_view cause, std::string_view cure) {
   std::string text(device);
-  text.append(": ").append(cause).append(". ").append(cure);
+  text.append(": ").append(cause).append(cause.ends_with('\n') ? "" : ". ").append(cure);
   return text;
 }
 }  // namespace

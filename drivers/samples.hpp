@@ -38,8 +38,8 @@ struct MotorSample {
   }
 };
 
-// Specific force (+9.81 m/s^2 along z at rest) and angular rate. `samples` counts what the sensor delivered since
-// start: the sensor is faster than the cycle, so it grows by 1 or 2 per cycle at 1666 Hz.
+// Specific force (+9.81 m/s^2 along z at rest) and angular rate. `samples` counts what the sensor delivered
+// since start: the sensor is faster than the cycle, so it grows by 1 or 2 per cycle at 1666 Hz.
 struct ImuSample {
   std::int64_t time_ns = 0;
   std::array<double, 3> accel_mps2{};

@@ -1,0 +1,155 @@
+#include "firmware/linux_board.hpp"
+
+#include <exception>
+#include <string>
+
+#include "drivers/adc/load_cell_reader.hpp"
+#include "drivers/can/cubemars_drives.hpp"
+#include "drivers/device_error.hpp"
+#include "drivers/gpio/gpio.hpp"
+#include "drivers/imu/imu_reader.hpp"
+#include "drivers/latest.hpp"
+#include "drivers/tof/afbr_s50.hpp"
+#include "firmware/acquisition_thread.hpp"
+
+namespace sandhopper {
+
+struct LinuxBoardDevices {
+  std::unique_ptr<GpioInput> estop;
+  std::unique_ptr<GpioOutput> body_catch;
+  std::unique_ptr<ImuReader> imu_body;
+  std::unique_ptr<ImuReader> imu_foot;
+  std::unique_ptr<LoadCellReader> load_cell;
+  std::unique_ptr<AfbrS50> tof;
+  std::unique_ptr<CubeMarsDrives> drives;
+};
+
+struct LinuxBoard::Acquisition {
+  Latest<ImuSample> imu_body;
+  Latest<ImuSample> imu_foot;
+  Latest<LoadCellSample> load_cell;
+  Latest<TofSample> tof;
+  // Last, so that the threads end before what they write to.
+  std::vector<std::unique_ptr<AcquisitionThread>> threads;
+};
+
+namespace {
+
+// Opens device after device and keeps what was wrong, so that one start shows every fault.
+class Opening {
+ public:
+  template <class Device, class... Args>
+  void open(const char* name, std::unique_ptr<Device>& device, const Args&... args) {
+    attempt(name, [&] { device = std::make_unique<Device>(args...); });
+  }
+
+  template <class Action>
+  void attempt(const char* name, Action&& action) {
+    reports_.push_back({name, ""});
+    try {
+      action();
+    } catch (const std::exception& error) {
+      reports_.back().problem = error.what();
+    }
+  }
+
+  const std::vector<DeviceReport>& reports() const { return reports_; }
+
+ private:
+  std::vector<DeviceReport> reports_;
+};
+
+std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDevices& d, CanTap* tap) {
+  Opening opening;
+  opening.open("estop", d.estop, "estop", config.estop);
+  if (config.body_catch.fitted()) opening.open("catch", d.body_catch, "catch", config.body_catch, true);
+  opening.open("imu_body", d.imu_body, "imu_body", config.imu_body);
+  opening.open("imu_foot", d.imu_foot, "imu_foot", config.imu_foot);
+  opening.open("load_cell", d.load_cell, config.load_cell);
+  opening.open("tof", d.tof, config.tof);
+  opening.open("can", d.drives, config.can);
+  if (d.drives) {
+    d.drives->set_tap(tap);
+    opening.attempt("motors", [&] { d.drives->probe(); });
+  }
+  return opening.reports();
+}
+
+template <class Reader, class Sample>
+std::unique_ptr<AcquisitionThread> acquire(const char* name, int priority, Reader& reader,
+                                           Latest<Sample>& latest) {
+  return std::make_unique<AcquisitionThread>(AcquisitionThread::Setup{name, priority}, [&reader, &latest] {
+    Sample sample;
+    if (reader.acquire(sample)) latest.publish(sample);
+  });
+}
+
+template <class Sample>
+void take(Latest<Sample>& latest, Sample& sample) noexcept {
+  sample.fresh = false;
+  latest.take(sample);
+}
+
+LinuxBoardStatus::SlowBus counted(const DeviceCounters& counters) noexcept {
+  return {counters.failed_transfers, counters.missed_edges, counters.invalid};
+}
+
+}  // namespace
+
+LinuxBoard::LinuxBoard(const LinuxBoardConfig& config, CanTap* tap)
+    : devices_(std::make_unique<LinuxBoardDevices>()), acquisition_(std::make_unique<Acquisition>()) {
+  std::string problems;
+  for (const auto& report : open_all(config, *devices_, tap))
+    if (!report.problem.empty()) problems += "\n  " + report.problem;
+  if (!problems.empty())
+    throw DeviceError("Linux board", "cannot start, and nothing was energised" + problems + "\n",
+                      "Put right what is named above, or name other devices in the board's file");
+  auto& d = *devices_;
+  auto& a = *acquisition_;
+  a.threads.push_back(acquire("imu_body", config.imu_body.thread_priority, *d.imu_body, a.imu_body));
+  a.threads.push_back(acquire("imu_foot", config.imu_foot.thread_priority, *d.imu_foot, a.imu_foot));
+  a.threads.push_back(acquire("load_cell", config.load_cell.thread_priority, *d.load_cell, a.load_cell));
+  a.threads.push_back(acquire("tof", config.tof.thread_priority, *d.tof, a.tof));
+}
+
+LinuxBoard::~LinuxBoard() { devices_->drives->shut_down(); }
+
+void LinuxBoard::read(SensorFrame& frame) noexcept {
+  auto& d = *devices_;
+  auto& a = *acquisition_;
+  for (auto& motor : frame.motor) motor.fresh = false;
+  d.drives->drain([&](const MotorReading& reading) {
+    frame.motor[static_cast<std::size_t>(reading.side)] = reading.sample;
+  });
+  take(a.imu_body, frame.imu_body);
+  take(a.imu_foot, frame.imu_foot);
+  take(a.load_cell, frame.load_cell);
+  take(a.tof, frame.tof);
+  const auto& can = d.drives->socket_counters();
+  frame.bus_faults = can.send_failures + can.receive_overflows + can.error_frames;
+  frame.emergency_stop = d.estop->active();
+}
+
+void LinuxBoard::write(const Command& command) noexcept {
+  devices_->drives->command(command.motor, command.drive);
+  if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
+}
+
+LinuxBoardStatus LinuxBoard::status() const noexcept {
+  const auto& d = *devices_;
+  LinuxBoardStatus out;
+  out.can = d.drives->socket_counters();
+  for (std::size_t i = 0; i < kMotorCount; ++i) out.motor[i] = d.drives->bus().counters(static_cast<Side>(i));
+  out.imu_body = counted(d.imu_body->counters());
+  out.imu_foot = counted(d.imu_foot->counters());
+  out.load_cell = counted(d.load_cell->counters());
+  out.tof = counted(d.tof->counters());
+  return out;
+}
+
+std::vector<DeviceReport> examine_devices(const LinuxBoardConfig& config) {
+  LinuxBoardDevices devices;
+  return open_all(config, devices, nullptr);
+}
+
+}  // namespace sandhopper

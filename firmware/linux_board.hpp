@@ -1,0 +1,83 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/can/can_socket.hpp"
+#include "drivers/can/cubemars.hpp"
+#include "firmware/board.hpp"
+#include "firmware/linux_board_config.hpp"
+
+namespace sandhopper {
+
+// What the buses of the Linux board have to say about themselves; all cumulative since start.
+struct LinuxBoardStatus {
+  struct SlowBus {
+    std::uint32_t failed_transfers = 0;
+    std::uint32_t missed_edges = 0;
+    std::uint32_t invalid = 0;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("failed_transfers", self.failed_transfers);
+      visit("missed_edges", self.missed_edges);
+      visit("invalid", self.invalid);
+    }
+  };
+
+  CanSocketCounters can{};
+  std::array<CubeMarsCounters, kMotorCount> motor{};
+  SlowBus imu_body{};
+  SlowBus imu_foot{};
+  SlowBus load_cell{};
+  SlowBus tof{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("can", self.can);
+    visit("motor", self.motor);
+    visit("imu_body", self.imu_body);
+    visit("imu_foot", self.imu_foot);
+    visit("load_cell", self.load_cell);
+    visit("tof", self.tof);
+  }
+};
+
+struct LinuxBoardDevices;
+
+// The robot's device nodes. A thread per slow bus takes samples as they come; the cycle reads the newest ones
+// and the CAN replies, and waits for nothing.
+//
+// The constructor opens every device, asks each drive for its state and throws DeviceError with one line for
+// each device that is not right; until then no drive gets anything but "leave motor mode". The destructor
+// takes torque and motor mode away.
+class LinuxBoard : public Board {
+ public:
+  // `tap`, if any, sees every CAN frame both ways.
+  explicit LinuxBoard(const LinuxBoardConfig& config, CanTap* tap = nullptr);
+  ~LinuxBoard() override;
+  LinuxBoard(const LinuxBoard&) = delete;
+  LinuxBoard& operator=(const LinuxBoard&) = delete;
+
+  void read(SensorFrame& frame) noexcept override;
+  void write(const Command& command) noexcept override;
+
+  LinuxBoardStatus status() const noexcept;
+
+ private:
+  struct Acquisition;
+
+  std::unique_ptr<LinuxBoardDevices> devices_;
+  std::unique_ptr<Acquisition> acquisition_;
+};
+
+// One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no thread.
+struct DeviceReport {
+  std::string device;
+  std::string problem;
+};
+std::vector<DeviceReport> examine_devices(const LinuxBoardConfig& config);
+
+}  // namespace sandhopper
