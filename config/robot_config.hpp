@@ -5,6 +5,7 @@
 
 #include "drivers/can/can_config.hpp"
 #include "firmware/controller_config.hpp"
+#include "firmware/realtime.hpp"
 
 namespace sandhopper {
 
@@ -18,6 +19,7 @@ struct RobotConfig {
   ArmingConfig arming{};
   StiffnessConfig stiffness{};
   LimitsConfig limits{};
+  RealTimeConfig real_time{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -28,6 +30,7 @@ struct RobotConfig {
     visit("arming", self.arming);
     visit("stiffness", self.stiffness);
     visit("limits", self.limits);
+    visit("real_time", self.real_time);
   }
 
   // Rules that span keys and roles; called by the loader (config/load.hpp).

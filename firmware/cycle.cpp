@@ -1,0 +1,62 @@
+#include "firmware/cycle.hpp"
+
+#include <ctime>
+#include <utility>
+
+namespace sandhopper {
+
+const StepOutput& Cycle::run(const Turn& turn) noexcept {
+  frame_.time_ns = turn.time_ns;
+  frame_.cycle = turn.cycle;
+  frame_.overruns = turn.overruns;
+  frame_.request = turn.request;
+  parts_.board.read(frame_);
+  const StepOutput& output = parts_.controller.step(frame_);
+  parts_.board.write(output.command);
+
+  parts_.logger.push(parts_.topics.frame, turn.time_ns, frame_);
+  parts_.logger.push(parts_.topics.output, turn.time_ns, output);
+  for (const Event& event : parts_.controller.events()) {
+    parts_.logger.push(parts_.topics.event, turn.time_ns, event);
+    parts_.aftermath.offer(event);
+  }
+  if (parts_.controller.stride_finished()) parts_.aftermath.offer(parts_.controller.stride_sums());
+  return output;
+}
+
+Aftermath::Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics,
+                     Listener listener)
+    : config_(config), logger_(logger), topics_(topics), listener_(std::move(listener)) {}
+
+Aftermath::~Aftermath() { stop(); }
+
+void Aftermath::start() {
+  thread_ = std::thread([this] {
+    while (!stopping_.load(std::memory_order_acquire)) {
+      serve();
+      const timespec pause{0, 5'000'000};
+      clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+    }
+    serve();
+  });
+}
+
+void Aftermath::stop() {
+  stopping_.store(true, std::memory_order_release);
+  if (thread_.joinable()) thread_.join();
+}
+
+void Aftermath::serve() {
+  for (const Event* event = events_.front(); event != nullptr; event = events_.front()) {
+    if (listener_.event) listener_.event(*event);
+    events_.pop();
+  }
+  for (const StrideSums* sums = strides_.front(); sums != nullptr; sums = strides_.front()) {
+    const StrideResult result = solve_stride(*sums, config_);
+    logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
+    if (listener_.stride) listener_.stride(result);
+    strides_.pop();
+  }
+}
+
+}  // namespace sandhopper

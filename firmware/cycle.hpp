@@ -1,0 +1,87 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+#include "firmware/board.hpp"
+#include "firmware/controller.hpp"
+#include "firmware/log/spsc_ring.hpp"
+#include "firmware/log/trial_logger.hpp"
+
+namespace sandhopper {
+
+inline constexpr std::int64_t kCyclePeriod_ns = 1'000'000;
+
+// The topics of a trial's log, in the order they are written.
+struct TrialTopics {
+  explicit TrialTopics(TrialLogger& logger)
+      : frame(logger.add_topic<SensorFrame>(topic::kFrame)),
+        output(logger.add_topic<StepOutput>(topic::kOutput)),
+        event(logger.add_topic<Event>(topic::kEvent)),
+        stride(logger.add_topic<StrideResult>(topic::kStride, Lane::background)) {}
+  LogTopic<SensorFrame> frame;
+  LogTopic<StepOutput> output;
+  LogTopic<Event> event;
+  LogTopic<StrideResult> stride;
+};
+
+// What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
+// results. Fed by the cycle through rings; `serve` runs on a thread of ordinary priority (start) or wherever
+// it is called (simulation).
+class Aftermath {
+ public:
+  struct Listener {
+    std::function<void(const Event&)> event{};
+    std::function<void(const StrideResult&)> stride{};
+  };
+  Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics, Listener listener);
+  ~Aftermath();
+
+  void start();
+  void stop();
+  void serve();
+
+  // From the cycle.
+  void offer(const Event& event) noexcept { events_.push(event); }
+  void offer(const StrideSums& sums) noexcept { strides_.push(sums); }
+
+ private:
+  StiffnessConfig config_;
+  TrialLogger& logger_;
+  const TrialTopics& topics_;
+  Listener listener_;
+  SpscRing<Event> events_{1024};
+  SpscRing<StrideSums> strides_{64};
+  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+};
+
+// One turn of the cycle: read, step, write, log. Everything a turn does is bounded, waits for nothing and
+// allocates nothing.
+class Cycle {
+ public:
+  struct Parts {
+    Board& board;
+    Controller& controller;
+    TrialLogger& logger;
+    const TrialTopics& topics;
+    Aftermath& aftermath;
+  };
+  explicit Cycle(const Parts& parts) noexcept : parts_(parts) {}
+
+  struct Turn {
+    std::int64_t time_ns;
+    std::uint64_t cycle;
+    std::uint32_t overruns = 0;
+    Request request = Request::none;
+  };
+  const StepOutput& run(const Turn& turn) noexcept;
+
+ private:
+  Parts parts_;
+  SensorFrame frame_{};
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,62 @@
+#include "firmware/hop_session.hpp"
+
+#include <utility>
+
+namespace sandhopper {
+namespace {
+
+// Cycles after the drives are off, so that their last commands are sent and logged.
+constexpr std::uint64_t kTail_cycles = 20;
+// A robot that cannot come to rest is not waited for longer than this.
+constexpr std::uint64_t kPatience_cycles = 15'000;
+
+}  // namespace
+
+HopSession::HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger,
+                       Aftermath::Listener listener)
+    : robot_(robot),
+      board_(board),
+      logger_(logger),
+      topics_(logger),
+      controller_(cycle_config(robot)),
+      aftermath_(robot.stiffness, logger, topics_, std::move(listener)) {}
+
+SessionResult HopSession::run(const std::atomic<bool>& quit, RequestBox& requests,
+                              const std::function<void(const std::string&)>& say) {
+  SessionResult result;
+  logger_.start();
+  aftermath_.start();
+  Cycle cycle({board_, controller_, logger_, topics_, aftermath_});
+  {
+    const RealTimeThread real_time(robot_.real_time);
+    for (const auto& warning : real_time.warnings()) say(warning);
+    CycleClock clock(kCyclePeriod_ns);
+    std::uint64_t asked_to_quit = 0;
+    std::uint64_t off_since = 0;
+    while (true) {
+      const std::int64_t now_ns = clock.wait();
+      Request request = requests.take();
+      if (quit.load(std::memory_order_acquire) && asked_to_quit == 0) {
+        asked_to_quit = clock.cycle();
+        request = Request::stop;
+      }
+      const auto& output = cycle.run({now_ns, clock.cycle(), clock.overruns(), request});
+      const bool off = output.command.drive == DriveRequest::off;
+      if (!off) off_since = clock.cycle();
+      result.last_state = output.state;
+      result.last_fault = output.fault;
+      if (asked_to_quit == 0) continue;
+      if (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) break;
+      if (clock.cycle() > asked_to_quit + kPatience_cycles) break;
+    }
+    result.cycles = clock.cycle();
+    result.overruns = clock.overruns();
+    result.latency = clock.latency();
+  }
+  aftermath_.stop();
+  logger_.stop();
+  result.lost_records = logger_.lost_records();
+  return result;
+}
+
+}  // namespace sandhopper

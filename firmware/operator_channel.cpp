@@ -1,0 +1,127 @@
+#include "firmware/operator_channel.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+#include <system_error>
+
+namespace sandhopper {
+namespace {
+
+std::optional<Request> request_named(std::string_view word) {
+  for (std::size_t i = 1; i < EnumNames<Request>::value.size(); ++i)
+    if (EnumNames<Request>::value[i] == word) return static_cast<Request>(i);
+  return std::nullopt;
+}
+
+void print(const std::string& line) {
+  std::fputs(line.c_str(), stdout);
+  std::fputc('\n', stdout);
+  std::fflush(stdout);
+}
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string stiffness(const StiffnessEstimate& k) {
+  return fmt::format(R"({{"value":{},"ci95":[{},{}],"valid":{},"reason":"{}"}})", k.value_N_per_m,
+                     k.ci95_low_N_per_m, k.ci95_high_N_per_m, k.validity == Validity::valid,
+                     name_of(k.validity));
+}
+
+}  // namespace
+
+OperatorChannel::OperatorChannel() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGHUP, SIG_IGN);  // a lost terminal ends standard input, which quits in order
+  signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC);
+  if (signal_fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+}
+
+OperatorChannel::~OperatorChannel() { close(signal_fd_); }
+
+void OperatorChannel::listen(RequestBox& requests, std::atomic<bool>& quit, const std::atomic<bool>& ended) {
+  constexpr int kLook_ms = 100;
+  std::array<pollfd, 2> fds{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{signal_fd_, POLLIN, 0}};
+  while (!quit.load() && !ended.load()) {
+    if (poll(fds.data(), fds.size(), kLook_ms) < 0 && errno != EINTR) break;
+    if ((fds[1].revents & POLLIN) != 0) quit.store(true);
+    if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit))
+      quit.store(true);
+  }
+}
+
+bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<bool>& quit) {
+  std::array<char, 256> buffer{};
+  const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
+  if (got <= 0) return false;
+  pending_.append(buffer.data(), static_cast<std::size_t>(got));
+  for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
+    take_line(pending_.substr(0, end), requests, quit);
+    pending_.erase(0, end + 1);
+  }
+  if (pending_.size() > 1024) pending_.clear();
+  return true;
+}
+
+void OperatorChannel::take_line(const std::string& line, RequestBox& requests, std::atomic<bool>& quit) {
+  if (line == "quit") {
+    quit.store(true);
+    return;
+  }
+  if (const auto request = request_named(line))
+    requests.post(*request);
+  else if (!line.empty())
+    tell_text("error", "unknown word '" + line + "'; known: arm, release, stop, disarm, quit");
+}
+
+void OperatorChannel::tell(const Event& e) {
+  print(fmt::format(
+      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]}})",
+      name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, e.values[0], e.values[1],
+      e.values[2], e.values[3]));
+}
+
+void OperatorChannel::tell(const StrideResult& r) {
+  print(fmt::format(R"({{"stride":{},"touchdown_speed_mps":{},"peak_force_N":{},"max_depth_m":{},)"
+                    R"("stiffness_N_per_m":{{"qs_ols":{},"mo_ols":{},"mo_wls":{}}}}})",
+                    r.summary.stride, r.summary.touchdown_speed_mps, r.summary.peak_force_N,
+                    r.summary.max_depth_m, stiffness(r.quasi_static_ols), stiffness(r.observer_ols),
+                    stiffness(r.observer_wls)));
+}
+
+void OperatorChannel::tell(const SessionResult& r) {
+  print(fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
+                    R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{}}}}}}})",
+                    name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
+                    r.latency.quantile_us(0.5), r.latency.quantile_us(0.99), r.latency.quantile_us(0.999),
+                    r.latency.largest_us()));
+}
+
+void OperatorChannel::tell_text(const std::string& key, const std::string& text) {
+  print(fmt::format("{{{}:{}}}", json_string(key), json_string(text)));
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/fields.hpp"
+
+namespace sandhopper {
+
+// How the cycle's thread is set up. Priorities: the cycle at `priority`, acquisition threads below it, kernel
+// threads of the buses above where they serve it.
+struct RealTimeConfig {
+  int priority = 80;        // SCHED_FIFO; 0: ordinary scheduling
+  int cpu = -1;             // pinned to this CPU; -1: any
+  bool lock_memory = true;  // mlockall, so that nothing is paged out
+  int stack_prefault_kB = 512;
+  bool hold_cpu_awake = true;  // keeps /dev/cpu_dma_latency at 0
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("priority", self.priority, Range{0, 98});
+    visit("cpu", self.cpu, Range{-1, 1023});
+    visit("lock_memory", self.lock_memory);
+    visit("stack_prefault_kB", self.stack_prefault_kB, Range{0, 7000});
+    visit("hold_cpu_awake", self.hold_cpu_awake);
+  }
+};
+
+// Makes the calling thread real-time as configured, until the object goes. What the machine does not grant is
+// listed in warnings(), each with its cure, and the thread goes on without it.
+class RealTimeThread {
+ public:
+  explicit RealTimeThread(const RealTimeConfig& config);
+  ~RealTimeThread();
+  RealTimeThread(const RealTimeThread&) = delete;
+  RealTimeThread& operator=(const RealTimeThread&) = delete;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  std::vector<std::string> warnings_;
+  int latency_fd_ = -1;
+};
+
+// How late the cycle woke, in 1 us bins up to 1 ms and one for all beyond. Counting allocates nothing.
+class LatencyHistogram {
+ public:
+  static constexpr std::size_t kBins = 1001;
+  void add(std::int64_t late_ns) noexcept;
+  std::uint64_t count() const noexcept { return count_; }
+  double largest_us() const noexcept { return static_cast<double>(largest_ns_) * 1e-3; }
+  // Upper edge of the bin that holds this share of the counts.
+  double quantile_us(double share) const noexcept;
+  const std::array<std::uint64_t, kBins>& bins() const noexcept { return bins_; }
+
+ private:
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t count_ = 0;
+  std::int64_t largest_ns_ = 0;
+};
+
+// The cycle's grid on CLOCK_MONOTONIC: whole multiples of the period. A grid point that has passed when the
+// cycle ends is counted as an overrun and skipped, never caught up by a burst.
+class CycleClock {
+ public:
+  explicit CycleClock(std::int64_t period_ns);
+
+  // Sleeps until the next grid point and returns it.
+  std::int64_t wait() noexcept;
+  std::uint64_t cycle() const noexcept { return cycle_; }
+  std::uint32_t overruns() const noexcept { return overruns_; }
+  const LatencyHistogram& latency() const noexcept { return latency_; }
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t next_ns_;
+  std::uint64_t cycle_ = 0;
+  std::uint32_t overruns_ = 0;
+  LatencyHistogram latency_;
+};
+
+}  // namespace sandhopper

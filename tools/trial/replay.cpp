@@ -1,0 +1,150 @@
+#include "tools/trial/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <deque>
+
+#include "config/load.hpp"
+#include "config/robot_config.hpp"
+#include "firmware/controller.hpp"
+#include "firmware/log/topics.hpp"
+#include "firmware/log/trial_description.hpp"
+#include "tools/trial/record_difference.hpp"
+
+namespace sandhopper {
+namespace {
+
+RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file) {
+  for (const auto& attachment : log.attachments()) {
+    if (attachment.name != kRobotAttachment) continue;
+    const std::string_view text(reinterpret_cast<const char*>(attachment.data.data()),
+                                attachment.data.size());
+    return load_text<RobotConfig>(file.string() + ": " + std::string(kRobotAttachment), text);
+  }
+  throw mcap::Error(file.string() + ": has no attachment " + std::string(kRobotAttachment) +
+                    ", so the cycle's configuration is not known; was it made by hopperd or `hop trial`?");
+}
+
+// One topic of the log against what the cycle gives now, in order.
+template <class Record>
+class Comparison {
+ public:
+  explicit Comparison(std::string_view name) : name_(name), topic_(name) {}
+
+  // What the cycle gave; compared as soon as the logged record is met.
+  void expect(const Record& record) { expected_.push_back(record); }
+
+  // True when the message was of this topic.
+  bool take(const mcap::Message& message, std::optional<ReplayMismatch>& mismatch) {
+    if (!topic_.take(message, logged_)) return false;
+    if (expected_.empty()) {
+      if (!mismatch)
+        mismatch = ReplayMismatch{name_, count_, message.stamp.log_ns, "logged, but not given by the replay"};
+    } else {
+      if (!mismatch && !same_bytes(expected_.front(), message.data))
+        mismatch =
+            ReplayMismatch{name_, count_, message.stamp.log_ns, first_difference(logged_, expected_.front())};
+      expected_.pop_front();
+    }
+    ++count_;
+    return true;
+  }
+
+  std::uint64_t count() const { return count_; }
+  bool complete() const { return expected_.empty(); }
+  const std::string& name() const { return name_; }
+
+ private:
+  bool same_bytes(const Record& record, mcap::Bytes data) {
+    cdr::encode(record, buffer_.data());
+    return buffer_.size() == data.size() && std::memcmp(buffer_.data(), data.data(), data.size()) == 0;
+  }
+
+  std::string name_;
+  TopicOf<Record> topic_;
+  Record logged_{};
+  std::deque<Record> expected_;
+  std::array<std::byte, cdr::size_of<Record>()> buffer_{};
+  std::uint64_t count_ = 0;
+};
+
+class Replay {
+ public:
+  Replay(const std::filesystem::path& file, const std::function<void(double)>& progress)
+      : log_(file), robot_(robot_of(log_, file)), controller_(cycle_config(robot_)), progress_(progress) {}
+
+  ReplayResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    mcap::Message message;
+    while (log_.next(message)) take(message);
+    result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double logged_s = static_cast<double>(last_ns_ - first_ns_) * 1e-9;
+    result_.x_real_time = result_.seconds > 0.0 ? logged_s / result_.seconds : 0.0;
+    result_.events = events_.count();
+    result_.strides = strides_.count();
+    result_.truncated_at = log_.truncated_at();
+    // A cut log may lack the last records of what the cycle gave; a closed one must have them all.
+    if (!result_.truncated_at && result_.gaps == 0) {
+      report_missing(outputs_);
+      report_missing(events_);
+      report_missing(strides_);
+    }
+    return result_;
+  }
+
+ private:
+  void take(const mcap::Message& message) {
+    if (frames_.take(message, frame_)) {
+      step();
+      if (progress_ && result_.cycles % 4096 == 0)
+        progress_(static_cast<double>(message.offset) / static_cast<double>(log_.file_bytes()));
+      return;
+    }
+    if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
+        strides_.take(message, result_.mismatch))
+      return;
+    LogGap gap;
+    if (gaps_.take(message, gap)) result_.gaps += gap.lost;
+  }
+
+  void step() {
+    if (result_.cycles++ == 0) first_ns_ = frame_.time_ns;
+    last_ns_ = frame_.time_ns;
+    outputs_.expect(controller_.step(frame_));
+    for (const auto& event : controller_.events()) events_.expect(event);
+    if (controller_.stride_finished())
+      strides_.expect(solve_stride(controller_.stride_sums(), robot_.stiffness));
+  }
+
+  template <class Record>
+  void report_missing(const Comparison<Record>& topic) {
+    if (!topic.complete() && !result_.mismatch)
+      result_.mismatch =
+          ReplayMismatch{topic.name(), topic.count(), last_ns_, "given by the replay, but not logged"};
+  }
+
+  mcap::Reader log_;
+  RobotConfig robot_;
+  Controller controller_;
+  std::function<void(double)> progress_;
+  TopicOf<SensorFrame> frames_{topic::kFrame};
+  TopicOf<LogGap> gaps_{topic::kGap};
+  Comparison<StepOutput> outputs_{topic::kOutput};
+  Comparison<Event> events_{topic::kEvent};
+  Comparison<StrideResult> strides_{topic::kStride};
+  SensorFrame frame_{};
+  ReplayResult result_{};
+  std::int64_t first_ns_ = 0;
+  std::int64_t last_ns_ = 0;
+};
+
+}  // namespace
+
+ReplayResult replay_log(const std::filesystem::path& log, const std::function<void(double)>& progress) {
+  return Replay(log, progress).run();
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace sandhopper {
+
+struct ReplayMismatch {
+  std::string topic;
+  std::uint64_t record = 0;  // of that topic, from 0
+  std::int64_t time_ns = 0;
+  std::string field;  // the first that differs, with both values
+};
+
+struct ReplayResult {
+  std::uint64_t cycles = 0;
+  std::uint64_t events = 0;
+  std::uint64_t strides = 0;
+  std::uint64_t gaps = 0;  // records the logger lost; outputs after one cannot be compared
+  double seconds = 0.0;    // wall time spent
+  double x_real_time = 0.0;
+  std::optional<ReplayMismatch> mismatch;
+  std::optional<std::uint64_t> truncated_at;
+};
+
+// Runs the cycle again on the frames of a log, with the configuration in the log, and compares every output,
+// event and stride result byte for byte with what was logged. Throws mcap::Error for a file that is no
+// trial's log.
+ReplayResult replay_log(const std::filesystem::path& log,
+                        const std::function<void(double share)>& progress = {});
+
+}  // namespace sandhopper

@@ -1,0 +1,66 @@
+#include "tools/trial/trial_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+struct Named {
+  const char* key;
+  const char* text;
+  ReportStiffness ReportStride::*member;
+};
+constexpr std::array<Named, 3> kTreatments{
+    {{"qs_ols", "quasi-static + OLS", &ReportStride::quasi_static_ols},
+     {"mo_ols", "momentum observer + OLS", &ReportStride::observer_ols},
+     {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls}}};
+
+std::string readable(std::string reason) {
+  std::replace(reason.begin(), reason.end(), '_', ' ');
+  return reason;
+}
+
+std::string stiffness_line(const char* name, const ReportStiffness& k) {
+  if (!std::isfinite(k.value_N_per_m))
+    return fmt::format("    {:<24} -                            not valid: {}", name, readable(k.reason));
+  return fmt::format("    {:<24} {:6.0f} N/m  [{:6.0f}, {:6.0f}]  {}", name, k.value_N_per_m,
+                     k.ci95_low_N_per_m, k.ci95_high_N_per_m,
+                     k.valid ? "valid" : "not valid: " + readable(k.reason));
+}
+
+}  // namespace
+
+std::vector<std::string> stride_lines(const ReportData& data) {
+  std::vector<std::string> lines;
+  for (const auto& s : data.strides) {
+    lines.push_back(
+        fmt::format("  stride {}: touchdown {:.2f} m/s at {:.3f} s, switch {:.3f} s, liftoff {:.3f} s, peak "
+                    "force {:.1f} N, depth {:.1f} mm",
+                    s.number, s.touchdown_speed_mps, s.touchdown_s, s.switch_s, s.liftoff_s, s.peak_force_N,
+                    1e3 * s.max_depth_m));
+    for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s.*t.member));
+  }
+  return lines;
+}
+
+nlohmann::ordered_json stride_json(const ReportStride& s) {
+  nlohmann::ordered_json stiffness = nlohmann::ordered_json::object();
+  for (const auto& t : kTreatments) {
+    const auto& k = s.*t.member;
+    stiffness[t.key] = {{"value", k.value_N_per_m},
+                        {"ci95", {k.ci95_low_N_per_m, k.ci95_high_N_per_m}},
+                        {"valid", k.valid},
+                        {"reason", k.valid ? "" : k.reason},
+                        {"samples", k.samples}};
+  }
+  return {{"stride", s.number},           {"touchdown_speed_mps", s.touchdown_speed_mps},
+          {"touchdown_s", s.touchdown_s}, {"switch_s", s.switch_s},
+          {"liftoff_s", s.liftoff_s},     {"peak_force_N", s.peak_force_N},
+          {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness}};
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,17 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/report/report_data.hpp"
+
+namespace sandhopper {
+
+// What a trial gave, for people: a block of lines per stride.
+std::vector<std::string> stride_lines(const ReportData& data);
+
+// The same for programs: touchdown_speed_mps, times, peak force, depth,
+// stiffness_N_per_m.{qs_ols,mo_ols,mo_wls}.
+nlohmann::ordered_json stride_json(const ReportStride& stride);
+
+}  // namespace sandhopper
