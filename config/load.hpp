@@ -24,7 +24,7 @@ template <HasFields T>
 T load_document(const ConfigDocument& document, MissingKeys missing = MissingKeys::error, T base = {}) {
   ConfigReader reader(document.name, missing);
   reader.read(document.root, "", base);
-  if (auto problems = reader.take_problems(); !problems.empty()) throw ConfigError(std::move(problems));
+  if (auto problems = reader.take_problems(); !problems.empty()) throw ConfigError(problems);
   return base;
 }
 

@@ -29,7 +29,7 @@ std::string to_string(const ConfigProblem& p) {
   return fmt::format("{}:{}:{}: {}", p.file, p.position.line, p.position.column, p.text);
 }
 
-ConfigError::ConfigError(std::vector<ConfigProblem> problems)
+ConfigError::ConfigError(const std::vector<ConfigProblem>& problems)
     : std::runtime_error(one_line_each(in_file_order(problems))), problems_(in_file_order(problems)) {}
 
 }  // namespace sandhopper

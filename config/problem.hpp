@@ -22,7 +22,7 @@ std::string to_string(const ConfigProblem& problem);
 // Everything that is wrong, in the order of the file; what() has one line each.
 class ConfigError : public std::runtime_error {
  public:
-  explicit ConfigError(std::vector<ConfigProblem> problems);
+  explicit ConfigError(const std::vector<ConfigProblem>& problems);
   const std::vector<ConfigProblem>& problems() const noexcept { return problems_; }
 
  private:

@@ -59,9 +59,10 @@ class ConfigReader {
     });
     unknown_keys(node, path, known);
     // Rules between keys make sense only for values that are right by themselves.
-    if constexpr (requires { value.check([](std::string_view, std::string) {}); }) {
+    if constexpr (requires { value.check([](std::string_view, const std::string&) {}); }) {
       if (problems_.size() == problems_before)
-        value.check([&](std::string_view key, std::string text) { broken_rule(node, path, key, text); });
+        value.check(
+            [&](std::string_view key, const std::string& text) { broken_rule(node, path, key, text); });
     }
   }
 

@@ -8,7 +8,7 @@
 namespace sandhopper {
 namespace {
 
-using Report = std::function<void(std::string_view, std::string)>;
+using Report = std::function<void(std::string_view, const std::string&)>;
 
 struct Named {
   std::string_view key;

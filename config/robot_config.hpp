@@ -34,7 +34,7 @@ struct RobotConfig {
   }
 
   // Rules that span keys and roles; called by the loader (config/load.hpp).
-  void check(const std::function<void(std::string_view key, std::string text)>& report) const;
+  void check(const std::function<void(std::string_view key, const std::string& text)>& report) const;
 };
 
 // What the cycle needs of it.

@@ -85,4 +85,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace sandhopper::cli
 
-int main(int argc, char** argv) { return sandhopper::cli::run(argc, argv); }
+int main(int argc, char** argv) try { return sandhopper::cli::run(argc, argv); } catch (...) {
+  std::fputs("hop: a verb could not be set up\n", stderr);
+  return static_cast<int>(sandhopper::cli::ExitCode::fault);
+}

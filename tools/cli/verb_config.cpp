@@ -41,7 +41,7 @@ ExitCode check(Session& session, const std::vector<std::string>& named) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  if (!problems.empty()) throw ConfigError(std::move(problems));
+  if (!problems.empty()) throw ConfigError(problems);
   session.result["files"] = nlohmann::ordered_json::array();
   for (const auto& [file, keys] : right) {
     session.say("{}: right, {} keys", file, keys);
