@@ -1,0 +1,142 @@
+// hopperd: the daemon that runs the cycle on the robot, on the virtual bench, or with the simulated robot in
+// its own process (for latency measurements).
+#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "config/directory.hpp"
+#include "config/load.hpp"
+#include "config/problem.hpp"
+#include "drivers/clock.hpp"
+#include "firmware/hop_session.hpp"
+#include "firmware/linux_board.hpp"
+#include "firmware/log/can_log_tap.hpp"
+#include "firmware/log/log_clock.hpp"
+#include "firmware/log/trial_description.hpp"
+#include "firmware/operator_channel.hpp"
+#include "firmware/version.hpp"
+#include "tools/plant/load_world.hpp"
+#include "tools/plant/sim_board.hpp"
+
+namespace {
+
+using namespace sandhopper;
+
+struct Options {
+  std::string config_directory;
+  std::string robot_file;
+  std::string device_file;
+  std::string log_file = "hopperd.mcap";
+  std::string board = "linux";
+};
+
+void add_options(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", std::string(kVersion));
+  app.add_option("--config", options.config_directory, "configuration directory");
+  app.add_option("--robot", options.robot_file,
+                 "robot file; default robot.toml of the configuration directory");
+  app.add_option("--devices", options.device_file,
+                 "device file; default linux.toml of the configuration directory");
+  app.add_option("--log", options.log_file, "MCAP log; CAN traffic goes beside it as candump text")
+      ->capture_default_str();
+  app.add_option("--board", options.board,
+                 "linux: this machine's devices; sim: simulated robot in the process")
+      ->check(CLI::IsMember({"linux", "sim"}))
+      ->capture_default_str();
+  app.footer(
+      "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
+      "one JSON\n"
+      "object a line. End of input, SIGINT and SIGTERM stop the robot softly and quit.\n"
+      "Exit status: 0 ended in order, 1 ended in a fault, 2 configuration or command line, 3 a device is "
+      "missing.");
+}
+
+// The robot's devices, their CAN traffic in the log.
+struct RealRobot {
+  RealRobot(const LinuxBoardConfig& config, TrialLogger& logger)
+      : tap(logger, config.can.interface), board(config, &tap) {}
+  CanLogTap tap;
+  LinuxBoard board;
+};
+
+// The simulated robot needs its world to outlive the board.
+struct SimulatedRobot {
+  SimulatedRobot(const WorldConfig& config, std::int64_t start_ns)
+      : world(config, {}, start_ns), board(world) {}
+  World world;
+  SimBoard board;
+};
+
+SessionResult run_session(const RobotConfig& robot, Board& board, TrialLogger& logger,
+                          OperatorChannel& channel) {
+  HopSession session(robot, board, logger,
+                     {.event = [&](const Event& event) { channel.tell(event); },
+                      .stride = [&](const StrideResult& result) { channel.tell(result); }});
+  RequestBox requests;
+  std::atomic<bool> quit{false};
+  std::atomic<bool> ended{false};
+  SessionResult result;
+  std::thread cycle([&] {
+    result =
+        session.run(quit, requests, [&](const std::string& text) { channel.tell_text("warning", text); });
+    ended.store(true);
+  });
+  channel.tell_text("ready", "arm");
+  channel.listen(requests, quit, ended);
+  cycle.join();
+  return result;
+}
+
+TrialLogOptions log_options(const Options& options) {
+  TrialLogOptions log;
+  log.mcap_file = options.log_file;
+  log.start_ns = monotonic_ns();
+  log.realtime_offset_ns = sample_realtime_offset_ns();
+  if (options.board == "linux")
+    log.candump_file = std::filesystem::path(options.log_file).replace_extension(".candump");
+  return log;
+}
+
+int run(const Options& options, OperatorChannel& channel) {
+  const auto directory = find_config_directory(options.config_directory);
+  const auto file = [&](const std::string& given, const char* name) {
+    return given.empty() ? (directory / name).string() : given;
+  };
+  const auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  TrialLogger logger(log_options(options));
+  describe_trial(logger, robot, options.board);
+  std::unique_ptr<SimulatedRobot> simulated;
+  std::unique_ptr<RealRobot> real;
+  if (options.board == "sim") {
+    simulated = std::make_unique<SimulatedRobot>(load_world(directory, robot), monotonic_ns());
+  } else {
+    auto devices = load_file<LinuxBoardConfig>(file(options.device_file, "linux.toml"));
+    devices.can.motor = robot.motor;
+    real = std::make_unique<RealRobot>(devices, logger);
+  }
+  Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
+  const auto result = run_session(robot, board, logger, channel);
+  real.reset();
+  logger.close();
+  channel.tell(result);
+  return result.last_fault == Fault::none ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs the hopper's 1 kHz cycle.", "hopperd");
+  Options options;
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  OperatorChannel channel;
+  try {
+    return run(options, channel);
+  } catch (const ConfigError& error) {
+    channel.tell_text("error", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    channel.tell_text("error", error.what());
+    return 3;
+  }
+}
