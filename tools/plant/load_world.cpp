@@ -5,6 +5,10 @@
 namespace sandhopper {
 
 WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig& robot) {
+  return load_world_file(directory / "world.toml", robot);
+}
+
+WorldConfig load_world_file(const std::filesystem::path& file, const RobotConfig& robot) {
   WorldConfig world;
   world.robot.leg = robot.robot;
   const auto& c = robot.controller;
@@ -15,7 +19,7 @@ WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig
   world.controller.flight_stiffness_N_per_m = c.flight_stiffness_N_per_m;
   world.controller.flight_damping_N_s_per_m = c.flight_damping_N_s_per_m;
   world.motor.torque_constant_Nm_per_A = robot.motor[0].torque_constant_Nm_per_A;
-  return load_file<WorldConfig>((directory / "world.toml").string(), MissingKeys::use_default, world);
+  return load_file<WorldConfig>(file.string(), MissingKeys::use_default, world);
 }
 
 }  // namespace sandhopper

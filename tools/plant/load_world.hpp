@@ -11,4 +11,7 @@ namespace sandhopper {
 // simulated robot another one than the firmware believes. Throws ConfigError.
 WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig& robot);
 
+// As above from any file.
+WorldConfig load_world_file(const std::filesystem::path& file, const RobotConfig& robot);
+
 }  // namespace sandhopper
