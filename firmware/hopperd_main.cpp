@@ -117,6 +117,7 @@ int run(const Options& options, OperatorChannel& channel) {
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
   const auto result = run_session(robot, board, logger, channel);
   real.reset();
+  logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
   channel.tell(result);
   return result.last_fault == Fault::none ? 0 : 1;

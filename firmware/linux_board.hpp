@@ -73,7 +73,8 @@ class LinuxBoard : public Board {
   std::unique_ptr<Acquisition> acquisition_;
 };
 
-// One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no thread.
+// One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no
+// thread.
 struct DeviceReport {
   std::string device;
   std::string problem;

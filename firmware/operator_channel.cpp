@@ -114,10 +114,10 @@ void OperatorChannel::tell(const StrideResult& r) {
 
 void OperatorChannel::tell(const SessionResult& r) {
   print(fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
-                    R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{}}}}}}})",
+                    R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{},"histogram":{}}}}}}})",
                     name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
                     r.latency.quantile_us(0.5), r.latency.quantile_us(0.99), r.latency.quantile_us(0.999),
-                    r.latency.largest_us()));
+                    r.latency.largest_us(), r.latency.as_json()));
 }
 
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {

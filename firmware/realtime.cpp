@@ -85,6 +85,13 @@ double LatencyHistogram::quantile_us(double share) const noexcept {
   return largest_us();
 }
 
+std::string LatencyHistogram::as_json() const {
+  std::string text;
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    if (bins_[bin] != 0) text += fmt::format("{}[{},{}]", text.empty() ? "[" : ",", bin + 1, bins_[bin]);
+  return text.empty() ? "[]" : text + "]";
+}
+
 CycleClock::CycleClock(std::int64_t period_ns)
     : period_ns_(period_ns), next_ns_((monotonic_ns() / period_ns + 2) * period_ns) {}
 

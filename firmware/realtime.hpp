@@ -51,7 +51,8 @@ class LatencyHistogram {
   double largest_us() const noexcept { return static_cast<double>(largest_ns_) * 1e-3; }
   // Upper edge of the bin that holds this share of the counts.
   double quantile_us(double share) const noexcept;
-  const std::array<std::uint64_t, kBins>& bins() const noexcept { return bins_; }
+  // [[n, cycles], …] of the bins that are not empty; bin n counts n-1 to n us, the last one all beyond.
+  std::string as_json() const;
 
  private:
   std::array<std::uint64_t, kBins> bins_{};
