@@ -18,11 +18,9 @@ const char* board_file() {
   return "linux.toml";
 }
 
-LinuxBoardConfig load_linux_board(const std::filesystem::path& directory, const char* file,
-                                  const RobotConfig& robot) {
-  auto board = load_file<LinuxBoardConfig>((directory / file).string());
+LinuxBoardConfig load_linux_board(const std::filesystem::path& file, const RobotConfig& robot) {
+  auto board = load_file<LinuxBoardConfig>(file.string());
   board.can.motor = robot.motor;
-  board.can.motor_count = robot.robot.motor_count;
   return board;
 }
 

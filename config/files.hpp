@@ -13,8 +13,7 @@ RobotConfig load_robot(const std::filesystem::path& directory);
 // linux.toml.
 const char* board_file();
 
-// `file`: see board_file(). The motors are the robot's.
-LinuxBoardConfig load_linux_board(const std::filesystem::path& directory, const char* file,
-                                  const RobotConfig& robot);
+// The motors are the robot's.
+LinuxBoardConfig load_linux_board(const std::filesystem::path& file, const RobotConfig& robot);
 
 }  // namespace sandhopper

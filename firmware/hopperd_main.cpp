@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "config/directory.hpp"
+#include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/problem.hpp"
 #include "drivers/clock.hpp"
@@ -102,18 +103,20 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto file = [&](const std::string& given, const char* name) {
     return given.empty() ? (directory / name).string() : given;
   };
+  // All of the configuration before the first file or device.
+  const bool simulate = options.board == "sim";
   const auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
+  const auto devices =
+      simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, "linux.toml"), robot);
   TrialLogger logger(log_options(options));
   describe_trial(logger, robot, options.board);
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
-  if (options.board == "sim") {
-    simulated = std::make_unique<SimulatedRobot>(load_world(directory, robot), monotonic_ns());
-  } else {
-    auto devices = load_file<LinuxBoardConfig>(file(options.device_file, "linux.toml"));
-    devices.can.motor = robot.motor;
+  if (simulate)
+    simulated = std::make_unique<SimulatedRobot>(world, monotonic_ns());
+  else
     real = std::make_unique<RealRobot>(devices, logger);
-  }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
   const auto result = run_session(robot, board, logger, channel);
   real.reset();
@@ -129,7 +132,11 @@ int main(int argc, char** argv) {
   CLI::App app("Runs the hopper's 1 kHz cycle.", "hopperd");
   Options options;
   add_options(app, options);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   OperatorChannel channel;
   try {
     return run(options, channel);

@@ -109,7 +109,7 @@ TEST(ConfigFiles, TheSimulatedRobotIsThatOfTheRobotFile) {
 TEST(ConfigFiles, TheBoardsMotorsAreThoseOfTheRobotFile) {
   RobotConfig robot;
   robot.motor[1].can_id = 5;
-  EXPECT_EQ(load_linux_board(kConfig, "linux.toml", robot).can.motor[1].can_id, 5);
+  EXPECT_EQ(load_linux_board(kConfig / "linux.toml", robot).can.motor[1].can_id, 5);
   EXPECT_EQ(cycle_config(robot).torque_constant_Nm_per_A[1], robot.motor[1].torque_constant_Nm_per_A);
 }
 

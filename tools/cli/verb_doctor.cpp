@@ -41,7 +41,7 @@ Run set_up(CLI::App& app) {
     const auto robot = load_robot(directory);
     auto findings = examine_machine();
     if (*board == "linux") {
-      const auto devices = examine_devices(load_linux_board(directory, board_file(), robot));
+      const auto devices = examine_devices(load_linux_board(directory / board_file(), robot));
       findings.insert(findings.end(), devices.begin(), devices.end());
     } else {
       // The simulated robot runs without real-time rights, only not in step with the clock.

@@ -4,8 +4,8 @@
 #include <ctime>
 #include <filesystem>
 
+#include "config/files.hpp"
 #include "config/load.hpp"
-#include "config/robot_config.hpp"
 #include "firmware/log/log_clock.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
@@ -71,12 +71,16 @@ struct Outcome {
 // Both boards give a log; everything said afterwards is read from it.
 class Runner {
  public:
-  Runner(Session& session, const Options& options, fs::path folder)
-      : session_(session),
-        options_(options),
-        folder_(std::move(folder)),
-        robot_(load_robot(session, options)) {
-    if (options.board == "sim") world_ = load_world(session.config_directory(), robot_);
+  // Reads all of the configuration before anything is made or started.
+  Runner(Session& session, const Options& options)
+      : session_(session), options_(options), robot_(load_robot(session, options)) {
+    if (options.board == "sim") {
+      world_ = load_world(session.config_directory(), robot_);
+    } else {
+      devices_ = options.devices.empty() ? session.config_file(board_file()) : options.devices;
+      load_linux_board(devices_, robot_);
+    }
+    folder_ = make_folder(options);
   }
 
   Outcome run(int number) {
@@ -101,7 +105,7 @@ class Runner {
 
   Outcome run_linux(int number, const fs::path& log) {
     const auto result = run_linux_trial({.config_directory = session_.config_directory(),
-                                         .devices = options_.devices,
+                                         .devices = devices_,
                                          .robot = robot_,
                                          .trial = trial_setup(options_, number),
                                          .log = log,
@@ -111,8 +115,9 @@ class Runner {
 
   Session& session_;
   const Options& options_;
-  fs::path folder_;
   RobotConfig robot_;
+  fs::path devices_;
+  fs::path folder_;
   WorldConfig world_{};
 };
 
@@ -139,7 +144,7 @@ nlohmann::ordered_json as_json(const Outcome& outcome, const ReportData& data, c
 }
 
 ExitCode trial(Session& session, const Options& options) {
-  Runner runner(session, options, make_folder(options));
+  Runner runner(session, options);
   bool all_good = true;
   auto trials = nlohmann::ordered_json::array();
   for (int number = 0; number < options.trials; ++number) {

@@ -28,11 +28,6 @@ std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   return path;
 }
 
-std::string device_file(const LinuxTrialSetup& setup) {
-  if (!setup.devices.empty()) return setup.devices;
-  return (setup.config_directory / (on_virtual_bench() ? "bench.toml" : "linux.toml")).string();
-}
-
 class Operator {
  public:
   Operator(const LinuxTrialSetup& setup, ChildProcess& daemon) : setup_(setup), daemon_(daemon) {}
@@ -98,7 +93,7 @@ class Operator {
 LinuxTrialResult run_linux_trial(const LinuxTrialSetup& setup) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "hopperd";
   ChildProcess daemon({program.string(), "--config", setup.config_directory.string(), "--robot",
-                       write_robot_file(setup).string(), "--devices", device_file(setup), "--log",
+                       write_robot_file(setup).string(), "--devices", setup.devices.string(), "--log",
                        setup.log.string()});
   return Operator(setup, daemon).run();
 }

@@ -11,7 +11,7 @@ namespace sandhopper {
 
 struct LinuxTrialSetup {
   std::filesystem::path config_directory;
-  std::string devices;  // empty: linux.toml, or bench.toml inside the virtual bench
+  std::filesystem::path devices;  // linux.toml, inside the virtual bench bench.toml
   RobotConfig robot{};
   TrialSetup trial{};  // told to the bench; on a real robot the operator is asked
   std::filesystem::path log;
