@@ -1,0 +1,49 @@
+#include <algorithm>
+
+#include "firmware/fault.hpp"
+#include "tools/cli/verb.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+const FaultEntry& find_fault(const std::string& code) {
+  for (std::size_t i = 0; i < kFaultCount; ++i)
+    if (code == std::to_string(i) || code == name_of(kFaults[i].fault)) return kFaults[i];
+  throw Failure(ExitCode::usage, "no fault '" + code + "'", "`hop explain` without a code lists them all");
+}
+
+nlohmann::ordered_json as_json(const FaultEntry& entry) {
+  return {{"code", static_cast<int>(entry.fault)},
+          {"name", std::string(name_of(entry.fault))},
+          {"reaction", std::string(name_of(entry.reaction))},
+          {"meaning", std::string(entry.meaning)},
+          {"cure", std::string(entry.cure)}};
+}
+
+ExitCode explain(Session& session, const std::string& code) {
+  if (!code.empty()) {
+    const auto& entry = find_fault(code);
+    session.say("fault {} {}\n  means:    {}\n  reaction: {}\n  cure:     {}", static_cast<int>(entry.fault),
+                name_of(entry.fault), entry.meaning, name_of(entry.reaction), entry.cure);
+    session.result = as_json(entry);
+    return ExitCode::ok;
+  }
+  session.result["faults"] = nlohmann::ordered_json::array();
+  for (const auto& entry : kFaults) {
+    if (entry.fault == Fault::none) continue;
+    session.say("{:3} {:<22} {}", static_cast<int>(entry.fault), name_of(entry.fault), entry.meaning);
+    session.result["faults"].push_back(as_json(entry));
+  }
+  return ExitCode::ok;
+}
+
+Run set_up(CLI::App& app) {
+  auto code = std::make_shared<std::string>();
+  app.add_option("CODE", *code, "number or name of a fault; without it all are listed");
+  return [code](Session& session) { return explain(session, *code); };
+}
+
+const VerbRegistration kExplain({"explain", "what a fault means and how to cure it", set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli
