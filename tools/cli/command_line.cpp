@@ -101,6 +101,17 @@ std::vector<std::string> CommandLine::known_options() const {
   return names;
 }
 
+std::string CommandLine::meaning_of_option_in(const std::string& message) const {
+  const CLI::Option* named = nullptr;
+  for (const CLI::App* app = &deepest(); app; app = app->get_parent())
+    for (const auto* option : app->get_options()) {
+      const auto name = option->get_name();
+      const bool longer = !named || name.size() > named->get_name().size();
+      if (longer && message.find(name) != std::string::npos) named = option;
+    }
+  return named ? fmt::format("{}: {}", named->get_name(), named->get_description()) : "";
+}
+
 Failure CommandLine::not_expected(const std::string& word) const {
   const auto see = fmt::format("'{} --help' shows what there is", understood());
   if (word.starts_with("-")) {
@@ -123,7 +134,8 @@ Failure CommandLine::explain(const CLI::Error& error) const {
   const auto verbs = verbs_of(deepest());
   if (!verbs.empty() && error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
     return {ExitCode::usage, fmt::format("needs one of: {}", fmt::join(verbs, ", ")), see};
-  return {ExitCode::usage, error.what(), see};
+  const auto meaning = meaning_of_option_in(error.what());
+  return {ExitCode::usage, error.what(), meaning.empty() ? see : fmt::format("{}; {}", meaning, see)};
 }
 
 }  // namespace sandhopper::cli

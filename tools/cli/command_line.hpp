@@ -25,6 +25,7 @@ class CommandLine {
   Failure explain(const CLI::Error& error) const;
   Failure not_expected(const std::string& word) const;
   std::vector<std::string> known_options() const;
+  std::string meaning_of_option_in(const std::string& message) const;
 
   CLI::App app_;
   std::vector<std::pair<CLI::App*, Run>> verbs_;
