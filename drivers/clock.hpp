@@ -1,7 +1,6 @@
 #pragma once
-#include <time.h>
-
 #include <cstdint>
+#include <ctime>
 #include <limits>
 
 namespace sandhopper {

@@ -117,6 +117,7 @@ std::vector<can_filter> CubeMarsBus::filters() const {
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<can_filter> out;
+  out.reserve(ids.size() + codecs_.size());
   for (const auto id : ids) out.push_back(exact_standard_id(id));
   for (const auto& codec : codecs_)
     out.push_back(exact_extended_id(kServoStatus | static_cast<canid_t>(codec.config().can_id)));

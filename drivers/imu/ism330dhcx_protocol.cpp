@@ -89,10 +89,10 @@ std::array<std::uint8_t, kBurstSize> encode_burst(const Burst& burst) noexcept {
   return out;
 }
 
-double accel_mps2_per_count(int range_g) noexcept { return range_g / 2 * 0.061e-3 * kStandardGravity_mps2; }
+double accel_mps2_per_count(int range_g) noexcept { return range_g / 2.0 * 0.061e-3 * kStandardGravity_mps2; }
 
 double gyro_radps_per_count(int range_dps) noexcept {
-  return range_dps / 125 * 4.375e-3 * std::numbers::pi / 180.0;
+  return range_dps / 125.0 * 4.375e-3 * std::numbers::pi / 180.0;
 }
 
 ImuSample to_sample(const Burst& burst, const ImuConfig& config) noexcept {

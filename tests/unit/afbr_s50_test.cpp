@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <termios.h>
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
 #include <thread>
 
@@ -179,7 +179,7 @@ TEST(CompanionClock, FollowsTheShortestWayAndASlowClock) {
   constexpr std::int64_t kOffset = 777'000'000;
   // 100 ppm slow companion, frames 1 to 3 ms late: after a second the map is within the least delay.
   for (int i = 0; i < 5000; ++i) {
-    const std::int64_t truth = i * 2 * kMs;
+    const std::int64_t truth = 2 * kMs * i;
     const std::int64_t device = truth - truth / 10000;
     const auto mapped = clock.map(device, truth + kOffset + kMs + (i * 37 % 20) * kMs / 10);
     if (i <= 500) continue;

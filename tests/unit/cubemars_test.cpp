@@ -182,6 +182,7 @@ TEST(CanTraceDecoder, ATraceOfRepliesAloneKeepsItsOwnTimes) {
 
 std::vector<DriveAction> actions(DriveSequence& sequence, DriveRequest request, int cycles) {
   std::vector<DriveAction> out;
+  out.reserve(static_cast<std::size_t>(cycles));
   for (int i = 0; i < cycles; ++i) out.push_back(sequence.next(request));
   return out;
 }
