@@ -14,7 +14,7 @@ constexpr std::uint32_t kErrorFlag = 0x20000000;
 constexpr std::uint32_t kExtendedMask = 0x1FFFFFFF;
 constexpr std::uint32_t kStandardMask = 0x7FF;
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
-constexpr std::size_t kBufferBytes = 64 * 1024;
+constexpr std::size_t kBufferBytes = 65'536;
 
 void append_hex(std::string& text, std::uint32_t value, int digits) {
   for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4)

@@ -17,7 +17,7 @@ namespace sandhopper::mcap {
 
 struct WriterOptions {
   std::string library = "sandhopper";
-  std::size_t chunk_bytes = 256 * 1024;       // a chunk is closed when it holds this much …
+  std::size_t chunk_bytes = 262'144;          // a chunk is closed when it holds this much …
   std::int64_t chunk_span_ns = 100'000'000;   // … or a message is this much younger than its first
   std::int64_t sync_span_ns = 1'000'000'000;  // message time between two fdatasync(2); 0: never
 };

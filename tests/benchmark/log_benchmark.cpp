@@ -25,7 +25,7 @@ template <class Record>
 void encode(benchmark::State& state) {
   Record record;
   std::array<std::byte, cdr::size_of<Record>()> bytes;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(record);
     cdr::encode(record, bytes.data());
     benchmark::DoNotOptimize(bytes);
@@ -40,7 +40,7 @@ void decode(benchmark::State& state) {
   Record record;
   std::array<std::byte, cdr::size_of<Record>()> bytes;
   cdr::encode(record, bytes.data());
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(bytes);
     benchmark::DoNotOptimize(cdr::decode(bytes, record));
     benchmark::DoNotOptimize(record);
@@ -51,8 +51,8 @@ BENCHMARK(decode<SensorFrame>);
 BENCHMARK(decode<StepOutput>);
 
 void crc_of_a_chunk(benchmark::State& state) {
-  const std::vector<std::byte> bytes(256 * 1024);
-  for (auto _ : state) benchmark::DoNotOptimize(mcap::crc32(0, bytes));
+  const std::vector<std::byte> bytes(262'144);
+  while (state.KeepRunning()) benchmark::DoNotOptimize(mcap::crc32(0, bytes));
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes.size()));
 }
 BENCHMARK(crc_of_a_chunk);
@@ -69,7 +69,7 @@ void push_a_cycle(benchmark::State& state) {
   logger.start();
   SensorFrame frame;
   const StepOutput output;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     frame.time_ns += 1'000'000;
     logger.push(frames, frame.time_ns, frame);
     logger.push(outputs, frame.time_ns, output);
@@ -112,7 +112,7 @@ void per_cycle(benchmark::State& state) {
 }
 
 void write_a_log(benchmark::State& state) {
-  for (auto _ : state) write_log();
+  while (state.KeepRunning()) write_log();
   per_cycle(state);
   std::filesystem::remove(scratch_file());
 }
@@ -123,7 +123,7 @@ void read_a_log(benchmark::State& state) {
   write_log();
   SensorFrame frame;
   StepOutput output;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     mcap::Reader log(scratch_file());
     TopicOf<SensorFrame> frames(topic::kFrame);
     TopicOf<StepOutput> outputs(topic::kOutput);

@@ -150,7 +150,7 @@ int write(const char* file, int seconds) {
   logger.attach("robot.toml", "application/toml", "# what the trial ran with\nmass_kg = 1.0\n");
   logger.add_metadata("build", {{"version", "0"}, {"commit", "none"}});
   logger.start();
-  for (std::int64_t i = 0; i < 1'000 * seconds; ++i) {
+  for (std::int64_t i = 0; i < std::int64_t{1'000} * seconds; ++i) {
     const std::int64_t time_ns = 1'000'000 * i;
     push_random(logger, frames, time_ns, random);
     push_random(logger, outputs, time_ns, random);

@@ -70,7 +70,7 @@ class CsvExport : public ::testing::Test {
     const auto gaps = writer.add_channel<LogGap>("/gap");
     for (const int i : {0, 1, 2, 4}) {
       SensorFrame frame;
-      frame.time_ns = 5'000'000'000 + 1'000'000 * i;
+      frame.time_ns = 5'000'000'000 + std::int64_t{1'000'000} * i;
       frame.motor[0].position_rad = 0.1 + i;
       frame.motor[0].fresh = i != 1;
       frame.tof.height_m = 0.3;

@@ -46,7 +46,7 @@ class McapLog : public ::testing::Test {
     writer.add_metadata("build", {{"version", "1"}, {"compiler", "test"}});
     for (int i = 0; i < frames; ++i) {
       SensorFrame frame;
-      frame.time_ns = 1'000'000 * i;
+      frame.time_ns = std::int64_t{1'000'000} * i;
       frame.cycle = static_cast<std::uint64_t>(i);
       frame.motor[0].position_rad = 0.001 * i;
       const mcap::Stamp stamp{kOffset_ns + frame.time_ns, kOffset_ns + frame.time_ns};

@@ -52,7 +52,7 @@ class TrialLog : public ::testing::Test {
     logger.start();
     for (int i = 0; i < 1'000; ++i) {
       SensorFrame frame;
-      frame.time_ns = 1'000'000 * i;
+      frame.time_ns = std::int64_t{1'000'000} * i;
       frame.cycle = static_cast<std::uint64_t>(i);
       logger.push(frames, frame.time_ns, frame);
       StepOutput output;
