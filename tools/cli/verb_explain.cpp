@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "config/hint.hpp"
 #include "firmware/fault.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -9,7 +10,11 @@ namespace {
 const FaultEntry& find_fault(const std::string& code) {
   for (std::size_t i = 0; i < kFaultCount; ++i)
     if (code == std::to_string(i) || code == name_of(kFaults[i].fault)) return kFaults[i];
-  throw Failure(ExitCode::usage, "no fault '" + code + "'", "`hop explain` without a code lists them all");
+  const std::vector<std::string> names(EnumNames<Fault>::value.begin(), EnumNames<Fault>::value.end());
+  const auto near = nearest_words(code, names);
+  throw Failure(ExitCode::usage, "no fault '" + code + "'",
+                (near.empty() ? "" : "did you mean " + either(near) + "? ") +
+                    "'hop explain' without a code lists them all");
 }
 
 nlohmann::ordered_json as_json(const FaultEntry& entry) {

@@ -79,6 +79,9 @@ ExitCode replay_trace(Session& session, const Options& options) {
   } catch (const CandumpError& error) {
     throw Failure(ExitCode::usage, error.what(), "name a trace as `candump -L` writes it");
   }
+  if (result.frames == 0)
+    throw Failure(ExitCode::usage, options.trace + " holds no CAN frame",
+                  "name a trace as `candump -L` writes it");
   if (!options.output.empty()) write_readings(result, options.output);
   session.say("{}: {} frames, {} motor replies decoded, {} that do not look like the configured dialect",
               options.trace, result.frames, result.decoded.size(), result.rejected);
