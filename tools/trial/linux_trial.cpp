@@ -8,8 +8,9 @@
 #include <stdexcept>
 
 #include "config/dump.hpp"
-#include "tools/trial/bench_control.hpp"
+#include "config/files.hpp"
 #include "tools/trial/child_process.hpp"
+#include "tools/virtual_bench/control_client.hpp"
 
 namespace sandhopper {
 namespace {
@@ -26,6 +27,13 @@ std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   auto path = std::filesystem::path(setup.log).replace_extension(".robot.toml");
   std::ofstream(path) << to_toml(to_node(setup.robot));
   return path;
+}
+
+bool on_virtual_bench() { return std::string_view(board_file()) == "bench.toml"; }
+
+void reset_bench(const TrialSetup& trial) {
+  bench::tell_bench(fmt::format("reset seed={} height={} noise={}", trial.seed, trial.release_height_m,
+                                trial.noise ? "on" : "off"));
 }
 
 class Operator {
