@@ -36,8 +36,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--config", options.config_directory, "configuration directory");
   app.add_option("--robot", options.robot_file,
                  "robot file; default robot.toml of the configuration directory");
-  app.add_option("--devices", options.device_file,
-                 "device file; default linux.toml of the configuration directory");
+  app.add_option(
+      "--devices", options.device_file,
+      "device file; default linux.toml of the configuration directory, on the virtual bench bench.toml");
   app.add_option("--log", options.log_file, "MCAP log; CAN traffic goes beside it as candump text")
       ->capture_default_str();
   app.add_option("--board", options.board,
@@ -108,7 +109,7 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
-      simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, "linux.toml"), robot);
+      simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, board_file()), robot);
   TrialLogger logger(log_options(options));
   describe_trial(logger, robot, options.board);
   std::unique_ptr<SimulatedRobot> simulated;

@@ -43,7 +43,7 @@ int run(const Options& options) {
     throw std::runtime_error("this is not the virtual bench: tools/bench starts the devices");
   const auto directory = find_config_directory(options.config);
   const auto robot = load_robot(directory);
-  const auto board = load_linux_board(directory, "bench.toml", robot);
+  const auto board = load_linux_board(directory / "bench.toml", robot);
   const auto world_config =
       options.world.empty() ? load_world(directory, robot) : load_world_file(options.world, robot);
 
