@@ -1,8 +1,9 @@
 // Opens reports in headless Chromium as a reader would and checks what is drawn and what the mouse does.
-//   node page_test.mjs BUILD_DIRECTORY [REPORT.html]     screenshots go to BUILD_DIRECTORY/report_screenshots
+//   node page_test.mjs BUILD_DIRECTORY [REPORT.html]     default report: of a simulated trial made here
+// Screenshots go to BUILD_DIRECTORY/report_screenshots.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, rmSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { Browser } from './browser.mjs';
@@ -44,13 +45,13 @@ function inked(browser, selector) {
 
 // Labels of the time axis of each panel: what part of the trial it shows.
 function axes(browser) {
-  return browser.run(() => [...document.querySelectorAll('.plot')].map(plot =>
+  return browser.run(() => [...document.querySelectorAll('#time-plots .plot')].map(plot =>
     [...plot.querySelectorAll('.dygraph-axis-label-x')].map(label => Number(label.textContent))));
 }
 
 async function checkPage(browser, name, { panels, strides }) {
   await check(`${name}: every panel and the force-depth plot are drawn`, async () => {
-    const lines = await inked(browser, '.plot canvas:nth-of-type(1)');
+    const lines = await inked(browser, '#time-plots canvas:nth-of-type(1)');
     assert.equal(lines.length, panels);
     for (const share of lines) assert.ok(share > 0.005, `a panel is blank: ${lines}`);
     const [scatter] = await inked(browser, '#force-depth canvas');
@@ -110,6 +111,16 @@ async function checkPage(browser, name, { panels, strides }) {
     await browser.doubleClick(plot.left + plot.width / 2, plot.top + plot.height / 2);
   });
 
+  await check(`${name}: every figure follows the theme`, async () => {
+    const pictures = () => browser.run(() => [...document.querySelectorAll('#time-plots canvas:nth-of-type(1), #force-depth canvas')]
+      .map(canvas => canvas.toDataURL()));
+    const before = await pictures();
+    await browser.run(() => { document.getElementById('theme').click(); document.getElementById('theme').click(); });
+    const after = await pictures();
+    before.forEach((picture, i) => assert.notEqual(after[i], picture, `figure ${i} kept its colours`));
+    await browser.run(() => document.getElementById('theme').click());
+  });
+
   await check(`${name}: no complaint on the console, no request to a network`, async () => {
     assert.deepEqual(await browser.complaints(), []);
   });
@@ -126,6 +137,14 @@ function sample(name, strides, idle_s) {
   return file;
 }
 
+// Three strides of the simulated robot, through the log, as `hop trial` leaves them.
+function trial() {
+  const folder = join(build, 'report_trial');
+  rmSync(folder, { recursive: true, force: true });
+  execFileSync(join(build, 'bin', 'hop'), ['trial', '--strides', '3', '--output', folder]);
+  return join(folder, 'trial_001.html');
+}
+
 async function wholePage(browser, width, file) {
   const height = await browser.run(() => document.documentElement.scrollHeight);
   await browser.resize(width, height + 150);
@@ -133,7 +152,7 @@ async function wholePage(browser, width, file) {
   await browser.screenshot(join(shots, file));
 }
 
-async function laptop() {
+async function everything() {
   const browser = await Browser.start({ width: 1440, height: 900 });
   try {
     await open(browser, sample('sample_one', 1, 0.2));
@@ -173,24 +192,30 @@ async function laptop() {
     await check('twenty minutes: one row that stands out is not lost', async () => {
       await browser.run(() => document.querySelector('#views button').click());
       await sleep(300);
-      const top = await browser.run(() => Math.max(...[...document.querySelectorAll('.plot')[5]
+      const top = await browser.run(() => Math.max(...[...document.querySelectorAll('#time-plots .plot')[5]
         .querySelectorAll('.dygraph-axis-label-y')].map(label => Number(label.textContent))));
       assert.ok(top >= 400, `the force panel ends at ${top} N`);
     });
     await wholePage(browser, 1440, 'twenty_minutes.png');
 
-    if (process.argv[3]) {
-      await browser.resize(1440, 900);
-      await open(browser, resolve(process.argv[3]));
-      await browser.screenshot(join(shots, 'trial_first_screen.png'));
-      await wholePage(browser, 1440, 'trial.png');
-      await browser.print(join(shots, 'trial.pdf'));
+    await browser.resize(1440, 1000);
+    await open(browser, process.argv[3] ? resolve(process.argv[3]) : trial());
+    const strides = await browser.run(() => document.querySelectorAll('#stride-table tbody tr').length);
+    await checkPage(browser, 'a trial', { panels: 7, strides: process.argv[3] ? strides : 3 });
+    await browser.run(() => window.scrollTo(0, 0));
+    await browser.screenshot(join(shots, 'trial_first_screen.png'));
+    await wholePage(browser, 1440, 'trial.png');
+    await browser.print(join(shots, 'trial.pdf'));
+    await check('a trial: opening what is folded, and printing, complains of nothing', async () => {
+      await browser.run(() => { document.getElementById('folded').open = true; });
+      await sleep(300);
+      for (const share of await inked(browser, '#folded-plots canvas:nth-of-type(1)')) assert.ok(share > 0.002, `${share}`);
       assert.deepEqual(await browser.complaints(), []);
-    }
+    });
   } finally {
     await browser.stop();
   }
 }
 
-await laptop();
+await everything();
 console.log(`${checks} checks`);

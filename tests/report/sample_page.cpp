@@ -42,6 +42,7 @@ Sample sample_at(double t_s) {
 
 ReportStride stride_at(std::uint32_t number, double touchdown_s) {
   ReportStride stride{.number = number,
+                      .contact_s = touchdown_s,
                       .touchdown_s = touchdown_s,
                       .switch_s = touchdown_s + 0.14,
                       .liftoff_s = touchdown_s + kStance_s,

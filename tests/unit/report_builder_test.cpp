@@ -112,12 +112,28 @@ TEST(ReportBuilder, StrideThatWasCutShortHasNoLiftoff) {
   EXPECT_EQ(data.strides[0].observer_ols.reason, "too few samples");
 }
 
+TEST(ReportBuilder, DepthCountsFromWhereTheFirstStrideMetTheSurface) {
+  ReportBuilder builder;
+  for (int cycle = 0; cycle < 5; ++cycle) {
+    StepOutput output = output_at(cycle);
+    output.estimate.force_depth_m = 0.003 + 0.001 * cycle;
+    builder.add(output);
+  }
+  StrideResult stride;
+  stride.summary.stride = 1;
+  stride.summary.contact_ns = output_at(3).estimate.force_time_ns;
+  builder.add(stride);
+  EXPECT_THAT(column(builder.data(), "force_depth_m"),
+              ElementsAre(DoubleNear(-0.001, 1e-12), DoubleNear(0.0, 1e-12), DoubleNear(0.001, 1e-12),
+                          NanSensitiveDoubleEq(std::nan("")), NanSensitiveDoubleEq(std::nan(""))));
+}
+
 TEST(LogReport, LogIsReadWithItsFactsAndConfiguration) {
   const auto file = std::filesystem::temp_directory_path() / "sandhopper_log_report_test.mcap";
   {
     mcap::Writer writer(file);
     const auto channel = writer.add_channel<StepOutput>(topic::kOutput);
-    writer.add_metadata("trial", {{"release_height_m", "0.0618"}});
+    writer.add_metadata("trial", {{"release_height_m", "0.061800"}});
     writer.attach("robot.toml", "application/toml", 0, mcap::bytes_of("[robot]\n"));
     for (int cycle = 0; cycle < 5; ++cycle) {
       const StepOutput output = output_at(cycle);
@@ -128,8 +144,8 @@ TEST(LogReport, LogIsReadWithItsFactsAndConfiguration) {
   const ReportData data = report_data_from_log(file);
   std::filesystem::remove(file);
   EXPECT_EQ(data.time_s.size(), 5u);
-  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("Date", "2023-11-14 22:13:20 UTC")));
-  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("release height m", "0.0618")));
+  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("date", "2023-11-14 22:13:20 UTC")));
+  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("release height", "0.0618 m")));
   EXPECT_EQ(data.configuration, "# robot.toml\n[robot]\n");
   EXPECT_THAT(data.notes, testing::IsEmpty());
 }

@@ -6,7 +6,6 @@
 
 #include "config/files.hpp"
 #include "config/load.hpp"
-#include "firmware/log/log_clock.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/plant/load_world.hpp"
@@ -56,6 +55,10 @@ fs::path make_folder(const Options& options) {
   return folder;
 }
 
+std::int64_t date_ns() {
+  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
 TrialSetup trial_setup(const Options& options, int number) {
   return {.release_height_m = options.release_height_m,
           .seed = options.seed + static_cast<std::uint64_t>(number),
@@ -98,7 +101,7 @@ class Runner {
                                        .world = world_,
                                        .trial = trial_setup(options_, number),
                                        .log = log,
-                                       .realtime_offset_ns = sample_realtime_offset_ns(),
+                                       .realtime_offset_ns = date_ns(),  // its own time starts at zero
                                        .progress = [&](double time_s) { progress.at(time_s); }});
     return {log, result.last_state, result.last_fault};
   }

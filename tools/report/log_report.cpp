@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <ctime>
 #include <optional>
 
@@ -45,9 +47,21 @@ struct Feed {
   }
 };
 
-std::string in_words(std::string text) {
-  std::ranges::replace(text, '_', ' ');
-  return text;
+// "release_height_m", "0.061800" -> "release height", "0.0618 m"
+std::pair<std::string, std::string> fact_of(std::string key, std::string value) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kUnits{
+      {{"_N_per_m", " N/m"}, {"_mps", " m/s"}, {"_Hz", " Hz"}, {"_m", " m"}, {"_s", " s"}, {"_N", " N"}}};
+  for (const auto& [suffix, unit] : kUnits) {
+    if (!key.ends_with(suffix)) continue;
+    double number = 0.0;
+    const auto end = value.data() + value.size();
+    if (std::from_chars(value.data(), end, number).ptr != end) break;
+    key.resize(key.size() - suffix.size());
+    value = fmt::format("{:g}{}", number, unit);
+    break;
+  }
+  std::ranges::replace(key, '_', ' ');
+  return {key, value};
 }
 
 std::string utc(std::int64_t realtime_ns) {
@@ -55,9 +69,17 @@ std::string utc(std::int64_t realtime_ns) {
                      fmt::gmtime(static_cast<std::time_t>(realtime_ns / 1'000'000'000)));
 }
 
+// Metadata are facts under the title, but for explanations, which stand above the attached text.
 void add_attached(const mcap::Reader& log, ReportData& data) {
+  constexpr std::size_t kLongest = 24;
   for (const mcap::Metadata& metadata : log.metadata()) {
-    for (const auto& [label, text] : metadata.entries) data.facts.emplace_back(in_words(label), text);
+    for (const auto& [key, value] : metadata.entries) {
+      if (value.size() <= kLongest) {
+        data.facts.push_back(fact_of(key, value));
+      } else {
+        data.configuration += fmt::format("# {}: {}\n", key, value);
+      }
+    }
   }
   for (const mcap::Attachment& attachment : log.attachments()) {
     const bool is_text =
@@ -98,11 +120,11 @@ ReportData report_data_from_log(const std::filesystem::path& file) {
 
   ReportData data = builder.data();
   data.title = "Hop trial " + file.stem().string();
-  if (began_ns) data.facts.emplace_back("Date", utc(*began_ns));
+  if (began_ns) data.facts.emplace_back("date", utc(*began_ns));
   if (!data.time_s.empty()) {
-    data.facts.emplace_back("Length", fmt::format("{:.2f} s", data.time_s.back() - data.time_s.front()));
-    data.facts.emplace_back("Cycles", std::to_string(data.time_s.size()));
-    data.facts.emplace_back("Overruns", std::to_string(feed.frame.overruns));
+    data.facts.emplace_back("length", fmt::format("{:.2f} s", data.time_s.back() - data.time_s.front()));
+    data.facts.emplace_back("cycles", std::to_string(data.time_s.size()));
+    data.facts.emplace_back("overruns", std::to_string(feed.frame.overruns));
   }
   add_attached(log, data);
   add_notes(log, feed.lost, data);

@@ -75,7 +75,7 @@ enum TimedChannel : std::size_t {
 };
 constexpr std::array kTimedNames{"estimate_contact_force_N",
                                  "quasi_static_force_N",
-                                 "estimate_force_depth_m",
+                                 "force_depth_m",
                                  "load_cell_force_N",
                                  "tof_height_m",
                                  "truth_body_z_m",
@@ -169,7 +169,18 @@ double ReportBuilder::seconds(std::int64_t time_ns) const {
   return 1e-9 * static_cast<double>(time_ns - zero_ns);
 }
 
+// What the filter called depth where the first stride met the surface; the summaries count from there.
+double ReportBuilder::depth_datum_m() const {
+  if (strides_.empty()) return 0.0;
+  const std::int64_t contact_ns = strides_.front().summary.contact_ns;
+  const auto at = std::ranges::find_if(points_, [&](const Point& point) {
+    return point.channel == kForceDepth && point.time_ns == contact_ns;
+  });
+  return at == points_.end() ? 0.0 : at->value;
+}
+
 void ReportBuilder::add_columns(ReportData& data) const {
+  const double datum_m = depth_datum_m();
   std::vector<std::vector<double>> columns(kChannelCount);
   for (const Point& point : points_) {
     auto row = std::ranges::lower_bound(row_ns_, point.time_ns - kHalfCycle_ns);
@@ -177,7 +188,8 @@ void ReportBuilder::add_columns(ReportData& data) const {
       continue;  // in a gap, or before the log
     std::vector<double>& column = columns[point.channel];
     if (column.empty()) column.assign(row_ns_.size(), kNone);
-    column[static_cast<std::size_t>(row - row_ns_.begin())] = point.value;
+    column[static_cast<std::size_t>(row - row_ns_.begin())] =
+        point.channel == kForceDepth ? point.value - datum_m : point.value;
   }
   for (std::size_t channel = 0; channel < kChannelCount; ++channel) {
     if (columns[channel].empty()) continue;
@@ -215,6 +227,7 @@ ReportData ReportBuilder::data() const {
   for (const StrideResult& result : strides_) {
     const StrideSummary& summary = result.summary;
     data.strides.push_back({.number = summary.stride,
+                            .contact_s = seconds(summary.contact_ns),
                             .touchdown_s = seconds(summary.touchdown_ns),
                             .switch_s = seconds(summary.switch_ns),
                             .liftoff_s = seconds(summary.liftoff_ns),

@@ -33,6 +33,7 @@ class ReportBuilder {
   };
   void put(std::size_t channel, std::int64_t time_ns, double value);
   double seconds(std::int64_t time_ns) const;  // NaN for 0: it did not happen
+  double depth_datum_m() const;
   void add_columns(ReportData& data) const;
   void add_phases(ReportData& data) const;
 

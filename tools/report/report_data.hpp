@@ -43,12 +43,13 @@ struct ReportStiffness {
 
 struct ReportStride {
   std::uint32_t number = 0;
-  double touchdown_s = 0.0;
+  double contact_s = 0.0;    // the foot meets the ground
+  double touchdown_s = 0.0;  // the controller notices
   double switch_s = 0.0;
   double liftoff_s = 0.0;
   double touchdown_speed_mps = 0.0;
   double peak_force_N = 0.0;
-  double max_depth_m = 0.0;
+  double max_depth_m = 0.0;  // below where the first stride met the surface
   ReportStiffness quasi_static_ols{};
   ReportStiffness observer_ols{};
   ReportStiffness observer_wls{};

@@ -29,6 +29,7 @@ Json stiffness(const ReportStiffness& fit) {
 
 Json stride_json(const ReportStride& stride) {
   return {{"number", stride.number},
+          {"contact_s", number(stride.contact_s)},
           {"touchdown_s", number(stride.touchdown_s)},
           {"switch_s", number(stride.switch_s)},
           {"liftoff_s", number(stride.liftoff_s)},

@@ -44,7 +44,7 @@ class ForceDepth {
       const forces = columns[path.channel];
       for (const stride of this.strides) {
         const end = rowAt(time, stride.liftoff_s ?? Infinity);
-        for (let row = rowAt(time, stride.touchdown_s); row < end; ++row) {
+        for (let row = rowAt(time, stride.contact_s ?? stride.touchdown_s); row < end; ++row) {
           const depth = this.depthAt(path, row);
           if (!Number.isNaN(forces[row]) && !Number.isNaN(depth)) path.points.push([1000 * depth, forces[row], time[row]]);
         }
@@ -56,7 +56,7 @@ class ForceDepth {
   depthAt(path, row) {
     const { columns } = this.data;
     if (path.depth) return columns[path.depth] ? -columns[path.depth][row] : NaN;
-    if (columns.estimate_force_depth_m) return columns.estimate_force_depth_m[row];
+    if (columns.force_depth_m) return columns.force_depth_m[row];
     return columns.estimate_foot_z_m ? -columns.estimate_foot_z_m[row] : NaN;
   }
 

@@ -82,8 +82,8 @@ class TimePlots {
   redraw() {
     this.hover(null);
     for (const plot of this.plots) {
-      plot.graph.updateOptions(this.colors(plot.series), true);
       plot.graph.resize();
+      plot.graph.updateOptions(this.colors(plot.series));
     }
   }
 
