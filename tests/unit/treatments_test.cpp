@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <string_view>
 #include <thread>
 
 namespace sandhopper {
@@ -38,10 +40,75 @@ void print(const TreatmentStudy& study) {
   }
 }
 
-TEST(Treatments, StudyPrints) {
+const CaseResult& find(const TreatmentStudy& study, std::string_view name) {
+  for (const auto& c : study.cases)
+    if (c.definition.name == name) return c;
+  throw std::out_of_range("no such case");
+}
+
+struct Band {
+  std::string_view name;
+  Treatment treatment;
+  double low, high;
+};
+
+// 75 trials and 8 seeds through the firmware's own controller and estimator. The bands are those an
+// independent simulation gives for the same definitions (terrain/README.md), where this one meets them; where
+// it does not, the band is around what it gives, so that a change shows either way: its estimates are closer
+// to the truth, which makes the quasi-static treatment look better in case A and B and leaves less for the
+// weights to mend.
+TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder) {
   StudySetup setup;
   setup.threads = std::max(1U, std::thread::hardware_concurrency());
-  print(run_treatment_study(setup));
+  const auto study = run_treatment_study(setup);
+  print(study);
+  EXPECT_EQ(study.strides, 600);
+  EXPECT_LE(study.incomplete, 8);
+  const std::array<Band, 9> bands{{{"A", Treatment::quasi_static_ols, 0.100, 0.130},  // elsewhere 0.132-0.162
+                                   {"A", Treatment::observer_ols, 0.043, 0.063},      // elsewhere 0.060-0.080
+                                   {"A", Treatment::observer_wls, 0.030, 0.052},      // elsewhere 0.044-0.068
+                                   {"B", Treatment::quasi_static_ols, 0.081, 0.111},  // elsewhere 0.114-0.144
+                                   {"B", Treatment::observer_ols, 0.005, 0.035},      // the same
+                                   {"B", Treatment::observer_wls, 0.111, 0.141},      // the same
+                                   {"C", Treatment::quasi_static_ols, 0.209, 0.269},  // elsewhere 0.177-0.237
+                                   {"C", Treatment::observer_ols, 0.000, 0.058},      // the same
+                                   {"C", Treatment::observer_wls, 0.038, 0.098}}};    // elsewhere 0.001-0.061
+  for (const auto& band : bands) {
+    const double error = find(study, band.name).mean_error()[static_cast<std::size_t>(band.treatment)];
+    EXPECT_GE(error, band.low) << band.name << static_cast<int>(band.treatment);
+    EXPECT_LE(error, band.high) << band.name << static_cast<int>(band.treatment);
+  }
+  for (const std::string_view name : {"A", "A2", "B", "C"})
+    EXPECT_EQ(find(study, name).seeds_in_order(Treatment::quasi_static_ols, Treatment::observer_ols), 8)
+        << name;
+  for (const std::string_view name : {"A", "A2"})
+    EXPECT_GE(find(study, name).seeds_in_order(Treatment::observer_ols, Treatment::observer_wls), 6) << name;
+  for (const std::string_view name : {"B", "C", "D", "E"})
+    EXPECT_EQ(find(study, name).seeds_in_order(Treatment::observer_ols, Treatment::observer_wls), 0) << name;
+}
+
+// Root mean square errors in stance are at most those of the independent simulation plus 20 %.
+TEST(Treatments, StateAndForceAreEstimatedAsWellAsExpected) {
+  struct Expected {
+    double quasi_static_N, observer_N, load_cell_N, depth_mm, velocity_mps;
+  };
+  const std::array<Expected, 5> expected{{{8.5, 2.4, 2.0, 3.2, .011},
+                                          {9.0, 2.5, 2.2, 3.0, .011},
+                                          {10.1, 2.7, 2.5, 3.3, .014},
+                                          {12.6, 3.8, 3.5, 3.2, .013},
+                                          {15.3, 4.7, 4.2, 3.8, .015}}};
+  StudySetup setup;
+  setup.threads = std::max(1U, std::thread::hardware_concurrency());
+  const auto study = run_treatment_study(setup);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto& e = study.errors[i];
+    EXPECT_NEAR(e.quasi_static_N, expected[i].quasi_static_N, 0.2 * expected[i].quasi_static_N);
+    EXPECT_LE(e.observer_N, 1.2 * expected[i].observer_N);
+    EXPECT_LE(e.load_cell_N, 1.2 * expected[i].load_cell_N);
+    EXPECT_LE(1e3 * e.depth_m, 1.2 * expected[i].depth_mm);
+    EXPECT_LE(e.foot_velocity_mps, 1.2 * expected[i].velocity_mps);
+    EXPECT_LE(e.observer_N, 0.4 * e.quasi_static_N) << "the observer is no better than expected of it";
+  }
 }
 
 }  // namespace
