@@ -1,0 +1,9 @@
+# Tests that need the virtual bench's kernel.
+add_executable(can_playback tests/bench/can_playback.cpp)
+target_link_libraries(can_playback PRIVATE sandhopper_firmware)
+set_target_properties(can_playback PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+add_test(NAME bench.can_playback
+  COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --no-devices --time-limit 240 ${CMAKE_BINARY_DIR}/bin/can_playback
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(bench.can_playback PROPERTIES LABELS bench SKIP_RETURN_CODE 77 TIMEOUT 600
+  ENVIRONMENT SANDHOPPER_NO_BUILD=1)
