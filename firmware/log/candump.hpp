@@ -11,7 +11,7 @@
 #include "firmware/log/append_file.hpp"
 
 // CAN traffic as `candump -L` text, one line a frame, which canplayer, log2asc and every other CAN tool read:
-//   (1700000000.123456789) can0 00A#7FFF7FF0000007FF T
+//   (1700000000.123456) can0 00A#7FFF7FF0000007FF T
 // Three hexadecimal digits are a standard identifier, eight an extended one or, with bit 0x20000000, an error
 // frame; R in place of data is a remote request.
 namespace sandhopper {
@@ -28,7 +28,7 @@ struct CandumpFrame {
 };
 
 struct CandumpFormat {
-  int decimals = 9;       // 6 or 9
+  int decimals = 6;       // cut off, not rounded; or 9, which Debian 12's canplayer refuses
   bool direction = true;  // R or T at the line's end, where known
 };
 

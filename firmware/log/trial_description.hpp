@@ -8,7 +8,8 @@ namespace sandhopper {
 
 inline constexpr std::string_view kRobotAttachment = "robot.toml";
 
-// What every trial's log carries besides its records: the robot's whole configuration and the build it was made by.
+// What every trial's log carries besides its records: the robot's whole configuration and the build it was
+// made by.
 void describe_trial(TrialLogger& logger, const RobotConfig& robot, std::string_view board);
 
 }  // namespace sandhopper

@@ -20,13 +20,12 @@ CandumpFrame frame_of(std::uint32_t id, std::initializer_list<std::uint8_t> data
 TEST(Candump, LinesLookAsCandumpWritesThem) {
   auto frame = frame_of(0x00A, {0x7F, 0xFF, 0x00});
   frame.direction = CanDirection::sent;
-  EXPECT_EQ(format_candump(frame, "can0"), "(1700000000.000001234) can0 00A#7FFF00 T");
-  EXPECT_EQ(format_candump(frame, "can0", {.decimals = 6, .direction = false}),
-            "(1700000000.000001) can0 00A#7FFF00");
-  EXPECT_EQ(format_candump(frame_of(0x80000868, {1}), "can1"), "(1700000000.000001234) can1 00000868#01");
-  EXPECT_EQ(format_candump(frame_of(0x20000004, {0, 1}), "can1"),
-            "(1700000000.000001234) can1 20000004#0001");
-  EXPECT_EQ(format_candump(frame_of(0x40000123, {}), "can1"), "(1700000000.000001234) can1 123#R");
+  EXPECT_EQ(format_candump(frame, "can0"), "(1700000000.000001) can0 00A#7FFF00 T");
+  EXPECT_EQ(format_candump(frame, "can0", {.decimals = 9, .direction = false}),
+            "(1700000000.000001234) can0 00A#7FFF00");
+  EXPECT_EQ(format_candump(frame_of(0x80000868, {1}), "can1"), "(1700000000.000001) can1 00000868#01");
+  EXPECT_EQ(format_candump(frame_of(0x20000004, {0, 1}), "can1"), "(1700000000.000001) can1 20000004#0001");
+  EXPECT_EQ(format_candump(frame_of(0x40000123, {}), "can1"), "(1700000000.000001) can1 123#R");
 }
 
 TEST(Candump, EveryKindOfFrameSurvivesTheRoundTrip) {
@@ -37,7 +36,7 @@ TEST(Candump, EveryKindOfFrameSurvivesTheRoundTrip) {
   for (const auto& frame :
        {frame_of(0x7FF, {}), frame_of(0, {1, 2, 3, 4, 5, 6, 7, 8}), frame_of(0x9FFFFFFF, {0xAB}),
         frame_of(0x20000040, {0, 0, 0, 0, 0, 0, 0, 0}), remote, received}) {
-    const std::string text = format_candump(frame, "vcan0");
+    const std::string text = format_candump(frame, "vcan0", {.decimals = 9});
     const auto line = parse_candump(text);
     ASSERT_TRUE(line.has_value()) << text;
     EXPECT_EQ(line->interface, "vcan0");

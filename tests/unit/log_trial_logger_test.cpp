@@ -140,7 +140,7 @@ TEST_F(TrialLog, ATapLogsBothDirectionsOfItsSocket) {
   tap.on_frame(frame, 6'000, false);
   logger.stop();
   EXPECT_EQ(content("a.can.log"),
-            "(1700000000.000005000) can1 123#00AB T\n(1700000000.000006000) can1 00000868#00AB R\n");
+            "(1700000000.000005) can1 123#00AB T\n(1700000000.000006) can1 00000868#00AB R\n");
 }
 
 TEST_F(TrialLog, WhatDoesNotFitLeavesAGapRecordInItsPlace) {
