@@ -57,6 +57,15 @@ class World {
   // Earliest grid time at which any of those four changes.
   std::int64_t next_sample_ns() const noexcept;
 
+  // Exact instants at which each has its next one.
+  struct NextSamples {
+    std::int64_t imu_body_ns, imu_foot_ns, tof_ns, load_cell_ns;
+  };
+  NextSamples next_samples() const noexcept {
+    return {imu_body_.next_sample_ns(), imu_foot_.next_sample_ns(), tof_.next_sample_ns(),
+            load_cell_.next_sample_ns()};
+  }
+
   const PlantTruth& truth() const noexcept { return truth_; }
   const Plant& plant() const noexcept { return plant_; }
 

@@ -1,19 +1,10 @@
 #include "tools/virtual_bench/bench_world.hpp"
 
+#include <algorithm>
+
 #include "drivers/clock.hpp"
 
 namespace sandhopper::bench {
-namespace {
-
-template <class Sample>
-void publish_new(const Sample& sample, std::int64_t& published_ns,
-                 const std::function<void(const Sample&)>& listener) {
-  if (sample.time_ns == published_ns || sample.time_ns == 0) return;
-  published_ns = sample.time_ns;
-  if (listener) listener(sample);
-}
-
-}  // namespace
 
 BenchWorld::BenchWorld(EventLoop& loop, const WorldConfig& config, const TrialSetup& setup)
     : loop_(loop), config_(config) {
@@ -21,16 +12,16 @@ BenchWorld::BenchWorld(EventLoop& loop, const WorldConfig& config, const TrialSe
 }
 
 void BenchWorld::reset(const TrialSetup& setup) {
-  // On whole milliseconds, as the firmware's cycle is, so that a trial does not depend on when it was reset.
+  // Whole milliseconds, as the firmware's cycle has: a trial does not depend on when within one it was reset.
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   const auto start_ns = (monotonic_ns() / kMillisecond_ns + 1) * kMillisecond_ns;
   world_ = std::make_unique<World>(config_, setup, start_ns);
+  start_ns_ = start_ns;
   setup_ = setup;
-  published_ = {};
   for (std::size_t i = 0; i < kMotorCount; ++i)
     world_->command(static_cast<Side>(i), told_[i].command, told_[i].enabled);
-  for (const auto& listener : on_reset) listener();
-  schedule();
+  if (on_reset) on_reset();
+  wake_at_next_completion();
 }
 
 World& BenchWorld::now() {
@@ -52,20 +43,40 @@ void BenchWorld::advance() {
   world_->advance_to(now_ns);
 }
 
-void BenchWorld::publish() {
-  publish_new(world_->imu_body(), published_.imu_body_ns, on_imu_body);
-  publish_new(world_->imu_foot(), published_.imu_foot_ns, on_imu_foot);
-  publish_new(world_->tof(), published_.tof_ns, on_tof);
-  publish_new(world_->load_cell(), published_.load_cell_ns, on_load_cell);
+template <class Sample>
+void BenchWorld::publish_new(const Sample& sample, Outlet<Sample>& outlet) {
+  if (sample.time_ns == outlet.newest_ns || sample.time_ns == 0) return;
+  outlet.newest_ns = sample.time_ns;
+  if (outlet.complete)
+    loop_.at(sample.time_ns + outlet.delay_ns, [&outlet, sample] { outlet.complete(sample); });
 }
 
-void BenchWorld::schedule() {
-  if (world_->next_sample_ns() == scheduled_ns_) return;
-  scheduled_ns_ = world_->next_sample_ns();
-  loop_.at(scheduled_ns_, [this, for_ns = scheduled_ns_] {
-    if (for_ns != scheduled_ns_) return;  // of a world that was reset since
+void BenchWorld::publish() {
+  publish_new(world_->imu_body(), imu_body);
+  publish_new(world_->imu_foot(), imu_foot);
+  publish_new(world_->tof(), tof);
+  publish_new(world_->load_cell(), load_cell);
+}
+
+std::int64_t BenchWorld::next_completion_ns() const noexcept {
+  const auto next = world_->next_samples();
+  const auto completion_ns = [this](std::int64_t measured_ns, std::int64_t available_ns,
+                                    std::int64_t delay_ns) {
+    const auto steps = (available_ns - start_ns_ + World::kStep_ns - 1) / World::kStep_ns;
+    return std::max(start_ns_ + steps * World::kStep_ns, measured_ns + delay_ns);
+  };
+  const auto tof_latency_ns = to_ns(config_.sensors.tof_latency_s);
+  return std::min({completion_ns(next.imu_body_ns, next.imu_body_ns, imu_body.delay_ns),
+                   completion_ns(next.imu_foot_ns, next.imu_foot_ns, imu_foot.delay_ns),
+                   completion_ns(next.tof_ns - tof_latency_ns, next.tof_ns, tof.delay_ns),
+                   completion_ns(next.load_cell_ns, next.load_cell_ns, load_cell.delay_ns)});
+}
+
+void BenchWorld::wake_at_next_completion() {
+  loop_.at(next_completion_ns(), [this, world = world_.get()] {
+    if (world != world_.get()) return;  // it was reset since
     advance();
-    schedule();
+    wake_at_next_completion();
   });
 }
 

@@ -55,11 +55,23 @@ struct CuseCallbacks {
                 .argument = argument,
                 .in = {static_cast<const std::uint8_t*>(in), in_size},
                 .out_size = out_size});
-    node(request).ioctl(call, file(info));
+    auto& served = node(request);  // `request` is gone once it is answered
+    served.ioctl(call, file(info));
+    served.more_soon_ = call.goes_on();
   }
 };
 
+namespace {
+
+void free_buffer(fuse_buf* buffer) {
+  std::free(buffer->mem);
+  delete buffer;
+}
+
+}  // namespace
+
 void Ioctl::fetch(std::span<const iovec> in, std::span<const iovec> out) {
+  goes_on_ = true;
   fuse_reply_ioctl_retry(call_.request, in.data(), in.size(), out.data(), out.size());
 }
 
@@ -70,7 +82,7 @@ void Ioctl::reply(int result, std::span<const std::uint8_t> out) {
 void Ioctl::fail(int error) { fuse_reply_err(call_.request, error); }
 
 CuseNode::CuseNode(EventLoop& loop, const std::string& name)
-    : loop_(loop), fd_(::open("/dev/cuse", O_RDWR | O_CLOEXEC)) {
+    : loop_(loop), fd_(::open("/dev/cuse", O_RDWR | O_CLOEXEC)), buffer_(new fuse_buf{}, free_buffer) {
   if (!fd_) throw std::runtime_error("/dev/cuse cannot be opened: run this inside tools/bench");
   cuse_lowlevel_ops operations{};
   operations.init_done = CuseCallbacks::init_done;
@@ -98,6 +110,7 @@ CuseNode::CuseNode(EventLoop& loop, const std::string& name)
   while (!ready_ && fuse_session_exited(session_) == 0) serve();
   if (!ready_)
     throw std::runtime_error("/dev/" + name + " cannot be made: the kernel refuses, or it is there already");
+  ::fcntl(fd_.get(), F_SETFL, O_NONBLOCK);
   loop_.watch(fd_.get(), [this] { serve(); });
 }
 
@@ -106,12 +119,17 @@ CuseNode::~CuseNode() {
   if (session_ != nullptr) fuse_session_destroy(session_);
 }
 
+// The parts of one ioctl follow each other without a wait: the caller is woken by each answer and asks on.
 void CuseNode::serve() {
-  fuse_buf request{};
-  const int size = fuse_session_receive_buf(session_, &request);
-  if (size > 0) fuse_session_process_buf(session_, &request);
-  std::free(request.mem);
+  do more_soon_ = false;
+  while (serve_one() && more_soon_);
+}
+
+bool CuseNode::serve_one() {
+  const int size = fuse_session_receive_buf(session_, buffer_.get());
+  if (size > 0) fuse_session_process_buf(session_, buffer_.get());
   if (size == 0 || (size < 0 && size != -EINTR && size != -EAGAIN)) fuse_session_exit(session_);
+  return size > 0;
 }
 
 }  // namespace sandhopper::bench

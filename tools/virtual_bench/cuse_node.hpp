@@ -11,6 +11,7 @@
 #include "drivers/unique_fd.hpp"
 #include "tools/virtual_bench/event_loop.hpp"
 
+struct fuse_buf;
 struct fuse_req;
 struct fuse_session;
 
@@ -38,6 +39,7 @@ class Ioctl {
   std::size_t out_size() const noexcept { return call_.out_size; }
 
   void fetch(std::span<const iovec> in, std::span<const iovec> out);
+  bool goes_on() const noexcept { return goes_on_; }  // after fetch()
   void reply(int result, std::span<const std::uint8_t> out = {});
   void fail(int error);
 
@@ -64,6 +66,7 @@ class Ioctl {
 
  private:
   Call call_;
+  bool goes_on_ = false;
 };
 
 class CuseNode {
@@ -86,11 +89,14 @@ class CuseNode {
  private:
   friend struct CuseCallbacks;
   void serve();
+  bool serve_one();
 
   EventLoop& loop_;
   UniqueFd fd_;
   fuse_session* session_ = nullptr;
+  std::unique_ptr<fuse_buf, void (*)(fuse_buf*)> buffer_;
   bool ready_ = false;
+  bool more_soon_ = false;  // the ioctl just served comes back at once
 };
 
 }  // namespace sandhopper::bench

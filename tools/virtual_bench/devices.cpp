@@ -74,25 +74,25 @@ Devices::Devices(EventLoop& loop, BenchWorld& world, const LinuxBoardConfig& boa
   connect_control();
   press_emergency_stop(false);
   gpio_.line(board_.body_catch).drive(!board_.body_catch.active_low);  // holds while nobody drives it
-  world_.on_reset.push_back([this] { catch_holds_ = false; });
-  loop_.on_wake([this] { look_at_catch(); });
+  world_.on_reset = [this] { catch_holds_ = false; };
 }
 
 // A device has a sample ready `latency_s` of its own configuration after the instant of measurement: the age
-// that the firmware subtracts again. The plant's grid makes it up to 0.1 ms later where that is shorter.
+// that the firmware subtracts again.
 void Devices::connect_sensors() {
-  const auto complete_after = [this](auto& device, double latency_s) {
-    return [this, &device, delay_ns = to_ns(latency_s)](const auto& sample) {
-      loop_.at(sample.time_ns + delay_ns, [&device, sample] { device.complete(sample); });
-    };
+  const auto connect = [](auto& outlet, auto& device, double latency_s) {
+    outlet.delay_ns = to_ns(latency_s);
+    outlet.complete = [&device](const auto& sample) { device.complete(sample); };
   };
-  world_.on_imu_body = complete_after(imu_body_, board_.imu_body.latency_s);
-  world_.on_imu_foot = complete_after(imu_foot_, board_.imu_foot.latency_s);
-  world_.on_tof = complete_after(tof_, board_.tof.latency_s);
-  world_.on_load_cell = complete_after(load_cell_, board_.load_cell.latency_s);
+  connect(world_.imu_body, imu_body_, board_.imu_body.latency_s);
+  connect(world_.imu_foot, imu_foot_, board_.imu_foot.latency_s);
+  connect(world_.tof, tof_, board_.tof.latency_s);
+  connect(world_.load_cell, load_cell_, board_.load_cell.latency_s);
 }
 
 void Devices::connect_drives() {
+  // Before the drives: what one cycle does to catch and drives is seen in one go.
+  can_.connect([this](const can_frame&) { look_at_catch(); });
   for (std::size_t i = 0; i < static_cast<std::size_t>(board_.can.motor_count); ++i) {
     const auto send = [this](const can_frame& frame) { can_.send(frame); };
     drives_.push_back(std::make_unique<MitDrive>(MitDrive::Wiring{loop_, world_, send}, static_cast<Side>(i),

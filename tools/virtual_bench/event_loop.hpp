@@ -6,12 +6,16 @@
 #include <queue>
 #include <vector>
 
+#include "drivers/unique_fd.hpp"
+
 namespace sandhopper::bench {
 
 // One thread that sleeps until the next timer or readable file descriptor. All emulated devices live on it,
 // so nothing needs a lock and the order of what happens depends on nothing but time.
 class EventLoop {
  public:
+  EventLoop();  // throws std::system_error
+
   using Action = std::function<void()>;
 
   // CLOCK_MONOTONIC when the loop last woke; the instant at which an action acts.
@@ -23,9 +27,6 @@ class EventLoop {
 
   // Once, at `time_ns` or as soon as possible after it; equal times in the order of the calls.
   void at(std::int64_t time_ns, Action action);
-
-  // At every waking, before anything else.
-  void on_wake(Action action) { on_wake_ = std::move(action); }
 
   // Returns after stop().
   void run();
@@ -41,13 +42,15 @@ class EventLoop {
     }
   };
 
+  void set_alarm();
   void wait();
   void run_timers();
   void run_readable();
 
+  UniqueFd alarm_;  // goes off at the first timer's time
+  std::int64_t alarm_ns_ = -1;
   std::vector<pollfd> polled_;
   std::vector<Action> action_;  // one for each of `polled_`
-  Action on_wake_;
   std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;
   std::uint64_t order_ = 0;
   std::int64_t now_ns_ = 0;
