@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "firmware/linux_board_config.hpp"
+#include "firmware/realtime.hpp"
 
 // What `hop doctor` looks at. Nothing is energised, taken over or changed: devices are looked up, not opened
 // for use.
@@ -17,8 +18,8 @@ struct Finding {
   std::string cure;   // empty when ok
 };
 
-// Kernel, priorities, memory locking, frequency governor, clocks, disk space.
-std::vector<Finding> examine_machine();
+// Kernel, priorities, memory locking, processors, clocks, disk space.
+std::vector<Finding> examine_machine(const RealTimeConfig& wanted);
 
 // CAN interface, device nodes and GPIO lines of the board's file.
 std::vector<Finding> examine_devices(const LinuxBoardConfig& board);

@@ -4,6 +4,7 @@
 #include <sys/statvfs.h>
 #include <sys/timex.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -34,15 +35,15 @@ Finding kernel() {
 }
 
 // Asks for the priority in a thread of its own, so that this one keeps its scheduling.
-Finding priority() {
-  constexpr int kPriority = 80;
+Finding priority(int wanted) {
+  if (wanted == 0) return {Health::warn, "SCHED_FIFO", "not asked for", "set real_time.priority to 80"};
   int error = 0;
-  std::thread([&error] {
-    const sched_param parameters{kPriority};
+  std::thread([&error, wanted] {
+    const sched_param parameters{wanted};
     error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
   }).join();
-  if (error == 0) return {Health::ok, "SCHED_FIFO", fmt::format("priority {} granted", kPriority), ""};
-  return {Health::fail, "SCHED_FIFO", fmt::format("priority {} refused: {}", kPriority, std::strerror(error)),
+  if (error == 0) return {Health::ok, "SCHED_FIFO", fmt::format("priority {} granted", wanted), ""};
+  return {Health::fail, "SCHED_FIFO", fmt::format("priority {} refused: {}", wanted, std::strerror(error)),
           "run as root, or write '* - rtprio 95' to /etc/security/limits.d/sandhopper.conf and log in again"};
 }
 
@@ -73,6 +74,24 @@ Finding governor() {
   if (name == "performance") return {Health::ok, "CPU governor", name, ""};
   return {Health::warn, "CPU governor", name + ": the clock rate follows the load, late",
           "echo performance | tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"};
+}
+
+Finding processor(int cpu) {
+  const auto online = first_line("/sys/devices/system/cpu/online");
+  const auto isolated = first_line("/sys/devices/system/cpu/isolated");
+  const auto found = fmt::format("online {}, isolated {}, cycle on {}", online,
+                                 isolated.empty() ? "none" : isolated, cpu < 0 ? "any" : std::to_string(cpu));
+  if (cpu < static_cast<int>(std::thread::hardware_concurrency()))
+    return {Health::ok, "processors", found, ""};
+  return {Health::fail, "processors", found, "set real_time.cpu to one that is online, or -1 for any"};
+}
+
+Finding idle_states(bool wanted) {
+  constexpr const char* kNode = "/dev/cpu_dma_latency";
+  if (!wanted) return {Health::ok, "idle states", "may be deep: real_time.hold_cpu_awake is false", ""};
+  if (::access(kNode, W_OK) == 0) return {Health::ok, "idle states", "can be held shallow", ""};
+  return {Health::warn, "idle states", fmt::format("{}: {}", kNode, std::strerror(errno)),
+          "run as root, or give the node to your group with a udev rule"};
 }
 
 Finding monotonic_clock() {
@@ -110,9 +129,17 @@ Finding disk_space() {
 
 }  // namespace
 
-std::vector<Finding> examine_machine() {
-  return {kernel(),   priority(),        throttling(), locked_memory(),
-          governor(), monotonic_clock(), date(),       disk_space()};
+std::vector<Finding> examine_machine(const RealTimeConfig& wanted) {
+  return {kernel(),
+          priority(wanted.priority),
+          throttling(),
+          locked_memory(),
+          governor(),
+          processor(wanted.cpu),
+          idle_states(wanted.hold_cpu_awake),
+          monotonic_clock(),
+          date(),
+          disk_space()};
 }
 
 }  // namespace sandhopper::cli

@@ -39,7 +39,7 @@ Run set_up(CLI::App& app) {
   return [board](Session& session) {
     const auto& directory = session.config_directory();
     const auto robot = load_robot(directory);
-    auto findings = examine_machine();
+    auto findings = examine_machine(robot.real_time);
     if (*board == "linux") {
       const auto devices = examine_devices(load_linux_board(directory / board_file(), robot));
       findings.insert(findings.end(), devices.begin(), devices.end());
