@@ -12,7 +12,6 @@
 #include "firmware/hop_session.hpp"
 #include "firmware/linux_board.hpp"
 #include "firmware/log/can_log_tap.hpp"
-#include "firmware/log/log_clock.hpp"
 #include "firmware/log/trial_description.hpp"
 #include "firmware/operator_channel.hpp"
 #include "firmware/version.hpp"
@@ -93,7 +92,7 @@ TrialLogOptions log_options(const Options& options) {
   TrialLogOptions log;
   log.mcap_file = options.log_file;
   log.start_ns = monotonic_ns();
-  log.realtime_offset_ns = sample_realtime_offset_ns();
+  log.realtime_offset_ns = realtime_offset_ns();
   if (options.board == "linux")
     log.candump_file = std::filesystem::path(options.log_file).replace_extension(".candump");
   return log;

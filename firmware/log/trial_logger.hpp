@@ -30,7 +30,7 @@ struct TrialLogOptions {
   std::filesystem::path mcap_file;
   std::filesystem::path candump_file;   // empty: CAN traffic is not logged
   std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; stamps what is attached
-  std::int64_t realtime_offset_ns = 0;  // sample_realtime_offset_ns(), or a fixed date for repeatable files
+  std::int64_t realtime_offset_ns = 0;  // realtime_offset_ns(), or a fixed date for repeatable files
   std::size_t slots = 8192;             // about 2.7 s of three records a cycle
   std::size_t can_slots = 16384;        // per interface; about 4 s of four frames a cycle
   bool own_thread = true;               // false: push() itself writes when the ring is full (simulation)

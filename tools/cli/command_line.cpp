@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "config/hint.hpp"
-
+#include "firmware/version.hpp"
 namespace sandhopper::cli {
 namespace {
 
@@ -46,7 +46,7 @@ std::vector<std::string> verbs_of(const CLI::App& app) {
 }  // namespace
 
 CommandLine::CommandLine(Session& session) : app_(kAbout, "hop") {
-  app_.set_version_flag("--version", "hop " SANDHOPPER_VERSION, "print the version");
+  app_.set_version_flag("--version", "hop " + std::string(kVersion), "print the version");
   app_.footer(kFooter);
   app_.get_formatter()->label("SUBCOMMAND", "VERB");
   add_common_options(app_, session);
