@@ -7,3 +7,5 @@ add_test(NAME bench.can_playback
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(bench.can_playback PROPERTIES LABELS bench SKIP_RETURN_CODE 77 TIMEOUT 600
   ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+add_test(NAME bench.agreement COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/agreement)
+set_tests_properties(bench.agreement PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
