@@ -126,9 +126,7 @@ int run(const Options& options, OperatorChannel& channel) {
   return result.last_fault == Fault::none ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app("Runs the hopper's 1 kHz cycle.", "hopperd");
   Options options;
   add_options(app, options);
@@ -147,4 +145,10 @@ int main(int argc, char** argv) {
     channel.tell_text("error", error.what());
     return 3;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try { return run_program(argc, argv); } catch (...) {
+  return 3;
 }
