@@ -24,7 +24,6 @@ class GpioInput {
 
  private:
   std::unique_ptr<GpioLine> line_;
-  bool failed_ = false;
 };
 
 class GpioOutput {
