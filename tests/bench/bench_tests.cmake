@@ -18,3 +18,12 @@ add_test(NAME bench.linux_board
   COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 240 ${CMAKE_BINARY_DIR}/bin/bench_tests
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(bench.linux_board PROPERTIES LABELS bench TIMEOUT 600 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+
+# The bench itself: what it promises of any command, its devices, and that two runs are alike.
+add_executable(spi_probe tests/bench/spi_probe.cpp)
+target_link_libraries(spi_probe PRIVATE sandhopper_options)
+set_target_properties(spi_probe PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+foreach(name boot devices determinism)
+  add_test(NAME bench.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/${name})
+  set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 900 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+endforeach()
