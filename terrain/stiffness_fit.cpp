@@ -74,6 +74,7 @@ Validity judge(const RegressionSums& sums, const StiffnessConfig& config, const 
   if (!std::isfinite(e.ci95_low_N_per_m) || !std::isfinite(e.ci95_high_N_per_m))
     return Validity::interval_unbounded;
   if (!(e.value_N_per_m > 0.0)) return Validity::not_positive;
+  if (!(e.ci95_low_N_per_m > 0.0)) return Validity::interval_includes_zero;
   if (sums.depth_max_m > config.max_depth_m) return Validity::deeper_than_foot;
   return Validity::valid;
 }

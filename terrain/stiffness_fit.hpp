@@ -106,14 +106,15 @@ enum class Validity : std::uint8_t {
   too_shallow,
   deeper_than_foot,
   interval_unbounded,
-  not_positive
+  not_positive,
+  interval_includes_zero
 };
 template <>
 struct EnumNames<Validity> {
-  static constexpr std::array<std::string_view, 7> value{
-      "valid",       "no_new_penetration", "too_few_samples",
-      "too_shallow", "deeper_than_foot",   "interval_unbounded",
-      "not_positive"};
+  static constexpr std::array<std::string_view, 8> value{
+      "valid",        "no_new_penetration",    "too_few_samples",
+      "too_shallow",  "deeper_than_foot",      "interval_unbounded",
+      "not_positive", "interval_includes_zero"};
 };
 
 struct StiffnessEstimate {
