@@ -115,7 +115,7 @@ TEST(StiffnessFit, SaysWhyItCannotTell) {
   EXPECT_EQ(solve_stiffness(sums_of(noisy_line(rng, 100, 0, 90, -1500)), config).validity,
             Validity::not_positive);
   auto scattered = noisy_line(rng, 100, 0, 0, 1500);
-  for (auto& sample : scattered) sample.force_N += 60.0 * std::sin(12.0 * sample.depth_m / 0.04);
+  for (auto& sample : scattered) sample.force_N += 4e5 * std::pow(sample.depth_m - 0.02, 2);
   EXPECT_EQ(solve_stiffness(sums_of(scattered), config).validity, Validity::interval_includes_zero);
   auto flat = noisy_line(rng, 100, 0, 0, 1500);
   flat[50].force_N = std::nan("");
