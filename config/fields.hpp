@@ -13,8 +13,8 @@
 //     visit("mass_kg", self.mass_kg, Range{0.0, 10.0});
 //   }
 //
-// Configuration loading, log schema, log encoding, CSV columns and JSON all walk that one list. The unit is part
-// of the name. `Range` is the closed interval the loader accepts; records leave it out.
+// Configuration loading, log schema, log encoding, CSV columns and JSON all walk that one list. The unit is
+// part of the name. `Range` is the closed interval the loader accepts; records leave it out.
 namespace sandhopper {
 
 struct Range {
@@ -30,14 +30,18 @@ struct AnyVisitor {
 }  // namespace detail
 
 template <class T>
-concept HasFields = requires(T& value) { std::remove_cv_t<T>::fields(value, detail::AnyVisitor{}); };
+concept HasFields = requires(T& value) {
+  std::remove_cv_t<T>::fields(value, detail::AnyVisitor{});
+};
 
 // Names of an enum's values, in the order 0, 1, 2, …; specialise next to the enum.
 template <class E>
 struct EnumNames;
 
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires { EnumNames<E>::value.size(); };
+concept NamedEnum = std::is_enum_v<E> && requires {
+  EnumNames<E>::value.size();
+};
 
 template <NamedEnum E>
 constexpr std::string_view name_of(E value) {

@@ -9,7 +9,7 @@ std::string values_of(const Event& event) {
   switch (event.kind) {
     case EventKind::zero_check:
     case EventKind::arming_refused:
-      return fmt::format("left {:.4f} rad, right {:.4f} rad, expected {:.4f} rad, speed {:.3f} rad/s", v[0],
+      return fmt::format("left {:.4f} rad, right {:.4f} rad, expected {:.4f} rad, moved by {:.4f} rad", v[0],
                          v[1], v[2], v[3]);
     case EventKind::released:
       return fmt::format("body feels {:.2f} m/s², foot at {:.1f} mm, body at {:.1f} mm", v[0], 1e3 * v[1],
