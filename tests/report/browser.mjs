@@ -10,20 +10,29 @@ const kQuiet = [
 ];
 
 export class Browser {
-  static async start({ width, height, dark = false }) {
+  static async start(size) {
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), 'sandhopper-browser-'));
     browser.driver = spawn('chromedriver', ['--port=0'], { stdio: ['ignore', 'pipe', 'inherit'] });
-    browser.url = await new Promise((resolve, reject) => {
-      browser.driver.on('error', reject);
-      browser.driver.stdout.on('data', text => {
+    try {
+      await browser.connect(size);
+    } catch (error) {
+      browser.end();
+      throw error;
+    }
+    return browser;
+  }
+
+  async connect({ width, height }) {
+    this.url = await new Promise((resolve, reject) => {
+      this.driver.on('error', reject);
+      this.driver.stdout.on('data', text => {
         const port = /successfully on port (\d+)/.exec(text);
         if (port) resolve(`http://127.0.0.1:${port[1]}`);
       });
     });
-    const args = [...kQuiet, `--window-size=${width},${height}`, `--user-data-dir=${browser.profile}`];
-    if (dark) args.push('--force-dark-mode');
-    const session = await browser.call('POST', '/session', {
+    const args = [...kQuiet, `--window-size=${width},${height}`, `--user-data-dir=${this.profile}`];
+    const session = await this.call('POST', '/session', {
       capabilities: {
         alwaysMatch: {
           browserName: 'chrome',
@@ -32,8 +41,7 @@ export class Browser {
         },
       },
     });
-    browser.session = `/session/${session.sessionId}`;
-    return browser;
+    this.session = `/session/${session.sessionId}`;
   }
 
   async call(method, path, body) {
@@ -107,8 +115,12 @@ export class Browser {
     try {
       await this.call('DELETE', this.session);
     } finally {
-      this.driver.kill();
-      rmSync(this.profile, { recursive: true, force: true });
+      this.end();
     }
+  }
+
+  end() {
+    this.driver.kill();
+    rmSync(this.profile, { recursive: true, force: true });
   }
 }

@@ -2,7 +2,7 @@
 // Runs `hop` on every broken configuration and command line of cases.mjs, plain and with --json, and prints case, exit
 // status and message. Each must exit with 2, say what is wrong and what to do, print nothing else and leave nothing
 // behind. So must hopperd with every broken configuration.
-//   tests/cli/broken [BUILD-DIRECTORY]
+//   tests/cli/broken.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync, mkdirSync } from 'node:fs';
 import { tmpdir } from 'node:os';
