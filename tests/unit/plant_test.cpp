@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "config/load.hpp"
-#include "tests/unit/nominal_stride.hpp"
+#include "tools/experiment/nominal_stride.hpp"
 
 namespace sandhopper {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/nominal_stride.hpp"
+#include "tools/experiment/nominal_stride.hpp"
 
 // The default robot and bed without noise against 15 strides of an independent program, and against the
 // printed matrix of what those strides show.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/unit/nominal_stride.hpp"
+#include "tools/experiment/nominal_stride.hpp"
 
 // What the first stride of the default robot shows, for five touchdown speeds and three compression
 // stiffnesses, beside the figures printed by an independent program. Times count from physical contact;

@@ -78,10 +78,15 @@ TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder)
     EXPECT_GE(error, band.low) << band.name << static_cast<int>(band.treatment);
     EXPECT_LE(error, band.high) << band.name << static_cast<int>(band.treatment);
   }
-  for (const std::string_view name : {"A", "A2", "B", "C"})
+  // With the true force and state nothing depends on the estimator, and the independent simulation is met.
+  const auto truth = find(study, "T").mean_error();
+  EXPECT_NEAR(truth[0], 0.120, 0.02);
+  EXPECT_NEAR(truth[1], 0.078, 0.02);
+  EXPECT_NEAR(truth[2], 0.056, 0.02);
+  for (const std::string_view name : {"A", "A2", "B", "C", "T"})
     EXPECT_EQ(find(study, name).seeds_in_order(Treatment::quasi_static_ols, Treatment::observer_ols), 8)
         << name;
-  for (const std::string_view name : {"A", "A2"})
+  for (const std::string_view name : {"A", "A2", "T"})
     EXPECT_GE(find(study, name).seeds_in_order(Treatment::observer_ols, Treatment::observer_wls), 6) << name;
   for (const std::string_view name : {"B", "C", "D", "E"})
     EXPECT_EQ(find(study, name).seeds_in_order(Treatment::observer_ols, Treatment::observer_wls), 0) << name;

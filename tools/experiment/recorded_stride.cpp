@@ -1,5 +1,7 @@
 #include "tools/experiment/recorded_stride.hpp"
 
+#include <cmath>
+
 #include "firmware/controller.hpp"
 #include "tools/plant/sim_board.hpp"
 
@@ -12,7 +14,7 @@ constexpr std::int64_t kLongest_cycles = 5000;
 }  // namespace
 
 RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_config,
-                             const TrialSetup& setup) {
+                             const TrialSetup& setup, const std::function<void(const CycleView&)>& on_cycle) {
   World world(world_config, setup, 0);
   SimBoard board(world);
   Controller controller(cycle);
@@ -30,6 +32,7 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
     truth = world.truth();
     const auto& out = controller.step(frame);
     board.write(out.command);
+    if (on_cycle) on_cycle({frame, out, truth});
     for (const auto& event : controller.events())
       if (event.kind == EventKind::armed) request = Request::release;
     if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
@@ -42,6 +45,21 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
     }
   }
   return stride;
+}
+
+RecordedStride with_true_state(const RecordedStride& stride) {
+  RecordedStride truth = stride;
+  for (auto& sample : truth.samples) {
+    auto& estimate = sample.estimate;
+    estimate.contact_force_N = sample.true_force_N;
+    estimate.direct_force_N = sample.true_force_N;
+    estimate.force_depth_m = -sample.true_foot_z_m;
+    estimate.force_velocity_mps = -sample.true_foot_velocity_mps;
+    estimate.foot_z_m = sample.true_foot_z_m;
+    estimate.foot_velocity_mps = sample.true_foot_velocity_mps;
+    estimate.weighting_accel_mps2 = std::abs(sample.true_foot_accel_mps2);
+  }
+  return truth;
 }
 
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {

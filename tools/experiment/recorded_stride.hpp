@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
+#include "firmware/sensor_frame.hpp"
 #include "tools/plant/world.hpp"
 
 namespace sandhopper {
@@ -27,7 +29,19 @@ struct RecordedStride {
   bool complete = false;  // liftoff was reached without a fault
 };
 
-RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup);
+// What a cycle read and did, and what was true at its time; valid during the call.
+struct CycleView {
+  const SensorFrame& frame;
+  const StepOutput& output;
+  const PlantTruth& truth;
+};
+
+RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup,
+                             const std::function<void(const CycleView&)>& on_cycle = {});
+
+// The same stride as perfect sensors and a perfect observer would have told it; the quasi-static force
+// remains what the motors' currents say.
+RecordedStride with_true_state(const RecordedStride& stride);
 
 // The same stride evaluated with another sample window, intercept or weights: bit for bit what the firmware
 // would have said with that configuration.

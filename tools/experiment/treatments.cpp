@@ -21,9 +21,10 @@ const std::vector<HopCell>& hop_cells() {
 
 const std::vector<TreatmentCase>& treatment_cases() {
   static const std::vector<TreatmentCase> cases{
-      {"A", SampleWindow::penetrating, true},  {"A2", SampleWindow::new_depth, true},
-      {"B", SampleWindow::to_max_depth, true}, {"C", SampleWindow::to_max_depth, false},
-      {"D", SampleWindow::whole_stance, true}, {"E", SampleWindow::compression, true}};
+      {"A", SampleWindow::penetrating, true},   {"A2", SampleWindow::new_depth, true},
+      {"B", SampleWindow::to_max_depth, true},  {"C", SampleWindow::to_max_depth, false},
+      {"C2", SampleWindow::penetrating, false}, {"D", SampleWindow::whole_stance, true},
+      {"E", SampleWindow::compression, true},   {"T", SampleWindow::penetrating, true, true}};
   return cases;
 }
 
@@ -101,11 +102,12 @@ StrideOutcome run_one(const StudySetup& setup, const HopCell& cell, std::uint64_
   outcome.complete = stride.complete;
   if (!stride.complete) return outcome;
   outcome.errors.add(stride);
+  const auto true_stride = with_true_state(stride);
   for (const auto& definition : treatment_cases()) {
     StiffnessConfig config = cycle.stiffness;
     config.window = definition.window;
     config.free_intercept = definition.free_intercept;
-    const auto result = evaluate_stride(stride, config);
+    const auto result = evaluate_stride(definition.true_state ? true_stride : stride, config);
     outcome.by_case.push_back({result.quasi_static_ols.value_N_per_m, result.observer_ols.value_N_per_m,
                                result.observer_wls.value_N_per_m});
   }

@@ -32,8 +32,9 @@ struct TreatmentCase {
   std::string_view name;
   SampleWindow window;
   bool free_intercept;
+  bool true_state = false;  // observer's force, depth, speed and acceleration replaced by the true ones
 };
-// A, A2, B, C, D, E.
+// A, A2, B, C, C2, D, E, T.
 const std::vector<TreatmentCase>& treatment_cases();
 
 enum class Treatment : std::size_t { quasi_static_ols, observer_ols, observer_wls };

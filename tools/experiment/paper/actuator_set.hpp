@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "tools/plant/world_config.hpp"
+
+// The actuator experiment: the foot driven into a fresh bed at constant speed while the load cell listens.
+namespace sandhopper::paper {
+
+struct ActuatorSetup {
+  int speeds = 50;
+  double speed_increment_mps = 0.022;  // 0.022 to 1.1 m/s in 50 steps
+  int trials = 3;                      // a speed, each in its own bed
+  double stroke_m = 0.050;
+  std::uint64_t first_seed = 1;
+};
+
+struct ActuatorSample {
+  double depth_m;
+  double force_N;
+};
+
+// One stroke: a sample for each conversion of the load cell, at the depth the foot had at that instant.
+struct ActuatorRun {
+  double speed_mps;
+  std::vector<ActuatorSample> samples;
+};
+
+// Beds with the trial spread of `world`, force through its amplifier and free-running converter.
+std::vector<ActuatorRun> run_actuator_set(const WorldConfig& world, const ActuatorSetup& setup);
+
+}  // namespace sandhopper::paper
