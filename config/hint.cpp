@@ -28,6 +28,8 @@ constexpr std::array kUnits{
     Unit{"kg", "kg", "mass", 1.0},
     Unit{"g", "g", "mass", 1e-3},
     Unit{"s", "s", "time", 1.0},
+    Unit{"in", "in", "length", 0.0254},
+    Unit{"ft", "ft", "length", 0.3048},
     Unit{"ms", "ms", "time", 1e-3},
     Unit{"us", "us", "time", 1e-6},
     Unit{"ns", "ns", "time", 1e-9},
@@ -43,10 +45,22 @@ constexpr std::array kUnits{
     Unit{"radps2", "rad/s^2", "angular acceleration", 1.0},
     Unit{"mps", "m/s", "speed", 1.0},
     Unit{"mmps", "mm/s", "speed", 1e-3},
+    Unit{"cmps", "cm/s", "speed", 1e-2},
     Unit{"mps2", "m/s^2", "acceleration", 1.0},
+    Unit{"mmps2", "mm/s^2", "acceleration", 1e-3},
     Unit{"N", "N", "force", 1.0},
     Unit{"kN", "kN", "force", 1e3},
     Unit{"mN", "mN", "force", 1e-3},
+    Unit{"lbf", "lbf", "force", 4.4482216152605},
+    Unit{"kgf", "kgf", "force", 9.80665},
+    Unit{"gf", "gf", "force", 9.80665e-3},
+    Unit{"Pa", "Pa", "pressure", 1.0},
+    Unit{"hPa", "hPa", "pressure", 1e2},
+    Unit{"kPa", "kPa", "pressure", 1e3},
+    Unit{"MPa", "MPa", "pressure", 1e6},
+    Unit{"bar", "bar", "pressure", 1e5},
+    Unit{"mbar", "mbar", "pressure", 1e2},
+    Unit{"psi", "psi", "pressure", 6894.757293168},
     Unit{"Nm", "N m", "torque", 1.0},
     Unit{"mNm", "mN m", "torque", 1e-3},
     Unit{"Ncm", "N cm", "torque", 1e-2},
@@ -149,6 +163,12 @@ std::string either(std::span<const std::string> words) {
   for (std::size_t i = 0; i < words.size(); ++i)
     text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == words.size() ? " or " : ", ", words[i]);
   return text;
+}
+
+std::optional<UnitOfKey> split_unit(std::string_view key) {
+  const auto parts = split_key(key);
+  if (!parts.unit) return std::nullopt;
+  return UnitOfKey{parts.quantity, parts.unit->suffix, parts.unit->dimension, parts.unit->to_si};
 }
 
 std::string unit_of_key(std::string_view key) {

@@ -15,6 +15,16 @@ std::vector<std::string> nearest_words(std::string_view word, std::span<const st
 // "'a'", "'a' or 'b'", "'a', 'b' or 'c'"
 std::string either(std::span<const std::string> words);
 
+// "force_kN" is quantity "force" in "kN", a "force" that is 1000 times its SI unit (0: not a plain multiple).
+// Empty for a key that ends in no known unit.
+struct UnitOfKey {
+  std::string_view quantity;
+  std::string_view suffix;
+  std::string_view dimension;
+  double to_si = 1.0;
+};
+std::optional<UnitOfKey> split_unit(std::string_view key);
+
 // Unit at the end of a key as one writes it ("kg", "N/m"), empty for a key without one.
 std::string unit_of_key(std::string_view key);
 

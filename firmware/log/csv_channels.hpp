@@ -13,6 +13,7 @@ enum class CsvCell : std::uint8_t {
   always,
   fresh,    // `guard` is true
   good,     // likewise, and the field `status` beside it is 0
+  served,   // likewise, and the cycle estimates: idle or in a fault it leaves its last value standing
   changed,  // `guard` differs from the row before
   phase     // not a number of its own: the state's name decides
 };
@@ -48,7 +49,7 @@ inline constexpr std::array kCsvChannels{
     CsvChannel{"imu_foot_accel_z_mps2", topic::kFrame, "imu_foot.accel_mps2.2", CsvCell::fresh,
                "imu_foot.fresh"},
     CsvChannel{"tof_height_m", topic::kFrame, "tof.height_m", CsvCell::good, "tof.fresh"},
-    CsvChannel{"load_cell_force_N", topic::kOutput, "estimate.load_cell_force_N", CsvCell::fresh,
+    CsvChannel{"load_cell_force_N", topic::kOutput, "estimate.load_cell_force_N", CsvCell::served,
                "load_cell.fresh"},
     CsvChannel{"mocap_body_z_m", topic::kTruth, "mocap_body_z_m", CsvCell::changed, "mocap_time_ns"},
     CsvChannel{"mocap_foot_z_m", topic::kTruth, "mocap_foot_z_m", CsvCell::changed, "mocap_time_ns"},
@@ -77,6 +78,8 @@ inline constexpr std::array kCsvChannels{
                true},
     CsvChannel{"quasi_static_force_N", topic::kOutput, "estimate.quasi_static_force_N", CsvCell::always, "",
                true}};
+
+inline constexpr std::array<std::string_view, 2> kCsvUnservedStates{"STATE_IDLE", "STATE_FAULT"};
 
 // Value of `phase` by the state's constant in the schema.
 inline constexpr std::array<std::string_view, 3> kCsvPhases{"STATE_FLIGHT", "STATE_COMPRESSION",

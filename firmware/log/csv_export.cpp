@@ -1,5 +1,6 @@
 #include "firmware/log/csv_export.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -52,6 +53,7 @@ struct Cell {
   const Source* guard_source = nullptr;
   const RecordLayout::Field* guard = nullptr;
   const RecordLayout::Field* status = nullptr;
+  const RecordLayout::Field* state = nullptr;
   std::optional<std::int64_t> last{};
 
   // Empty when there is nothing to write.
@@ -66,8 +68,15 @@ struct Cell {
       if (stale) return std::nullopt;
     }
     if (status != nullptr && RecordLayout::integer(guard_source->message, *status) != 0) return std::nullopt;
+    if (state != nullptr && unserved()) return std::nullopt;
     const double number = RecordLayout::number(source->message, *field);
     return std::isfinite(number) ? std::optional(number) : std::nullopt;
+  }
+
+  bool unserved() const {
+    const auto value = static_cast<std::size_t>(RecordLayout::integer(source->message, *state));
+    return value < state->constants.size() && std::find(kCsvUnservedStates.begin(), kCsvUnservedStates.end(),
+                                                        state->constants[value]) != kCsvUnservedStates.end();
   }
 
   std::optional<double> phase() const {
@@ -132,6 +141,7 @@ class Exporter {
       cell.guard = cell.guard_source->layout->find(channel.guard);
       if (cell.guard == nullptr) return;
     }
+    if (channel.when == CsvCell::served) cell.state = cell.source->layout->find("state");
     if (channel.when == CsvCell::good) cell.status = frame_.layout->find("tof.status");
     cells_.push_back(cell);
   }

@@ -36,26 +36,47 @@ std::string shown(double value) {
   return text.str();
 }
 
+char separator_of(std::string_view header) {
+  for (const char separator : {',', ';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+// The line's cells without the blanks and quotes around them.
+void split_cells(std::string_view line, char separator, std::vector<Cell>& cells) {
+  cells.clear();
+  std::size_t start = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (quoted || line[i] != separator)) continue;
+    cells.push_back({trimmed(line.substr(start, i - start)), start + 1});
+    start = i + 1;
+  }
+}
+
 class Reading {
  public:
   Reading(std::istream& in, const CsvReadOptions& options) : in_(in), options_(options) {}
 
   CsvTable run() {
     if (!next_line() || trimmed(line_).empty()) {
-      report(CsvIssue::Severity::error, 1, "no header: the first line must name the columns");
+      report({Severity::error, 1, CsvFault::no_header}, "no header: the first line must name the columns");
       return std::move(table_);
     }
-    read_header();
+    if (!read_header()) return std::move(table_);
     while (next_line())
       if (!trimmed(line_).empty()) read_row();
     note_gaps();
-    if (table_.rows() == 0) report(CsvIssue::Severity::error, 1, "no rows below the header");
+    if (table_.rows() == 0) report({Severity::error, 1, CsvFault::no_rows}, "no rows below the header");
     std::stable_sort(table_.issues.begin(), table_.issues.end(),
                      [](const CsvIssue& a, const CsvIssue& b) { return a.line < b.line; });
     return std::move(table_);
   }
 
  private:
+  using Severity = CsvIssue::Severity;
+
   bool next_line() {
     if (!std::getline(in_, line_)) return false;
     ++line_number_;
@@ -64,30 +85,20 @@ class Reading {
     return true;
   }
 
-  void split() {
-    cells_.clear();
-    const std::string_view line = line_;
-    std::size_t start = 0;
-    bool quoted = false;
-    for (std::size_t i = 0; i <= line.size(); ++i) {
-      if (i < line.size() && line[i] == '"') quoted = !quoted;
-      if (i < line.size() && (quoted || line[i] != separator_)) continue;
-      cells_.push_back({trimmed(line.substr(start, i - start)), start + 1});
-      start = i + 1;
-    }
-  }
+  void split() { split_cells(line_, separator_, cells_); }
 
-  void read_header() {
-    for (const char separator : {',', ';', '\t'}) {
-      separator_ = separator;
-      if (line_.find(separator) != std::string::npos) break;
-      separator_ = ',';
-    }
+  bool read_header() {
+    separator_ = separator_of(line_);
     split();
+    if (std::all_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return parsed(cell.text); })) {
+      report({Severity::error, 1, CsvFault::no_header},
+             "no header: the first line holds numbers where it must name the columns");
+      return false;
+    }
     for (const Cell& cell : cells_) {
       const bool known = table_.find(cell.text) != nullptr;
       if (known)
-        report(CsvIssue::Severity::error, cell.column,
+        report({Severity::error, cell.column, CsvFault::duplicate_column, cell.text},
                "a second column is called \"" + std::string(cell.text) + "\"; rename one of them");
       const bool used = !known && !cell.text.empty();  // a row index often has no name
       place_of_cell_.push_back(used ? std::optional(table_.names.size()) : std::nullopt);
@@ -95,17 +106,19 @@ class Reading {
       if (cell.text == options_.time_column) time_ = table_.names.size();
       table_.names.emplace_back(cell.text);
       table_.columns.emplace_back();
+      table_.numbers.push_back(static_cast<std::uint64_t>(&cell - cells_.data()) + 1);
     }
     row_.resize(table_.names.size());
     if (!time_ && !options_.time_column.empty())
-      report(CsvIssue::Severity::error, 1,
+      report({Severity::error, 1, CsvFault::no_time_column, options_.time_column},
              "no column is called \"" + options_.time_column + "\", so gaps and order cannot be checked");
+    return true;
   }
 
   void read_row() {
     split();
     if (cells_.size() != place_of_cell_.size()) {
-      report(CsvIssue::Severity::error, line_.size() + 1,
+      report({Severity::error, line_.size() + 1, CsvFault::ragged_row},
              std::to_string(cells_.size()) + " cells where the header names " +
                  std::to_string(place_of_cell_.size()) + "; row left out");
       return;
@@ -118,18 +131,23 @@ class Reading {
     }
     if (!time_is_in_order(time_column)) return;
     for (std::size_t i = 0; i < row_.size(); ++i) table_.columns[i].push_back(row_[i]);
-    line_of_row_.push_back(line_number_);
+    table_.lines.push_back(line_number_);
+  }
+
+  static std::optional<double> parsed(std::string_view digits) {
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+    return value;
   }
 
   double number(const Cell& cell, const std::string& name) {
     if (cell.text.empty()) return kEmpty;
-    std::string_view digits = cell.text;
-    if (digits.front() == '+') digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(value)) return value;
-    const bool is_number = error == std::errc{} && end == digits.data() + digits.size();
-    report(CsvIssue::Severity::error, cell.column,
+    const auto value = parsed(cell.text);
+    if (value && std::isfinite(*value)) return *value;
+    const bool is_number = value.has_value();
+    report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
            name + ": \"" + std::string(cell.text) + "\" is not a " + (is_number ? "finite " : "") +
                "number; leave the cell empty where there is no sample");
     return kEmpty;
@@ -140,17 +158,18 @@ class Reading {
     const double time_s = row_[*time_];
     const auto& times_s = table_.columns[*time_];
     if (std::isnan(time_s)) {
-      report(CsvIssue::Severity::error, column, options_.time_column + ": no time; row left out");
+      report({Severity::error, column, CsvFault::no_time, options_.time_column},
+             options_.time_column + ": no time; row left out");
       return false;
     }
-    if (times_s.empty() || time_s > times_s.back()) return true;
+    if (times_s.empty() || time_s > times_s.back() || !options_.check_order) return true;
     const std::string times = " from " + shown(times_s.back()) + " to " + shown(time_s) + " s";
     if (time_s < times_s.back()) {
-      report(CsvIssue::Severity::error, column,
+      report({Severity::error, column, CsvFault::time_backwards, options_.time_column},
              options_.time_column + ": time goes backwards," + times + "; row left out");
       return false;
     }
-    report(CsvIssue::Severity::note, column,
+    report({Severity::note, column, CsvFault::time_stands_still, options_.time_column},
            options_.time_column + ": time stands still at " + shown(time_s) + " s");
     return true;
   }
@@ -166,18 +185,36 @@ class Reading {
     if (*middle <= 0.0) return;
     for (std::size_t i = 0; i < steps_s.size(); ++i) {
       if (steps_s[i] <= options_.gap_steps * *middle) continue;
-      line_number_ = line_of_row_[i + 1];
-      report(CsvIssue::Severity::note, 1,
+      line_number_ = table_.lines[i + 1];
+      report({Severity::note, 1, CsvFault::gap, options_.time_column},
              "a gap of " + shown(steps_s[i]) + " s before this row (median step " + shown(*middle) + " s)");
     }
   }
 
-  void report(CsvIssue::Severity severity, std::uint64_t column, std::string text) {
+  struct Place {
+    Severity severity;
+    std::uint64_t column;
+    CsvFault fault;
+    std::string_view name{};
+  };
+  void report(const Place& place, std::string text) {
+    const std::uint64_t line = std::max<std::uint64_t>(line_number_, 1);
+    if (!options_.list_repeats) {
+      const auto first = std::find_if(table_.issues.begin(), table_.issues.end(), [&](const CsvIssue& issue) {
+        return issue.fault == place.fault && issue.name == place.name;
+      });
+      if (first != table_.issues.end()) {
+        ++first->repeats;
+        first->last_line = line;
+        return;
+      }
+    }
     if (table_.issues.size() >= options_.max_issues) {
       ++table_.more_issues;
       return;
     }
-    table_.issues.push_back({severity, std::max<std::uint64_t>(line_number_, 1), column, std::move(text)});
+    table_.issues.push_back(
+        {place.severity, line, place.column, std::move(text), place.fault, std::string(place.name)});
   }
 
   std::istream& in_;
@@ -190,7 +227,6 @@ class Reading {
   std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
-  std::vector<std::uint64_t> line_of_row_;
 };
 
 }  // namespace
@@ -211,6 +247,18 @@ bool CsvTable::has_errors() const {
 }
 
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
+
+std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line,
+                                 std::uint64_t number) {
+  std::ifstream in(file);
+  std::string text;
+  char separator = ',';
+  for (std::uint64_t i = 1; i <= line && std::getline(in, text); ++i)
+    if (i == 1) separator = separator_of(text);
+  std::vector<Cell> cells;
+  split_cells(text, separator, cells);
+  return in && number >= 1 && number <= cells.size() ? cells[number - 1].column : 1;
+}
 
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {
   std::ifstream in(file);

@@ -8,6 +8,21 @@
 
 namespace sandhopper {
 
+// What can be wrong with a recording.
+enum class CsvFault : std::uint8_t {
+  no_header,
+  no_rows,
+  no_time_column,
+  duplicate_column,
+  ragged_row,
+  not_a_number,
+  not_finite,
+  no_time,
+  time_backwards,
+  time_stands_still,
+  gap
+};
+
 // Something the reader of a recording should know, at its place in the file.
 struct CsvIssue {
   enum class Severity : std::uint8_t {
@@ -18,6 +33,10 @@ struct CsvIssue {
   std::uint64_t line = 0;    // from 1; the header is line 1
   std::uint64_t column = 0;  // character in the line, from 1
   std::string text;
+  CsvFault fault = CsvFault::no_header;
+  std::string name{};           // the column's name, where one column is meant
+  std::uint64_t repeats = 0;    // the same fault in the same column again, and not listed …
+  std::uint64_t last_line = 0;  // … for the last time here
 };
 
 // "file:line:column: text"
@@ -26,6 +45,8 @@ std::string describe(std::string_view file, const CsvIssue& issue);
 struct CsvTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  // as names; NaN: no sample
+  std::vector<std::uint64_t> numbers;        // as names: number of the column in the file, from 1
+  std::vector<std::uint64_t> lines;          // of the file, for each row
   std::vector<CsvIssue> issues;   // in the order of the file, at most CsvReadOptions::max_issues …
   std::uint64_t more_issues = 0;  // … and this many besides
 
@@ -38,6 +59,8 @@ struct CsvReadOptions {
   std::string time_column = "t_s";  // empty: rows have no time
   double gap_steps = 5.0;           // a step longer than this many median steps is a gap
   std::size_t max_issues = 50;
+  bool check_order = true;   // false: rows may step back in time
+  bool list_repeats = true;  // false: the same fault in the same column is listed once and then counted
 };
 
 // Reads a recording: a header of unique names, then numbers; an empty cell is no sample. Cells are divided by
@@ -46,6 +69,8 @@ struct CsvReadOptions {
 // not a number (NaN and infinity included) becomes an empty one; a row with a missing or extra cell, without
 // a time, or whose time goes backwards is dropped. A second column of the same name is an error and ignored.
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options = {});
+// Character, from 1, at which cell `number` of a line begins; 1 where there is no such cell.
+std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number);
 // Throws std::system_error when the file cannot be opened.
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options = {});
 

@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "campaign_folder.hpp"
+#include "tools/campaign/trial_recording.hpp"
+
+namespace sandhopper {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr auto kIntrusion = "plant = \"intruder\"\n[[trial]]\nfile = \"a.csv\"\n";
+
+std::string refusal(const std::string& text) {
+  CampaignFolder folder;
+  if (!text.empty()) folder.write("campaign.toml", text);
+  try {
+    load_campaign(folder.path());
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Campaign, SetUpIsKeptWithUnknownKeys) {
+  CampaignFolder folder;
+  folder.write("campaign.toml",
+               "name = \"beads\"\nplant = \"hopper\"\n[[trial]]\nfile = \"t/1.csv\"\nkind = \"hold\"\n"
+               "release_height_m = 0.05\nsession = \"b\"\nbeads = \"new\"\npayload_kg = 1\n");
+  const auto campaign = load_campaign(folder.path());
+  EXPECT_EQ(campaign.name, "beads");
+  EXPECT_TRUE(campaign.findings.empty());
+  const auto& trial = campaign.trials.at(0);
+  EXPECT_EQ(trial.kind, TrialKind::hold);
+  EXPECT_EQ(trial.number("release_height_m"), 0.05);
+  EXPECT_EQ(trial.number("payload_kg"), 1.0);
+  EXPECT_EQ(trial.text("beads"), "new");
+  EXPECT_EQ(trial.number("beads"), std::nullopt);
+}
+
+TEST(Campaign, WhatCannotBeReadAtAllIsRefused) {
+  EXPECT_THAT(refusal(""), HasSubstr("campaign.toml: cannot be read"));
+  EXPECT_THAT(refusal("name = \"x\"\n"), HasSubstr("key 'plant' is missing"));
+  EXPECT_THAT(refusal("\nplant = \"robot\"\n"),
+              HasSubstr("campaign.toml:2:9: key 'plant' has no such value"));
+  EXPECT_THAT(refusal("plant = \"hopper\"\n"), HasSubstr("there is no trial"));
+  EXPECT_THAT(refusal("plant = \"hopper\"\nmodel = \"gone.toml\"\n[[trial]]\nfile = \"a\"\n"),
+              HasSubstr("campaign.toml:2:9: the model"));
+}
+
+TEST(Campaign, ATrialThatCannotBeUnderstoodIsLeftOutWithItsLine) {
+  CampaignFolder folder;
+  folder.write("campaign.toml",
+               "plant = \"hopper\"\nsampling = 1\n[[trial]]\nkind = \"hop\"\n[[trial]]\nfile = \"a.csv\"\n"
+               "kind = \"jump\"\n[[trial]]\nfile = \"b.csv\"\n");
+  const auto campaign = load_campaign(folder.path());
+  ASSERT_EQ(campaign.trials.size(), 1U);
+  EXPECT_EQ(campaign.trials[0].name, "b.csv");
+  ASSERT_EQ(campaign.findings.size(), 3U);
+  EXPECT_EQ(campaign.findings[0].line, 3U);
+  EXPECT_THAT(campaign.findings[0].cure, HasSubstr("file ="));
+  EXPECT_EQ(campaign.findings[1].line, 7U);
+  EXPECT_THAT(campaign.findings[1].cure, HasSubstr("\"hop\""));
+  EXPECT_EQ(campaign.findings[2].severity, FindingSeverity::note);
+}
+
+TEST(Campaign, ForeignColumnsBecomeChannels) {
+  CampaignFolder folder;
+  folder
+      .write("campaign.toml",
+             "plant = \"intruder\"\n[columns]\nt_s = { column = \"time [ms]\", scale = 0.001 }\n"
+             "force_N = { column = \"Fz\", scale = -1.0, offset = 0.5 }\nfoot_z_m = \"z\"\n"
+             "[[trial]]\nfile = \"a.csv\"\n[trial.columns]\nfoot_z_m = { column = \"Z_mm\", scale = 0.001, "
+             "offset = 0.01 }\n")
+      .write("a.csv", "time [ms],Fz,Z_mm,z,operator\n0,-1,-10,7,1\n1,-2,-11,7,1\n");
+  const auto campaign = load_campaign(folder.path());
+  const auto recording = read_trial(campaign, campaign.trials.at(0));
+  ASSERT_TRUE(recording.usable()) << to_string(recording.findings.at(0));
+  EXPECT_EQ(recording.t_s, (std::vector<double>{0.0, 0.001}));
+  EXPECT_EQ(recording.channel("force_N")[1], 2.5);
+  EXPECT_DOUBLE_EQ(recording.channel("foot_z_m")[1], -0.001) << "the trial's own mapping goes before";
+  EXPECT_FALSE(recording.has("foot_velocity_mps"));
+  EXPECT_EQ(recording.unused_columns, (std::vector<std::string>{"z", "operator"}));
+  EXPECT_THROW(recording.channel("foot_velocity_mps"), std::out_of_range);
+}
+
+TEST(Campaign, RowsOfOneFileMayBeSeveralTrials) {
+  CampaignFolder folder;
+  folder
+      .write(
+          "campaign.toml",
+          "plant = \"falling_body\"\n[[trial]]\nfile = \"b.csv\"\nselect = { column = \"drop\", value = 2 }\n"
+          "[[trial]]\nfile = \"c.csv\"\nselect = { from_s = 1.0, to_s = 1.5 }\n")
+      .write("c.csv", "t_s,height_m\n0,5\n1,4\n2,0\n")
+      .write("b.csv", "drop,t_s,height_m\n1,0,5\n1,1,4\n2,0,8\n2,1,7\n2,2,6\n");
+  const auto campaign = load_campaign(folder.path());
+  const auto second = read_trial(campaign, campaign.trials.at(0));
+  ASSERT_TRUE(second.usable());
+  EXPECT_EQ(second.t_s, (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(second.channel("height_m")[2], 6.0);
+  EXPECT_TRUE(second.findings.empty());
+  EXPECT_EQ(read_trial(campaign, campaign.trials.at(1)).t_s, (std::vector<double>{1}));
+}
+
+TEST(Campaign, AFolderMayStandForTheOneRecordingInIt) {
+  CampaignFolder folder;
+  folder.write("campaign.toml", kIntrusion).write("a.csv/hop.csv", "t_s,force_N\n0,1\n1,2\n");
+  const auto campaign = load_campaign(folder.path());
+  EXPECT_TRUE(read_trial(campaign, campaign.trials.at(0)).usable());
+  folder.write("a.csv/hop2.csv", "t_s,force_N\n0,1\n");
+  const auto two = read_trial(campaign, campaign.trials.at(0));
+  ASSERT_FALSE(two.usable());
+  EXPECT_THAT(two.findings.at(0).what, HasSubstr("holds 2 recordings"));
+}
+
+TEST(Campaign, RowsOfOneInstantBecomeOne) {
+  CampaignFolder folder;
+  folder.write("campaign.toml", kIntrusion).write("a.csv", "t_s,force_N,foot_z_m\n0,1,\n0,,2\n1,3,4\n");
+  const auto campaign = load_campaign(folder.path());
+  const auto recording = read_trial(campaign, campaign.trials.at(0));
+  EXPECT_EQ(recording.t_s, (std::vector<double>{0, 1}));
+  EXPECT_EQ(recording.channel("foot_z_m")[0], 2.0);
+  EXPECT_EQ(recording.findings.at(0).kind, FindingKind::time_stands_still);
+}
+
+}  // namespace
+}  // namespace sandhopper

@@ -1,0 +1,130 @@
+#include "tools/campaign/belief.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "config/load.hpp"
+
+namespace sandhopper {
+namespace {
+
+template <class Plant>
+Belief read_belief(const std::filesystem::path& file, Plant base) {
+  return load_file<Plant>(file.string(), MissingKeys::use_default, std::move(base));
+}
+
+// Reads `value` into the first number of that name, table by table; [spread] is not looked at.
+template <HasFields T>
+bool set_named(T& table, const ConfigNode& value, ConfigReader& reader) {
+  bool found = false;
+  T::fields(table, [&]<class Member>(std::string_view key, Member& member, Range range = {}) {
+    if (found || key == "spread") return;
+    if constexpr (HasFields<Member>) {
+      found = set_named(member, value, reader);
+    } else if (key == value.key) {
+      reader.read(value, value.key, member, range);
+      found = true;
+    }
+  });
+  return found;
+}
+
+bool is_diameter(std::string_view key) {
+  constexpr std::array<std::string_view, 3> kNames{"diameter_m", "foot_diameter_m", "plate_diameter_m"};
+  return std::find(kNames.begin(), kNames.end(), key) != kNames.end();
+}
+
+// What a diameter gives on this plant.
+std::optional<ConfigNode> from_diameter(CampaignPlant plant, const ConfigNode& value) {
+  ConfigNode node = value;
+  const double diameter_m =
+      value.kind == ConfigNode::Kind::integer ? static_cast<double>(value.integer) : value.real;
+  node.kind = ConfigNode::Kind::real;
+  switch (plant) {
+    case CampaignPlant::hopper:
+      node.key = "foot_radius_m";
+      node.real = 0.5 * diameter_m;
+      return node;
+    case CampaignPlant::intruder:
+      node.key = "radius_m";
+      node.real = 0.5 * diameter_m;
+      return node;
+    case CampaignPlant::falling_body:
+      node.key = "frontal_area_m2";
+      node.real = 0.25 * std::numbers::pi * diameter_m * diameter_m;
+      return node;
+    case CampaignPlant::rotary_axis:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+BeliefSensors BeliefSensors::without_effect() {
+  BeliefSensors sensors;
+  SensorConfig::fields(sensors.robot, [](std::string_view key, double& value, Range range = {}) {
+    // What limits a sensor goes to its far end, what disturbs it to nothing.
+    const bool limits = key.ends_with("_Hz") || key.ends_with("_range_mps2");
+    value = limits ? range.high : 0.0;
+  });
+  return sensors;
+}
+
+BeliefSpread BeliefSpread::without_effect() {
+  BeliefSpread spread;
+  SpreadConfig::fields(spread.robot, [](std::string_view key, double& value, Range = {}) {
+    if (key != "bed_fluctuation_length_m") value = 0.0;
+  });
+  return spread;
+}
+
+WorldConfig HopperBelief::world() const {
+  return {.gravity_mps2 = gravity_mps2,
+          .robot = robot,
+          .motor = motor,
+          .controller = controller,
+          .terrain = terrain,
+          .sensors = sensors.robot,
+          .spread = spread.robot};
+}
+
+Belief default_belief(CampaignPlant plant) {
+  switch (plant) {
+    case CampaignPlant::hopper:
+      return HopperBelief{};
+    case CampaignPlant::intruder:
+      return IntruderBelief{};
+    case CampaignPlant::falling_body:
+      return FallingBodyBelief{};
+    case CampaignPlant::rotary_axis:
+      return RotaryAxisBelief{};
+  }
+  return HopperBelief{};
+}
+
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant) {
+  return std::visit([&](auto base) { return read_belief(file, std::move(base)); }, default_belief(plant));
+}
+
+bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,
+                     std::vector<ConfigProblem>& problems) {
+  using Kind = ConfigNode::Kind;
+  ConfigNode value = setup_value;
+  const bool is_number = value.kind == Kind::real || value.kind == Kind::integer;
+  if (is_number && is_diameter(value.key)) {
+    const auto given = from_diameter(static_cast<CampaignPlant>(belief.index()), value);
+    if (!given) return false;
+    value = *given;
+  }
+  ConfigReader reader(file, MissingKeys::use_default);
+  const bool found = std::visit([&](auto& table) { return set_named(table, value, reader); }, belief);
+  for (auto& problem : reader.take_problems()) problems.push_back(std::move(problem));
+  return found;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,187 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config/node.hpp"
+#include "config/problem.hpp"
+#include "tools/campaign/belief_sensors.hpp"
+#include "tools/campaign/plant_kind.hpp"
+#include "tools/plant/world_config.hpp"
+
+// What a campaign's simulation believes (nominal.toml): one struct a plant, every key optional. The equations
+// are those of Leg, Bed and, for the simple plants, of the comments below.
+namespace sandhopper {
+
+struct HopperBelief {
+  double gravity_mps2 = kGravity_mps2;
+  WorldRobotConfig robot{};
+  WorldMotorConfig motor{};
+  NominalControllerConfig controller{};
+  BedParameters terrain{};
+  BeliefSensors sensors{};
+  BeliefSpread spread{};
+
+  // As tools/plant simulates it.
+  WorldConfig world() const;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("gravity_mps2", self.gravity_mps2, Range{0.0, 30.0});
+    visit("robot", self.robot);
+    visit("motor", self.motor);
+    visit("controller", self.controller);
+    visit("terrain", self.terrain);
+    visit("sensors", self.sensors);
+    visit("spread", self.spread);
+  }
+};
+
+// A foot moved as prescribed; the recorded depth is the foot's plus what the rig yields, F / k_r.
+struct IntruderBelief {
+  struct Foot {
+    double radius_m = 0.040;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("radius_m", self.radius_m, Range{1e-4, 2.0});
+    }
+  };
+  struct Rig {
+    std::optional<double> stiffness_N_per_m;  // none: rigid
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("stiffness_N_per_m", self.stiffness_N_per_m, Range{1.0, 1e10});
+    }
+  };
+  double gravity_mps2 = kGravity_mps2;
+  Foot foot{};
+  BedParameters terrain{};
+  Rig rig{};
+  BeliefSensors sensors{};
+  BeliefSpread spread{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("gravity_mps2", self.gravity_mps2, Range{0.0, 30.0});
+    visit("foot", self.foot);
+    visit("terrain", self.terrain);
+    visit("rig", self.rig);
+    visit("sensors", self.sensors);
+    visit("spread", self.spread);
+  }
+};
+
+// (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h'  (+ k (surface - h) on a bed while
+// going down). Everything but mass and gravity is absent unless given.
+struct FallingBodyBelief {
+  struct Bed {
+    double surface_height_m = 0.0;
+    double stiffness_N_per_m = 0.0;  // 0: no bed
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("surface_height_m", self.surface_height_m, Range{-1e5, 1e5});
+      visit("stiffness_N_per_m", self.stiffness_N_per_m, Range{0.0, 1e10});
+    }
+  };
+  struct Body {
+    double mass_kg = 1.0;
+    double frontal_area_m2 = 0.0;
+    double volume_m3 = 0.0;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("mass_kg", self.mass_kg, Range{1e-9, 1e6});
+      visit("frontal_area_m2", self.frontal_area_m2, Range{0.0, 1e4});
+      visit("volume_m3", self.volume_m3, Range{0.0, 1e4});
+    }
+  };
+  struct Medium {
+    double density_kg_per_m3 = 0.0;
+    double drag_coefficient = 0.0;
+    double linear_drag_N_s_per_m = 0.0;
+    double buoyancy_factor = 0.0;
+    double added_mass_factor = 0.0;
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("density_kg_per_m3", self.density_kg_per_m3, Range{0.0, 30000.0});
+      visit("drag_coefficient", self.drag_coefficient, Range{0.0, 100.0});
+      visit("linear_drag_N_s_per_m", self.linear_drag_N_s_per_m, Range{0.0, 1e6});
+      visit("buoyancy_factor", self.buoyancy_factor, Range{0.0, 10.0});
+      visit("added_mass_factor", self.added_mass_factor, Range{0.0, 10.0});
+    }
+  };
+  double gravity_mps2 = kGravity_mps2;
+  Bed bed{};
+  Body body{};
+  Medium medium{};
+  BeliefSensors sensors = BeliefSensors::without_effect();
+  BeliefSpread spread = BeliefSpread::without_effect();
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("gravity_mps2", self.gravity_mps2, Range{0.0, 30.0});
+    visit("bed", self.bed);
+    visit("body", self.body);
+    visit("medium", self.medium);
+    visit("sensors", self.sensors);
+    visit("spread", self.spread);
+  }
+};
+
+// J th'' = torque - G sin th - c tanh(th' / v_s) - b th', on the output side; the recorded torque drives it.
+struct RotaryAxisBelief {
+  struct Axis {
+    double inertia_kg_m2 = 1.0;
+    double gravity_torque_Nm = 0.0;  // G = m g l, at th = pi/2; th = 0 hangs down
+    double viscous_friction_Nm_s = 0.0;
+    double coulomb_friction_Nm = 0.0;
+    double friction_switch_speed_radps = 0.02;
+    double gear_ratio = 1.0;  // information
+
+    template <class Self, class Visitor>
+    static constexpr void fields(Self& self, Visitor&& visit) {
+      visit("inertia_kg_m2", self.inertia_kg_m2, Range{1e-9, 1e6});
+      visit("gravity_torque_Nm", self.gravity_torque_Nm, Range{-1e6, 1e6});
+      visit("viscous_friction_Nm_s", self.viscous_friction_Nm_s, Range{0.0, 1e6});
+      visit("coulomb_friction_Nm", self.coulomb_friction_Nm, Range{0.0, 1e6});
+      visit("friction_switch_speed_radps", self.friction_switch_speed_radps, Range{1e-6, 100.0});
+      visit("gear_ratio", self.gear_ratio, Range{1e-3, 1e4});
+    }
+  };
+  double gravity_mps2 = kGravity_mps2;
+  Axis axis{};
+  BeliefSensors sensors = BeliefSensors::without_effect();
+  BeliefSpread spread = BeliefSpread::without_effect();
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("gravity_mps2", self.gravity_mps2, Range{0.0, 30.0});
+    visit("axis", self.axis);
+    visit("sensors", self.sensors);
+    visit("spread", self.spread);
+  }
+};
+
+// In the order of CampaignPlant.
+using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, RotaryAxisBelief>;
+
+// What the plant believes when nothing is said.
+Belief default_belief(CampaignPlant plant);
+// Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure.
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant);
+
+// A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say
+// how much trials differ, and some bear the name of a set-up key); `diameter_m`, `foot_diameter_m` and
+// `plate_diameter_m` stand for the area or radius they give. True when the key was one of these. What does
+// not fit is added to `problems`.
+bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,
+                     std::vector<ConfigProblem>& problems);
+
+}  // namespace sandhopper

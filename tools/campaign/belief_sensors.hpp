@@ -1,0 +1,154 @@
+#pragma once
+#include "config/fields.hpp"
+#include "tools/plant/world_config.hpp"
+
+// [sensors] and [spread] of a nominal.toml: the simulated robot's own keys and those of the other plants, in
+// one list, so that every plant's file takes every key. Noise is rms of one sample; a rate, bandwidth or
+// range of 0 means: every row, none, unlimited.
+namespace sandhopper {
+
+struct OtherSensors {
+  double tof_range_m = 0.0;
+  double encoder_latency_s = 0.0;
+  double current_range_A = 0.0;
+  double load_cell_range_N = 0.0;
+  double load_cell_latency_s = 0.0;
+  double imu_latency_s = 0.0;
+  double mocap_latency_s = 0.0;
+  double height_noise_m = 0.0;
+  double height_rate_Hz = 0.0;
+  double height_bandwidth_Hz = 0.0;
+  double height_latency_s = 0.0;
+  double height_resolution_m = 0.0;
+  double accel_noise_mps2 = 0.0;
+  double accel_rate_Hz = 0.0;
+  double accel_bandwidth_Hz = 0.0;
+  double accel_latency_s = 0.0;
+  double accel_range_mps2 = 0.0;
+  double pressure_noise_Pa = 0.0;
+  double pressure_rate_Hz = 0.0;
+  double pressure_bandwidth_Hz = 0.0;
+  double pressure_latency_s = 0.0;
+  double pressure_range_Pa = 0.0;
+  double position_noise_m = 0.0;
+  double position_rate_Hz = 0.0;
+  double position_latency_s = 0.0;
+  double velocity_noise_mps = 0.0;
+  double velocity_rate_Hz = 0.0;
+  double velocity_bandwidth_Hz = 0.0;
+  double velocity_latency_s = 0.0;
+  double position_noise_rad = 0.0;
+  double position_range_rad = 0.0;
+  double position_bits = 0.0;
+  double velocity_noise_radps = 0.0;
+  double velocity_range_radps = 0.0;
+  double velocity_bits = 0.0;
+  double torque_noise_Nm = 0.0;
+  double torque_rate_Hz = 0.0;
+  double torque_bandwidth_Hz = 0.0;
+  double torque_latency_s = 0.0;
+  double torque_range_Nm = 0.0;
+  double torque_bits = 0.0;
+  double load_cell_torque_noise_Nm = 0.0;
+  double load_cell_torque_range_Nm = 0.0;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    constexpr Range kAmount{0.0, 1e9};
+    constexpr Range kLatency{0.0, 10.0};
+    constexpr Range kBits{0.0, 64.0};
+    visit("tof_range_m", self.tof_range_m, kAmount);
+    visit("encoder_latency_s", self.encoder_latency_s, kLatency);
+    visit("current_range_A", self.current_range_A, kAmount);
+    visit("load_cell_range_N", self.load_cell_range_N, kAmount);
+    visit("load_cell_latency_s", self.load_cell_latency_s, kLatency);
+    visit("imu_latency_s", self.imu_latency_s, kLatency);
+    visit("mocap_latency_s", self.mocap_latency_s, kLatency);
+    visit("height_noise_m", self.height_noise_m, kAmount);
+    visit("height_rate_Hz", self.height_rate_Hz, kAmount);
+    visit("height_bandwidth_Hz", self.height_bandwidth_Hz, kAmount);
+    visit("height_latency_s", self.height_latency_s, kLatency);
+    visit("height_resolution_m", self.height_resolution_m, kAmount);
+    visit("accel_noise_mps2", self.accel_noise_mps2, kAmount);
+    visit("accel_rate_Hz", self.accel_rate_Hz, kAmount);
+    visit("accel_bandwidth_Hz", self.accel_bandwidth_Hz, kAmount);
+    visit("accel_latency_s", self.accel_latency_s, kLatency);
+    visit("accel_range_mps2", self.accel_range_mps2, kAmount);
+    visit("pressure_noise_Pa", self.pressure_noise_Pa, kAmount);
+    visit("pressure_rate_Hz", self.pressure_rate_Hz, kAmount);
+    visit("pressure_bandwidth_Hz", self.pressure_bandwidth_Hz, kAmount);
+    visit("pressure_latency_s", self.pressure_latency_s, kLatency);
+    visit("pressure_range_Pa", self.pressure_range_Pa, kAmount);
+    visit("position_noise_m", self.position_noise_m, kAmount);
+    visit("position_rate_Hz", self.position_rate_Hz, kAmount);
+    visit("position_latency_s", self.position_latency_s, kLatency);
+    visit("velocity_noise_mps", self.velocity_noise_mps, kAmount);
+    visit("velocity_rate_Hz", self.velocity_rate_Hz, kAmount);
+    visit("velocity_bandwidth_Hz", self.velocity_bandwidth_Hz, kAmount);
+    visit("velocity_latency_s", self.velocity_latency_s, kLatency);
+    visit("position_noise_rad", self.position_noise_rad, kAmount);
+    visit("position_range_rad", self.position_range_rad, kAmount);
+    visit("position_bits", self.position_bits, kBits);
+    visit("velocity_noise_radps", self.velocity_noise_radps, kAmount);
+    visit("velocity_range_radps", self.velocity_range_radps, kAmount);
+    visit("velocity_bits", self.velocity_bits, kBits);
+    visit("torque_noise_Nm", self.torque_noise_Nm, kAmount);
+    visit("torque_rate_Hz", self.torque_rate_Hz, kAmount);
+    visit("torque_bandwidth_Hz", self.torque_bandwidth_Hz, kAmount);
+    visit("torque_latency_s", self.torque_latency_s, kLatency);
+    visit("torque_range_Nm", self.torque_range_Nm, kAmount);
+    visit("torque_bits", self.torque_bits, kBits);
+    visit("load_cell_torque_noise_Nm", self.load_cell_torque_noise_Nm, kAmount);
+    visit("load_cell_torque_range_Nm", self.load_cell_torque_range_Nm, kAmount);
+  }
+};
+
+struct OtherSpread {
+  double initial_position_rad = 0.0;
+  double accel_bias_mps2 = 0.0;
+  double torque_offset_Nm = 0.0;
+  double height_bias_m = 0.0;
+  double position_bias_m = 0.0;
+  double load_cell_torque_offset_Nm = 0.0;
+  double pressure_offset_Pa = 0.0;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    constexpr Range kAmount{0.0, 1e9};
+    visit("initial_position_rad", self.initial_position_rad, kAmount);
+    visit("accel_bias_mps2", self.accel_bias_mps2, kAmount);
+    visit("torque_offset_Nm", self.torque_offset_Nm, kAmount);
+    visit("height_bias_m", self.height_bias_m, kAmount);
+    visit("position_bias_m", self.position_bias_m, kAmount);
+    visit("load_cell_torque_offset_Nm", self.load_cell_torque_offset_Nm, kAmount);
+    visit("pressure_offset_Pa", self.pressure_offset_Pa, kAmount);
+  }
+};
+
+struct BeliefSensors {
+  SensorConfig robot{};
+  OtherSensors other{};
+
+  static BeliefSensors without_effect();  // no noise, no delay, nothing limited
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    SensorConfig::fields(self.robot, visit);
+    OtherSensors::fields(self.other, visit);
+  }
+};
+
+struct BeliefSpread {
+  SpreadConfig robot{};
+  OtherSpread other{};
+
+  static BeliefSpread without_effect();  // every trial alike
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    SpreadConfig::fields(self.robot, visit);
+    OtherSpread::fields(self.other, visit);
+  }
+};
+
+}  // namespace sandhopper

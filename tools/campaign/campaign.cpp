@@ -1,0 +1,255 @@
+#include "tools/campaign/campaign.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/hint.hpp"
+#include "config/load.hpp"
+
+namespace sandhopper {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ConfigNode::Kind;
+
+[[noreturn]] void refuse(const fs::path& file, ConfigPosition position, const std::string& key,
+                         const std::string& text) {
+  throw ConfigError({{file.string(), position, key, text}});
+}
+
+std::optional<double> number_of(const ConfigNode& node) {
+  if (node.kind == Kind::real) return node.real;
+  if (node.kind == Kind::integer) return static_cast<double>(node.integer);
+  return std::nullopt;
+}
+
+template <NamedEnum E>
+std::optional<E> enum_of(const ConfigNode& node) {
+  if (node.kind != Kind::text) return std::nullopt;
+  const auto& names = EnumNames<E>::value;
+  const auto found = std::find(names.begin(), names.end(), node.text);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<E>(found - names.begin());
+}
+
+template <NamedEnum E>
+std::string names_of() {
+  return fmt::format("\"{}\"", fmt::join(EnumNames<E>::value, "\", \""));
+}
+
+class Loader {
+ public:
+  explicit Loader(const fs::path& folder) {
+    campaign_.file = fs::is_directory(folder) ? folder / "campaign.toml" : folder;
+    campaign_.folder = campaign_.file.parent_path();
+  }
+
+  Campaign run() {
+    const auto document = parse_config_file(campaign_.file.string());
+    const auto& root = document.root;
+    read_head(root);
+    if (const auto* columns = root.find("columns")) columns_ = read_columns(*columns);
+    read_trials(root);
+    for (const auto& child : root.children) note_unknown(child);
+    return std::move(campaign_);
+  }
+
+ private:
+  void read_head(const ConfigNode& root) {
+    campaign_.name = campaign_.folder.filename().string();
+    if (const auto* name = root.find("name"); name != nullptr && name->kind == Kind::text)
+      campaign_.name = name->text;
+    const auto* plant = root.find("plant");
+    if (plant == nullptr)
+      refuse(campaign_.file, {1, 1}, "plant",
+             fmt::format("key 'plant' is missing: add plant = one of {}", names_of<CampaignPlant>()));
+    const auto known = enum_of<CampaignPlant>(*plant);
+    if (!known)
+      refuse(campaign_.file, plant->position, "plant",
+             fmt::format("key 'plant' has no such value: expected one of {}", names_of<CampaignPlant>()));
+    campaign_.plant = *known;
+    campaign_.belief = default_belief(campaign_.plant);
+    if (const auto* model = root.find("model")) {
+      if (model->kind != Kind::text)
+        refuse(campaign_.file, model->position, "model",
+               "key 'model' has the wrong type: expected the name of a .toml file in quotes");
+      campaign_.model = campaign_.folder / model->text;
+      if (!fs::exists(campaign_.model))
+        refuse(
+            campaign_.file, model->position, "model",
+            fmt::format("the model {} does not exist: name a file in this folder, or leave the key out for "
+                        "the plant's default",
+                        campaign_.model.string()));
+      campaign_.belief = load_belief(campaign_.model, campaign_.plant);
+    }
+  }
+
+  // Channel names to columns; the short form `t_s = "time"` takes the column as it is.
+  std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
+    std::vector<ColumnMapping> columns;
+    for (const auto& child : table.children) {
+      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position};
+      bool right = true;
+      if (child.kind == Kind::text) {
+        mapping.column = child.text;
+      } else if (child.kind == Kind::table) {
+        for (const auto& part : child.children) {
+          const auto number = number_of(part);
+          if (part.key == "column" && part.kind == Kind::text)
+            mapping.column = part.text;
+          else if (part.key == "scale" && number)
+            mapping.scale = *number;
+          else if (part.key == "offset" && number)
+            mapping.offset = *number;
+          else
+            right = false;
+        }
+      }
+      if (!right || mapping.column.empty()) {
+        add(FindingKind::set_up, FindingSeverity::channel_unusable, child.key_position, child.key,
+            "this mapping cannot be understood",
+            fmt::format("write {} = {{ column = \"NAME\", scale = 1.0, offset = 0.0 }}", child.key));
+        continue;
+      }
+      check_mapped(mapping);
+      columns.push_back(std::move(mapping));
+    }
+    return columns;
+  }
+
+  void check_mapped(const ColumnMapping& mapping) {
+    if (mapping.channel == "t_s" || find_channel(campaign_.plant, mapping.channel)) return;
+    std::vector<std::string> known{"t_s"};
+    for (const auto& channel : known_channels())
+      if (channel.plant == campaign_.plant) known.emplace_back(channel.name);
+    add(FindingKind::unknown_column, FindingSeverity::note, mapping.position, mapping.channel,
+        fmt::format("is no channel of plant \"{}\"", name_of(campaign_.plant)),
+        cure_for_unknown_key(mapping.channel, std::nullopt, known));
+  }
+
+  void read_trials(const ConfigNode& root) {
+    const auto* trials = root.find("trial");
+    if (trials == nullptr || trials->kind != Kind::array || trials->children.empty())
+      refuse(campaign_.file, {1, 1}, "trial",
+             "there is no trial: add one [[trial]] with file = \"…\" and kind = \"…\" for each recording");
+    for (const auto& node : trials->children) read_trial(node);
+  }
+
+  void read_trial(const ConfigNode& node) {
+    const auto* file = node.find("file");
+    if (file == nullptr || file->kind != Kind::text || file->text.empty()) {
+      add(FindingKind::set_up, FindingSeverity::trial_unusable, node.position, "file",
+          "this trial names no recording", "add file = \"trials/001.csv\" to its [[trial]]");
+      return;
+    }
+    CampaignTrial trial;
+    trial.name = file->text;
+    trial.file = campaign_.folder / file->text;
+    trial.kind = usual_kind(campaign_.plant);
+    trial.position = file->position;
+    trial.belief = campaign_.belief;
+    trial.index = campaign_.trials.size();
+    bool usable = true;
+    std::vector<ConfigProblem> problems;
+    for (const auto& child : node.children) {
+      if (child.key == "file") continue;
+      if (child.key == "kind")
+        usable &= read_kind(child, trial);
+      else if (child.key == "columns" && child.kind == Kind::table)
+        trial.columns = read_columns(child);
+      else if (child.key == "select" && child.kind == Kind::table)
+        usable &= read_selection(child, trial);
+      else
+        read_setup(child, trial, problems);
+    }
+    for (const auto& problem : problems)
+      add(FindingKind::set_up, FindingSeverity::trial_unusable, problem.position, problem.key, problem.text,
+          "");
+    if (!usable || !problems.empty()) return;
+    trial.columns.insert(trial.columns.end(), columns_.begin(), columns_.end());
+    campaign_.trials.push_back(std::move(trial));
+  }
+
+  bool read_kind(const ConfigNode& node, CampaignTrial& trial) {
+    const auto kind = enum_of<TrialKind>(node);
+    if (kind) trial.kind = *kind;
+    if (!kind)
+      add(FindingKind::set_up, FindingSeverity::trial_unusable, node.position, "kind", "is no kind of trial",
+          fmt::format("write one of {}", names_of<TrialKind>()));
+    return kind.has_value();
+  }
+
+  bool read_selection(const ConfigNode& table, CampaignTrial& trial) {
+    for (const auto& part : table.children) {
+      const auto number = number_of(part);
+      if (part.key == "column" && part.kind == Kind::text)
+        trial.rows.column = part.text;
+      else if (part.key == "value" && number)
+        trial.rows.value = *number;
+      else if (part.key == "from_s" && number)
+        trial.rows.from_s = *number;
+      else if (part.key == "to_s" && number)
+        trial.rows.to_s = *number;
+      else {
+        add(FindingKind::set_up, FindingSeverity::trial_unusable, part.key_position, "select." + part.key,
+            "cannot be understood",
+            "write select = { column = \"NAME\", value = 1, from_s = 0.0, to_s = 1.0 }, any of them");
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void read_setup(const ConfigNode& node, CampaignTrial& trial, std::vector<ConfigProblem>& problems) {
+    SetupEntry entry{node.key, SetupValue{}, node};
+    if (const auto number = number_of(node))
+      entry.value = *number;
+    else if (node.kind == Kind::text)
+      entry.value = node.text;
+    else if (node.kind == Kind::boolean)
+      entry.value = node.boolean;
+    else
+      return add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
+                 "is neither number, text nor true/false and is left out",
+                 "write one value, its unit in the key");
+    override_belief(trial.belief, node, campaign_.file.string(), problems);
+    trial.setup.push_back(std::move(entry));
+  }
+
+  void note_unknown(const ConfigNode& node) {
+    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "trial"};
+    if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
+    add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
+        "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));
+  }
+
+  void add(FindingKind kind, FindingSeverity severity, ConfigPosition position, const std::string& key,
+           std::string what, std::string cure) {
+    campaign_.findings.push_back({kind, severity, campaign_.file.string(), position.line, position.column,
+                                  key, std::move(what), std::move(cure)});
+  }
+
+  Campaign campaign_;
+  std::vector<ColumnMapping> columns_;
+};
+
+}  // namespace
+
+std::optional<double> CampaignTrial::number(std::string_view key) const {
+  for (const auto& entry : setup)
+    if (entry.key == key)
+      if (const auto* value = std::get_if<double>(&entry.value)) return *value;
+  return std::nullopt;
+}
+
+std::optional<std::string> CampaignTrial::text(std::string_view key) const {
+  for (const auto& entry : setup)
+    if (entry.key == key)
+      if (const auto* value = std::get_if<std::string>(&entry.value)) return *value;
+  return std::nullopt;
+}
+
+Campaign load_campaign(const fs::path& folder) { return Loader(folder).run(); }
+
+}  // namespace sandhopper

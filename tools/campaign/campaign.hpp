@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "config/node.hpp"
+#include "tools/campaign/belief.hpp"
+#include "tools/campaign/finding.hpp"
+#include "tools/campaign/plant_kind.hpp"
+
+namespace sandhopper {
+
+// channel = scale x column + offset
+struct ColumnMapping {
+  std::string channel;
+  std::string column;
+  double scale = 1.0;
+  double offset = 0.0;
+  ConfigPosition position{};  // in campaign.toml
+};
+
+// Rows that count: where `column` holds `value`, between two times of the file.
+struct RowSelection {
+  std::string column{};  // empty: every row
+  double value = 0.0;
+  double from_s = -std::numeric_limits<double>::infinity();
+  double to_s = std::numeric_limits<double>::infinity();
+};
+
+using SetupValue = std::variant<double, std::string, bool>;
+struct SetupEntry {
+  std::string key;  // as written, its unit in its name
+  SetupValue value;
+  ConfigNode node;  // with its place in campaign.toml
+};
+
+struct CampaignTrial {
+  std::string name;  // the file as written
+  std::filesystem::path file;
+  TrialKind kind{};
+  std::vector<SetupEntry> setup;       // everything else the experimenter wrote down
+  std::vector<ColumnMapping> columns;  // the campaign's, with the trial's own in front
+  RowSelection rows{};
+  ConfigPosition position{};  // of its [[trial]]
+  // What its recording is read against: the campaign's belief with the set-up's own values.
+  Belief belief{};
+
+  std::optional<double> number(std::string_view key) const;  // a set-up value
+  std::optional<std::string> text(std::string_view key) const;
+  // The same recording may be named by several trials that select different rows.
+  std::size_t index = 0;  // place in the campaign
+};
+
+// A folder of recordings and what its experimenter says about them. Only names and set-ups are held; a
+// recording is read when it is asked for (read_trial), so a campaign of thousands takes little memory.
+struct Campaign {
+  std::filesystem::path folder;
+  std::filesystem::path file;  // campaign.toml
+  std::string name;
+  CampaignPlant plant{};
+  Belief belief{};
+  std::filesystem::path model{};      // empty: the plant's default
+  std::vector<CampaignTrial> trials;  // those that campaign.toml describes well enough to be read
+  std::vector<Finding> findings;      // what is wrong with campaign.toml itself; such trials are left out
+};
+
+// Reads FOLDER/campaign.toml (or that file itself) and its model. Beyond name, plant, model, [columns] and
+// [[trial]] with file, kind and set-up, a trial may have:
+//   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
+//   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
+// Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown plant, no
+// trial, a model that is not right in every key.
+Campaign load_campaign(const std::filesystem::path& folder);
+
+}  // namespace sandhopper

@@ -1,0 +1,245 @@
+#include "tools/campaign/check_channels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/log/csv_import.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::size_t kFewestSamples = 20;
+constexpr double kUnusableShare = 0.2;
+
+// Equal neighbours among the fresh samples.
+struct Run {
+  std::size_t first_row;
+  std::size_t last_row;
+  std::size_t samples;
+  double value;
+};
+
+struct Shape {
+  std::vector<Run> runs;
+  std::size_t samples = 0;
+  double low = 0.0, high = 0.0;
+  std::size_t usual_hold = 1;  // run length that 90 % of the runs do not exceed
+};
+
+Shape shape_of(const std::vector<double>& values) {
+  Shape shape;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const double value = values[row];
+    if (std::isnan(value)) continue;
+    if (shape.samples == 0) shape.low = shape.high = value;
+    shape.low = std::min(shape.low, value);
+    shape.high = std::max(shape.high, value);
+    ++shape.samples;
+    if (!shape.runs.empty() && shape.runs.back().value == value) {
+      shape.runs.back().last_row = row;
+      ++shape.runs.back().samples;
+    } else {
+      shape.runs.push_back({row, row, 1, value});
+    }
+  }
+  if (shape.runs.empty()) return shape;
+  std::vector<std::size_t> lengths;
+  lengths.reserve(shape.runs.size());
+  for (const auto& run : shape.runs) lengths.push_back(run.samples);
+  const auto ninth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 9 / 10);
+  std::nth_element(lengths.begin(), ninth, lengths.end());
+  shape.usual_hold = *ninth;
+  return shape;
+}
+
+// Distance between the 5th and 95th percentile; robust against single outliers.
+double spread_of(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.size() < 2) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return at(0.95) - at(0.05);
+}
+
+bool natural_rest(const ChannelTraits& traits, double value) {
+  if (traits.may_rest == MayRest::always) return true;
+  constexpr double kStandardGravity_mps2 = 9.81;  // specific force of a noise-free sensor at rest
+  return traits.may_rest == MayRest::at_zero && (value == 0.0 || value == kStandardGravity_mps2);
+}
+
+class Checker {
+ public:
+  Checker(TrialRecording& recording, CampaignPlant plant, const RecordingPlaces& places)
+      : recording_(recording), plant_(plant), places_(places) {
+    for (const auto& channel : recording.channels) {
+      shapes_.push_back(shape_of(channel.values));
+      spreads_.push_back(shapes_.back().high - shapes_.back().low);
+    }
+  }
+
+  void run() {
+    std::vector<bool> unusable(recording_.channels.size(), false);
+    for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
+      const auto* traits = find_channel(plant_, recording_.channels[i].name);
+      if (traits == nullptr || traits->may_rest == MayRest::always) continue;
+      if (shapes_[i].samples < kFewestSamples) continue;
+      unusable[i] = is_stuck(i, *traits) || (traits->has_range && is_saturated(i));
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < unusable.size(); ++i) {
+      if (unusable[i]) continue;
+      if (kept != i) recording_.channels[kept] = std::move(recording_.channels[i]);
+      ++kept;
+    }
+    recording_.channels.resize(kept);
+  }
+
+ private:
+  // True when the channel must go.
+  bool is_stuck(std::size_t i, const ChannelTraits& traits) {
+    const auto& shape = shapes_[i];
+    const auto longest = std::max_element(shape.runs.begin(), shape.runs.end(),
+                                          [](const Run& a, const Run& b) { return a.samples < b.samples; });
+    const bool constant = shape.runs.size() == 1;
+    const bool long_enough = constant || (longest->samples >= 100 && longest->samples * 10 >= shape.samples &&
+                                          longest->samples >= 30 * shape.usual_hold);
+    const bool at_end =
+        traits.has_range && !constant && (longest->value == shape.low || longest->value == shape.high);
+    if (!long_enough || at_end || natural_rest(traits, longest->value)) return false;
+    if (!constant && !fails(i, *longest)) return false;
+    if (!others_move(i, *longest)) return false;
+    const double share = static_cast<double>(longest->samples) / static_cast<double>(shape.samples);
+    const bool unusable = share >= kUnusableShare;
+    add(i, FindingKind::stuck, unusable, longest->first_row,
+        constant
+            ? fmt::format("is stuck: all {} samples are {:.6g} while other channels move", shape.samples,
+                          longest->value)
+            : fmt::format("is stuck at {:.6g} from here to line {} ({} samples) while other channels move",
+                          longest->value, line_of(longest->last_row), longest->samples),
+        "check the sensor and its cable; remove the column if it was not connected");
+    return unusable;
+  }
+
+  // A sensor that stops working stays so to the end, or comes back with a jump. A coarse one whose quantity
+  // rests does neither.
+  bool fails(std::size_t i, const Run& run) const {
+    constexpr double kJump = 5.0;
+    const auto& runs = shapes_[i].runs;
+    const auto at =
+        std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return r.first_row == run.first_row; });
+    if (at + 1 == runs.end()) return run.samples * 4 >= shapes_[i].samples;
+    std::vector<double> steps;
+    for (auto next = runs.begin() + 1; next != runs.end(); ++next)
+      if (next != at + 1) steps.push_back(std::abs(next->value - (next - 1)->value));
+    if (steps.empty()) return false;
+    const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);
+    std::nth_element(steps.begin(), ninth, steps.end());
+    return std::abs((at + 1)->value - at->value) > kJump * *ninth;
+  }
+
+  // During a rest of the whole robot every channel keeps to a small part of what it does over the trial.
+  bool others_move(std::size_t self, const Run& run) const {
+    constexpr double kMoves = 0.3;
+    for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
+      if (i == self || spreads_[i] <= 0.0) continue;
+      const auto* traits = find_channel(plant_, recording_.channels[i].name);
+      if (traits == nullptr || traits->may_rest == MayRest::always) continue;
+      const auto& values = recording_.channels[i].values;
+      const auto from = values.begin() + static_cast<std::ptrdiff_t>(run.first_row);
+      const auto to = values.begin() + static_cast<std::ptrdiff_t>(run.last_row + 1);
+      if (spread_of({from, to}) > kMoves * spreads_[i]) return true;
+    }
+    return false;
+  }
+
+  bool is_saturated(std::size_t i) {
+    std::size_t at_limit = 0;
+    for (const bool top : {true, false}) at_limit += saturated_side(i, top);
+    return static_cast<double>(at_limit) >= kUnusableShare * static_cast<double>(shapes_[i].samples);
+  }
+
+  // Samples in runs at one end of the range that are too long to be chance.
+  std::size_t saturated_side(std::size_t i, bool top) {
+    const auto& shape = shapes_[i];
+    const double limit = top ? shape.high : shape.low;
+    if (limit == 0.0 || shape.runs.size() < kFewestSamples) return 0;
+    const std::size_t shortest = std::max<std::size_t>(5, 4 * shape.usual_hold);
+    std::size_t samples = 0;
+    const Run* first = nullptr;
+    for (const auto& run : shape.runs) {
+      if (run.value != limit || run.samples < shortest || rests(i, run)) continue;
+      samples += run.samples;
+      if (first == nullptr) first = &run;
+    }
+    if (first == nullptr) return 0;
+    const auto& channel = recording_.channels[i];
+    recording_.saturated.push_back({channel.name, limit, top, samples});
+    const bool unusable = static_cast<double>(samples) >= kUnusableShare * static_cast<double>(shape.samples);
+    add(i, FindingKind::saturated, unusable, first->first_row,
+        fmt::format("is saturated: {} samples stand at its {} value {:.6g}, first here", samples,
+                    top ? "largest" : "smallest", limit),
+        unusable ? "use a sensor of larger range"
+                 : "these samples are not used; a sensor of larger range would tell");
+    return samples;
+  }
+
+  // At the start or end of the recording, or while the motion itself dwells.
+  bool rests(std::size_t self, const Run& run) const {
+    const auto& shape = shapes_[self];
+    if (run.first_row == shape.runs.front().first_row || run.last_row == shape.runs.back().last_row)
+      return true;
+    return !others_move_at_all(self, run);
+  }
+
+  bool others_move_at_all(std::size_t self, const Run& run) const {
+    for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
+      if (i == self) continue;
+      const auto* traits = find_channel(plant_, recording_.channels[i].name);
+      if (traits == nullptr || traits->may_rest == MayRest::always || traits->has_range) continue;
+      const auto& values = recording_.channels[i].values;
+      double low = INFINITY, high = -INFINITY;
+      for (std::size_t row = run.first_row; row <= run.last_row; ++row) {
+        if (std::isnan(values[row])) continue;
+        low = std::min(low, values[row]);
+        high = std::max(high, values[row]);
+      }
+      return high > low;  // a position decides
+    }
+    return true;
+  }
+
+  std::uint64_t line_of(std::size_t row) const {
+    return row < places_.lines.size() ? places_.lines[row] : row + 2;
+  }
+
+  void add(std::size_t i, FindingKind kind, bool unusable, std::size_t row, std::string what,
+           std::string cure) {
+    recording_.findings.push_back({kind, unusable ? FindingSeverity::channel_unusable : FindingSeverity::note,
+                                   places_.file, line_of(row),
+                                   places_.character(line_of(row), places_.numbers[i]),
+                                   recording_.channels[i].name, std::move(what), std::move(cure)});
+  }
+
+  TrialRecording& recording_;
+  CampaignPlant plant_;
+  const RecordingPlaces& places_;
+  std::vector<Shape> shapes_;
+  std::vector<double> spreads_;  // largest minus smallest
+};
+
+}  // namespace
+
+std::uint64_t RecordingPlaces::character(std::uint64_t line, std::uint64_t number) const {
+  return file.ends_with(".mcap") ? 1 : csv_cell_character(file, line, number);
+}
+
+void check_channels(TrialRecording& recording, CampaignPlant plant, const RecordingPlaces& places) {
+  Checker(recording, plant, places).run();
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,52 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/campaign/campaign.hpp"
+#include "tools/campaign/finding.hpp"
+
+namespace sandhopper {
+
+// A stretch of rows in which a channel stood at the end of its range; what it holds there is a bound, not a
+// measurement.
+struct SaturatedRows {
+  std::string channel;
+  double limit = 0.0;
+  bool at_top = true;
+  std::size_t rows = 0;  // in all
+};
+
+// One trial's columns, in SI units and in the order of time, which grows strictly; NaN where there was no
+// fresh sample. Channels that must not be used are not in it: `findings` says which and why.
+class TrialRecording {
+ public:
+  struct Channel {
+    std::string name;
+    std::vector<double> values;
+  };
+
+  std::vector<double> t_s;
+  std::vector<Channel> channels;
+  std::vector<std::string> unused_columns;  // of the file, that no channel or mapping names
+  std::vector<SaturatedRows> saturated;
+  std::vector<Finding> findings;
+
+  std::size_t rows() const { return t_s.size(); }
+  bool usable() const { return !any_unusable(findings) && !t_s.empty(); }
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+  // Throws std::out_of_range when there is no such channel.
+  std::span<const double> channel(std::string_view name) const;
+  const std::vector<double>* find(std::string_view name) const;
+  const SaturatedRows* saturation(std::string_view name) const;
+  // True where the channel stands at the end of its range.
+  bool is_saturated(std::string_view name, std::size_t row) const;
+};
+
+// Reads a trial's recording: a .csv, a .mcap log of this firmware, or the folder of a hop that holds one of
+// either. Never throws for bad input; findings say what is wrong, and usable() whether enough is left.
+TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial);
+
+}  // namespace sandhopper
