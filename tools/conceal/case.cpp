@@ -1,0 +1,220 @@
+#include "tools/conceal/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "tools/conceal/visibility.hpp"
+
+namespace sandhopper::conceal {
+namespace {
+
+constexpr Kind kKinds[] = {Kind::null,    Kind::decoy,   Kind::single,
+                           Kind::several, Kind::unknown, Kind::indistinguishable};
+constexpr const char* kNames[] = {"null", "decoy", "single", "several", "unknown", "indistinguishable"};
+constexpr double kShares[] = {0.25, 0.05, 0.34, 0.12, 0.12, 0.12};
+
+struct Range {
+  double low, high;
+};
+// Of sizes, relative to typical.
+Range sizes(Kind kind) {
+  switch (kind) {
+    case Kind::several:
+      return {0.5, 2.0};
+    case Kind::unknown:
+      return {0.5, 3.0};
+    case Kind::indistinguishable:
+      return {0.5, 1.5};
+    default:
+      return {0.1, 3.0};
+  }
+}
+
+constexpr double kActs = 0.02;  // visibility below this: the effect does nothing on this apparatus
+constexpr int kAttempts = 200;
+
+Kind draw_kind(Random& random) {
+  double u = random.uniform();
+  for (std::size_t i = 0; i < std::size(kKinds); ++i)
+    if ((u -= kShares[i]) < 0.0) return kKinds[i];
+  return Kind::null;
+}
+
+template <class T>
+const T& pick(const std::vector<T>& all, Random& random) {
+  return all.at(static_cast<std::size_t>(random.below(static_cast<int>(all.size()))));
+}
+
+const EffectInfo* named(const std::vector<EffectInfo>& all, const std::string& id) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const EffectInfo& e) { return e.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// What to hide; sets the restriction or the port that goes with it.
+std::vector<EffectInfo> draw_effects(Case& c, const Request& request, Random& random) {
+  const auto listed = c.plant->listed(), unlisted = c.plant->unlisted();
+  if (c.kind == Kind::null || c.kind == Kind::decoy) return {};
+  if (c.kind == Kind::unknown) {
+    const auto* asked = named(unlisted, request.effect);
+    const auto one = asked ? *asked : pick(unlisted, random);
+    c.unknown_port = one.port;
+    return {one};
+  }
+  if (c.kind == Kind::indistinguishable) {
+    const auto ambiguities = c.plant->ambiguities();
+    c.restriction = static_cast<std::size_t>(random.below(static_cast<int>(ambiguities.size())));
+    c.ambiguity = ambiguities[*c.restriction].ids;
+    return {*named(listed, c.ambiguity.front())};
+  }
+  const auto* asked = named(listed, request.effect);
+  std::vector<EffectInfo> chosen{asked ? *asked : pick(listed, random)};
+  const std::size_t count = c.kind == Kind::single ? 1 : random.chance(0.7) ? 2 : 3;
+  while (chosen.size() < count) {
+    const auto one = pick(listed, random);
+    const auto same = [&](const EffectInfo& e) { return e.group == one.group; };
+    if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(one);
+  }
+  return chosen;
+}
+
+// A wear of the recording that says nothing about physics.
+void draw_wear(Case& c, Random& random) {
+  const double more = c.kind == Kind::decoy ? 3.0 : 1.0;
+  const auto expendable = c.plant->expendable();
+  const bool dead = random.chance(0.12 * more);
+  if (!expendable.empty()) {
+    const auto channel = pick(expendable, random);
+    if (dead) c.dead_channel = channel;
+  }
+  c.gaps = random.chance(0.2 * more);
+  c.foreign_names = random.chance(0.25 * more);
+}
+
+void check(const Request& request, const Plant& plant) {
+  if (request.effect.empty()) return;
+  if (!named(plant.listed(), request.effect) && !named(plant.unlisted(), request.effect))
+    throw std::invalid_argument(fmt::format("the plant {} has no effect '{}'", plant.name(), request.effect));
+}
+
+const Plant& plant_for(const Request& request, Random& random) {
+  if (!request.plant.empty()) {
+    if (const auto* plant = find_plant(request.plant)) return *plant;
+    throw std::invalid_argument(fmt::format("there is no plant '{}'", request.plant));
+  }
+  std::vector<const Plant*> able;
+  for (const auto* plant : plants())
+    if (request.effect.empty() || named(plant->listed(), request.effect) ||
+        named(plant->unlisted(), request.effect))
+      able.push_back(plant);
+  if (able.empty()) throw std::invalid_argument(fmt::format("no plant has an effect '{}'", request.effect));
+  return *pick(able, random);
+}
+
+Case attempt(const Request& request, const Random& base, int number) {
+  const auto random = base.stream("attempt", static_cast<std::uint64_t>(number));
+  auto which =
+      base.stream("which");  // the same in every attempt: no plant or kind gets rarer for being hard to see
+  Case c;
+  c.plant = &plant_for(request, which);
+  check(request, *c.plant);
+  const bool outside = !request.effect.empty() && named(c.plant->unlisted(), request.effect);
+  const Kind drawn = draw_kind(which);
+  c.kind = request.kind             ? *request.kind
+           : request.effect.empty() ? drawn
+           : outside                ? Kind::unknown
+                                    : Kind::single;
+  c.apparatus = random.stream("apparatus");
+  c.recording = random.stream("recording");
+  auto choice = random.stream("choice");
+  const auto effects = draw_effects(c, request, choice);
+  auto wear = random.stream("wear");
+  draw_wear(c, wear);
+  const auto range = sizes(c.kind);
+  auto magnitude = base.stream("size");
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const double size = magnitude.log_uniform(range.low, range.high);
+    c.hidden.push_back({effects[i], request.size.value_or(size), random.stream("hide", i)});
+  }
+  c.setups = build(c, {})->draw_setups(request.trials, random.stream("setups"));
+  return c;
+}
+
+// Whether the apparatus can express the effect at all: at typical size it moves some channel.
+bool acts(const Case& c, HiddenEffect effect) {
+  effect.size = std::max(effect.size, 1.0);
+  return visibility(c, {effect}).ratio > kActs;
+}
+
+}  // namespace
+
+const char* name_of(Kind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+
+std::optional<Kind> kind_named(const std::string& name) {
+  for (std::size_t i = 0; i < std::size(kKinds); ++i)
+    if (name == kNames[i]) return kKinds[i];
+  return std::nullopt;
+}
+
+Json Request::to_json() const {
+  Json json{{"seed", seed}, {"plant", plant}, {"effect", effect}, {"trials", trials}};
+  json["kind"] = kind ? Json(name_of(*kind)) : Json();
+  json["size"] = size ? Json(*size) : Json();
+  return json;
+}
+
+Request Request::from_json(const Json& json) {
+  Request r;
+  r.seed = json.at("seed").get<std::uint64_t>();
+  r.plant = json.at("plant").get<std::string>();
+  r.effect = json.at("effect").get<std::string>();
+  r.trials = json.at("trials").get<int>();
+  if (!json.at("kind").is_null()) r.kind = kind_named(json.at("kind").get<std::string>());
+  if (!json.at("size").is_null()) r.size = json.at("size").get<double>();
+  return r;
+}
+
+Case make_case(const Request& request, std::uint64_t index) {
+  const auto base = Random(request.seed).stream("case", index);
+  for (int i = 0; i < kAttempts; ++i) {
+    auto c = attempt(request, base, i);
+    if (!std::all_of(c.hidden.begin(), c.hidden.end(), [&](const HiddenEffect& e) { return acts(c, e); }))
+      continue;
+    c.bench = c.plant->build(c.apparatus);
+    if (c.restriction) c.bench->restrict_to(*c.restriction);
+    for (auto& effect : c.hidden) {
+      auto parameters = c.bench->hide(effect.info.id, effect.size, effect.random);
+      c.effects.push_back(
+          {{"id", effect.info.id}, {"parameters", parameters}, {"size_relative", effect.size}});
+    }
+    return c;
+  }
+  throw std::invalid_argument(
+      fmt::format("case {}: the effect asked for does nothing on any apparatus drawn", index));
+}
+
+std::unique_ptr<Bench> build(const Case& c, const std::vector<HiddenEffect>& hidden) {
+  auto bench = c.plant->build(c.apparatus);
+  if (c.restriction) bench->restrict_to(*c.restriction);
+  for (const auto& effect : hidden) bench->hide(effect.info.id, effect.size, effect.random);
+  return bench;
+}
+
+Table record(const Case& c, const Bench& bench, const Setup& setup, const Random& trial) {
+  auto table = bench.record(setup, trial);
+  if (auto* dead = table.find(c.dead_channel))
+    std::fill(dead->values.begin(), dead->values.end(), std::numeric_limits<double>::quiet_NaN());
+  auto random = trial.stream("gap");
+  const double length = random.uniform(0.005, 0.02), place = random.uniform(0.05, 0.9);
+  if (!random.chance(0.4) || !c.gaps || table.rows() < 2) return table;
+  const auto& t_s = table.columns.front().values;
+  std::vector<bool> kept(t_s.size());
+  const double from_s = place * t_s.back();
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = t_s[i] < from_s || t_s[i] > from_s + length;
+  table.keep_rows(kept);
+  return table;
+}
+
+}  // namespace sandhopper::conceal

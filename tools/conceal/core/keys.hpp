@@ -1,0 +1,32 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sandhopper::conceal {
+
+using Json = nlohmann::ordered_json;
+
+// What the experimenter wrote down about one trial: keys of RECORDING.md's [[trial]], without the file.
+struct Setup {
+  Json keys = Json::object();
+
+  std::string kind() const { return keys.value("kind", ""); }
+  double number(const std::string& key, double otherwise) const { return keys.value(key, otherwise); }
+  std::string text(const std::string& key, const std::string& otherwise) const {
+    return keys.value(key, otherwise);
+  }
+};
+
+// nominal.toml: gravity at the top, then tables of keys.
+struct Belief {
+  double gravity_mps2 = 9.81;
+  std::vector<std::pair<std::string, Json>> tables;
+};
+
+std::string toml_value(const Json& value);  // number, text or boolean; numbers to six significant digits
+double six_digits(double value);            // what toml_value's reader will read
+std::string to_toml(const Belief& belief);
+
+}  // namespace sandhopper::conceal

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace sandhopper::conceal {
+
+// Random numbers that are the same on every machine (std's distributions are not): SplitMix64, Box-Muller.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  // A generator of its own for one purpose: what one consumer draws never shifts what another gets.
+  Random stream(std::string_view purpose, std::uint64_t index = 0) const;
+
+  std::uint64_t bits();
+  double uniform(double low = 0.0, double high = 1.0);  // [low, high)
+  double log_uniform(double low, double high);          // low > 0
+  double normal(double mean = 0.0, double sigma = 1.0);
+  int below(int count);  // 0 … count-1
+  bool chance(double probability) { return uniform() < probability; }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace sandhopper::conceal

@@ -1,0 +1,47 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "tools/conceal/bed/bed.hpp"
+#include "tools/conceal/core/channel_faults.hpp"
+#include "tools/conceal/core/plant_of.hpp"
+
+// A plate on a linear actuator pressed into the bed along a prescribed motion (PHYSICS 2.6).
+namespace sandhopper::conceal::intruder {
+
+struct World {
+  double gravity_mps2 = 9.81;
+  Bed bed;
+  double bed_stiffness_spread = 0.03, bed_fluctuation = 0.02, surface_height_spread_m = 3e-4;
+  double load_cell_offset_spread_N = 0.05;
+
+  double row_rate_Hz = 1000.0, load_cell_rate_Hz = 860.0, load_cell_bandwidth_Hz = 300.0,
+         load_cell_noise_N = 0.3;
+  double position_noise_m = 2e-5, velocity_noise_mps = 2e-3, accel_noise_mps2 = 0.1;
+  double fastest_mps = 0.8, deepest_m = 0.045;
+  bool only_one_speed = false;
+
+  double rig_stiffness_N_per_m = 0.0;  // hidden; 0: rigid
+  double plate_mass_kg = 0.0;          // hidden: beyond the load cell, shaken by the motion
+  std::map<std::string, ChannelFaults> faults;
+
+  ChannelFaults faults_of(const std::string& channel) const {
+    const auto found = faults.find(channel);
+    return found == faults.end() ? ChannelFaults{} : found->second;
+  }
+};
+
+// Depth of the plate's face along a trial, positive down.
+struct Motion {
+  Trace depth_m, speed_mps, acceleration_mps2;
+};
+Motion prescribed(const World& world, const Setup& setup);
+
+World draw(Random& random);
+Belief belief(const World& world);
+std::vector<Setup> draw_setups(const World& world, int trials, Random& random);
+Table record(const World& world, const Setup& setup, const Random& trial);
+std::vector<Recipe<World>> rig_effects();
+std::vector<Restriction<World>> restrictions();
+
+}  // namespace sandhopper::conceal::intruder

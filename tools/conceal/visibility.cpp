@@ -1,0 +1,49 @@
+#include "tools/conceal/visibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sandhopper::conceal {
+namespace {
+
+struct Sum {
+  double squares = 0.0;
+  double count = 0.0;
+};
+
+void add_difference(std::map<std::string, Sum>& sums, const Table& a, const Table& b) {
+  for (const auto& column : a.columns) {
+    const auto* other = b.find(column.name);
+    if (!other || column.name == "t_s") continue;
+    auto& sum = sums[column.name];
+    const auto rows = std::min(column.values.size(), other->values.size());
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double d = column.values[i] - other->values[i];
+      if (!std::isnan(d)) sum.squares += d * d, sum.count += 1.0;
+    }
+  }
+}
+
+}  // namespace
+
+Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden) {
+  const auto with = build(c, hidden), without = build(c, {});
+  std::map<std::string, Sum> effect, repeat;
+  for (std::size_t i = 0; i < c.setups.size(); ++i) {
+    const auto trial = c.recording.stream("trial", i);
+    const auto plain = record(c, *without, c.setups[i], trial);
+    add_difference(effect, plain, record(c, *with, c.setups[i], trial));
+    add_difference(repeat, plain, record(c, *without, c.setups[i], c.recording.stream("repeat", i)));
+  }
+  Visibility most;
+  for (const auto& [channel, sum] : effect) {
+    const auto& floor = repeat[channel];
+    if (sum.count < 1.0 || floor.squares <= 0.0) continue;
+    const double ratio = std::sqrt(sum.squares / sum.count / (floor.squares / floor.count));
+    if (ratio > most.ratio) most = {channel, ratio};
+  }
+  return most;
+}
+
+}  // namespace sandhopper::conceal

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+
+#include "tools/conceal/case.hpp"
+
+namespace sandhopper::conceal {
+
+// Writes FOLDER/campaign.toml, FOLDER/nominal.toml and FOLDER/trials/001.csv … (RECORDING.md). `extra` trials
+// are recorded after the case's own. Throws std::runtime_error when a file cannot be written.
+void write_campaign(const std::filesystem::path& folder, const Case& c, const std::vector<Setup>& extra = {});
+
+// The sealed answer, whose place is outside every campaign's folder (README.md).
+Json answer(const Case& c, const Request& request, std::uint64_t index);
+
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace sandhopper::conceal
