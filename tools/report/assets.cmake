@@ -1,4 +1,15 @@
-# Embeds the report's page and Debian's dygraphs into the library, so that a program writes reports on a machine
+# Text of several scripts, in order.
+function(sandhopper_join_scripts variable folder)
+  set(text "")
+  foreach(name ${ARGN})
+    file(READ ${folder}/${name}.js content)
+    string(APPEND text "${content}\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${name}.js)
+  endforeach()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Embeds the reports' pages and Debian's dygraphs into the library, so that a program writes reports on a machine
 # that has neither. Run again whenever one of the files changes.
 function(sandhopper_embed_report_assets target)
   set(page ${PROJECT_SOURCE_DIR}/tools/report/page)
@@ -8,10 +19,8 @@ function(sandhopper_embed_report_assets target)
                         "or set DYGRAPHS_DIR to the folder that holds dygraph.min.js")
   endif()
 
-  set(scripts data theme legend panels time_plots force_depth stiffness_chart tables main)
-  list(TRANSFORM scripts APPEND .js)
-  list(TRANSFORM scripts PREPEND ${page}/)
-  foreach(asset "kPage|${page}/page.html" "kStyle|${page}/page.css" "kPlotStyle|${DYGRAPHS_DIR}/dygraph.min.css"
+  foreach(asset "kPage|${page}/page.html" "kStyle|${page}/page.css" "kStudyPage|${page}/study.html"
+                "kStudyStyle|${page}/study.css" "kPlotStyle|${DYGRAPHS_DIR}/dygraph.min.css"
                 "kPlotScript|${DYGRAPHS_DIR}/dygraph.min.js")
     string(REPLACE "|" ";" asset "${asset}")
     list(GET asset 0 name)
@@ -21,12 +30,8 @@ function(sandhopper_embed_report_assets target)
     string(REGEX REPLACE "(//|/\\*)# sourceMappingURL=[^\n]*" "" ${name} "${content}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   endforeach()
-  set(kScript "")
-  foreach(file ${scripts})
-    file(READ ${file} content)
-    string(APPEND kScript "${content}\n")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-  endforeach()
+  sandhopper_join_scripts(kScript ${page} data theme legend svg panels time_plots force_depth stiffness_chart tables main)
+  sandhopper_join_scripts(kStudyScript ${page} data theme legend svg study_figure study)
 
   configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
                  ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)

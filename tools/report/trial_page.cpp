@@ -1,14 +1,12 @@
 #include "tools/report/trial_page.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
-#include <string_view>
 
 #include "tools/report/assets.hpp"
 #include "tools/report/base64.hpp"
 #include "tools/report/envelope.hpp"
+#include "tools/report/html.hpp"
 
 namespace sandhopper {
 namespace {
@@ -75,30 +73,15 @@ std::string data_json(const ReportData& data, std::size_t envelope_run) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string replaced(std::string_view text, std::string_view what, std::string_view with) {
-  std::string result;
-  while (true) {
-    const std::size_t at = text.find(what);
-    result += text.substr(0, at);
-    if (at == std::string_view::npos) return result;
-    result += with;
-    text.remove_prefix(at + what.size());
-  }
-}
-
-std::string escaped_html(std::string_view text) {
-  return replaced(replaced(text, "&", "&amp;"), "<", "&lt;");
-}
-
 }  // namespace
 
 std::string trial_page(const ReportData& data) {
   std::size_t envelope_run = 1;
   const ReportData shown = envelope(data, {}, envelope_run);
-  // "<" could end the script element that carries the data.
-  const std::string json = replaced(data_json(shown, envelope_run), "<", "\\u003c");
+  using html::replaced;
+  const std::string json = html::embedded_json(data_json(shown, envelope_run));
 
-  std::string page = replaced(report_assets::kPage, "{{title}}", escaped_html(data.title));
+  std::string page = replaced(report_assets::kPage, "{{title}}", html::escaped(data.title));
   page = replaced(page, "{{style}}", report_assets::kStyle);
   page = replaced(page, "{{plot-style}}", report_assets::kPlotStyle);
   page = replaced(page, "{{plot-script}}", report_assets::kPlotScript);
@@ -107,12 +90,7 @@ std::string trial_page(const ReportData& data) {
 }
 
 void write_trial_report(const ReportData& data, const std::filesystem::path& path) {
-  std::ofstream file(path, std::ios::binary);
-  file << trial_page(data);
-  file.flush();
-  if (!file)
-    throw std::runtime_error("cannot write the report " + path.string() +
-                             "; is the folder there and writable?");
+  html::write(trial_page(data), path);
 }
 
 }  // namespace sandhopper

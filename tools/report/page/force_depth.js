@@ -113,14 +113,14 @@ class ForceDepth {
     context.strokeStyle = theme.color('grid');
     context.fillStyle = theme.color('quiet');
     context.textAlign = 'center';
-    for (const depth of ForceDepth.ticks(view.left, view.right, box.w / 60)) {
+    for (const depth of roundTicks(view.left, view.right, box.w / 60)) {
       const x = Math.round(this.x(depth)) + 0.5;
       context.strokeRect(x, box.y, 0, box.h);
       context.fillText(String(depth), x, box.y + box.h + 14);
     }
     context.fillText('depth, mm', box.x + box.w / 2, box.y + box.h + 29);
     context.textAlign = 'right';
-    for (const force of ForceDepth.ticks(view.bottom, view.top, box.h / 34)) {
+    for (const force of roundTicks(view.bottom, view.top, box.h / 34)) {
       const y = Math.round(this.y(force)) + 0.5;
       context.strokeRect(box.x, y, box.w, 0);
       context.fillText(String(force), box.x - 6, y + 4);
@@ -133,16 +133,6 @@ class ForceDepth {
     context.restore();
     context.strokeStyle = theme.color('rule');
     context.strokeRect(box.x + 0.5, box.y + 0.5, box.w, box.h);
-  }
-
-  // About `count` round numbers between low and high.
-  static ticks(low, high, count) {
-    const raw = (high - low) / Math.max(1, count);
-    const power = 10 ** Math.floor(Math.log10(raw));
-    const step = power * [1, 2, 5, 10].find(factor => factor * power >= raw);
-    const ticks = [];
-    for (let i = Math.ceil(low / step); i * step <= high; ++i) ticks.push(Number((i * step).toPrecision(12)));
-    return ticks;
   }
 
   drawPaths(context) {

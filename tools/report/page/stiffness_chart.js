@@ -18,7 +18,7 @@ function drawStiffness(data, figure) {
   const x = value => 46 + ((value - low + pad) / (high - low + 2 * pad)) * (width - 60);
   const svg = svgElement('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Stiffness of each stride' });
 
-  for (const tick of ForceDepth.ticks(low - pad, high + pad, 5)) {
+  for (const tick of roundTicks(low - pad, high + pad, 5)) {
     svg.append(
       svgElement('line', { x1: x(tick), x2: x(tick), y1: 4, y2: height - 22, stroke: 'var(--grid)' }),
       svgText(tick, { x: x(tick), y: height - 8, 'text-anchor': 'middle' }),
@@ -46,16 +46,4 @@ function whisker(fit, treatment, x, y) {
   title.textContent = `${treatment.label}: ${fit.value_N_per_m.toFixed(0)} N/m (${low.toFixed(0)} to ${high.toFixed(0)})`;
   dot.append(title);
   return [svgElement('line', { x1: x(low), x2: x(high), y1: y, y2: y, stroke: color, 'stroke-width': 1.6 }), dot];
-}
-
-function svgElement(tag, attributes = {}) {
-  const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  return made;
-}
-
-function svgText(text, attributes) {
-  const made = svgElement('text', { fill: 'var(--quiet)', 'font-size': 11, ...attributes });
-  made.textContent = text;
-  return made;
 }

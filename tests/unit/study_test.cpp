@@ -1,0 +1,34 @@
+#include "tools/report/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(StudyPage, CarriesEveryItemAndAsksForNothing) {
+  Study study{.title = "Beads & <plates>"};
+  study.sections.push_back(
+      {.title = "Depth",
+       .items = {std::string("</script><script>alert(1)</script>"),
+                 StudyTable{.title = "k", .columns = {"trial", "k, N/m"}, .rows = {{"001", "1500"}}},
+                 StudyFigure{.title = "Force",
+                             .x_label = "depth, mm",
+                             .y_label = "force, N",
+                             .series = {{.label = "measured", .x = {0.0, 1.0}, .y = {NAN, 2.5}}}}}});
+  const std::string page = study_page(study);
+  EXPECT_THAT(page, HasSubstr("<title>Beads &amp; &lt;plates></title>"));
+  EXPECT_THAT(page, HasSubstr("\"y\":[null,2.5]"));
+  EXPECT_THAT(page, HasSubstr("\"kind\":\"table\""));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert(1)")));
+  EXPECT_THAT(page, Not(HasSubstr("https://")));
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+}
+
+}  // namespace
+}  // namespace sandhopper

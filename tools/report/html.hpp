@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+// What every page is put together with.
+namespace sandhopper::html {
+
+std::string replaced(std::string_view text, std::string_view what, std::string_view with);
+std::string escaped(std::string_view text);
+// JSON that may stand inside a script element.
+std::string embedded_json(std::string_view json);
+// Throws std::runtime_error with path and cause where that fails.
+void write(const std::string& page, const std::filesystem::path& path);
+
+}  // namespace sandhopper::html

@@ -1,0 +1,54 @@
+// Puts a study together: contents, sections, paragraphs, tables and figures.
+const study = JSON.parse(document.getElementById('data').textContent);
+theme.start(document.getElementById('theme'));
+
+for (const [label, text] of study.facts) {
+  document.getElementById('facts').append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
+}
+for (const text of study.warnings) document.getElementById('notes').append(element('p', {}, text));
+
+study.sections.forEach((section, i) => {
+  const id = `section-${i + 1}`;
+  document.getElementById('contents').append(element('a', { href: `#${id}` }, section.title));
+  const place = element('section', { id });
+  document.getElementById('sections').append(place);
+  let body = place;
+  if (section.folded) {
+    body = element('details', {}, element('summary', {}, section.title));
+    place.append(body);
+  } else {
+    place.append(element('h2', {}, section.title));
+  }
+  fillSection(section, body);
+});
+
+// Figures that follow one another share a grid.
+function fillSection(section, body) {
+  let grid = null;
+  section.items.forEach((item, i) => {
+    if (item.kind !== 'figure') grid = null;
+    if (item.kind === 'text') body.append(element('p', {}, item.text));
+    if (item.kind === 'table') body.append(tableOf(item));
+    if (item.kind !== 'figure') return;
+    if (!grid) body.append(grid = element('div', { className: 'figures' }));
+    const alone = !item.wide && grid.childElementCount === 0 && section.items[i + 1]?.kind !== 'figure';
+    const panel = element('figure', { className: `panel${item.wide ? ' wide' : ''}${alone ? ' lone' : ''}` });
+    grid.append(panel);
+    new StudyFigure(item, panel, item.wide ? 1240 : 600);
+  });
+}
+
+function tableOf(table) {
+  const cell = (tag, text, i) => element(tag, { className: i < table.text_columns ? 'text' : '' }, text);
+  const head = element('thead', {}, element('tr', {}, ...table.columns.map((name, i) => {
+    const [title, unit] = name.split(/, (?=[^,]*$)/);
+    const made = cell('th', title, i);
+    if (unit) made.append(element('small', {}, unit));
+    return made;
+  })));
+  const rows = table.rows.map(row => element('tr', {}, ...row.map((text, i) => cell('td', text, i))));
+  return element('div', { className: 'table' },
+    ...(table.title ? [element('h3', {}, table.title)] : []),
+    element('div', { className: 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),
+    ...(table.note ? [element('p', { className: 'note' }, table.note)] : []));
+}

@@ -1,0 +1,176 @@
+// Points, lines, intervals and bands over two axes, as SVG.
+class StudyFigure {
+  static kMargin = { left: 62, right: 14, top: 10, bottom: 42 };
+
+  constructor(figure, panel, width) {
+    this.figure = figure;
+    this.height = 330;
+    this.width = width;
+    const caption = element('figcaption', {}, element('b', {}, figure.title));
+    panel.append(caption);
+    this.groups = figure.series.map(() => svgElement('g'));
+    if (figure.series.length > 1) {
+      const entries = figure.series.map(series => ({ ...series, style: StudyFigure.swatch(series) }));
+      new Legend(caption, entries, (i, shown) => { figure.series[i].shown = shown; this.draw(); }, false);
+    }
+    this.svg = svgElement('svg', { viewBox: `0 0 ${width} ${this.height}`, role: 'img', 'aria-label': figure.title });
+    this.reading = element('output');
+    panel.append(this.svg, this.reading);
+    if (figure.note) panel.append(element('p', {}, figure.note));
+    this.svg.onpointermove = event => this.hover(event);
+    this.svg.onpointerleave = () => this.point(null);
+    this.draw();
+  }
+
+  static swatch(series) {
+    if (series.mark === 'points') return 'points';
+    return series.dashed ? 'dashed' : 'line';
+  }
+
+  draw() {
+    this.fit();
+    this.svg.replaceChildren();
+    this.drawAxes();
+    const clip = svgElement('svg', { x: this.box.x, y: this.box.y, width: this.box.w, height: this.box.h,
+      viewBox: `${this.box.x} ${this.box.y} ${this.box.w} ${this.box.h}` });
+    for (const series of this.figure.series) if (series.shown) clip.append(this.drawSeries(series));
+    this.mark = svgElement('circle', { r: 5, fill: 'none', stroke: 'var(--text)', 'stroke-width': 1.5, visibility: 'hidden' });
+    clip.append(this.mark);
+    this.svg.append(clip);
+  }
+
+  // The view holds every value and interval shown, with a margin.
+  fit() {
+    const margin = StudyFigure.kMargin;
+    this.box = { x: margin.left, y: margin.top, w: this.width - margin.left - margin.right, h: this.height - margin.top - margin.bottom };
+    const { log_x, log_y, categories } = this.figure;
+    const shown = this.figure.series.filter(series => series.shown);
+    this.xRange = StudyFigure.range(shown.flatMap(series => series.x), log_x);
+    this.yRange = StudyFigure.range(shown.flatMap(series => [...series.y, ...series.low, ...series.high]), log_y);
+    if (categories.length) this.xRange = [-0.5, categories.length - 0.5];
+  }
+
+  static range(values, log) {
+    const known = values.filter(value => value !== null && (!log || value > 0)).map(value => (log ? Math.log10(value) : value));
+    if (!known.length) return [0, 1];
+    let low = known.reduce((a, b) => Math.min(a, b));
+    let high = known.reduce((a, b) => Math.max(a, b));
+    const pad = high > low ? 0.05 * (high - low) : Math.abs(high) * 0.1 || 0.5;
+    if (!log && low >= 0 && low < 0.3 * high) low = pad * 0.6;
+    return [low - pad, high + pad];
+  }
+
+  x(value) {
+    const v = this.figure.log_x ? Math.log10(value) : value;
+    return this.box.x + ((v - this.xRange[0]) / (this.xRange[1] - this.xRange[0])) * this.box.w;
+  }
+
+  y(value) {
+    const v = this.figure.log_y ? Math.log10(value) : value;
+    return this.box.y + ((this.yRange[1] - v) / (this.yRange[1] - this.yRange[0])) * this.box.h;
+  }
+
+  static ticks([low, high], log, count) {
+    if (!log) return roundTicks(low, high, count);
+    const all = [];
+    for (let power = Math.floor(low); power <= high; ++power) {
+      for (const factor of high - low > 3 ? [1] : high - low > 1.2 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 8]) {
+        const at = power + Math.log10(factor);
+        if (at >= low && at <= high) all.push(Number((factor * 10 ** power).toPrecision(6)));
+      }
+    }
+    return all;
+  }
+
+  drawAxes() {
+    const { box, figure } = this;
+    const grid = { stroke: 'var(--grid)' };
+    const names = figure.categories;
+    const xs = names.length ? names.map((_, i) => i) : StudyFigure.ticks(this.xRange, figure.log_x, box.w / 70);
+    const skip = names.length ? Math.ceil(names.length / (box.w / (8 * Math.max(...names.map(name => name.length)) + 8))) : 1;
+    xs.forEach((tick, i) => {
+      const x = this.x(tick);
+      this.svg.append(svgElement('line', { x1: x, x2: x, y1: box.y, y2: box.y + box.h, ...grid }));
+      if (i % skip === 0) this.svg.append(svgText(names.length ? names[i] : tick, { x, y: box.y + box.h + 16, 'text-anchor': 'middle' }));
+    });
+    for (const tick of StudyFigure.ticks(this.yRange, figure.log_y, box.h / 38)) {
+      const y = this.y(tick);
+      this.svg.append(svgElement('line', { x1: box.x, x2: box.x + box.w, y1: y, y2: y, ...grid }));
+      this.svg.append(svgText(tick, { x: box.x - 7, y: y + 4, 'text-anchor': 'end' }));
+    }
+    this.svg.append(
+      svgElement('rect', { x: box.x, y: box.y, width: box.w, height: box.h, fill: 'none', stroke: 'var(--rule)' }),
+      svgText(figure.x_label, { x: box.x + box.w / 2, y: this.height - 8, 'text-anchor': 'middle' }),
+      svgText(figure.y_label, { transform: `translate(14 ${box.y + box.h / 2}) rotate(-90)`, 'text-anchor': 'middle' }),
+    );
+  }
+
+  drawSeries(series) {
+    const group = svgElement('g', { class: 'series', 'data-label': series.label });
+    const color = `var(--${series.color})`;
+    const known = i => series.x[i] !== null && series.y[i] !== null && !(this.figure.log_x && series.x[i] <= 0) && !(this.figure.log_y && series.y[i] <= 0);
+    const indices = series.x.map((_, i) => i).filter(known);
+    if (series.mark === 'band') group.append(this.area(series, indices, color));
+    if (series.mark !== 'points') group.append(this.line(series, known, color));
+    if (series.mark === 'points' || series.mark === 'line_and_points') {
+      const radius = indices.length > 400 ? 1.6 : indices.length > 60 ? 2.3 : 3.2;
+      for (const i of indices) {
+        if (series.low.length) group.append(this.interval(series, i, color));
+        group.append(svgElement('circle', { cx: this.x(series.x[i]), cy: this.y(series.y[i]), r: radius, fill: color, 'fill-opacity': indices.length > 60 ? 0.6 : 0.9 }));
+      }
+    }
+    return group;
+  }
+
+  interval(series, i, color) {
+    if (series.low[i] === null || series.high[i] === null) return svgElement('g');
+    const x = this.x(series.x[i]);
+    return svgElement('line', { x1: x, x2: x, y1: this.y(series.low[i]), y2: this.y(series.high[i]), stroke: color, 'stroke-width': 1.4, 'stroke-opacity': 0.8 });
+  }
+
+  line(series, known, color) {
+    let path = '';
+    let pen = false;
+    for (let i = 0; i < series.x.length; ++i) {
+      if (known(i)) path += `${pen ? 'L' : 'M'}${this.x(series.x[i]).toFixed(1)} ${this.y(series.y[i]).toFixed(1)}`;
+      pen = known(i);
+    }
+    return svgElement('path', { d: path, fill: 'none', stroke: color, 'stroke-width': 1.7, 'stroke-dasharray': series.dashed ? '7 4' : 'none' });
+  }
+
+  area(series, indices, color) {
+    const there = indices.map(i => `${this.x(series.x[i]).toFixed(1)} ${this.y(series.high[i]).toFixed(1)}`);
+    const back = indices.map(i => `${this.x(series.x[i]).toFixed(1)} ${this.y(series.low[i]).toFixed(1)}`).reverse();
+    return svgElement('polygon', { points: [...there, ...back].join(' '), fill: color, 'fill-opacity': 0.16 });
+  }
+
+  hover(event) {
+    const frame = this.svg.getBoundingClientRect();
+    const px = ((event.clientX - frame.left) / frame.width) * this.width;
+    const py = ((event.clientY - frame.top) / frame.height) * this.height;
+    let best = 500;
+    let nearest = null;
+    for (const series of this.figure.series) {
+      if (!series.shown) continue;
+      for (let i = 0; i < series.x.length; ++i) {
+        if (series.x[i] === null || series.y[i] === null) continue;
+        const distance = (this.x(series.x[i]) - px) ** 2 + (this.y(series.y[i]) - py) ** 2;
+        if (distance < best) [best, nearest] = [distance, { series, i }];
+      }
+    }
+    this.point(nearest);
+  }
+
+  point(nearest) {
+    this.mark.setAttribute('visibility', nearest ? 'visible' : 'hidden');
+    this.reading.textContent = '';
+    if (!nearest) return;
+    const { series, i } = nearest;
+    this.mark.setAttribute('cx', this.x(series.x[i]));
+    this.mark.setAttribute('cy', this.y(series.y[i]));
+    const shown = value => Number(value.toPrecision(4)).toString();
+    const name = this.figure.categories[series.x[i]] ?? shown(series.x[i]);
+    const interval = series.low.length && series.low[i] !== null ? ` (${shown(series.low[i])} to ${shown(series.high[i])})` : '';
+    this.reading.textContent = `${series.label}: ${name}, ${shown(series.y[i])}${interval}`;
+  }
+}

@@ -1,0 +1,82 @@
+#include "tools/report/study.hpp"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/report/assets.hpp"
+#include "tools/report/html.hpp"
+
+namespace sandhopper {
+namespace {
+
+using Json = nlohmann::json;
+
+// Seven digits draw the same picture; JSON has no NaN, the page takes null for "none".
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? Json(static_cast<double>(static_cast<float>(value)))
+                                        : Json(nullptr));
+  return list;
+}
+
+Json series_json(const StudySeries& series) {
+  constexpr std::array<const char*, 4> kMarks{"points", "line", "line_and_points", "band"};
+  return {{"label", series.label},        {"x", numbers(series.x)},
+          {"y", numbers(series.y)},       {"low", numbers(series.low)},
+          {"high", numbers(series.high)}, {"mark", kMarks[static_cast<std::size_t>(series.mark)]},
+          {"color", series.color},        {"dashed", series.dashed},
+          {"shown", series.shown}};
+}
+
+Json item_json(const std::string& paragraph) { return {{"kind", "text"}, {"text", paragraph}}; }
+
+Json item_json(const StudyTable& table) {
+  return {{"kind", "table"},
+          {"title", table.title},
+          {"columns", table.columns},
+          {"rows", table.rows},
+          {"text_columns", table.text_columns},
+          {"note", table.note}};
+}
+
+Json item_json(const StudyFigure& figure) {
+  Json series = Json::array();
+  for (const auto& one : figure.series) series.push_back(series_json(one));
+  return {{"kind", "figure"},          {"title", figure.title},
+          {"x_label", figure.x_label}, {"y_label", figure.y_label},
+          {"series", series},          {"log_x", figure.log_x},
+          {"log_y", figure.log_y},     {"categories", figure.categories},
+          {"note", figure.note},       {"wide", figure.wide}};
+}
+
+std::string data_json(const Study& study) {
+  Json sections = Json::array();
+  for (const auto& section : study.sections) {
+    Json items = Json::array();
+    for (const auto& item : section.items)
+      items.push_back(std::visit([](const auto& one) { return item_json(one); }, item));
+    sections.push_back({{"title", section.title}, {"items", items}, {"folded", section.folded}});
+  }
+  const Json json{
+      {"title", study.title}, {"facts", study.facts}, {"warnings", study.warnings}, {"sections", sections}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string study_page(const Study& study) {
+  using html::replaced;
+  std::string page = replaced(report_assets::kStudyPage, "{{title}}", html::escaped(study.title));
+  page = replaced(page, "{{style}}", report_assets::kStyle);
+  page = replaced(page, "{{study-style}}", report_assets::kStudyStyle);
+  page = replaced(page, "{{script}}", report_assets::kStudyScript);
+  return replaced(page, "{{data}}", html::embedded_json(data_json(study)));
+}
+
+void write_study_page(const Study& study, const std::filesystem::path& path) {
+  html::write(study_page(study), path);
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,70 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// A report over many trials: sections of text, tables and figures, as one HTML page that holds all it shows.
+// Whoever analyses fills a Study; the page draws any of it.
+namespace sandhopper {
+
+// One set of points. Intervals are drawn as bars where `low` and `high` are given (same size as y).
+struct StudySeries {
+  enum class Mark {
+    points,
+    line,
+    line_and_points,
+    band
+  };  // band: the area between low and high, with y as line
+
+  std::string label;
+  std::vector<double> x;
+  std::vector<double> y;  // NaN breaks a line
+  std::vector<double> low{};
+  std::vector<double> high{};
+  Mark mark = Mark::points;
+  std::string color = "blue";  // blue, orange, green, purple, sand, grey, text
+  bool dashed = false;
+  bool shown = true;  // false: hidden until its name in the legend is pressed
+};
+
+struct StudyFigure {
+  std::string title;
+  std::string x_label;  // with unit: "depth, mm"
+  std::string y_label;
+  std::vector<StudySeries> series{};
+  bool log_x = false;
+  bool log_y = false;
+  std::vector<std::string> categories{};  // names of x = 0, 1, 2, … in place of numbers
+  std::string note{};                     // one or two sentences below it
+  bool wide = false;                      // takes the page's whole width
+};
+
+struct StudyTable {
+  std::string title;
+  std::vector<std::string> columns;  // "stiffness, N/m"
+  std::vector<std::vector<std::string>> rows{};
+  std::size_t text_columns = 1;  // the first so many are text, left-aligned; the rest numbers
+  std::string note{};
+};
+
+struct StudySection {
+  std::string title;
+  std::vector<std::variant<std::string, StudyTable, StudyFigure>>
+      items{};  // paragraphs, tables, figures in order
+  bool folded = false;
+};
+
+struct Study {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts{};  // label, text
+  std::vector<std::string> warnings{};                       // what the reader must know first
+  std::vector<StudySection> sections{};
+};
+
+std::string study_page(const Study& study);
+// Throws std::runtime_error with path and cause where that fails.
+void write_study_page(const Study& study, const std::filesystem::path& path);
+
+}  // namespace sandhopper
