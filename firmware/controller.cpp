@@ -21,7 +21,7 @@ Controller::Controller(const CycleConfig& config)
       leg_(config_.robot),
       estimator_(config_, leg_),
       arming_(config_, leg_),
-      recorder_(config_.stiffness),
+      recorder_(config_.stiffness, config_.robot.foot_radius_m),
       supervisor_(config_) {}
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {

@@ -40,7 +40,8 @@ std::string json_string(std::string_view text) {
   return out + '"';
 }
 
-std::string stiffness(const StiffnessEstimate& k) {
+template <class Estimate>
+std::string stiffness(const Estimate& k) {
   return fmt::format(R"({{"value":{},"ci95":[{},{}],"valid":{},"reason":"{}"}})", k.value_N_per_m,
                      k.ci95_low_N_per_m, k.ci95_high_N_per_m, k.validity == Validity::valid,
                      name_of(k.validity));
@@ -106,10 +107,10 @@ void OperatorChannel::tell(const Event& e) {
 
 void OperatorChannel::tell(const StrideResult& r) {
   print(fmt::format(R"({{"stride":{},"touchdown_speed_mps":{},"peak_force_N":{},"max_depth_m":{},)"
-                    R"("stiffness_N_per_m":{{"qs_ols":{},"mo_ols":{},"mo_wls":{}}}}})",
+                    R"("stiffness_N_per_m":{{"qs_ols":{},"mo_ols":{},"mo_wls":{},"joint":{}}}}})",
                     r.summary.stride, r.summary.touchdown_speed_mps, r.summary.peak_force_N,
                     r.summary.max_depth_m, stiffness(r.quasi_static_ols), stiffness(r.observer_ols),
-                    stiffness(r.observer_wls)));
+                    stiffness(r.observer_wls), stiffness(r.joint)));
 }
 
 void OperatorChannel::tell(const SessionResult& r) {

@@ -5,6 +5,7 @@
 #include "config/fields.hpp"
 #include "firmware/command.hpp"
 #include "firmware/event.hpp"
+#include "terrain/joint_fit.hpp"
 #include "terrain/stiffness_fit.hpp"
 
 // What a cycle and a stride produce; together with SensorFrame and Event these are the log's records.
@@ -130,14 +131,16 @@ struct StrideSums {
   RegressionSums quasi_static_ols{};
   RegressionSums observer_ols{};
   RegressionSums observer_wls{};
+  JointSums joint{};
 };
 
-// A stride's result: its summary and the stiffness by the three treatments.
+// A stride's result: its summary and the stiffness by the three treatments and by the joint fit.
 struct StrideResult {
   StrideSummary summary{};
   StiffnessEstimate quasi_static_ols{};
   StiffnessEstimate observer_ols{};
   StiffnessEstimate observer_wls{};
+  JointEstimate joint{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -145,6 +148,7 @@ struct StrideResult {
     visit("quasi_static_ols", self.quasi_static_ols);
     visit("observer_ols", self.observer_ols);
     visit("observer_wls", self.observer_wls);
+    visit("joint", self.joint);
   }
 };
 

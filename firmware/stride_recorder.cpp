@@ -4,7 +4,8 @@
 
 namespace sandhopper {
 
-StrideRecorder::StrideRecorder(const StiffnessConfig& config) noexcept : config_(config) {}
+StrideRecorder::StrideRecorder(const StiffnessConfig& config, double foot_radius_m)
+    : config_(config), joint_(config.joint, foot_radius_m) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
@@ -44,6 +45,8 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
 
 void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
+  sample_duration_s_ = static_cast<double>(e.force_time_ns - last_force_time_ns_) * 1e-9;
+  last_force_time_ns_ = e.force_time_ns;
   if (state == State::flight && still_falling(e)) {
     current_.touchdown_speed_mps = std::max(current_.touchdown_speed_mps, e.force_velocity_mps);
     touched_ = false;
@@ -96,10 +99,21 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     weighted_.add({depth_m, e.contact_force_N, weight});
   }
   if (depth_m > deepest_m_) {
+    if (virgin && e.force_velocity_mps > config_.min_speed_mps) accumulate_joint(e, depth_m);
     deepest_m_ = depth_m;
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
   }
+}
+
+void StrideRecorder::accumulate_joint(const Estimate& e, double depth_m) noexcept {
+  joint_.add({.depth_m = depth_m,
+              .speed_mps = e.force_velocity_mps,
+              .accel_mps2 = -e.foot_accel_mps2,
+              .force_N = e.direct_force_N,
+              .leg_rate_mps = e.leg_rate_mps,
+              .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
+              .duration_s = sample_duration_s_});
 }
 
 void StrideRecorder::restart_sums() noexcept {
@@ -107,19 +121,22 @@ void StrideRecorder::restart_sums() noexcept {
   quasi_static_.reset();
   observer_.reset();
   weighted_.reset();
+  joint_.reset();
 }
 
 void StrideRecorder::commit() noexcept {
   committed_.quasi_static_ols = quasi_static_.sums();
   committed_.observer_ols = observer_.sums();
   committed_.observer_wls = weighted_.sums();
+  committed_.joint = joint_.sums();
 }
 
 StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept {
   return {.summary = sums.summary,
           .quasi_static_ols = solve_stiffness(sums.quasi_static_ols, config),
           .observer_ols = solve_stiffness(sums.observer_ols, config),
-          .observer_wls = solve_stiffness(sums.observer_wls, config)};
+          .observer_wls = solve_stiffness(sums.observer_wls, config),
+          .joint = solve_joint(sums.joint, config)};
 }
 
 }  // namespace sandhopper

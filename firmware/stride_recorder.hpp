@@ -9,7 +9,7 @@ namespace sandhopper {
 // is.
 class StrideRecorder {
  public:
-  explicit StrideRecorder(const StiffnessConfig& config) noexcept;
+  StrideRecorder(const StiffnessConfig& config, double foot_radius_m);
 
   void on_release(std::int64_t now_ns) noexcept;
   void on_touchdown(std::int64_t now_ns) noexcept;
@@ -29,6 +29,7 @@ class StrideRecorder {
   bool still_falling(const Estimate& estimate) const noexcept;
   void restart_sums() noexcept;
   void accumulate(const Estimate& estimate, double depth_m) noexcept;
+  void accumulate_joint(const Estimate& estimate, double depth_m) noexcept;
   void commit() noexcept;
   bool counts(const Estimate& estimate, double depth_m) const noexcept;
 
@@ -36,6 +37,7 @@ class StrideRecorder {
   RecursiveRegression quasi_static_;
   RecursiveRegression observer_;
   RecursiveRegression weighted_;
+  JointRegression joint_;
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};
@@ -44,6 +46,8 @@ class StrideRecorder {
   double crater_depth_m_ = 0.0;  // of former strides
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
+  std::int64_t last_force_time_ns_ = 0;
+  double sample_duration_s_ = 0.0;
   bool touched_ = false;  // contact of this stride has been noticed
 };
 

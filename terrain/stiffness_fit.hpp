@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "config/fields.hpp"
+#include "terrain/joint_config.hpp"
 
 // Stiffness of the ground from force and depth: F = F0 + k z by (weighted) least squares, accumulated
 // recursively in bounded memory so that the cycle can do it, solved afterwards. The standard error respects
@@ -55,6 +56,7 @@ struct StiffnessConfig {
   double min_depth_span_m = 0.005;
   double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
   WeightConfig weights{};
+  JointConfig joint{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -66,6 +68,7 @@ struct StiffnessConfig {
     visit("min_depth_span_m", self.min_depth_span_m, Range{0.0, 1.0});
     visit("max_depth_m", self.max_depth_m, Range{0.001, 1.0});
     visit("weights", self.weights);
+    visit("joint", self.joint);
   }
 };
 
@@ -107,14 +110,15 @@ enum class Validity : std::uint8_t {
   deeper_than_foot,
   interval_unbounded,
   not_positive,
-  interval_includes_zero
+  interval_includes_zero,
+  saturated
 };
 template <>
 struct EnumNames<Validity> {
-  static constexpr std::array<std::string_view, 8> value{
-      "valid",        "no_new_penetration",    "too_few_samples",
-      "too_shallow",  "deeper_than_foot",      "interval_unbounded",
-      "not_positive", "interval_includes_zero"};
+  static constexpr std::array<std::string_view, 9> value{
+      "valid",        "no_new_penetration",     "too_few_samples",
+      "too_shallow",  "deeper_than_foot",       "interval_unbounded",
+      "not_positive", "interval_includes_zero", "saturated"};
 };
 
 struct StiffnessEstimate {

@@ -58,7 +58,7 @@ const trial = run('trial', '--json', '--strides', '1', '--output', folder);
 expect(trial.status === 0 && is_one_object(trial.stdout), 'hop trial --json');
 const told = JSON.parse(trial.stdout);
 expect(told.strides.length === 1 && told.strides[0].touchdown_speed_mps > 0.5, 'strides[].touchdown_speed_mps');
-for (const treatment of ['qs_ols', 'mo_ols', 'mo_wls']) {
+for (const treatment of ['qs_ols', 'mo_ols', 'mo_wls', 'joint']) {
   const { value, ci95, valid } = told.strides[0].stiffness_N_per_m[treatment];
   expect(typeof value === 'number' && ci95.length === 2 && typeof valid === 'boolean',
     `strides[].stiffness_N_per_m.${treatment}.{value,ci95,valid}`);

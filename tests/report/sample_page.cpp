@@ -52,6 +52,7 @@ ReportStride stride_at(std::uint32_t number, double touchdown_s) {
   stride.quasi_static_ols = {1100.0, 900.0, 1300.0, 4.0, 120, false, "deeper than the foot <is tall>"};
   stride.observer_ols = {1420.0 + number, 1300.0, 1540.0, 3.0, 120, true, ""};
   stride.observer_wls = {1480.0 + number, 1390.0, 1570.0, 2.0, 120, true, ""};
+  stride.joint = {1500.0 + number, 1400.0, 1600.0, 4.5, 60, true, ""};
   return stride;
 }
 

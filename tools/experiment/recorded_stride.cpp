@@ -20,6 +20,7 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
   Controller controller(cycle);
   SensorFrame frame;
   RecordedStride stride;
+  stride.foot_radius_m = cycle.robot.foot_radius_m;
   PlantTruth truth{};
   Request request = Request::arm;
   for (std::int64_t k = 1; k < kLongest_cycles; ++k) {
@@ -63,7 +64,7 @@ RecordedStride with_true_state(const RecordedStride& stride) {
 }
 
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {
-  StrideRecorder recorder(config);
+  StrideRecorder recorder(config, stride.foot_radius_m);
   State state = State::armed;
   for (const auto& sample : stride.samples) {
     const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;

@@ -26,6 +26,7 @@ struct StrideSample {
 // liftoff.
 struct RecordedStride {
   std::vector<StrideSample> samples;
+  double foot_radius_m = 0.0;
   bool complete = false;  // liftoff was reached without a fault
 };
 

@@ -109,6 +109,17 @@ ReportStiffness stiffness(const StiffnessEstimate& fit) {
           .reason = in_words(name_of(fit.validity))};
 }
 
+// Drawn as the quasi-static part beyond the first millimetres: F = k (z + z0).
+ReportStiffness stiffness(const JointEstimate& fit) {
+  return {.value_N_per_m = or_none(fit.value_N_per_m),
+          .ci95_low_N_per_m = fit.ci95_low_N_per_m,
+          .ci95_high_N_per_m = fit.ci95_high_N_per_m,
+          .intercept_N = fit.value_N_per_m * fit.intercept_depth_m,
+          .samples = fit.samples,
+          .valid = fit.validity == Validity::valid,
+          .reason = in_words(name_of(fit.validity))};
+}
+
 }  // namespace
 
 void ReportBuilder::put(std::size_t channel, std::int64_t time_ns, double value) {
@@ -236,7 +247,8 @@ ReportData ReportBuilder::data() const {
                             .max_depth_m = summary.max_depth_m,
                             .quasi_static_ols = stiffness(result.quasi_static_ols),
                             .observer_ols = stiffness(result.observer_ols),
-                            .observer_wls = stiffness(result.observer_wls)});
+                            .observer_wls = stiffness(result.observer_wls),
+                            .joint = stiffness(result.joint)});
   }
   return data;
 }

@@ -53,6 +53,7 @@ struct ReportStride {
   ReportStiffness quasi_static_ols{};
   ReportStiffness observer_ols{};
   ReportStiffness observer_wls{};
+  ReportStiffness joint{};
 };
 
 // Times are relative to the release, or to the first row where nothing was released.

@@ -36,7 +36,8 @@ Json stride_json(const ReportStride& stride) {
           {"max_depth_m", number(stride.max_depth_m)},
           {"qs_ols", stiffness(stride.quasi_static_ols)},
           {"mo_ols", stiffness(stride.observer_ols)},
-          {"mo_wls", stiffness(stride.observer_wls)}};
+          {"mo_wls", stiffness(stride.observer_wls)},
+          {"joint", stiffness(stride.joint)}};
 }
 
 Json columns_json(const std::vector<ReportColumn>& columns) {

@@ -14,10 +14,11 @@ struct Named {
   const char* text;
   ReportStiffness ReportStride::*member;
 };
-constexpr std::array<Named, 3> kTreatments{
+constexpr std::array<Named, 4> kTreatments{
     {{"qs_ols", "quasi-static + OLS", &ReportStride::quasi_static_ols},
      {"mo_ols", "momentum observer + OLS", &ReportStride::observer_ols},
-     {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls}}};
+     {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls},
+     {"joint", "joint fit", &ReportStride::joint}}};
 
 std::string readable(std::string reason) {
   std::replace(reason.begin(), reason.end(), '_', ' ');

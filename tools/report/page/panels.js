@@ -80,9 +80,10 @@ const PANELS = [
   },
 ];
 
-// The three treatments of the force-depth data, and how they are drawn everywhere.
+// The treatments of the force-depth data, and how they are drawn everywhere.
 const TREATMENTS = [
   { key: 'qs_ols', label: 'quasi-static, OLS', color: 'orange' },
   { key: 'mo_ols', label: 'observer, OLS', color: 'purple' },
   { key: 'mo_wls', label: 'observer, weighted', color: 'blue' },
+  { key: 'joint', label: 'joint fit', color: 'green' },
 ];
