@@ -1,0 +1,125 @@
+#include "terrain/accelerometer_fusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sandhopper {
+namespace {
+
+using Believed = std::vector<bool>;
+
+// Runs of the same extreme value, and what lies within the guard of them.
+Believed away_from_saturation(std::span<const double> values, const FusionOptions& options,
+                              AccelerometerCalibration& calibration) {
+  Believed believed(values.size(), true);
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  // The end of the range shows noise of the last digit only.
+  const double band = 2e-3 * std::max(std::abs(*low), std::abs(*high));
+  const auto at_end = [&](double v) { return v >= *high - band || v <= *low + band; };
+  std::size_t run = 0;
+  for (std::size_t i = 0; i <= values.size(); ++i) {
+    if (i < values.size() && at_end(values[i])) {
+      ++run;
+      continue;
+    }
+    if (run >= options.fewest_saturated) {
+      calibration.saturated_samples += run;
+      const std::size_t from = i - run - std::min(i - run, options.guard_samples);
+      const std::size_t to = std::min(i + options.guard_samples, values.size());
+      std::fill(believed.begin() + static_cast<std::ptrdiff_t>(from),
+                believed.begin() + static_cast<std::ptrdiff_t>(to), false);
+    }
+    run = 0;
+  }
+  calibration.saturation_mps2 = std::max(std::abs(*low), std::abs(*high));
+  return believed;
+}
+
+// Sample-to-sample noise: second differences see neither level nor slope of the signal.
+double noise_of(std::span<const double> values, const Believed& believed) {
+  std::vector<double> differences;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    if (believed[i]) differences.push_back(std::abs(values[i + 1] - 2.0 * values[i] + values[i - 1]));
+  if (differences.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / (0.6745 * std::sqrt(6.0));
+}
+
+// reference = scale x channel + bias on the averaged signals.
+void regress(std::span<const double> channel, std::span<const double> reference, const Believed& believed,
+             AccelerometerCalibration& out) {
+  double n = 0.0, sx = 0.0, sy = 0.0;
+  for (std::size_t i = 0; i < channel.size(); ++i)
+    if (believed[i]) {
+      n += 1.0;
+      sx += channel[i];
+      sy += reference[i];
+    }
+  if (n < 2.0) return;
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < channel.size(); ++i)
+    if (believed[i]) {
+      xx += (channel[i] - sx / n) * (channel[i] - sx / n);
+      xy += (channel[i] - sx / n) * (reference[i] - sy / n);
+    }
+  out.scale = xx > 0.0 ? xy / xx : 1.0;
+  out.bias_mps2 = sy / n - out.scale * sx / n;
+}
+
+}  // namespace
+
+std::vector<double> moving_average(std::span<const double> values, std::size_t samples) {
+  std::vector<double> sums(values.size() + 1, 0.0), out(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i];
+  const std::size_t half = samples / 2;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t reach = std::min({half, i, values.size() - 1 - i});
+    out[i] = (sums[i + reach + 1] - sums[i - reach]) / static_cast<double>(2 * reach + 1);
+  }
+  return out;
+}
+
+FusedAcceleration fuse_accelerometers(std::span<const std::span<const double>> channels_mps2,
+                                      const FusionOptions& options) {
+  const std::size_t count = channels_mps2.size();
+  if (count == 0 || channels_mps2[0].empty()) throw std::invalid_argument("no accelerometer");
+  FusedAcceleration out;
+  out.calibration.resize(count);
+  std::vector<Believed> believed(count);
+  std::vector<std::vector<double>> averaged(count);
+  out.reference = count;
+  for (std::size_t c = 0; c < count; ++c) {
+    auto& calibration = out.calibration[c];
+    believed[c] = away_from_saturation(channels_mps2[c], options, calibration);
+    calibration.noise_mps2 = noise_of(channels_mps2[c], believed[c]);
+    averaged[c] = moving_average(channels_mps2[c], options.average_samples);
+    if (calibration.saturated_samples > 0) continue;
+    if (out.reference == count || calibration.noise_mps2 < out.calibration[out.reference].noise_mps2)
+      out.reference = c;
+  }
+  if (out.reference == count) throw std::invalid_argument("every accelerometer saturates");
+  for (std::size_t c = 0; c < count; ++c)
+    if (c != out.reference) regress(averaged[c], averaged[out.reference], believed[c], out.calibration[c]);
+
+  const auto reference = channels_mps2[out.reference];
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    std::size_t best = out.reference;
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto& calibration = out.calibration[c];
+      if (!believed[c][i] || calibration.noise_mps2 >= out.calibration[best].noise_mps2) continue;
+      const double noise = std::hypot(calibration.noise_mps2, out.calibration[out.reference].noise_mps2);
+      const double difference =
+          calibration.scale * channels_mps2[c][i] + calibration.bias_mps2 - reference[i];
+      if (std::abs(difference) < options.outlier_sigma * noise) best = c;
+    }
+    const auto& calibration = out.calibration[best];
+    out.source.push_back(best);
+    out.specific_force_mps2.push_back(calibration.scale * channels_mps2[best][i] + calibration.bias_mps2);
+  }
+  return out;
+}
+
+}  // namespace sandhopper
