@@ -133,7 +133,15 @@ class Loader {
     if (trials == nullptr || trials->kind != Kind::array || trials->children.empty())
       refuse(campaign_.file, {1, 1}, "trial",
              "there is no trial: add one [[trial]] with file = \"…\" and kind = \"…\" for each recording");
-    for (const auto& node : trials->children) read_trial(node);
+    const auto* every = root.find("every_trial");
+    for (const auto& node : trials->children) read_trial(every == nullptr ? node : completed(node, *every));
+  }
+
+  // The trial with what [every_trial] says and it does not.
+  static ConfigNode completed(ConfigNode trial, const ConfigNode& every) {
+    for (const auto& child : every.children)
+      if (trial.find(child.key) == nullptr) trial.children.push_back(child);
+    return trial;
   }
 
   void read_trial(const ConfigNode& node) {
@@ -160,6 +168,8 @@ class Loader {
         trial.columns = read_columns(child);
       else if (child.key == "select" && child.kind == Kind::table)
         usable &= read_selection(child, trial);
+      else if (child.key == "also" && child.kind == Kind::table)
+        usable &= read_companion(child, trial);
       else
         read_setup(child, trial, problems);
     }
@@ -201,6 +211,19 @@ class Loader {
     return true;
   }
 
+  bool read_companion(const ConfigNode& table, CampaignTrial& trial) {
+    const auto* file = table.find("file");
+    if (file == nullptr || file->kind != Kind::text || file->text.empty()) {
+      add(FindingKind::set_up, FindingSeverity::trial_unusable, table.position, "also",
+          "names no second recording", "write also = { file = \"plate.csv\", columns = { t_s = \"t\" } }");
+      return false;
+    }
+    CompanionFile companion{campaign_.folder / file->text, {}};
+    if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
+    trial.companions.push_back(std::move(companion));
+    return true;
+  }
+
   void read_setup(const ConfigNode& node, CampaignTrial& trial, std::vector<ConfigProblem>& problems) {
     SetupEntry entry{node.key, SetupValue{}, node};
     if (const auto number = number_of(node))
@@ -218,7 +241,7 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "trial"};
+    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "every_trial", "trial"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));
@@ -248,6 +271,13 @@ std::optional<std::string> CampaignTrial::text(std::string_view key) const {
     if (entry.key == key)
       if (const auto* value = std::get_if<std::string>(&entry.value)) return *value;
   return std::nullopt;
+}
+
+bool CampaignTrial::flag(std::string_view key) const {
+  for (const auto& entry : setup)
+    if (entry.key == key)
+      if (const auto* value = std::get_if<bool>(&entry.value)) return *value;
+  return false;
 }
 
 Campaign load_campaign(const fs::path& folder) { return Loader(folder).run(); }

@@ -31,6 +31,12 @@ struct RowSelection {
   double to_s = std::numeric_limits<double>::infinity();
 };
 
+// A second recording of the same trial on the same clock, e.g. of a force plate with its own rate.
+struct CompanionFile {
+  std::filesystem::path file;
+  std::vector<ColumnMapping> columns;  // its own, t_s among them where its time has another name
+};
+
 using SetupValue = std::variant<double, std::string, bool>;
 struct SetupEntry {
   std::string key;  // as written, its unit in its name
@@ -45,12 +51,14 @@ struct CampaignTrial {
   std::vector<SetupEntry> setup;       // everything else the experimenter wrote down
   std::vector<ColumnMapping> columns;  // the campaign's, with the trial's own in front
   RowSelection rows{};
+  std::vector<CompanionFile> companions{};
   ConfigPosition position{};  // of its [[trial]]
   // What its recording is read against: the campaign's belief with the set-up's own values.
   Belief belief{};
 
   std::optional<double> number(std::string_view key) const;  // a set-up value
   std::optional<std::string> text(std::string_view key) const;
+  bool flag(std::string_view key) const;  // true where it is written as true
   // The same recording may be named by several trials that select different rows.
   std::size_t index = 0;  // place in the campaign
 };
@@ -72,6 +80,8 @@ struct Campaign {
 // [[trial]] with file, kind and set-up, a trial may have:
 //   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
 //   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
+//   also    = { file = "plate.csv", columns = { t_s = "t" } }                  a second file of the trial
+// and [every_trial] holds keys that each [[trial]] has unless it says otherwise.
 // Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown plant, no
 // trial, a model that is not right in every key.
 Campaign load_campaign(const std::filesystem::path& folder);

@@ -12,6 +12,8 @@
 #include "firmware/log/mcap_reader.hpp"
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/column_names.hpp"
+#include "tools/campaign/companion.hpp"
+#include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 namespace sandhopper {
@@ -457,7 +459,19 @@ class Reader {
 }  // namespace
 
 TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial) {
-  return Reader(campaign, trial).run();
+  auto recording = Reader(campaign, trial).run();
+  for (const auto& companion : trial.companions) {
+    CampaignTrial other;
+    other.name = companion.file.string();
+    other.file = companion.file;
+    other.kind = trial.kind;
+    other.columns = companion.columns;
+    other.position = trial.position;
+    other.belief = trial.belief;
+    join_companion(recording, Reader(campaign, other).run());
+  }
+  if (recording.usable()) add_position_loop(recording, trial);
+  return recording;
 }
 
 }  // namespace sandhopper
