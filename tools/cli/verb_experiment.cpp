@@ -1,0 +1,38 @@
+#include <algorithm>
+
+#include "tools/cli/experiment.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+std::vector<Verb>& experiments() {
+  static std::vector<Verb> known;
+  return known;
+}
+
+Run set_up(CLI::App& app) {
+  app.require_subcommand(1);
+  auto known = experiments();
+  std::sort(known.begin(), known.end(), [](const Verb& a, const Verb& b) { return a.name < b.name; });
+  auto runs = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>();
+  for (const auto& experiment : known) {
+    auto* sub = app.add_subcommand(experiment.name, experiment.summary);
+    runs->emplace_back(sub, experiment.set_up(*sub));
+  }
+  return [runs](Session& session) {
+    for (const auto& [sub, run] : *runs)
+      if (sub->parsed()) return run(session);
+    return ExitCode::usage;  // the parser asks for one
+  };
+}
+
+const VerbRegistration kExperiment({"experiment", "many simulated trials and what they say together",
+                                    set_up});
+
+}  // namespace
+
+ExperimentRegistration::ExperimentRegistration(Verb experiment) {
+  experiments().push_back(std::move(experiment));
+}
+
+}  // namespace sandhopper::cli
