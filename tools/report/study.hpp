@@ -18,9 +18,9 @@ struct StudySeries {
     band
   };  // band: the area between low and high, with y as line
 
-  std::string label;
-  std::vector<double> x;
-  std::vector<double> y;  // NaN breaks a line
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> y{};  // NaN breaks a line
   std::vector<double> low{};
   std::vector<double> high{};
   Mark mark = Mark::points;
@@ -30,9 +30,9 @@ struct StudySeries {
 };
 
 struct StudyFigure {
-  std::string title;
-  std::string x_label;  // with unit: "depth, mm"
-  std::string y_label;
+  std::string title{};
+  std::string x_label{};  // with unit: "depth, mm"
+  std::string y_label{};
   std::vector<StudySeries> series{};
   bool log_x = false;
   bool log_y = false;
@@ -42,15 +42,15 @@ struct StudyFigure {
 };
 
 struct StudyTable {
-  std::string title;
-  std::vector<std::string> columns;  // "stiffness, N/m"
+  std::string title{};
+  std::vector<std::string> columns{};  // "stiffness, N/m"
   std::vector<std::vector<std::string>> rows{};
   std::size_t text_columns = 1;  // the first so many are text, left-aligned; the rest numbers
   std::string note{};
 };
 
 struct StudySection {
-  std::string title;
+  std::string title{};
   std::vector<std::variant<std::string, StudyTable, StudyFigure>>
       items{};  // paragraphs, tables, figures in order
   bool folded = false;

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include "config/load.hpp"
+#include "tools/campaign/trial_recording.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/plant/load_world.hpp"
+#include "tools/trial/campaign_maker.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string plant = "hopper";
+  std::string output;
+  int trials = 15;
+  std::uint64_t seed = 1;
+};
+
+nlohmann::ordered_json as_json(const Finding& f) {
+  return {{"kind", name_of(f.kind)}, {"severity", name_of(f.severity)},
+          {"file", f.file},          {"line", f.line},
+          {"column", f.column},      {"channel", f.channel},
+          {"what", f.what},          {"cure", f.cure}};
+}
+
+ExitCode check(Session& session, const Options& options) {
+  const auto campaign = load_campaign(options.folder);
+  auto findings = nlohmann::ordered_json::array();
+  std::size_t usable = 0;
+  const auto tell = [&](const std::vector<Finding>& found) {
+    for (const auto& finding : found) {
+      session.say("{} ({})", to_string(finding), name_of(finding.severity));
+      findings.push_back(as_json(finding));
+    }
+  };
+  tell(campaign.findings);
+  Progress progress("reading", static_cast<double>(campaign.trials.size()));
+  for (const auto& trial : campaign.trials) {
+    const auto recording = read_trial(campaign, trial);
+    tell(recording.findings);
+    usable += recording.usable();
+    progress.at(static_cast<double>(trial.index));
+  }
+  session.say("{}: plant {}, {} trials, {} usable", campaign.name, name_of(campaign.plant),
+              campaign.trials.size(), usable);
+  session.result = {{"campaign", campaign.name},
+                    {"plant", name_of(campaign.plant)},
+                    {"trials", campaign.trials.size()},
+                    {"usable", usable},
+                    {"findings", findings}};
+  return usable == campaign.trials.size() && campaign.findings.empty() ? ExitCode::ok : ExitCode::no;
+}
+
+ExitCode make(Session& session, const Options& options) {
+  CampaignMakerSetup setup;
+  setup.robot = load_file<RobotConfig>(session.config_file("robot.toml"));
+  setup.world = load_world(session.config_directory(), setup.robot);
+  setup.folder = options.output;
+  setup.trials = options.trials;
+  setup.seed = options.seed;
+  if (std::filesystem::exists(setup.folder / "campaign.toml"))
+    throw Failure(ExitCode::usage, options.output + " holds a campaign already and is not overwritten",
+                  "name another folder with --output");
+  Progress progress("trials", options.trials);
+  setup.progress = [&](int done) { progress.at(done); };
+  try {
+    options.plant == "hopper" ? make_hop_campaign(setup) : make_intrusion_campaign(setup);
+  } catch (const std::exception& error) {
+    throw Failure(ExitCode::fault, error.what(), "name a folder you may write with --output");
+  }
+  session.say("{}: {} simulated trials; look at them with 'hop terrain {}'", options.output, options.trials,
+              options.output);
+  session.result = {{"folder", options.output}, {"plant", options.plant}, {"trials", options.trials}};
+  return ExitCode::ok;
+}
+
+Run set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.require_subcommand(1);
+  auto* checking =
+      app.add_subcommand("check", "read every recording and say what is wrong, where, and the cure");
+  checking->add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file")
+      ->required();
+  auto* making = app.add_subcommand("make", "write a campaign of simulated recordings to try the tools on");
+  making->add_option("--plant", options->plant, "hopper: first strides; intruder: a plate moved into the bed")
+      ->check(CLI::IsMember({"hopper", "intruder"}))
+      ->capture_default_str();
+  making
+      ->add_option("--trials", options->trials,
+                   "how many, over heights and stiffnesses, or speeds and plates")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  making->add_option("--seed", options->seed, "of the first trial; the next ones count up")
+      ->capture_default_str();
+  making->add_option("--output", options->output, "folder to write")->required();
+  return [options, checking](Session& session) {
+    return checking->parsed() ? check(session, *options) : make(session, *options);
+  };
+}
+
+const VerbRegistration kCampaign({"campaign", "check a campaign of recordings, or make a simulated one",
+                                  set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli

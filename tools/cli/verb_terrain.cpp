@@ -1,0 +1,159 @@
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tools/cli/progress.hpp"
+#include "tools/cli/verb.hpp"
+#include "tools/terrain/campaign_analysis.hpp"
+#include "tools/terrain/figure_text.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string folder;
+  std::string output;
+  std::string part;
+  std::vector<std::string> merge;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  bool report = true;
+};
+
+// "2/4"
+std::pair<std::size_t, std::size_t> part_of(const std::string& text) {
+  if (text.empty()) return {1, 1};
+  const auto slash = text.find('/');
+  std::size_t part = 0, parts = 0;
+  try {
+    part = std::stoul(text.substr(0, slash));
+    parts = slash == std::string::npos ? 0 : std::stoul(text.substr(slash + 1));
+  } catch (const std::exception&) {
+    parts = 0;
+  }
+  if (part < 1 || part > parts)
+    throw Failure(ExitCode::usage, "'" + text + "' is no part of a campaign",
+                  "write --part 1/4, --part 2/4, …");
+  return {part, parts};
+}
+
+fs::path output_folder(const Options& options) {
+  const fs::path folder = !options.output.empty()  ? fs::path(options.output)
+                          : options.folder.empty() ? fs::path("terrain")
+                                                   : fs::path(options.folder) / "terrain";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
+                  "name a folder you may write with --output");
+  return folder;
+}
+
+CampaignResults analyse(const Options& options) {
+  const auto [part, parts] = part_of(options.part);
+  const auto campaign = load_campaign(options.folder);
+  Progress progress("trials", static_cast<double>(campaign.trials.size() / parts + 1));
+  return analyse_campaign(
+      campaign, {.part = part,
+                 .parts = parts,
+                 .threads = options.threads,
+                 .progress = [&](std::size_t done, std::size_t) { progress.at(static_cast<double>(done)); }});
+}
+
+CampaignResults merge(const Options& options) {
+  std::vector<CampaignResults> parts;
+  for (const auto& file : options.merge) {
+    try {
+      std::ifstream in(file);
+      parts.push_back(campaign_results_from_json(Json::parse(in)));
+    } catch (const Json::exception& error) {
+      throw Failure(ExitCode::usage, file + " is no result of a part: " + error.what(),
+                    "name the .json files that 'hop terrain FOLDER --part i/n' wrote");
+    }
+  }
+  try {
+    return merge_parts(std::move(parts));
+  } catch (const std::invalid_argument& error) {
+    throw Failure(ExitCode::usage, error.what(), "name every part of one campaign once");
+  }
+}
+
+void write_json(const Json& json, const fs::path& file) {
+  std::ofstream out(file);
+  out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  if (!out.flush())
+    throw Failure(ExitCode::fault, "cannot write " + file.string(), "check the folder and the free space");
+}
+
+// Every finding, once where many trials share it.
+void tell_findings(Session& session, const CampaignResults& results) {
+  constexpr std::size_t kMostLines = 100;
+  std::size_t said = 0, more = 0;
+  const auto say = [&](const Finding& finding) {
+    if (++said > kMostLines)
+      ++more;
+    else
+      session.say("  {}: {}",
+                  finding.severity == FindingSeverity::note
+                      ? "note"
+                      : "unusable " + std::string(cost_text(finding.severity).substr(4)),
+                  to_string(finding));
+  };
+  for (const auto& finding : results.findings) say(finding);
+  for (const auto& result : results.results)
+    for (const auto& finding : result.findings) say(finding);
+  if (more > 0) session.say("  … and {} more; all of them are in the report", more);
+}
+
+ExitCode terrain(Session& session, const Options& options) {
+  if (options.folder.empty() == options.merge.empty())
+    throw Failure(ExitCode::usage, "nothing to analyse",
+                  "name a campaign's folder, or parts of one with --merge");
+  const auto [part, parts] = part_of(options.part);
+  const auto results = options.merge.empty() ? analyse(options) : merge(options);
+  auto report = report_on(results);
+  const auto folder = output_folder(options);
+  const std::string stem = parts > 1 ? fmt::format("terrain_part_{}_of_{}", part, parts) : "terrain";
+  const auto json_file = folder / (stem + ".json"), page = folder / (stem + ".html");
+  write_json(report.json, json_file);
+  if (options.report) write_study_page(report.study, page);
+
+  tell_findings(session, results);
+  std::size_t usable = 0;
+  for (const auto& result : results.results) usable += result.usable;
+  session.say("{}: {} of {} trials can be used", results.campaign, usable, results.results.size());
+  for (const auto& line : report.lines) session.say_line(line);
+  session.say("  figures {}", json_file.string());
+  if (options.report) session.say("  report  {}", page.string());
+  report.json["files"] = {{"json", json_file.string()}, {"report", options.report ? page.string() : ""}};
+  session.result = std::move(report.json);
+  return usable > 0 ? ExitCode::ok : ExitCode::no;
+}
+
+Run set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file");
+  app.add_option("--output", options->output,
+                 "folder for terrain.json and terrain.html; default FOLDER/terrain");
+  app.add_option("--part", options->part,
+                 "analyse one part of the trials, e.g. 2/4; writes terrain_part_2_of_4.json for --merge");
+  app.add_option("--merge", options->merge, "put the JSON files of every part together")
+      ->check(CLI::ExistingFile);
+  app.add_option("--threads", options->threads, "trials analysed at a time")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  app.add_flag("!--no-report", options->report, "write no page");
+  app.footer(
+      "Broken recordings are named with file, line, column and cure; the good trials are analysed all the "
+      "same.\n"
+      "Exit status 1: no trial could be used. A campaign to try it on: hop campaign make --output FOLDER");
+  return [options](Session& session) { return terrain(session, *options); };
+}
+
+const VerbRegistration kTerrain({"terrain", "say what a campaign of recordings tells about the ground",
+                                 set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli

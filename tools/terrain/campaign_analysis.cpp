@@ -1,0 +1,81 @@
+#include "tools/terrain/campaign_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/experiment/parallel.hpp"
+
+namespace sandhopper {
+namespace {
+
+TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial) {
+  const auto recording = read_trial(campaign, trial);
+  auto result = result_of(trial, recording);
+  const auto* analysis = analysis_for(campaign.plant, trial.kind);
+  if (analysis == nullptr)
+    result.ruled_out.push_back(
+        fmt::format("a trial of kind \"{}\" says nothing about the ground", result.kind));
+  else if (result.usable)
+    try {
+      analysis->analyse(trial, recording, result);
+    } catch (const std::exception& error) {
+      result.ruled_out.push_back(fmt::format("every conclusion: the analysis failed: {}", error.what()));
+    }
+  return result;
+}
+
+}  // namespace
+
+CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions& options) {
+  CampaignResults results{.campaign = campaign.name,
+                          .plant = campaign.plant,
+                          .trials = campaign.trials.size(),
+                          .part = options.part,
+                          .parts = options.parts,
+                          .findings = campaign.findings};
+  std::vector<const CampaignTrial*> mine;
+  for (const auto& trial : campaign.trials)
+    if (trial.index % options.parts == options.part - 1) mine.push_back(&trial);
+  results.results.resize(mine.size());
+  parallel_for(
+      static_cast<long>(mine.size()), options.threads,
+      [&](long i) {
+        const auto place = static_cast<std::size_t>(i);
+        results.results[place] = analyse_trial(campaign, *mine[place]);
+      },
+      [&](long done, long total) {
+        if (options.progress)
+          options.progress(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
+      });
+  return results;
+}
+
+CampaignResults merge_parts(std::vector<CampaignResults> parts) {
+  if (parts.empty()) throw std::invalid_argument("nothing to merge");
+  CampaignResults whole = std::move(parts.front());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    auto& part = parts[i];
+    if (part.campaign != whole.campaign || part.plant != whole.plant || part.trials != whole.trials)
+      throw std::invalid_argument(
+          fmt::format("the parts are of different campaigns: \"{}\" with {} trials and \"{}\" with {}",
+                      whole.campaign, whole.trials, part.campaign, part.trials));
+    std::move(part.results.begin(), part.results.end(), std::back_inserter(whole.results));
+  }
+  std::sort(whole.results.begin(), whole.results.end(),
+            [](const TrialResult& a, const TrialResult& b) { return a.index < b.index; });
+  for (std::size_t i = 0; i < whole.results.size(); ++i) {
+    if (whole.results[i].index == i) continue;
+    const bool twice = i > 0 && whole.results[i].index == whole.results[i - 1].index;
+    throw std::invalid_argument(fmt::format("trial {} of the campaign is in {}", twice ? i : i + 1,
+                                            twice ? "two of the parts" : "none of the parts"));
+  }
+  if (whole.results.size() != whole.trials)
+    throw std::invalid_argument(
+        fmt::format("trial {} of the campaign is in none of the parts", whole.results.size() + 1));
+  whole.part = whole.parts = 1;
+  return whole;
+}
+
+}  // namespace sandhopper

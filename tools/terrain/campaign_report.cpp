@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/terrain/campaign_analysis.hpp"
+#include "tools/terrain/figure_text.hpp"
+
+namespace sandhopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Results = std::vector<const TrialResult*>;
+
+struct Group {
+  const TrialAnalysis* analysis;
+  Results results;
+};
+
+TrialKind kind_of(const TrialResult& result) {
+  const auto& names = EnumNames<TrialKind>::value;
+  return static_cast<TrialKind>(std::find(names.begin(), names.end(), result.kind) - names.begin());
+}
+
+std::vector<Group> grouped(const CampaignResults& results) {
+  std::vector<Group> groups;
+  for (const auto* analysis : all_analyses()) {
+    Group group{analysis, {}};
+    for (const auto& result : results.results)
+      if (result.usable && analysis_for(results.plant, kind_of(result)) == analysis)
+        group.results.push_back(&result);
+    if (!group.results.empty()) groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+// The same finding in many trials is one, with the first place and the number of trials.
+struct FindingGroup {
+  const Finding* first;
+  std::size_t trials = 0;
+};
+std::vector<FindingGroup> all_findings(const CampaignResults& results) {
+  std::vector<FindingGroup> groups;
+  const auto add = [&](const Finding& finding) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& group) {
+      return group.first->kind == finding.kind && group.first->channel == finding.channel &&
+             group.first->what == finding.what && group.first->line == finding.line;
+    });
+    if (same == groups.end())
+      groups.push_back({&finding, 1});
+    else
+      ++same->trials;
+  };
+  for (const auto& finding : results.findings) add(finding);
+  for (const auto& result : results.results)
+    for (const auto& finding : result.findings) add(finding);
+  return groups;
+}
+
+Json pooled_json(const std::vector<PooledQuantity>& pooled) {
+  Json json = Json::object();
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  for (const auto& q : pooled)
+    json[q.name] = {{"value", number(q.value)},
+                    {"ci95", {number(q.ci95_low), number(q.ci95_high)}},
+                    {"standard_deviation", number(q.standard_deviation)},
+                    {"trials", q.trials}};
+  return json;
+}
+
+StudyTable pooled_table(const std::vector<PooledQuantity>& pooled) {
+  StudyTable table{
+      .title = "Mean over trials",
+      .columns = {"figure", "unit", "mean", "95 % interval", "sd from trial to trial", "trials"},
+      .text_columns = 2,
+      .note =
+          "Intervals come from the spread between trials (Student's t); samples of one trial are "
+          "never counted as independent."};
+  for (const auto& q : pooled)
+    table.rows.push_back({figure_title(q.name), figure_unit(q.name), figure_number(q.value),
+                          interval_text(q.ci95_low, q.ci95_high), figure_number(q.standard_deviation),
+                          fmt::format("{}", q.trials)});
+  return table;
+}
+
+StudySection findings_section(const std::vector<FindingGroup>& findings) {
+  StudySection section{.title = "Bad input"};
+  if (findings.empty()) {
+    section.items.emplace_back(std::string("Nothing was wrong with the recordings."));
+    return section;
+  }
+  StudyTable table{.columns = {"where", "column", "what", "cure", "costs", "trials"}, .text_columns = 5};
+  for (const auto& [finding, trials] : findings) {
+    const auto where = finding->line > 0
+                           ? fmt::format("{}:{}:{}", finding->file, finding->line, finding->column)
+                           : finding->file;
+    table.rows.push_back({where, finding->channel, finding->what, finding->cure,
+                          std::string(cost_text(finding->severity)), fmt::format("{}", trials)});
+  }
+  section.items.emplace_back(std::move(table));
+  return section;
+}
+
+StudySection ruled_out_section(const CampaignResults& results) {
+  StudySection section{.title = "What these recordings cannot say"};
+  std::vector<std::pair<std::string, std::size_t>> reasons;
+  for (const auto& result : results.results)
+    for (const auto& reason : result.ruled_out) {
+      const auto known =
+          std::find_if(reasons.begin(), reasons.end(), [&](auto& r) { return r.first == reason; });
+      if (known == reasons.end())
+        reasons.emplace_back(reason, 1);
+      else
+        ++known->second;
+    }
+  StudyTable table{.columns = {"conclusion", "trials"}};
+  for (const auto& [reason, trials] : reasons) table.rows.push_back({reason, fmt::format("{}", trials)});
+  if (!reasons.empty()) section.items.emplace_back(std::move(table));
+  return section;
+}
+
+StudySection trials_section(const CampaignResults& results) {
+  constexpr std::size_t kMostRows = 500;
+  StudySection section{.title = "Trial by trial", .folded = true};
+  StudyTable table{.columns = {"trial", "kind", "set-up", "figures"}, .text_columns = 4};
+  for (const auto& result : results.results) {
+    if (table.rows.size() >= kMostRows) break;
+    std::vector<std::string> setup, figures;
+    for (const auto& [key, value] : result.setup) setup.push_back(fmt::format("{} {:.6g}", key, value));
+    for (const auto& q : result.quantities)
+      figures.push_back(q.invalid.empty() ? fmt::format("{} {}", q.name, figure_number(q.value))
+                                          : fmt::format("{} – ({})", q.name, q.invalid));
+    table.rows.push_back({result.trial, result.usable ? result.kind : result.kind + " (not usable)",
+                          fmt::format("{}", fmt::join(setup, ", ")),
+                          fmt::format("{}", fmt::join(figures, ", "))});
+  }
+  if (results.results.size() > kMostRows)
+    table.note = fmt::format("The first {} of {} trials; all are in the JSON file.", kMostRows,
+                             results.results.size());
+  section.items.emplace_back(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+CampaignReport report_on(const CampaignResults& results) {
+  CampaignReport report;
+  const auto findings = all_findings(results);
+  const auto usable = static_cast<std::size_t>(std::count_if(results.results.begin(), results.results.end(),
+                                                             [](const TrialResult& r) { return r.usable; }));
+  report.json = to_json(results);
+  report.json["usable_trials"] = usable;
+  auto& study = report.study;
+  study.title = results.campaign;
+  study.facts = {{"plant", std::string(name_of(results.plant))},
+                 {"trials", fmt::format("{} of {}", usable, results.results.size())}};
+  if (results.parts > 1)
+    study.warnings.push_back(
+        fmt::format("This is part {} of {} of the campaign; merge the parts for its conclusions.",
+                    results.part, results.parts));
+  if (usable < results.results.size())
+    study.warnings.push_back(fmt::format("{} of {} trials cannot be used; see Bad input.",
+                                         results.results.size() - usable, results.results.size()));
+  auto pooled = Json::object(), conclusions = Json::object();
+  for (const auto& [analysis, trials] : grouped(results)) {
+    const auto quantities = pool_quantities(trials);
+    auto told = analysis->conclude(trials);
+    const std::string name(analysis->name());
+    pooled[name] = pooled_json(quantities);
+    conclusions[name] = std::move(told.json);
+    std::move(told.lines.begin(), told.lines.end(), std::back_inserter(report.lines));
+    std::move(told.sections.begin(), told.sections.end(), std::back_inserter(study.sections));
+    study.sections.push_back({.title = fmt::format("All figures of the {}", name),
+                              .items = {pooled_table(quantities)},
+                              .folded = true});
+  }
+  report.json["pooled"] = std::move(pooled);
+  report.json["conclusions"] = std::move(conclusions);
+  if (auto ruled_out = ruled_out_section(results); !ruled_out.items.empty())
+    study.sections.push_back(std::move(ruled_out));
+  study.sections.push_back(findings_section(findings));
+  study.sections.push_back(trials_section(results));
+  return report;
+}
+
+}  // namespace sandhopper

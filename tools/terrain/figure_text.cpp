@@ -1,0 +1,48 @@
+#include "tools/terrain/figure_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/hint.hpp"
+
+namespace sandhopper {
+
+std::string figure_number(double value) {
+  if (!std::isfinite(value)) return "–";
+  const double size = std::abs(value);
+  if (size >= 1000.0 && size < 1e7) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.4g}", value);
+}
+
+std::string interval_text(double low, double high) {
+  if (!std::isfinite(low) || !std::isfinite(high)) return "one trial says nothing";
+  return fmt::format("{} to {}", figure_number(low), figure_number(high));
+}
+
+std::string figure_title(std::string_view name) {
+  const auto unit = split_unit(name);
+  std::string title(unit ? unit->quantity : name);
+  for (char& c : title)
+    if (c == '_') c = ' ';
+  return title;
+}
+
+std::string figure_unit(std::string_view name) {
+  const auto unit = unit_of_key(name);
+  return unit.empty() ? "–" : unit;
+}
+
+std::string_view cost_text(FindingSeverity severity) {
+  switch (severity) {
+    case FindingSeverity::note:
+      return "nothing more";
+    case FindingSeverity::channel_unusable:
+      return "the channel";
+    case FindingSeverity::trial_unusable:
+      return "the trial";
+  }
+  return "";
+}
+
+}  // namespace sandhopper

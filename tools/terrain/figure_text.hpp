@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "tools/campaign/finding.hpp"
+
+// Figures as words.
+namespace sandhopper {
+
+std::string figure_number(double value);  // four digits that matter, "–" for none
+std::string interval_text(double low, double high);
+std::string figure_title(
+    std::string_view name);  // "stiffness observer wls" of "stiffness_observer_wls_N_per_m"
+std::string figure_unit(std::string_view name);  // "N/m"
+std::string_view cost_text(FindingSeverity severity);
+
+}  // namespace sandhopper

@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "tools/experiment/recorded_stride.hpp"
+#include "tools/terrain/hop_frames.hpp"
+
+namespace sandhopper {
+
+// The first stance as the load cell and the camera saw it, in the form of the firmware's estimates, so that
+// the same windows and fits apply: contact force and direct force are the load cell's, depth and speed come
+// from motion capture smoothed with the foot's accelerometer (estimation/motion_smoother.hpp).
+struct MeasuredStride {
+  RecordedStride stride;  // one sample a row from `first_row` on
+  std::size_t first_row = 0;
+  bool phases_known = false;  // false: stance from load to no load, no switch in it
+};
+
+// Needs load_cell_force_N and mocap_foot_z_m; otherwise empty and `missing` names them.
+std::optional<MeasuredStride> measured_stride(const CampaignTrial& trial, const TrialRecording& recording,
+                                              const StiffnessConfig& config, std::string& missing);
+
+}  // namespace sandhopper
