@@ -3,7 +3,8 @@
 namespace sandhopper::conceal {
 
 const std::vector<const Plant*>& plants() {
-  static const std::vector<const Plant*> all{&falling_body_plant(), &intruder_plant(), &rotary_axis_plant()};
+  static const std::vector<const Plant*> all{&falling_body_plant(), &hopper_plant(), &intruder_plant(),
+                                             &rotary_axis_plant()};
   return all;
 }
 

@@ -7,6 +7,8 @@
 namespace sandhopper::conceal {
 namespace {
 
+constexpr std::size_t kTrials = 6;  // enough to see every kind of set-up
+
 struct Sum {
   double squares = 0.0;
   double count = 0.0;
@@ -30,7 +32,8 @@ void add_difference(std::map<std::string, Sum>& sums, const Table& a, const Tabl
 Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden) {
   const auto with = build(c, hidden), without = build(c, {});
   std::map<std::string, Sum> effect, repeat;
-  for (std::size_t i = 0; i < c.setups.size(); ++i) {
+  const auto stride = std::max<std::size_t>(1, c.setups.size() / kTrials);
+  for (std::size_t i = 0; i < c.setups.size(); i += stride) {
     const auto trial = c.recording.stream("trial", i);
     const auto plain = record(c, *without, c.setups[i], trial);
     add_difference(effect, plain, record(c, *with, c.setups[i], trial));

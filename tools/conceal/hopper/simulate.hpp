@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "tools/conceal/hopper/dynamics.hpp"
+
+namespace sandhopper::conceal::hopper {
+
+// A trial as it was: traces four times a cycle, and what the cycle itself saw and did.
+struct Run {
+  Trace body_m, foot_m, body_mps2, foot_mps2, contact_N, current_A;
+  struct Cycle {
+    double angle_rad, angle_rate_radps;  // as read and as filtered
+    double foot_rate_mps, torque_Nm, command_Nm, deepest_m;
+    double temperature_C;
+    int phase;
+  };
+  std::vector<Cycle> cycles;
+};
+
+// Throws std::invalid_argument for a kind of trial this robot cannot do.
+Run simulate(const World& world, const Setup& setup, const Random& trial);
+
+}  // namespace sandhopper::conceal::hopper

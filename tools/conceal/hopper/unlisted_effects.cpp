@@ -1,0 +1,54 @@
+#include "tools/conceal/hopper/world.hpp"
+
+namespace sandhopper::conceal::hopper {
+namespace {
+
+// A burr on the rail where the body passes.
+Json bump(World& w, double size, Random& random) {
+  w.hidden.bump_N = size * 8.0;
+  w.hidden.bump_at_m = random.uniform(0.36, 0.42);
+  w.hidden.bump_width_m = random.uniform(0.008, 0.02);
+  return {{"peak_N", w.hidden.bump_N}, {"at_m", w.hidden.bump_at_m}, {"width_m", w.hidden.bump_width_m}};
+}
+
+Json magnet(World& w, double size, Random& random) {
+  w.hidden.magnet_Nm = size * 0.5;
+  w.hidden.magnet_at_rad = random.uniform(0.9, 1.3);
+  w.hidden.magnet_width_rad = random.uniform(0.05, 0.12);
+  return {{"peak_Nm", w.hidden.magnet_Nm},
+          {"at_rad", w.hidden.magnet_at_rad},
+          {"width_rad", w.hidden.magnet_width_rad}};
+}
+
+Json hysteretic_spring(World& w, double size, Random& random) {
+  w.hidden.spring_yield_rad = random.uniform(0.15, 0.4);
+  w.hidden.spring_Nm_per_rad = size * 0.4 / w.hidden.spring_yield_rad;
+  return {{"stiffness_Nm_per_rad", w.hidden.spring_Nm_per_rad}, {"yield_rad", w.hidden.spring_yield_rad}};
+}
+
+Json hum(World& w, double size, Random& random) {
+  w.hidden.hum_Nm = size * 0.5;
+  w.hidden.hum_Hz = random.uniform(20.0, 60.0);
+  return {{"amplitude_Nm", w.hidden.hum_Nm}, {"frequency_Hz", w.hidden.hum_Hz}};
+}
+
+}  // namespace
+
+std::vector<Recipe<World>> unlisted_effects() {
+  return {{{"burr_on_the_rail", "rail", "u"}, bump},
+          {{"magnet_at_an_angle", "joint", "u"}, magnet},
+          {{"hysteretic_leg_spring", "joint", "u"}, hysteretic_spring},
+          {{"torque_hum", "actuator", "u"}, hum}};
+}
+
+// A late time-of-flight reading is a late reading, whoever made it late; links and foot move almost alike;
+// one release height shows friction on the rail at one speed.
+std::vector<Restriction<World>> restrictions() {
+  const auto as_is = [](World&) {};
+  const auto same_drops = [](World& w) { w.same_drops = true, w.sensors.mocap = false; };
+  return {{{{"tof.latency", "clock.skew"}}, as_is},
+          {{{"leg.link_mass", "foot.mass"}}, same_drops},
+          {{{"rail.coulomb", "rail.viscous"}}, same_drops}};
+}
+
+}  // namespace sandhopper::conceal::hopper
