@@ -80,7 +80,7 @@ TEST_F(TerrainCampaign, JointStiffnessFindsTheBed) {
   EXPECT_NEAR(joint.at("value_N_per_m").get<double>(), 1500.0, 120.0);
   EXPECT_LT(joint.at("ci95_N_per_m").at(0).get<double>(), 1500.0);
   EXPECT_GT(joint.at("ci95_N_per_m").at(1).get<double>(), 1500.0);
-  const auto& pooled = report.json.at("pooled").at("hops");
+  const auto& pooled = report.json.at("pooled").at("hop");
   EXPECT_GT(pooled.at("quasi_static_force_error_rms_N").at("value").get<double>(),
             2.0 * pooled.at("observer_force_error_rms_N").at("value").get<double>());
   EXPECT_LT(pooled.at("depth_error_rms_in_stance_m").at("value").get<double>(), 0.0017);

@@ -10,19 +10,28 @@
 namespace sandhopper {
 namespace {
 
+void analyse_by(const TrialAnalysis& analysis, const CampaignTrial& trial, const TrialRecording& recording,
+                TrialResult& result) {
+  try {
+    analysis.analyse(trial, recording, result);
+  } catch (const std::exception& error) {
+    result.ruled_out.push_back(fmt::format("the {}: the analysis failed: {}", analysis.name(), error.what()));
+  }
+}
+
 TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial) {
   const auto recording = read_trial(campaign, trial);
   auto result = result_of(trial, recording);
-  const auto* analysis = analysis_for(campaign.plant, trial.kind);
-  if (analysis == nullptr)
+  bool taken = false;
+  for (const auto* analysis : all_analyses()) {
+    if (!analysis->takes(campaign.plant, trial.kind)) continue;
+    taken = true;
+    if (result.usable) analyse_by(*analysis, trial, recording, result);
+  }
+  if (!taken)
     result.ruled_out.push_back(
-        fmt::format("a trial of kind \"{}\" says nothing about the ground", result.kind));
-  else if (result.usable)
-    try {
-      analysis->analyse(trial, recording, result);
-    } catch (const std::exception& error) {
-      result.ruled_out.push_back(fmt::format("every conclusion: the analysis failed: {}", error.what()));
-    }
+        fmt::format("everything: a trial of kind \"{}\" on plant \"{}\" says nothing about the ground",
+                    result.kind, name_of(campaign.plant)));
   return result;
 }
 

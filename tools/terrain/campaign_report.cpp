@@ -12,26 +12,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Results = std::vector<const TrialResult*>;
 
-struct Group {
-  const TrialAnalysis* analysis;
-  Results results;
-};
-
 TrialKind kind_of(const TrialResult& result) {
   const auto& names = EnumNames<TrialKind>::value;
   return static_cast<TrialKind>(std::find(names.begin(), names.end(), result.kind) - names.begin());
 }
 
-std::vector<Group> grouped(const CampaignResults& results) {
-  std::vector<Group> groups;
-  for (const auto* analysis : all_analyses()) {
-    Group group{analysis, {}};
-    for (const auto& result : results.results)
-      if (result.usable && analysis_for(results.plant, kind_of(result)) == analysis)
-        group.results.push_back(&result);
-    if (!group.results.empty()) groups.push_back(std::move(group));
-  }
-  return groups;
+template <class Takes>
+Results usable_results(const CampaignResults& results, Takes&& takes) {
+  Results taken;
+  for (const auto& result : results.results)
+    if (result.usable && takes(result)) taken.push_back(&result);
+  return taken;
 }
 
 // The same finding in many trials is one, with the first place and the number of trials.
@@ -162,15 +153,22 @@ CampaignReport report_on(const CampaignResults& results) {
     study.warnings.push_back(fmt::format("{} of {} trials cannot be used; see Bad input.",
                                          results.results.size() - usable, results.results.size()));
   auto pooled = Json::object(), conclusions = Json::object();
-  for (const auto& [analysis, trials] : grouped(results)) {
-    const auto quantities = pool_quantities(trials);
+  for (const auto* analysis : all_analyses()) {
+    const auto trials = usable_results(
+        results, [&](const TrialResult& result) { return analysis->takes(results.plant, kind_of(result)); });
+    if (trials.empty()) continue;
     auto told = analysis->conclude(trials);
-    const std::string name(analysis->name());
-    pooled[name] = pooled_json(quantities);
-    conclusions[name] = std::move(told.json);
+    if (!told.json.empty()) conclusions[std::string(analysis->name())] = std::move(told.json);
     std::move(told.lines.begin(), told.lines.end(), std::back_inserter(report.lines));
     std::move(told.sections.begin(), told.sections.end(), std::back_inserter(study.sections));
-    study.sections.push_back({.title = fmt::format("All figures of the {}", name),
+  }
+  for (const auto kind : EnumNames<TrialKind>::value) {
+    const auto trials =
+        usable_results(results, [&](const TrialResult& result) { return result.kind == kind; });
+    const auto quantities = pool_quantities(trials);
+    if (quantities.empty()) continue;
+    pooled[std::string(kind)] = pooled_json(quantities);
+    study.sections.push_back({.title = fmt::format("All figures of trials of kind {}", kind),
                               .items = {pooled_table(quantities)},
                               .folded = true});
   }

@@ -12,10 +12,4 @@ std::span<const TrialAnalysis* const> all_analyses() {
   return all;
 }
 
-const TrialAnalysis* analysis_for(CampaignPlant plant, TrialKind kind) {
-  for (const auto* analysis : all_analyses())
-    if (analysis->takes(plant, kind)) return analysis;
-  return nullptr;
-}
-
 }  // namespace sandhopper

@@ -25,18 +25,19 @@ class TrialAnalysis {
   TrialAnalysis(const TrialAnalysis&) = delete;
   TrialAnalysis& operator=(const TrialAnalysis&) = delete;
 
-  virtual std::string_view name() const = 0;  // "hops": key in the JSON, and title
+  virtual std::string_view name() const = 0;  // "hops": key in the JSON
   virtual bool takes(CampaignPlant plant, TrialKind kind) const = 0;
   // Fills in what the recording tells; `result` holds set-up and findings already. From several threads at
   // once.
   virtual void analyse(const CampaignTrial& trial, const TrialRecording& recording,
                        TrialResult& result) const = 0;
-  // From the results alone, in the order of the campaign.
+  // From the results alone, in the order of the campaign: usable ones of the kinds it takes. Empty where they
+  // hold nothing for it.
   virtual CampaignConclusions conclude(std::span<const TrialResult* const> results) const = 0;
 };
 
-// What analyses a trial of that kind; null where the ground has no say (a sweep in the air, a rotary axis).
-const TrialAnalysis* analysis_for(CampaignPlant plant, TrialKind kind);
+// In the order in which their conclusions stand in the report. Several may take the same trial; each keeps to
+// quantities and series of its own names.
 std::span<const TrialAnalysis* const> all_analyses();
 
 }  // namespace sandhopper
