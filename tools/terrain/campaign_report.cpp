@@ -59,6 +59,29 @@ Json pooled_json(const std::vector<PooledQuantity>& pooled) {
   return json;
 }
 
+// Trials whose numbers in the set-up are the same, pooled by themselves.
+Json pooled_by_setup(const Results& results) {
+  constexpr std::size_t kMostGroups = 200;
+  std::vector<std::pair<const TrialResult*, Results>> groups;
+  for (const auto* result : results) {
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const auto& group) { return group.first->setup == result->setup; });
+    if (same != groups.end())
+      same->second.push_back(result);
+    else if (groups.size() <= kMostGroups)
+      groups.push_back({result, {result}});
+  }
+  Json list = Json::array();
+  if (groups.size() < 2 || groups.size() > kMostGroups) return list;
+  for (const auto& [first, trials] : groups) {
+    if (trials.size() < 2) continue;
+    Json setup = Json::object();
+    for (const auto& [key, value] : first->setup) setup[key] = value;
+    list.push_back({{"setup", setup}, {"figures", pooled_json(pool_quantities(trials))}});
+  }
+  return list;
+}
+
 StudyTable pooled_table(const std::vector<PooledQuantity>& pooled) {
   StudyTable table{
       .title = "Mean over trials",
@@ -152,7 +175,7 @@ CampaignReport report_on(const CampaignResults& results) {
   if (usable < results.results.size())
     study.warnings.push_back(fmt::format("{} of {} trials cannot be used; see Bad input.",
                                          results.results.size() - usable, results.results.size()));
-  auto pooled = Json::object(), conclusions = Json::object();
+  auto pooled = Json::object(), by_setup = Json::object(), conclusions = Json::object();
   for (const auto* analysis : all_analyses()) {
     const auto trials = usable_results(
         results, [&](const TrialResult& result) { return analysis->takes(results.plant, kind_of(result)); });
@@ -168,11 +191,13 @@ CampaignReport report_on(const CampaignResults& results) {
     const auto quantities = pool_quantities(trials);
     if (quantities.empty()) continue;
     pooled[std::string(kind)] = pooled_json(quantities);
+    by_setup[std::string(kind)] = pooled_by_setup(trials);
     study.sections.push_back({.title = fmt::format("All figures of trials of kind {}", kind),
                               .items = {pooled_table(quantities)},
                               .folded = true});
   }
   report.json["pooled"] = std::move(pooled);
+  report.json["pooled_by_setup"] = std::move(by_setup);
   report.json["conclusions"] = std::move(conclusions);
   if (auto ruled_out = ruled_out_section(results); !ruled_out.items.empty())
     study.sections.push_back(std::move(ruled_out));

@@ -22,6 +22,7 @@ constexpr std::array kWays{StiffnessWay{"quasi_static_ols", "quasi-static, OLS",
                            StiffnessWay{"load_cell_joint", "load cell, joint fit", "grey"}};
 constexpr std::size_t kDrawnTrials = 4;  // whose curves travel with the result
 constexpr std::size_t kDrawnPoints = 160;
+constexpr double kUnloadedShare = 0.05;      // of the peak: the ground is let go
 constexpr double kDepthResolution_m = 2e-4;  // of an unloading path
 
 TrialQuantity stiffness(std::string_view way, std::string_view window, const StiffnessEstimate& e) {
@@ -164,10 +165,14 @@ class HopAnalysis {
   // From the deepest point on.
   void add_unloading() {
     std::vector<double> depth_m, force_N;
+    double peak_N = 0.0;
     for (const auto& sample : measured_->stride.samples) {
+      const auto& e = sample.estimate;
       if (!in_stance(sample.state)) continue;
-      depth_m.push_back(sample.estimate.force_depth_m);
-      force_N.push_back(sample.estimate.contact_force_N);
+      peak_N = std::max(peak_N, e.contact_force_N);
+      depth_m.push_back(e.force_depth_m);
+      force_N.push_back(e.contact_force_N);
+      if (force_N.size() > 1 && peak_N > 10.0 && e.contact_force_N < kUnloadedShare * peak_N) break;
     }
     const auto found = unloading({depth_m, force_N}, kDepthResolution_m);
     add("unloading_stiffness_N_per_m", found.stiffness_N_per_m);

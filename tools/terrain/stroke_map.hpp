@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "terrain/trial_statistics.hpp"
+
+// Force of a foot driven into the ground, split into what depth, speed and acceleration explain:
+//   F = F0 + k z + (a + b z + c z^2) v^2                          map of depth and speed
+//     + (a z + b z^2/2 + c z^3/3) zdd                             added mass, whose gradient the drag is
+// z depth, v speed and zdd acceleration downward, on samples at new depths. Solved from sums over trials, so
+// that thousands fit in memory; intervals by leaving out one trial after the other (jackknife).
+namespace sandhopper {
+
+struct StrokeSample {
+  double depth_m;
+  double speed_mps;   // downward
+  double accel_mps2;  // downward; 0 where it is not known
+  double force_N;
+};
+
+// Products of the regressors 1, z, v^2, z v^2, z^2 v^2, z zdd, z^2 zdd/2, z^3 zdd/3 and F over one trial.
+class StrokeSums {
+ public:
+  static constexpr std::size_t kRegressors = 8;
+  static constexpr std::size_t kColumns = kRegressors + 1;
+
+  void add(const StrokeSample& sample);
+  void add(const StrokeSums& other);
+  double samples() const { return at(0, 0); }
+  double at(std::size_t row, std::size_t column) const;
+
+  // Upper triangle, row by row, to travel with a trial's result.
+  std::vector<double> numbers() const { return {products_.begin(), products_.end()}; }
+  static StrokeSums from(std::span<const double> numbers);  // zeros where the size does not fit
+
+ private:
+  std::array<double, kColumns*(kColumns + 1) / 2> products_{};
+};
+
+struct StrokeMap {
+  double intercept_N = 0.0;                  // F0
+  double stiffness_N_per_m = 0.0;            // k
+  std::array<double, 3> drag_coefficient{};  // a [kg/m], b [kg/m^2], c [kg/m^3]
+
+  double drag_kg_per_m(double depth_m) const;
+  double added_mass_kg(double depth_m) const;
+};
+
+enum class StrokeTerms { depth_and_speed, with_added_mass };
+// Least squares over everything in `sums`. NaN where it does not tell (a single speed, too few samples).
+StrokeMap fit_stroke_map(const StrokeSums& sums, StrokeTerms terms);
+
+// What each description leaves of a trial's force.
+struct StrokeResiduals {
+  double line_rms_N = 0.0;  // straight line of that trial alone
+  double map_rms_N = 0.0;
+  double added_mass_rms_N = 0.0;  // map and added mass, nothing fitted to the trial
+  double correlation = 0.0;       // of what the map leaves with the added mass' force
+};
+StrokeResiduals stroke_residuals(const StrokeSums& trial, const StrokeMap& map);
+
+// The map over all trials, each figure with its jackknife interval (trial as the unit).
+struct StrokeMapWithIntervals {
+  StrokeMap map;
+  TrialMean intercept_N, stiffness_N_per_m, drag_at_surface_kg_per_m, added_mass_at_30mm_kg;
+};
+StrokeMapWithIntervals fit_stroke_map(std::span<const StrokeSums> trials, StrokeTerms terms);
+
+}  // namespace sandhopper

@@ -1,0 +1,217 @@
+#include "tools/terrain/stroke_trials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "estimation/motion_smoother.hpp"
+#include "terrain/joint_fit.hpp"
+#include "terrain/series_compliance.hpp"
+#include "tools/terrain/stroke_map.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr double kSlowest_mps = 0.001;  // a foot slower than this does not penetrate
+constexpr std::size_t kFewestSamples = 10;
+constexpr std::size_t kDrawnTrials = 6;
+constexpr std::size_t kDrawnPoints = 160;
+constexpr double kDepthResolution_m = 2e-4;
+constexpr double kUnloadedShare = 0.05;  // of the greatest force
+
+struct Sample {
+  double t_s, depth_m, speed_mps, accel_mps2, force_N;  // motion downward
+};
+
+class Stroke {
+ public:
+  Stroke(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result)
+      : belief_(std::get<IntruderBelief>(trial.belief)), in_(recording), out_(result) {}
+
+  void run() {
+    if (!in_.has("foot_z_m") || !in_.has("force_N")) {
+      out_.ruled_out.push_back(fmt::format("force against depth and speed: {} not recorded",
+                                           in_.has("force_N") ? "foot_z_m" : "force_N"));
+      return;
+    }
+    find_motion();
+    collect();
+    if (loading_.size() < kFewestSamples) {
+      out_.ruled_out.emplace_back("force against depth and speed: fewer than ten samples at new depths");
+      return;
+    }
+    fit_line();
+    fit_joint();
+    add_sums();
+    add_unloading();
+    draw();
+  }
+
+ private:
+  // Speed and acceleration where they were recorded, else from what was.
+  void find_motion() {
+    const std::vector<double> none(in_.rows(), NAN);
+    const auto* speed = in_.find("foot_velocity_mps");
+    const auto* accel = in_.find("foot_accel_mps2");
+    MotionNoise noise;
+    const double camera_m = belief_.sensors.robot.mocap_noise_m;
+    noise.position_m = std::max(1e-5, camera_m);
+    motion_ = smooth_motion(in_.t_s, in_.channel("foot_z_m"), accel != nullptr ? *accel : none, noise);
+    inertia_known_ = accel != nullptr;
+    if (speed == nullptr && accel == nullptr)
+      out_.ruled_out.emplace_back(
+          "drag and added mass to full accuracy: speed is the slope of the depth alone "
+          "(foot_velocity_mps and foot_accel_mps2 not recorded)");
+    if (!inertia_known_)
+      out_.ruled_out.emplace_back("added mass from the acceleration: foot_accel_mps2 not recorded");
+    if (speed != nullptr) take_where_recorded(*speed, motion_.velocity_mps);
+    fused_ = speed == nullptr && accel != nullptr;
+  }
+
+  static void take_where_recorded(const std::vector<double>& recorded, std::vector<double>& values) {
+    for (std::size_t row = 0; row < values.size(); ++row)
+      if (!std::isnan(recorded[row])) values[row] = recorded[row];
+  }
+
+  // Rows with a fresh force, paired with the motion of the instant the force belongs to.
+  void collect() {
+    const auto force = in_.channel("force_N");
+    const double lag_s = 1.0 / (2.0 * std::numbers::pi * belief_.sensors.robot.load_cell_bandwidth_Hz) +
+                         belief_.sensors.other.load_cell_latency_s;
+    const double yield_m_per_N = belief_.rig.stiffness_N_per_m ? 1.0 / *belief_.rig.stiffness_N_per_m : 0.0;
+    double deepest_m = 0.0;
+    for (std::size_t row = 0; row < in_.rows(); ++row) {
+      if (std::isnan(force[row]) || in_.is_saturated("force_N", row)) continue;
+      Sample s{in_.t_s[row], -motion_.position_m[row], -motion_.velocity_mps[row], -motion_.accel_mps2[row],
+               force[row]};
+      s.depth_m += -s.speed_mps * lag_s - yield_m_per_N * s.force_N;
+      s.speed_mps -= s.accel_mps2 * lag_s;
+      if (s.depth_m > 0.0 && s.depth_m > deepest_m && s.speed_mps > kSlowest_mps) loading_.push_back(s);
+      deepest_m = std::max(deepest_m, s.depth_m);
+      path_.push_back(s);
+    }
+    speed_mps_ = median_speed_mps();
+    add("max_depth_m", deepest_m);
+    add("intrusion_speed_mps", speed_mps_);
+  }
+
+  double median_speed_mps() const {
+    std::vector<double> speeds;
+    for (const auto& s : loading_) speeds.push_back(s.speed_mps);
+    if (speeds.empty()) return NAN;
+    const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+    std::nth_element(speeds.begin(), middle, speeds.end());
+    return *middle;
+  }
+
+  StiffnessConfig config() const {
+    StiffnessConfig config;
+    config.max_depth_m = 1.0;  // a rod carries this foot; sand over its top is the experimenter's concern
+    config.min_samples = static_cast<int>(kFewestSamples);
+    return config;
+  }
+
+  void fit_line() {
+    RecursiveRegression line;
+    for (const auto& s : loading_) line.add({s.depth_m, s.force_N, 1.0});
+    const auto fit = solve_stiffness(line.sums(), config());
+    out_.quantities.push_back({"slope_N_per_m", fit.value_N_per_m, fit.standard_error_N_per_m,
+                               fit.validity == Validity::valid ? "" : std::string(name_of(fit.validity))});
+    add("line_intercept_N", fit.intercept_N);
+  }
+
+  void fit_joint() {
+    JointRegression regression({}, belief_.foot.radius_m);
+    double before_s = loading_.front().t_s;
+    for (const auto& s : loading_) {
+      regression.add({.depth_m = s.depth_m,
+                      .speed_mps = s.speed_mps,
+                      .accel_mps2 = inertia_known_ ? s.accel_mps2 : 0.0,
+                      .force_N = s.force_N,
+                      .leg_rate_mps = 0.0,
+                      .since_contact_s = s.t_s - loading_.front().t_s,
+                      .duration_s = s.t_s - before_s});
+      before_s = s.t_s;
+    }
+    const auto fit = solve_joint(regression.sums(), config());
+    const std::string invalid = fit.validity == Validity::valid ? "" : std::string(name_of(fit.validity));
+    out_.quantities.push_back(
+        {"stiffness_joint_N_per_m", fit.value_N_per_m, fit.standard_error_N_per_m, invalid});
+    out_.quantities.push_back({"intercept_depth_m", fit.intercept_depth_m, NAN, invalid});
+    if (speed_mps_ > 0.3)
+      out_.quantities.push_back(
+          {"added_mass_factor", fit.added_mass_factor, fit.added_mass_factor_sd, invalid});
+  }
+
+  void add_sums() {
+    StrokeSums sums;
+    for (const auto& s : loading_)
+      sums.add({s.depth_m, s.speed_mps, inertia_known_ ? s.accel_mps2 : 0.0, s.force_N});
+    out_.series["stroke_sums"] = sums.numbers();
+    out_.series["stroke"] = {2.0 * belief_.foot.radius_m, speed_mps_, inertia_known_ ? 1.0 : 0.0,
+                             fused_ ? 1.0 : 0.0};
+  }
+
+  // From contact to where the force is gone again.
+  std::span<const Sample> in_contact() const {
+    const auto peak =
+        std::max_element(path_.begin(), path_.end(), [](auto& a, auto& b) { return a.force_N < b.force_N; });
+    auto first = std::find_if(path_.begin(), peak, [](auto& s) { return s.depth_m > 0.0; });
+    auto last =
+        std::find_if(peak, path_.end(), [&](auto& s) { return s.force_N < kUnloadedShare * peak->force_N; });
+    if (last != path_.end()) ++last;
+    return {first, last};
+  }
+
+  void add_unloading() {
+    std::vector<double> depth_m, force_N;
+    for (const auto& s : in_contact()) {
+      depth_m.push_back(s.depth_m);
+      force_N.push_back(s.force_N);
+    }
+    add("unloading_stiffness_N_per_m", unloading({depth_m, force_N}, kDepthResolution_m).stiffness_N_per_m);
+  }
+
+  void draw() {
+    if (out_.index >= kDrawnTrials) return;
+    const auto drawn = in_contact();
+    const std::size_t step = std::max<std::size_t>(1, drawn.size() / kDrawnPoints);
+    for (std::size_t i = 0; i < drawn.size(); i += step) {
+      out_.series["stroke_depth_m"].push_back(drawn[i].depth_m);
+      out_.series["stroke_force_N"].push_back(drawn[i].force_N);
+    }
+  }
+
+  void add(std::string name, double value) {
+    if (std::isfinite(value)) out_.quantities.push_back({std::move(name), value});
+  }
+
+  const IntruderBelief& belief_;
+  const TrialRecording& in_;
+  TrialResult& out_;
+  SmoothMotion motion_;
+  bool inertia_known_ = false;
+  bool fused_ = false;  // speed from camera and accelerometer together
+  std::vector<Sample> loading_, path_;
+  double speed_mps_ = 0.0;  // median while it penetrates
+};
+
+}  // namespace
+
+bool StrokeTrials::takes(CampaignPlant plant, TrialKind kind) const {
+  return plant == CampaignPlant::intruder &&
+         (kind == TrialKind::intrusion || kind == TrialKind::press || kind == TrialKind::tap);
+}
+
+void StrokeTrials::analyse(const CampaignTrial& trial, const TrialRecording& recording,
+                           TrialResult& result) const {
+  Stroke(trial, recording, result).run();
+}
+
+CampaignConclusions StrokeTrials::conclude(std::span<const TrialResult* const> results) const {
+  return conclude_strokes(results);
+}
+
+}  // namespace sandhopper
