@@ -99,7 +99,7 @@ class Reading {
       const bool known = table_.find(cell.text) != nullptr;
       if (known)
         report({Severity::error, cell.column, CsvFault::duplicate_column, cell.text},
-               "a second column is called \"" + std::string(cell.text) + "\"; rename one of them");
+               "a second column bears this name");
       const bool used = !known && !cell.text.empty();  // a row index often has no name
       place_of_cell_.push_back(used ? std::optional(table_.names.size()) : std::nullopt);
       if (!used) continue;
@@ -111,7 +111,7 @@ class Reading {
     row_.resize(table_.names.size());
     if (!time_ && !options_.time_column.empty())
       report({Severity::error, 1, CsvFault::no_time_column, options_.time_column},
-             "no column is called \"" + options_.time_column + "\", so gaps and order cannot be checked");
+             "no column bears this name, so gaps and order cannot be checked");
     return true;
   }
 
@@ -148,8 +148,7 @@ class Reading {
     if (value && std::isfinite(*value)) return *value;
     const bool is_number = value.has_value();
     report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
-           name + ": \"" + std::string(cell.text) + "\" is not a " + (is_number ? "finite " : "") +
-               "number; leave the cell empty where there is no sample");
+           "\"" + std::string(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
     return kEmpty;
   }
 
@@ -158,19 +157,18 @@ class Reading {
     const double time_s = row_[*time_];
     const auto& times_s = table_.columns[*time_];
     if (std::isnan(time_s)) {
-      report({Severity::error, column, CsvFault::no_time, options_.time_column},
-             options_.time_column + ": no time; row left out");
+      report({Severity::error, column, CsvFault::no_time, options_.time_column}, "no time; row left out");
       return false;
     }
     if (times_s.empty() || time_s > times_s.back() || !options_.check_order) return true;
     const std::string times = " from " + shown(times_s.back()) + " to " + shown(time_s) + " s";
     if (time_s < times_s.back()) {
       report({Severity::error, column, CsvFault::time_backwards, options_.time_column},
-             options_.time_column + ": time goes backwards," + times + "; row left out");
+             "time goes backwards," + times + "; row left out");
       return false;
     }
     report({Severity::note, column, CsvFault::time_stands_still, options_.time_column},
-           options_.time_column + ": time stands still at " + shown(time_s) + " s");
+           "time stands still at " + shown(time_s) + " s");
     return true;
   }
 
@@ -231,9 +229,40 @@ class Reading {
 
 }  // namespace
 
+std::string_view cure_for(CsvFault fault) {
+  switch (fault) {
+    case CsvFault::no_header:
+      return "write the columns' names in the first line: t_s,…";
+    case CsvFault::no_rows:
+      return "record the trial again or leave it out";
+    case CsvFault::no_time_column:
+      return "name the column of the time";
+    case CsvFault::duplicate_column:
+      return "rename one of them";
+    case CsvFault::ragged_row:
+      return "give every row as many cells as the header";
+    case CsvFault::not_a_number:
+    case CsvFault::not_finite:
+      return "leave the cell empty where there is no sample";
+    case CsvFault::no_time:
+      return "give every row its time";
+    case CsvFault::time_backwards:
+      return "sort the rows, or record with a clock that is not set back";
+    case CsvFault::time_stands_still:
+      return "give every row a time of its own";
+    case CsvFault::gap:
+      return "";
+  }
+  return "";
+}
+
 std::string describe(std::string_view file, const CsvIssue& issue) {
-  return std::string(file) + ':' + std::to_string(issue.line) + ':' + std::to_string(issue.column) + ": " +
-         issue.text;
+  std::string text(file);
+  text += ':' + std::to_string(issue.line) + ':' + std::to_string(issue.column) + ": ";
+  if (!issue.name.empty()) text += issue.name + ": ";
+  text += issue.text;
+  if (const auto cure = cure_for(issue.fault); !cure.empty()) text.append("; ").append(cure);
+  return text;
 }
 
 const std::vector<double>* CsvTable::find(std::string_view name) const {

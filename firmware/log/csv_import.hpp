@@ -23,6 +23,9 @@ enum class CsvFault : std::uint8_t {
   gap
 };
 
+// What the recording's owner can do about it; empty where nothing is lost.
+std::string_view cure_for(CsvFault fault);
+
 // Something the reader of a recording should know, at its place in the file.
 struct CsvIssue {
   enum class Severity : std::uint8_t {
@@ -39,7 +42,7 @@ struct CsvIssue {
   std::uint64_t last_line = 0;  // … for the last time here
 };
 
-// "file:line:column: text"
+// "file:line:column: name: text; cure"
 std::string describe(std::string_view file, const CsvIssue& issue);
 
 struct CsvTable {

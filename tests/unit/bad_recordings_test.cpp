@@ -92,6 +92,14 @@ TEST(BadRecording, TimeGoingBackwards) {
   EXPECT_EQ(recording.rows(), 6U);
 }
 
+TEST(BadRecording, AClockThatSlipsBackALittle) {
+  std::string text = "t_s,force_N\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{:.3f},{}\n", 1e-3 * i - (i > 200 ? 0.03 : 0.0), live(i));
+  const auto recording = read(text);
+  expect_finding(recording, time_backwards, trial_unusable, {203, 1});
+}
+
 TEST(BadRecording, AClockSetBackForGood) {
   const auto recording = read("t_s,force_N\n10,1\n10.001,2\n0.0,9\n0.002,3\n");
   ASSERT_NE(find(recording, time_backwards), nullptr);

@@ -175,7 +175,7 @@ class Loader {
     }
     for (const auto& problem : problems)
       add(FindingKind::set_up, FindingSeverity::trial_unusable, problem.position, problem.key, problem.text,
-          "");
+          "correct the value in this [[trial]]");
     if (!usable || !problems.empty()) return;
     trial.columns.insert(trial.columns.end(), columns_.begin(), columns_.end());
     campaign_.trials.push_back(std::move(trial));

@@ -24,43 +24,40 @@ using enum FindingSeverity;
 
 constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 constexpr double kGapSteps = 5.0;
+constexpr std::uint64_t kMostSlips = 3;
 
 struct FaultMeaning {
   FindingKind kind;
   FindingSeverity severity;
-  std::string_view cure;
 };
 
 FaultMeaning meaning_of(CsvFault fault) {
   using enum CsvFault;
   switch (fault) {
     case no_header:
-      return {FindingKind::no_header, trial_unusable, "write the columns' names in the first line: t_s,…"};
+      return {FindingKind::no_header, trial_unusable};
     case no_rows:
-      return {FindingKind::empty_file, trial_unusable,
-              "record the trial again or take it out of campaign.toml"};
+      return {FindingKind::empty_file, trial_unusable};
     case no_time_column:
-      return {FindingKind::no_time, trial_unusable,
-              "name the column of the time: [columns] t_s = { column = \"NAME\", scale = 1.0 }"};
+      return {FindingKind::no_time, trial_unusable};
     case duplicate_column:
-      return {FindingKind::duplicate_column, channel_unusable, ""};
+      return {FindingKind::duplicate_column, channel_unusable};
     case ragged_row:
-      return {FindingKind::ragged_row, note, "give every row as many cells as the header"};
+      return {FindingKind::ragged_row, note};
     case not_a_number:
-      return {FindingKind::non_numeric_cell, note, ""};
+      return {FindingKind::non_numeric_cell, note};
     case not_finite:
-      return {FindingKind::nan_cell, note, ""};
+      return {FindingKind::nan_cell, note};
     case no_time:
-      return {FindingKind::no_time, note, "give every row its time"};
+      return {FindingKind::no_time, note};
     case time_backwards:
-      return {FindingKind::time_backwards, note,
-              "sort the rows, or record with a clock that is not set back"};
+      return {FindingKind::time_backwards, note};
     case time_stands_still:
-      return {FindingKind::time_stands_still, note, "give every row a time of its own"};
+      return {FindingKind::time_stands_still, note};
     case gap:
-      return {FindingKind::gap, note, ""};
+      return {FindingKind::gap, note};
   }
-  return {FindingKind::unreadable_file, trial_unusable, ""};
+  return {FindingKind::unreadable_file, trial_unusable};
 }
 
 class Reader {
@@ -176,13 +173,16 @@ class Reader {
         unusable_columns_.push_back(issue.name);
         if (table_.find(issue.name) == time_column()) meaning.severity = trial_unusable;
       }
+      // A few rows out of order are slips; a clock set back leaves nothing to count time by.
+      if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table_.rows() / 100)
+        meaning.severity = trial_unusable;
       if (meaning.severity == channel_unusable) unusable_columns_.push_back(issue.name);
       const bool drops = issue.fault == CsvFault::ragged_row || issue.fault == CsvFault::no_time ||
                          issue.fault == CsvFault::time_backwards;
       if (drops) dropped += count;
       if (drops && line == 0) line = issue.line;
-      add(meaning.kind, meaning.severity, issue.line, issue.column, "", issue.text + repeats(issue),
-          meaning.cure);
+      add(meaning.kind, meaning.severity, issue.line, issue.column, issue.name, issue.text + repeats(issue),
+          cure_for(issue.fault));
     }
     if (dropped * 5 > table_.rows())
       add(FindingKind::unreadable_file, trial_unusable, line, 1, "",
@@ -203,13 +203,15 @@ class Reader {
 
   // No t_s: what the file calls its time, or the whole file belongs to something else.
   void suggest_time(const CsvIssue& issue) {
-    std::string cure(meaning_of(issue.fault).cure);
+    std::string cure = "name the column of the time: [columns] t_s = { column = \"NAME\", scale = 1.0 }";
     for (const auto& name : table_.names) {
       const auto misnamed = misnamed_unit(name, campaign_.plant);
       const bool is_time = name == "t" || name == "time" || name == "Time" || name.starts_with("time") ||
                            (misnamed && misnamed->channel == "t_s");
       if (!is_time) continue;
-      const double scale = misnamed && misnamed->scale ? *misnamed->scale : 1.0;
+      const auto unit = split_unit(name);
+      const bool known = unit && unit->dimension == "time" && unit->to_si > 0.0;
+      const double scale = known ? unit->to_si : 1.0;
       cure = fmt::format("add t_s = {{ column = \"{}\", scale = {} }} to [columns] (scale: to seconds)", name,
                          scale);
       break;
