@@ -10,17 +10,34 @@ namespace {
 
 using Believed = std::vector<bool>;
 
-// Runs of the same extreme value, and what lies within the guard of them.
+// Sample-to-sample noise: second differences see neither level nor slope of the signal.
+double noise_of(std::span<const double> values, const Believed& believed) {
+  std::vector<double> differences;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    if (believed[i]) differences.push_back(std::abs(values[i + 1] - 2.0 * values[i] + values[i - 1]));
+  if (differences.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / (0.6745 * std::sqrt(6.0));
+}
+
+// Runs near an end of what the sensor ever read, in which it shows far less noise than anywhere else, and
+// what lies within the guard of them.
 Believed away_from_saturation(std::span<const double> values, const FusionOptions& options,
                               AccelerometerCalibration& calibration) {
   Believed believed(values.size(), true);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  // The end of the range shows noise of the last digit only.
-  const double band = 2e-3 * std::max(std::abs(*low), std::abs(*high));
-  const auto at_end = [&](double v) { return v >= *high - band || v <= *low + band; };
+  const double noise = noise_of(values, believed);
+  const auto at_end = [&](std::size_t i) {
+    return values[i] >= *high - 2.0 * noise || values[i] <= *low + 2.0 * noise;
+  };
+  const auto stands_still = [&](std::size_t i) {
+    return i == 0 || std::abs(values[i] - values[i - 1]) <= 0.25 * noise;
+  };
   std::size_t run = 0;
   for (std::size_t i = 0; i <= values.size(); ++i) {
-    if (i < values.size() && at_end(values[i])) {
+    const bool end = i < values.size() && at_end(i);
+    if (end && (run == 0 || stands_still(i))) {
       ++run;
       continue;
     }
@@ -31,21 +48,10 @@ Believed away_from_saturation(std::span<const double> values, const FusionOption
       std::fill(believed.begin() + static_cast<std::ptrdiff_t>(from),
                 believed.begin() + static_cast<std::ptrdiff_t>(to), false);
     }
-    run = 0;
+    run = end ? 1 : 0;
   }
   calibration.saturation_mps2 = std::max(std::abs(*low), std::abs(*high));
   return believed;
-}
-
-// Sample-to-sample noise: second differences see neither level nor slope of the signal.
-double noise_of(std::span<const double> values, const Believed& believed) {
-  std::vector<double> differences;
-  for (std::size_t i = 1; i + 1 < values.size(); ++i)
-    if (believed[i]) differences.push_back(std::abs(values[i + 1] - 2.0 * values[i] + values[i - 1]));
-  if (differences.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle / (0.6745 * std::sqrt(6.0));
 }
 
 // reference = scale x channel + bias on the averaged signals.

@@ -26,7 +26,8 @@ struct FusionOptions {
   std::size_t average_samples = 21;  // moving average before channels are compared, so that noise in one does
                                      // not shrink the other's scale
   std::size_t guard_samples = 20;    // before and after saturation: the filter's memory
-  std::size_t fewest_saturated = 8;  // equal extreme values in a row that count as saturation
+  std::size_t fewest_saturated = 8;  // extreme values in a row, within a quarter of the noise of each other,
+                                     // that count as saturation
   double outlier_sigma = 8.0;        // further from the reference than this is not believed
 };
 

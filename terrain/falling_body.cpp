@@ -38,17 +38,16 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
 }  // namespace
 
 std::size_t find_rest(std::span<const double> specific_force_mps2, std::size_t average_samples,
-                      double tolerance_mps2) {
+                      std::size_t rest_samples, double tolerance_mps2) {
   const std::size_t rows = specific_force_mps2.size();
-  if (rows < 10) return rows;
+  if (rows <= rest_samples || rest_samples == 0) return rows;
   const auto averaged = moving_average(specific_force_mps2, average_samples);
-  const std::size_t last_fifth = rows - rows / 5;
+  const std::size_t known = rows - rest_samples;
   double mean = 0.0;
-  for (std::size_t i = last_fifth; i < rows; ++i)
-    mean += averaged[i] / static_cast<double>(rows - last_fifth);
+  for (std::size_t i = known; i < rows; ++i) mean += averaged[i] / static_cast<double>(rest_samples);
   std::size_t first = rows;
   while (first > 0 && std::abs(averaged[first - 1] - mean) < tolerance_mps2) --first;
-  return first > last_fifth ? rows : first;
+  return first > known ? rows : first;
 }
 
 FallingMotion speed_from_rest(std::span<const double> t_s, std::span<const double> specific_force_mps2,

@@ -25,9 +25,10 @@ FallingMotion speed_from_rest(std::span<const double> t_s, std::span<const doubl
                               double rest_specific_force_mps2, std::size_t rest_row);
 
 // First row of the rest at the record's end: from there on the average over average_samples stays within
-// tolerance_mps2 of the mean of the last fifth. rows() when the record does not end at rest.
+// tolerance_mps2 of the mean of the last rest_samples. The number of rows when the record does not end at
+// rest.
 std::size_t find_rest(std::span<const double> specific_force_mps2, std::size_t average_samples,
-                      double tolerance_mps2);
+                      std::size_t rest_samples, double tolerance_mps2);
 
 // Row of the first contact with the bed: the last before the greatest f at which the averaged f is less than
 // sigmas standard deviations above the straight line through the second half of `before_s` that ends

@@ -53,7 +53,7 @@ TEST(FallingBody, SpeedFromRestNeedsNoReleaseAndNoBias) {
   const auto truth = drop(0.7, 0.33, 6.0);
   auto biased = noisy(truth.specific_force_mps2, 0.05, 1);
   for (double& f : biased) f -= 0.08;
-  const auto rest = find_rest(biased, 41, 0.2);
+  const auto rest = find_rest(biased, 41, 1000, 0.2);
   ASSERT_LT(rest, biased.size());
   const auto motion = speed_from_rest(truth.t_s, biased, kGravity, rest);
   EXPECT_NEAR(motion.bias_mps2, 0.08, 0.01);

@@ -153,7 +153,7 @@ class Loader {
     }
     CampaignTrial trial;
     trial.name = file->text;
-    trial.file = campaign_.folder / file->text;
+    trial.file = (campaign_.folder / file->text).lexically_normal();
     trial.kind = usual_kind(campaign_.plant);
     trial.position = file->position;
     trial.belief = campaign_.belief;
@@ -218,7 +218,7 @@ class Loader {
           "names no second recording", "write also = { file = \"plate.csv\", columns = { t_s = \"t\" } }");
       return false;
     }
-    CompanionFile companion{campaign_.folder / file->text, {}};
+    CompanionFile companion{(campaign_.folder / file->text).lexically_normal(), {}};
     if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
     trial.companions.push_back(std::move(companion));
     return true;

@@ -48,6 +48,12 @@ constexpr std::array kChannels{
     ChannelTraits{"height_m", falling_body},
     ChannelTraits{"accel_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"pressure_Pa", falling_body, never, kRange},
+    // Further accelerometers along the same axis, of other range, and two across it.
+    ChannelTraits{"accel_2_mps2", falling_body, at_zero, kRange},
+    ChannelTraits{"accel_3_mps2", falling_body, at_zero, kRange},
+    ChannelTraits{"accel_4_mps2", falling_body, at_zero, kRange},
+    ChannelTraits{"lateral_x_accel_mps2", falling_body, at_zero, kRange},
+    ChannelTraits{"lateral_y_accel_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"position_rad", rotary_axis},
     ChannelTraits{"velocity_radps", rotary_axis, at_zero, kRange},
     ChannelTraits{"torque_Nm", rotary_axis, at_zero, kRange},

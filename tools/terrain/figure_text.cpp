@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "config/hint.hpp"
 
@@ -32,6 +33,8 @@ std::string figure_unit(std::string_view name) {
   const auto unit = unit_of_key(name);
   return unit.empty() ? "–" : unit;
 }
+
+std::string trial_label(std::string_view trial) { return std::filesystem::path(trial).stem().string(); }
 
 std::string_view cost_text(FindingSeverity severity) {
   switch (severity) {

@@ -11,7 +11,8 @@ std::string figure_number(double value);  // four digits that matter, "–" for 
 std::string interval_text(double low, double high);
 std::string figure_title(
     std::string_view name);  // "stiffness observer wls" of "stiffness_observer_wls_N_per_m"
-std::string figure_unit(std::string_view name);  // "N/m"
+std::string figure_unit(std::string_view name);   // "N/m"
+std::string trial_label(std::string_view trial);  // its file's name, without folders and ending
 std::string_view cost_text(FindingSeverity severity);
 
 }  // namespace sandhopper

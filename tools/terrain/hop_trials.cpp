@@ -244,11 +244,15 @@ bool HopTrials::takes(CampaignPlant plant, TrialKind kind) const {
 
 void HopTrials::analyse(const CampaignTrial& trial, const TrialRecording& recording,
                         TrialResult& result) const {
+  const auto* belief = std::get_if<HopperBelief>(&trial.belief);
+  if (belief != nullptr && belief->terrain.rigid) return;  // no stiffness to be found
   HopAnalysis(trial, recording, result).run();
 }
 
 CampaignConclusions HopTrials::conclude(std::span<const TrialResult* const> results) const {
-  return conclude_hops(results);
+  const bool any = std::any_of(results.begin(), results.end(),
+                               [](const TrialResult* result) { return !result->quantities.empty(); });
+  return any ? conclude_hops(results) : CampaignConclusions{};
 }
 
 }  // namespace sandhopper

@@ -3,14 +3,20 @@
 #include <array>
 
 #include "tools/terrain/hop_trials.hpp"
+#include "tools/terrain/leg_force_trials.hpp"
+#include "tools/terrain/penetrometer_trials.hpp"
+#include "tools/terrain/press_trials.hpp"
 #include "tools/terrain/stroke_trials.hpp"
 
 namespace sandhopper {
 
 std::span<const TrialAnalysis* const> all_analyses() {
   static const HopTrials hops;
+  static const LegForceTrials leg_force;
+  static const PressTrials presses;
   static const StrokeTrials strokes;
-  static const std::array<const TrialAnalysis*, 2> all{&hops, &strokes};
+  static const PenetrometerTrials penetrations;
+  static const std::array<const TrialAnalysis*, 5> all{&hops, &leg_force, &presses, &strokes, &penetrations};
   return all;
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+#include "tools/terrain/leg_identification.hpp"
+#include "tools/terrain/trial_analysis.hpp"
+
+namespace sandhopper {
+
+// Hops on rigid ground with a force plate under the foot: how well the motors know the contact force, with
+// the leg's inertia and friction identified on the hops that are not held out.
+class LegForceTrials : public TrialAnalysis {
+ public:
+  std::string_view name() const override { return "leg_force"; }
+  bool takes(CampaignPlant plant, TrialKind kind) const override;
+  void analyse(const CampaignTrial& trial, const TrialRecording& recording,
+               TrialResult& result) const override;
+  CampaignConclusions conclude(std::span<const TrialResult* const> results) const override;
+};
+
+// Page, terminal lines and JSON (leg_force_page.cpp).
+CampaignConclusions tell_leg(const LegIdentification& leg);
+
+}  // namespace sandhopper

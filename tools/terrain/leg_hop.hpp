@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "estimation/leg.hpp"
+#include "tools/campaign/trial_recording.hpp"
+#include "tools/terrain/trial_result.hpp"
+
+namespace sandhopper {
+
+// One hop on a force plate: what the motors knew, and the plate's force at its own rate.
+struct LegHop {
+  std::string trial;
+  bool held_out = false;
+  double contact_settling_s = 0.0;  // set-up: how long the plate rings after the landing
+  std::vector<double> t_s;          // rows of the angle
+  std::vector<double> angle_rad;
+  std::vector<double> torque_Nm;  // of all motors, on the upper links
+  std::vector<double> stance;     // 1 where the controller believes the foot on the ground
+  std::vector<double> reference_t_s;
+  std::vector<double> reference_N;  // as recorded, no tare taken off
+  LegParameters leg{};              // as believed
+};
+
+// Needs motor position and command torque of at least one side, phase and load_cell_force_N; says in
+// `ruled_out` what is missing and leaves `series` alone then. The hop travels in the trial's series, so that
+// parts of a campaign can be merged.
+void keep_leg_hop(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result);
+bool holds_leg_hop(const TrialResult& result);
+LegHop leg_hop_from(const TrialResult& result);
+
+}  // namespace sandhopper

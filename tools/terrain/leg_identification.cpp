@@ -1,0 +1,298 @@
+#include "tools/terrain/leg_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "tools/terrain/leg_regression.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equations) {
+  std::vector<const HopEquations*> out;
+  for (const auto& e : equations) out.push_back(&e);
+  return out;
+}
+
+// Root mean square over hops, each predicted from the others.
+double leave_one_hop_out_N(const std::vector<HopEquations>& equations) {
+  double sum = 0.0;
+  for (std::size_t left_out = 0; left_out < equations.size(); ++left_out) {
+    auto rest = pointers(equations);
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
+    sum += mean_square(equations[left_out], solve(rest, false));
+  }
+  return std::sqrt(sum / static_cast<double>(equations.size()));
+}
+
+LegParameterValues values_of(const LinearFit& fit) {
+  return {fit.value(0), fit.value(1), fit.value(2), fit.value(3), fit.clock_offset_s};
+}
+
+void bootstrap(const std::vector<HopEquations>& equations, const LegIdentificationOptions& options,
+               LegIdentification& out) {
+  std::mt19937_64 rng(options.seed);
+  std::array<std::vector<double>, kLegParameters> replicates;
+  std::vector<double> foot;
+  for (std::size_t draw = 0; draw < options.bootstrap; ++draw) {
+    std::vector<const HopEquations*> drawn;
+    for (std::size_t i = 0; i < equations.size(); ++i) drawn.push_back(&equations[rng() % equations.size()]);
+    const auto values = values_of(solve(drawn, false));
+    for (std::size_t i = 0; i < kLegParameters; ++i) replicates[i].push_back(values[i]);
+    foot.push_back(solve(drawn, true).value(4));
+  }
+  for (std::size_t i = 0; i < kLegParameters; ++i) out.interval[i] = percentile_interval(replicates[i]);
+  out.foot_mass_interval = percentile_interval(foot);
+}
+
+// The believed leg with what was identified.
+Leg identified_leg(const LegParameters& believed, const LegIdentification& found) {
+  LegParameters p = believed;
+  p.rotor_inertia_kg_m2 = found.value[1] / (p.motor_count * p.gear_ratio * p.gear_ratio);
+  if (found.mass_kg.trials > 0)
+    p.body_mass_kg =
+        found.mass_kg.value - p.foot_mass_kg - 2.0 * (p.upper_link_mass_kg + p.lower_link_mass_kg);
+  if (!(p.body_mass_kg > 0.0)) p.body_mass_kg = 1.0;
+  return Leg{p};
+}
+
+JointFriction identified_friction(const LegIdentification& found, const LegIdentificationOptions& options) {
+  return {found.value[2], found.value[3], options.friction_switch_radps};
+}
+
+std::vector<double> smooth_force(const PreparedHop& prepared, const LegIdentification& found,
+                                 const LegIdentificationOptions& options) {
+  const auto& hop = *prepared.hop;
+  const Leg leg = identified_leg(hop.leg, found);
+  const auto friction = identified_friction(found, options);
+  std::vector<double> out;
+  for (std::size_t row = 0; row < hop.t_s.size(); ++row)
+    out.push_back(joint_row_force_N(
+        leg, prepared.state[row],
+        found.value[0] * hop.torque_Nm[row] + friction.torque_Nm(prepared.state[row].rate_radps)));
+  return out;
+}
+
+std::vector<double> quasi_static_force(const LegHop& hop) {
+  const Leg leg = bare_leg(hop.leg);
+  std::vector<double> out;
+  for (std::size_t row = 0; row < hop.t_s.size(); ++row)
+    out.push_back(hop.torque_Nm[row] / leg.kinematics(hop.angle_rad[row]).dlength_m_per_rad);
+  return out;
+}
+
+// Both causal forms see the angle up to their row only: rate by difference, torque and angle of the middle of
+// the step.
+struct CausalForces {
+  std::vector<double> joint_row_N, reduced_row_N;
+};
+CausalForces causal_forces(const LegHop& hop, double gain_per_s, const LegIdentification& found,
+                           const LegIdentificationOptions& options) {
+  const Leg leg = identified_leg(hop.leg, found);
+  const auto friction = identified_friction(found, options);
+  JointRowObserver joint(gain_per_s);
+  MomentumObserver reduced(gain_per_s);  // of a foot at rest: its momentum is zero
+  CausalForces out{{0.0}, {0.0}};
+  for (std::size_t row = 1; row < hop.t_s.size(); ++row) {
+    const double dt = hop.t_s[row] - hop.t_s[row - 1];
+    const double angle = 0.5 * (hop.angle_rad[row] + hop.angle_rad[row - 1]);
+    const double rate = (hop.angle_rad[row] - hop.angle_rad[row - 1]) / dt;
+    const double torque =
+        found.value[0] * 0.5 * (hop.torque_Nm[row] + hop.torque_Nm[row - 1]) + friction.torque_Nm(rate);
+    if (row == 1) joint.reset(leg, angle, rate);
+    out.joint_row_N.push_back(joint.update(leg, angle, rate, torque, dt));
+    const double psi_N = -reduced_row_force_N(leg, {angle, rate, 0.0}, torque);
+    out.reduced_row_N.push_back(reduced.update(0.0, psi_N, dt));
+  }
+  return out;
+}
+
+bool counts(const PreparedHop& prepared, std::size_t row, LegWindow window) {
+  if (!(prepared.hop->stance[row] > 0.0)) return false;
+  switch (window) {
+    case LegWindow::settled:
+      return prepared.settled[row];
+    case LegWindow::contact:
+      return in_settled_stance(prepared, row, 0.0);
+    case LegWindow::controller:
+      return true;
+  }
+  return false;
+}
+
+template <class Counts>
+double rms_where(const std::vector<double>& estimate, const std::vector<double>& reference, Counts&& counts) {
+  double squares = 0.0, rows = 0.0;
+  for (std::size_t row = 0; row < estimate.size(); ++row)
+    if (counts(row)) {
+      squares += (estimate[row] - reference[row]) * (estimate[row] - reference[row]);
+      rows += 1.0;
+    }
+  return rows > 0.0 ? std::sqrt(squares / rows) : kNone;
+}
+
+std::vector<double> reference_of(const PreparedHop& prepared, double offset_s, double window_s) {
+  std::vector<double> out;
+  for (const double t : prepared.hop->t_s) out.push_back(reference_at_N(prepared, t + offset_s, window_s));
+  return out;
+}
+
+// What an observer of this gain makes of a force it knows exactly.
+std::vector<double> behind_lag(const std::vector<double>& force_N, const std::vector<double>& t_s,
+                               double gain_per_s) {
+  std::vector<double> out{0.0};
+  for (std::size_t row = 1; row < force_N.size(); ++row) {
+    const double keep = std::exp(-gain_per_s * (t_s[row] - t_s[row - 1]));
+    out.push_back(keep * out.back() + (1.0 - keep) * 0.5 * (force_N[row] + force_N[row - 1]));
+  }
+  return out;
+}
+
+LegHopFit score(const PreparedHop& prepared, const LegIdentification& found,
+                const LegIdentificationOptions& options) {
+  const auto& hop = *prepared.hop;
+  LegHopFit out;
+  out.trial = hop.trial;
+  out.held_out = hop.held_out;
+  out.landing_s = prepared.landing_s - hop.t_s.front();
+  out.reference_N = reference_of(prepared, found.value[4], options.reference_window_s);
+  auto causal = causal_forces(hop, found.observer_gain_per_s, found, options);
+  out.force_N = {quasi_static_force(hop), smooth_force(prepared, found, options),
+                 std::move(causal.joint_row_N), std::move(causal.reduced_row_N)};
+  // The quasi-static estimate knows of no clock offset.
+  const auto plain = reference_of(prepared, 0.0, options.reference_window_s);
+  for (std::size_t form = 0; form < kLegForceForms; ++form)
+    for (std::size_t window = 0; window < kLegWindows; ++window)
+      out.rms_N[form][window] =
+          rms_where(out.force_N[form], form == 0 ? plain : out.reference_N,
+                    [&](std::size_t row) { return counts(prepared, row, static_cast<LegWindow>(window)); });
+  out.observer_without_delay_N =
+      rms_where(out.force_N[2], behind_lag(out.reference_N, hop.t_s, found.observer_gain_per_s),
+                [&](std::size_t row) { return prepared.settled[row]; });
+  for (std::size_t row = 0; row < hop.t_s.size(); ++row) {
+    out.t_s.push_back(hop.t_s[row] - hop.t_s.front());
+    out.rate_radps.push_back(prepared.state[row].rate_radps);
+    out.settled.push_back(prepared.settled[row]);
+  }
+  return out;
+}
+
+// Impulse of a cycle that ends as it began carries the weight for its duration.
+double mass_of_kg(const PreparedHop& prepared) {
+  const auto& hop = *prepared.hop;
+  const double duration_s = hop.t_s.back() - hop.t_s.front();
+  const bool lands = prepared.landing_s > hop.t_s.front() && !std::isinf(prepared.landing_s);
+  if (!lands || !(duration_s > 0.0)) return kNone;
+  return (prepared.reference_integral_Ns.back() - prepared.reference_integral_Ns.front()) /
+         (kGravity_mps2 * duration_s);
+}
+
+double best_gain(const std::vector<PreparedHop>& fit_hops, const LegIdentification& found,
+                 const LegIdentificationOptions& options) {
+  double best = options.observer_gains_per_s.front(), least = std::numeric_limits<double>::infinity();
+  for (const double gain : options.observer_gains_per_s) {
+    double sum = 0.0;
+    for (const auto& prepared : fit_hops) {
+      const auto force = causal_forces(*prepared.hop, gain, found, options).joint_row_N;
+      const auto reference = reference_of(prepared, found.value[4], options.reference_window_s);
+      sum += std::pow(rms_where(force, reference, [&](std::size_t row) { return prepared.settled[row]; }), 2);
+    }
+    if (sum < least) {
+      least = sum;
+      best = gain;
+    }
+  }
+  return best;
+}
+
+std::vector<PreparedHop> prepare(std::span<const LegHop> hops, bool held_out, double half_width_s,
+                                 double tare_N, const LegIdentificationOptions& options) {
+  std::vector<PreparedHop> out;
+  for (const auto& hop : hops)
+    if (hop.held_out == held_out) out.push_back(prepare_hop(hop, half_width_s, tare_N, options));
+  return out;
+}
+
+std::vector<HopEquations> all_equations(const std::vector<PreparedHop>& hops,
+                                        const LegIdentificationOptions& options) {
+  std::vector<HopEquations> out;
+  for (const auto& hop : hops)
+    if (std::count(hop.settled.begin(), hop.settled.end(), true) > 0)
+      out.push_back(equations_of(hop, options));
+  return out;
+}
+
+}  // namespace
+
+double LegIdentification::observer_without_delay_N(bool held_out) const {
+  double sum = 0.0, count = 0.0;
+  for (const auto& hop : hops)
+    if (hop.held_out == held_out) {
+      sum += hop.observer_without_delay_N * hop.observer_without_delay_N;
+      count += 1.0;
+    }
+  return count > 0.0 ? std::sqrt(sum / count) : kNone;
+}
+
+double LegIdentification::rms_N(LegForceForm form, LegWindow window, bool held_out) const {
+  double sum = 0.0, count = 0.0;
+  for (const auto& hop : hops) {
+    const double rms = hop.rms_N[static_cast<std::size_t>(form)][static_cast<std::size_t>(window)];
+    if (hop.held_out != held_out || std::isnan(rms)) continue;
+    sum += rms * rms;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kNone;
+}
+
+LegIdentification identify_leg(std::span<const LegHop> hops, const LegIdentificationOptions& options) {
+  LegIdentification out;
+  out.tare_N = plate_tare_N(hops);
+  double least = std::numeric_limits<double>::infinity();
+  for (const double half_width_s : options.half_widths_s) {
+    const auto equations = all_equations(prepare(hops, false, half_width_s, out.tare_N, options), options);
+    if (equations.size() < 2) throw std::invalid_argument("fewer than two hops to identify the leg from");
+    const double rms = leave_one_hop_out_N(equations);
+    out.cross_validation_N.emplace_back(half_width_s, rms);
+    if (rms < least) {
+      least = rms;
+      out.half_width_s = half_width_s;
+    }
+  }
+  const auto fit_hops = prepare(hops, false, out.half_width_s, out.tare_N, options);
+  const auto equations = all_equations(fit_hops, options);
+  out.value = values_of(solve(pointers(equations), false));
+  out.foot_mass_kg = solve(pointers(equations), true).value(4);
+  bootstrap(equations, options, out);
+  std::vector<double> masses;
+  for (const auto& prepared : fit_hops) masses.push_back(mass_of_kg(prepared));
+  out.mass_kg = mean_over_trials(masses);
+  out.observer_gain_per_s = best_gain(fit_hops, out, options);
+  out.fit_hops = fit_hops.size();
+
+  // From here on nothing is fitted any more.
+  for (const auto& prepared : fit_hops) out.hops.push_back(score(prepared, out, options));
+  const auto held_out = prepare(hops, true, out.half_width_s, out.tare_N, options);
+  for (const auto& prepared : held_out) out.hops.push_back(score(prepared, out, options));
+  out.held_out_hops = held_out.size();
+  for (const double settling_s : {0.0, 0.005, 0.010, 0.015, 0.020, 0.030}) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < held_out.size(); ++i) {
+      const auto& fit = out.hops[fit_hops.size() + i];
+      sum += std::pow(
+          rms_where(fit.force_N[1], fit.reference_N,
+                    [&](std::size_t row) { return in_settled_stance(held_out[i], row, settling_s); }),
+          2);
+    }
+    if (!held_out.empty())
+      out.settling_rms_N.emplace_back(settling_s, std::sqrt(sum / static_cast<double>(held_out.size())));
+  }
+  return out;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Dense>
+
+#include "tools/terrain/leg_identification.hpp"
+
+// The linear part of the leg's identification.
+namespace sandhopper {
+
+// A hop on the grid of its motor rows, derivatives included.
+struct PreparedHop {
+  const LegHop* hop = nullptr;
+  double landing_s = 0.0;
+  std::vector<JointState> state;
+  std::vector<bool> settled;
+  std::vector<double> reference_integral_Ns;  // of the tared plate, at its own times
+};
+
+double plate_tare_N(std::span<const LegHop> hops);  // median in the second half of flight, over fit hops
+PreparedHop prepare_hop(const LegHop& hop, double half_width_s, double tare_N,
+                        const LegIdentificationOptions& options);
+// Mean of the tared plate over +- window around t.
+double reference_at_N(const PreparedHop& prepared, double t_s, double window_s);
+bool in_settled_stance(const PreparedHop& prepared, std::size_t row, double settling_s);
+
+inline constexpr int kLinear = 5;  // s, J, c, b and the foot's mass
+using NormalMatrix = Eigen::Matrix<double, kLinear, kLinear>;
+using LinearValues = Eigen::Matrix<double, kLinear, 1>;
+
+// Normal equations of one hop for each clock offset on a grid, the hop weighing one.
+struct HopEquations {
+  NormalMatrix normal = NormalMatrix::Zero();
+  std::vector<LinearValues> right;  // one per offset
+  std::vector<double> squares;
+};
+std::vector<double> clock_offsets_s();  // the grid: +-5 ms in 0.25 ms
+HopEquations equations_of(const PreparedHop& prepared, const LegIdentificationOptions& options);
+
+// Least squares of several hops at the best offset. With free_foot the foot's mass is fitted too.
+struct LinearFit {
+  LinearValues value = LinearValues::Zero();
+  double clock_offset_s = 0.0;
+};
+LinearFit solve(std::span<const HopEquations* const> hops, bool free_foot);
+
+// Mean square error [N^2] of a fit on a hop.
+double mean_square(const HopEquations& hop, const LinearFit& fit);
+
+// Regressors of one row and what the belief already explains.
+LinearValues regressors(const Leg& leg, const JointState& state, double torque_Nm, double switch_radps);
+Leg bare_leg(const LegParameters& believed);  // without rotors; a body's mass where there is none at all
+
+}  // namespace sandhopper

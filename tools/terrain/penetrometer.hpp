@@ -1,0 +1,50 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "terrain/accelerometer_fusion.hpp"
+#include "terrain/falling_body.hpp"
+#include "terrain/resistance_law.hpp"
+#include "terrain/trial_statistics.hpp"
+#include "tools/campaign/trial_recording.hpp"
+#include "tools/terrain/trial_result.hpp"
+
+namespace sandhopper {
+
+// A body that fell through a fluid into a bed, from its accelerometers.
+struct PenetrometerDrop {
+  std::string trial;
+  FusedAcceleration fused;         // its signals are empty after a merge of parts
+  std::vector<std::string> names;  // of the accelerometers, as channels
+  double rest_bias_mps2 = 0.0;
+  double cos_tilt = 1.0;                  // at rest, from the accelerometers across the axis
+  double impact_speed_mps = 0.0;          // at touchdown, integrated back from rest
+  double speed_before_release_mps = 0.0;  // what the same integral gives where the body still hung: its error
+  double depth_m = 0.0;
+  FluidFit fluid;
+  double mass_min_kg = 0.0, mass_max_kg = 0.0;
+  FluidBody body;                                        // with the middle of the mass range
+  Penetration penetration;                               // depth, speed, resistance per moving mass
+  std::vector<double> t_s, specific_force_mps2, source;  // about the impact, for figures
+};
+
+// Needs accel_mps2 (further ones accel_2_mps2, …); the body's area, volume and the medium's density come from
+// the belief, mass_min_kg and mass_max_kg from the set-up. Says in `ruled_out` why a drop cannot be used.
+void keep_drop(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result);
+bool holds_drop(const TrialResult& result);
+PenetrometerDrop drop_from(const TrialResult& result);
+
+struct ResistanceResult {
+  ResistanceFit fit;
+  TrialMean exponent{}, rate{};   // drop by drop
+  double cross_validation = 0.0;  // leave one drop out: rms over the drop's greatest resistance
+};
+
+struct PenetrometerFit {
+  std::vector<ResistanceResult> laws;
+  std::size_t chosen = 0;
+  std::vector<double> depth_speed_correlation;  // of each drop
+};
+PenetrometerFit fit_penetrations(const std::vector<PenetrometerDrop>& drops);
+
+}  // namespace sandhopper
