@@ -86,6 +86,8 @@ class Runner {
     folder_ = make_folder(options);
   }
 
+  const JointConfig& joint_config() const { return robot_.stiffness.joint; }
+
   Outcome run(int number) {
     const fs::path log = folder_ / fmt::format("trial_{:03}.mcap", number + 1);
     if (fs::exists(log))
@@ -150,6 +152,7 @@ ExitCode trial(Session& session, const Options& options) {
   Runner runner(session, options);
   bool all_good = true;
   auto trials = nlohmann::ordered_json::array();
+  std::vector<ReportStride> strides;
   for (int number = 0; number < options.trials; ++number) {
     const Outcome outcome = runner.run(number);
     const ReportData data = report_data_from_log(outcome.log);
@@ -161,12 +164,17 @@ ExitCode trial(Session& session, const Options& options) {
     session.say("trial {} of {}: {} strides", number + 1, options.trials, data.strides.size());
     tell(session, outcome, data, page);
     trials.push_back(as_json(outcome, data, page));
+    strides.insert(strides.end(), data.strides.begin(), data.strides.end());
     all_good = all_good && outcome.last_fault == Fault::none && !data.strides.empty();
   }
   if (options.trials == 1)
     session.result.update(trials.front());
   else
     session.result["trials"] = trials;
+  if (const auto pooled = pooled_text(strides, runner.joint_config()); !pooled.line.empty()) {
+    session.say_line(pooled.line);
+    session.result["pooled_stiffness_N_per_m"] = pooled.json;
+  }
   return all_good ? ExitCode::ok : ExitCode::no;
 }
 

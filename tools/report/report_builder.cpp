@@ -106,7 +106,8 @@ ReportStiffness stiffness(const StiffnessEstimate& fit) {
           .intercept_N = fit.intercept_N,
           .samples = fit.samples,
           .valid = fit.validity == Validity::valid,
-          .reason = in_words(name_of(fit.validity))};
+          .reason = in_words(name_of(fit.validity)),
+          .standard_error_N_per_m = fit.standard_error_N_per_m};
 }
 
 // Drawn as the quasi-static part beyond the first millimetres: F = k (z + z0).
@@ -117,7 +118,8 @@ ReportStiffness stiffness(const JointEstimate& fit) {
           .intercept_N = fit.value_N_per_m * fit.intercept_depth_m,
           .samples = fit.samples,
           .valid = fit.validity == Validity::valid,
-          .reason = in_words(name_of(fit.validity))};
+          .reason = in_words(name_of(fit.validity)),
+          .standard_error_N_per_m = fit.standard_error_N_per_m};
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ struct ReportStiffness {
   std::int64_t samples = 0;
   bool valid = false;
   std::string reason;  // why not valid
+  double standard_error_N_per_m = 0.0;
 };
 
 struct ReportStride {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "terrain/joint_fit.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -62,6 +64,27 @@ nlohmann::ordered_json stride_json(const ReportStride& s) {
           {"touchdown_s", s.touchdown_s}, {"switch_s", s.switch_s},
           {"liftoff_s", s.liftoff_s},     {"peak_force_N", s.peak_force_N},
           {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness}};
+}
+
+PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConfig& config) {
+  std::vector<JointEstimate> estimates;
+  for (const auto& stride : strides) {
+    JointEstimate e;
+    e.value_N_per_m = stride.joint.value_N_per_m;
+    e.standard_error_N_per_m = stride.joint.standard_error_N_per_m;
+    e.validity = stride.joint.valid ? Validity::valid : Validity::too_few_samples;
+    estimates.push_back(e);
+  }
+  const auto pooled = pool_strides(estimates, config);
+  if (pooled.strides < 2) return {};
+  return {fmt::format(
+              "all {} valid strides together: {:.0f} N/m  [{:.0f}, {:.0f}], {:.0f} N/m from stride to stride",
+              pooled.strides, pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m,
+              pooled.between_strides_sd_N_per_m),
+          {{"value", pooled.value_N_per_m},
+           {"ci95", {pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m}},
+           {"between_strides_sd", pooled.between_strides_sd_N_per_m},
+           {"strides", pooled.strides}}};
 }
 
 }  // namespace sandhopper

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "terrain/joint_config.hpp"
 #include "tools/report/report_data.hpp"
 
 namespace sandhopper {
@@ -13,5 +14,12 @@ std::vector<std::string> stride_lines(const ReportData& data);
 // The same for programs: touchdown_speed_mps, times, peak force, depth,
 // stiffness_N_per_m.{qs_ols,mo_ols,mo_wls}.
 nlohmann::ordered_json stride_json(const ReportStride& stride);
+
+// The joint fit of all valid strides together; empty text and null where there are fewer than two.
+struct PooledText {
+  std::string line;
+  nlohmann::ordered_json json;
+};
+PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConfig& config);
 
 }  // namespace sandhopper
