@@ -145,6 +145,36 @@ function trial() {
   return join(folder, 'trial_001.html');
 }
 
+// The paper's programme, one repetition; returns its page and what it printed with --json.
+function programme() {
+  const folder = join(build, 'report_paper');
+  const printed = execFileSync(join(build, 'bin', 'hop'), ['experiment', 'paper', '--quick', '--json', '--output', folder],
+    { stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 26 });
+  return { page: join(folder, 'paper.html'), numbers: JSON.parse(printed) };
+}
+
+// Every figure of a study holds lines or points of each series shown and names both axes; nothing is wider than the window.
+async function checkStudy(browser, name) {
+  await check(`${name}: every figure is drawn, with its axes named`, async () => {
+    const figures = await browser.run(() => [...document.querySelectorAll('.figures svg')].filter(svg => svg.closest('figure') && !svg.parentElement.closest('svg'))
+      .map(svg => ({
+        title: svg.getAttribute('aria-label'),
+        words: [...svg.querySelectorAll('text')].map(text => text.textContent).filter(text => /[a-z]{2}/i.test(text)),
+        series: [...svg.querySelectorAll('.series')].map(group => group.querySelectorAll('circle').length
+          + [...group.querySelectorAll('path')].filter(path => path.getAttribute('d').includes('L')).length),
+      })));
+    assert.ok(figures.length > 0);
+    for (const { title, words, series } of figures) {
+      assert.ok(words.length >= 2, `${title}: axes ${words}`);
+      assert.ok(series.length > 0 && series.every(drawn => drawn > 0), `${title}: ${series}`);
+    }
+  });
+  await check(`${name}: fits a laptop's screen, complains of nothing`, async () => {
+    assert.ok(await browser.run(() => document.documentElement.scrollWidth <= window.innerWidth));
+    assert.deepEqual(await browser.complaints(), []);
+  });
+}
+
 async function wholePage(browser, width, file) {
   const height = await browser.run(() => document.documentElement.scrollHeight);
   await browser.resize(width, height + 150);
@@ -197,6 +227,16 @@ async function everything() {
       assert.ok(top >= 400, `the force panel ends at ${top} N`);
     });
     await wholePage(browser, 1440, 'twenty_minutes.png');
+
+    await browser.resize(1366, 768);
+    const paper = programme();
+    await open(browser, paper.page);
+    await checkStudy(browser, 'the programme');
+    await check('the programme: 36 claims, on the page and as numbers', async () => {
+      assert.equal(await browser.run(() => document.querySelectorAll('#section-1 tbody tr').length), 36);
+      assert.equal(paper.numbers.claims.length, 36);
+    });
+    await wholePage(browser, 1366, 'programme.png');
 
     await browser.resize(1440, 1000);
     await open(browser, process.argv[3] ? resolve(process.argv[3]) : trial());

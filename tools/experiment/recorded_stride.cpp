@@ -14,7 +14,7 @@ constexpr std::int64_t kLongest_cycles = 5000;
 }  // namespace
 
 RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_config,
-                             const TrialSetup& setup, const std::function<void(const CycleView&)>& on_cycle) {
+                             const TrialSetup& setup, const StrideWatch& watch) {
   World world(world_config, setup, 0);
   SimBoard board(world);
   Controller controller(cycle);
@@ -23,6 +23,7 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
   stride.foot_radius_m = cycle.robot.foot_radius_m;
   PlantTruth truth{};
   Request request = Request::arm;
+  int cycles_left = watch.cycles_after_liftoff;
   for (std::int64_t k = 1; k < kLongest_cycles; ++k) {
     frame.time_ns = k * kPeriod_ns;
     frame.cycle = static_cast<std::uint64_t>(k);
@@ -33,17 +34,17 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
     truth = world.truth();
     const auto& out = controller.step(frame);
     board.write(out.command);
-    if (on_cycle) on_cycle({frame, out, truth});
+    if (watch.on_cycle) watch.on_cycle({frame, out, truth});
     for (const auto& event : controller.events())
       if (event.kind == EventKind::armed) request = Request::release;
     if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
+    if (stride.complete && cycles_left-- <= 0) return stride;
+    if (stride.complete) continue;
     if (out.state != State::armed || out.command.open_catch)
       stride.samples.push_back({out.estimate, out.state, before.contact_force_N, before.foot_z_m,
                                 before.foot_velocity_mps, before.foot_accel_mps2, truth.contact_force_N});
-    if (controller.stride_finished()) {
-      stride.complete = true;
-      return stride;
-    }
+    stride.complete = controller.stride_finished();
+    if (stride.complete && cycles_left == 0) return stride;
   }
   return stride;
 }

@@ -37,8 +37,14 @@ struct CycleView {
   const PlantTruth& truth;
 };
 
+// Who wants to see every cycle, also those before the release and some after the liftoff.
+struct StrideWatch {
+  std::function<void(const CycleView&)> on_cycle{};
+  int cycles_after_liftoff = 0;
+};
+
 RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup,
-                             const std::function<void(const CycleView&)>& on_cycle = {});
+                             const StrideWatch& watch = {});
 
 // The same stride as perfect sensors and a perfect observer would have told it; the quasi-static force
 // remains what the motors' currents say.

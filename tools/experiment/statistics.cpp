@@ -37,8 +37,12 @@ double correlation(std::span<const double> a, std::span<const double> b) {
   return ab / std::sqrt(aa * bb);
 }
 
-double largest(std::span<const double> values) { return *std::ranges::max_element(values); }
-double smallest(std::span<const double> values) { return *std::ranges::min_element(values); }
+double largest(std::span<const double> values) {
+  return values.empty() ? std::nan("") : *std::ranges::max_element(values);
+}
+double smallest(std::span<const double> values) {
+  return values.empty() ? std::nan("") : *std::ranges::min_element(values);
+}
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   const double mean_x = mean(x);

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-// Small-sample statistics of the experiments.
+// Small-sample statistics of the experiments; of nothing they are NaN.
 namespace sandhopper {
 
 double mean(std::span<const double> values);

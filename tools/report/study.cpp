@@ -38,7 +38,9 @@ Json item_json(const StudyTable& table) {
           {"columns", table.columns},
           {"rows", table.rows},
           {"text_columns", table.text_columns},
-          {"note", table.note}};
+          {"note", table.note},
+          {"row_marks", table.row_marks},
+          {"whole", table.whole}};
 }
 
 Json item_json(const StudyFigure& figure) {
@@ -48,7 +50,8 @@ Json item_json(const StudyFigure& figure) {
           {"x_label", figure.x_label}, {"y_label", figure.y_label},
           {"series", series},          {"log_x", figure.log_x},
           {"log_y", figure.log_y},     {"categories", figure.categories},
-          {"note", figure.note},       {"wide", figure.wide}};
+          {"note", figure.note},       {"wide", figure.wide},
+          {"marks", figure.marks}};
 }
 
 std::string data_json(const Study& study) {

@@ -36,9 +36,10 @@ struct StudyFigure {
   std::vector<StudySeries> series{};
   bool log_x = false;
   bool log_y = false;
-  std::vector<std::string> categories{};  // names of x = 0, 1, 2, … in place of numbers
-  std::string note{};                     // one or two sentences below it
-  bool wide = false;                      // takes the page's whole width
+  std::vector<std::string> categories{};                // names of x = 0, 1, 2, … in place of numbers
+  std::vector<std::pair<double, std::string>> marks{};  // dotted lines at an x, each with a word
+  std::string note{};                                   // one or two sentences below it
+  bool wide = false;                                    // takes the page's whole width
 };
 
 struct StudyTable {
@@ -47,6 +48,8 @@ struct StudyTable {
   std::vector<std::vector<std::string>> rows{};
   std::size_t text_columns = 1;  // the first so many are text, left-aligned; the rest numbers
   std::string note{};
+  std::vector<std::string> row_marks{};  // "good", "partly" or "bad" for each row: its coloured edge
+  bool whole = false;                    // as long as it is, without a scroll bar of its own
 };
 
 struct StudySection {

@@ -1,5 +1,8 @@
 #include "tools/experiment/paper/actuator_set.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include "tools/plant/plant.hpp"
 #include "tools/plant/trial_draw.hpp"
 
@@ -17,6 +20,10 @@ ActuatorRun drive_once(const WorldConfig& world, const ActuatorSetup& setup, dou
   const auto depth_at = [&](std::int64_t time_ns) {
     return speed_mps * 1e-9 * static_cast<double>(time_ns - kRunUp_ns);
   };
+  const std::int64_t delay_ns =
+      setup.align_amplifier
+          ? std::llround(1e9 / (2.0 * std::numbers::pi * world.sensors.load_cell_bandwidth_Hz))
+          : 0;
   ActuatorRun run{.speed_mps = speed_mps, .samples = {}};
   std::int64_t seen_ns = 0;
   double deepest_m = 0.0;
@@ -28,7 +35,7 @@ ActuatorRun drive_once(const WorldConfig& world, const ActuatorSetup& setup, dou
     cell.step({.from_ns = now_ns, .to_ns = now_ns + kStep_ns}, reaction.at_acceleration(0.0));
     if (cell.sample().time_ns == seen_ns) continue;
     seen_ns = cell.sample().time_ns;
-    const double sampled_depth_m = depth_at(seen_ns);
+    const double sampled_depth_m = depth_at(seen_ns - delay_ns);
     if (sampled_depth_m > 0.0) run.samples.push_back({sampled_depth_m, cell.sample().force_N});
   }
   return run;

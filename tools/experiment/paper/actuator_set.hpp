@@ -13,6 +13,7 @@ struct ActuatorSetup {
   int trials = 3;                      // a speed, each in its own bed
   double stroke_m = 0.050;
   std::uint64_t first_seed = 1;
+  bool align_amplifier = true;  // depth is that of one amplifier time constant before the conversion
 };
 
 struct ActuatorSample {
@@ -20,7 +21,7 @@ struct ActuatorSample {
   double force_N;
 };
 
-// One stroke: a sample for each conversion of the load cell, at the depth the foot had at that instant.
+// One stroke: a sample for each conversion of the load cell, at the depth to which its force belongs.
 struct ActuatorRun {
   double speed_mps;
   std::vector<ActuatorSample> samples;

@@ -46,9 +46,9 @@ function tableOf(table) {
     if (unit) made.append(element('small', {}, unit));
     return made;
   })));
-  const rows = table.rows.map(row => element('tr', {}, ...row.map((text, i) => cell('td', text, i))));
+  const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j))));
   return element('div', { className: 'table' },
     ...(table.title ? [element('h3', {}, table.title)] : []),
-    element('div', { className: 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),
+    element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),
     ...(table.note ? [element('p', { className: 'note' }, table.note)] : []));
 }

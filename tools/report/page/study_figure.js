@@ -33,6 +33,7 @@ class StudyFigure {
     this.drawAxes();
     const clip = svgElement('svg', { x: this.box.x, y: this.box.y, width: this.box.w, height: this.box.h,
       viewBox: `${this.box.x} ${this.box.y} ${this.box.w} ${this.box.h}` });
+    for (const [at, word] of this.figure.marks) clip.append(...this.drawMark(at, word));
     for (const series of this.figure.series) if (series.shown) clip.append(this.drawSeries(series));
     this.mark = svgElement('circle', { r: 5, fill: 'none', stroke: 'var(--text)', 'stroke-width': 1.5, visibility: 'hidden' });
     clip.append(this.mark);
@@ -105,6 +106,14 @@ class StudyFigure {
     );
   }
 
+  drawMark(at, word) {
+    const x = this.x(at);
+    return [
+      svgElement('line', { x1: x, x2: x, y1: this.box.y, y2: this.box.y + this.box.h, stroke: 'var(--quiet)', 'stroke-dasharray': '2 3' }),
+      svgText(word, { x: x + 4, y: this.box.y + 13 }),
+    ];
+  }
+
   drawSeries(series) {
     const group = svgElement('g', { class: 'series', 'data-label': series.label });
     const color = `var(--${series.color})`;
@@ -169,7 +178,7 @@ class StudyFigure {
     this.mark.setAttribute('cx', this.x(series.x[i]));
     this.mark.setAttribute('cy', this.y(series.y[i]));
     const shown = value => Number(value.toPrecision(4)).toString();
-    const name = this.figure.categories[series.x[i]] ?? shown(series.x[i]);
+    const name = this.figure.categories[Math.round(series.x[i])] ?? shown(series.x[i]);
     const interval = series.low.length && series.low[i] !== null ? ` (${shown(series.low[i])} to ${shown(series.high[i])})` : '';
     this.reading.textContent = `${series.label}: ${name}, ${shown(series.y[i])}${interval}`;
   }

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "config/files.hpp"
+#include "tools/cli/experiment.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/experiment/paper/claims/claims.hpp"
+#include "tools/experiment/paper/report.hpp"
+#include "tools/plant/load_world.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using paper::Verdict;
+
+struct Options {
+  bool quick = false;
+  int seeds = 8;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  std::string output = "experiments/paper";
+};
+
+paper::ProgrammeSetup programme(Session& session, const Options& options) {
+  const auto robot = load_robot(session.config_directory());
+  paper::ProgrammeSetup setup;
+  setup.cycle = cycle_config(robot);
+  setup.world = load_world(session.config_directory(), robot);
+  setup.seeds = options.quick ? 1 : options.seeds;
+  setup.condition_seeds = options.quick ? 0 : std::min(2, options.seeds);
+  setup.threads = options.threads;
+  return setup;
+}
+
+fs::path make_folder(const std::string& name) {
+  std::error_code error;
+  fs::create_directories(name, error);
+  if (error)
+    throw Failure(ExitCode::usage, "cannot make " + name + ": " + error.message(),
+                  "name a folder you may write with --output");
+  return name;
+}
+
+void write_json(const nlohmann::ordered_json& json, const fs::path& path) {
+  std::ofstream file(path);
+  file << json.dump(1) << '\n';
+  file.close();
+  if (!file)
+    throw Failure(ExitCode::fault, "cannot write " + path.string(), "check the folder and the free space");
+}
+
+void tell(Session& session, const std::vector<paper::Claim>& claims) {
+  for (const auto& claim : claims)
+    session.say("{:2}  {:17}  {}", claim.number, paper::words(claim.verdict), claim.statement);
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count(claims, verdict, &paper::Claim::verdict);
+  };
+  session.say("{} of {} claims come out, {} only on a condition, {} not", count(Verdict::comes_out),
+              claims.size(), count(Verdict::only_if), count(Verdict::does_not));
+}
+
+ExitCode run(Session& session, const Options& options) {
+  auto setup = programme(session, options);
+  const auto folder = make_folder(options.output);
+  Progress progress("hops", 1.0);
+  setup.progress = [&progress](int done, int total) { progress.at(static_cast<double>(done) / total); };
+  const auto results = paper::run_programme(setup);
+  const auto claims = paper::claim_table(results);
+  const auto page = folder / "paper.html";
+  const auto numbers = folder / "paper.json";
+  write_study_page(paper::programme_report(results, claims), page);
+  session.result = paper::programme_json(results, claims);
+  write_json(session.result, numbers);
+  session.result["report"] = page.string();
+  tell(session, claims);
+  session.say("report  {}\nnumbers {}", page.string(), numbers.string());
+  return ExitCode::ok;
+}
+
+Run set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("--seeds", options->seeds, "repetitions of the 75 hops")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--quick", options->quick, "one repetition, and no other conditions");
+  app.add_option("--threads", options->threads, "default: one a core")->check(CLI::Range(1U, 1024U));
+  app.add_option("--output", options->output, "folder for paper.html and paper.json")->capture_default_str();
+  return [options](Session& session) { return run(session, *options); };
+}
+
+const ExperimentRegistration kPaper({"paper",
+                                     "the programme of arXiv 2604.02563: actuator strokes, 75 hops, three "
+                                     "treatments, and a verdict on every claim",
+                                     set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/experiment/paper/report.hpp"
+
+namespace sandhopper::paper {
+namespace {
+
+const char* mark_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::comes_out:
+      return "good";
+    case Verdict::only_if:
+      return "partly";
+    case Verdict::does_not:
+      break;
+  }
+  return "bad";
+}
+
+// "time: 40.1 ms (35.2 to 50.1)"
+std::string figure_text(const ClaimFigure& figure) {
+  const auto number = [&figure](double value) {
+    const bool tiny = value != 0.0 && std::abs(value) < 1e-6;
+    return tiny ? fmt::format("{:.1e}", value) : fmt::format("{:.{}f}", value, figure.digits);
+  };
+  std::string text = figure.name + ": " + number(figure.value);
+  if (!figure.unit.empty()) text += " " + figure.unit;
+  if (!std::isnan(figure.lowest))
+    text += " (" + number(figure.lowest) + " to " + number(figure.highest) + ")";
+  return text;
+}
+
+// On one line.
+std::string unbroken(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == ' ' ? "\u00a0" : std::string(1, c);
+  return result;
+}
+
+}  // namespace
+
+StudySection claims_section(const std::vector<Claim>& claims) {
+  const auto count = [&](Verdict verdict) { return std::ranges::count(claims, verdict, &Claim::verdict); };
+  StudySection section{.title = "Claims"};
+  StudyTable table{.title = "",
+                   .columns = {"no.", "claim", "passes when", "found", "verdict", "condition or reason"},
+                   .text_columns = 6,
+                   .whole = true};
+  for (const auto& claim : claims) {
+    std::string found;
+    for (const auto& figure : claim.figures) found += (found.empty() ? "" : "\n") + figure_text(figure);
+    table.rows.push_back({std::to_string(claim.number), claim.statement, claim.pass_line, found,
+                          unbroken(words(claim.verdict)), claim.why});
+    table.row_marks.emplace_back(mark_of(claim.verdict));
+  }
+  section.items = {
+      fmt::format(
+          "{} of {} claims come out, {} only on a condition, {} not. Every figure is computed in this run; "
+          "trials are those of the hop set with a liftoff, unless said otherwise.",
+          count(Verdict::comes_out), claims.size(), count(Verdict::only_if), count(Verdict::does_not)),
+      std::move(table)};
+  return section;
+}
+
+}  // namespace sandhopper::paper
