@@ -30,5 +30,20 @@ TEST(StudyPage, CarriesEveryItemAndAsksForNothing) {
   EXPECT_THAT(page, Not(HasSubstr("{{")));
 }
 
+TEST(StudyPage, ThousandsOfPointsAreThinnedAndItSaysSo) {
+  StudySeries series{.label = "trials"};
+  for (int i = 0; i < 4000; ++i) {
+    series.x.push_back(i);
+    series.y.push_back(2 * i);
+  }
+  Study study{.title = "many"};
+  study.sections.push_back({.title = "S", .items = {StudyFigure{.series = {series}}}});
+  const std::string page = study_page(study);
+  EXPECT_THAT(page, HasSubstr("trials (one of 3 points)"));
+  EXPECT_THAT(page, HasSubstr("\"x\":[0.0,3.0,6.0,"));
+  EXPECT_THAT(page, HasSubstr(",3999.0]"));
+  EXPECT_THAT(page, HasSubstr("\"y\":[0.0,6.0,12.0,"));
+}
+
 }  // namespace
 }  // namespace sandhopper

@@ -80,9 +80,9 @@ CampaignResults merge(const Options& options) {
   }
 }
 
-void write_json(const Json& json, const fs::path& file) {
+void write_json(const Json& head, const CampaignResults& results, const fs::path& file) {
   std::ofstream out(file);
-  out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  write_results(out, head, results);
   if (!out.flush())
     throw Failure(ExitCode::fault, "cannot write " + file.string(), "check the folder and the free space");
 }
@@ -117,7 +117,7 @@ ExitCode terrain(Session& session, const Options& options) {
   const auto folder = output_folder(options);
   const std::string stem = parts > 1 ? fmt::format("terrain_part_{}_of_{}", part, parts) : "terrain";
   const auto json_file = folder / (stem + ".json"), page = folder / (stem + ".html");
-  write_json(report.json, json_file);
+  write_json(report.json, results, json_file);
   if (options.report) write_study_page(report.study, page);
 
   tell_findings(session, results);
@@ -129,6 +129,10 @@ ExitCode terrain(Session& session, const Options& options) {
   if (options.report) session.say("  report  {}", page.string());
   report.json["files"] = {{"json", json_file.string()}, {"report", options.report ? page.string() : ""}};
   session.result = std::move(report.json);
+  if (session.json) {
+    auto& trials = session.result["trials"] = Json::array();
+    for (const auto& result : results.results) trials.push_back(to_json(result));
+  }
   return usable > 0 ? ExitCode::ok : ExitCode::no;
 }
 

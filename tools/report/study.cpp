@@ -21,7 +21,22 @@ Json numbers(const std::vector<double>& values) {
   return list;
 }
 
-Json series_json(const StudySeries& series) {
+// Thousands of points hide one another and burden the page: every so-manieth is drawn.
+StudySeries thinned(const StudySeries& series) {
+  constexpr std::size_t kMostPoints = 1500;
+  if (series.mark != StudySeries::Mark::points || series.x.size() <= kMostPoints) return series;
+  const std::size_t step = (series.x.size() + kMostPoints - 1) / kMostPoints;
+  StudySeries out = series;
+  out.label = series.label + " (one of " + std::to_string(step) + " points)";
+  for (auto* values : {&out.x, &out.y, &out.low, &out.high}) {
+    for (std::size_t i = 0; i * step < values->size(); ++i) (*values)[i] = (*values)[i * step];
+    values->resize((values->size() + step - 1) / step);
+  }
+  return out;
+}
+
+Json series_json(const StudySeries& full) {
+  const StudySeries series = thinned(full);
   constexpr std::array<const char*, 4> kMarks{"points", "line", "line_and_points", "band"};
   return {{"label", series.label},        {"x", numbers(series.x)},
           {"y", numbers(series.y)},       {"low", numbers(series.low)},

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,15 @@ CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions
 // overlap, or leave a trial out.
 CampaignResults merge_parts(std::vector<CampaignResults> parts);
 
+// Without the trials' own results, which are many: they follow one by one (write_results).
 nlohmann::ordered_json to_json(const CampaignResults& results);
-// Throws nlohmann::json::exception where `json` is not what to_json writes.
+// `head` and, as its last key "trials", every trial's result: one document, of which only one trial is in
+// memory at a time.
+void write_results(std::ostream& out, const nlohmann::ordered_json& head, const CampaignResults& results);
+// Throws nlohmann::json::exception where `json` is not what write_results writes.
 CampaignResults campaign_results_from_json(const nlohmann::ordered_json& json);
 
-// Pools and concludes; the JSON has every trial, the pooled figures and each analysis' own conclusions.
+// Pools and concludes; the JSON has the pooled figures and each analysis' own conclusions, not the trials.
 struct CampaignReport {
   std::vector<std::string> lines;
   nlohmann::ordered_json json;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <ostream>
 
 #include "tools/terrain/campaign_analysis.hpp"
 
@@ -7,12 +8,25 @@ namespace sandhopper {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const CampaignResults& r) {
-  Json trials = Json::array(), findings = Json::array();
-  for (const auto& result : r.results) trials.push_back(to_json(result));
+  Json findings = Json::array();
   for (const auto& finding : r.findings) findings.push_back(to_json(finding));
-  return {{"campaign", r.campaign},   {"plant", name_of(r.plant)},
-          {"trials_named", r.trials}, {"part", {{"number", r.part}, {"of", r.parts}}},
-          {"findings", findings},     {"trials", trials}};
+  return {{"campaign", r.campaign},
+          {"plant", name_of(r.plant)},
+          {"trials_named", r.trials},
+          {"part", {{"number", r.part}, {"of", r.parts}}},
+          {"findings", findings}};
+}
+
+void write_results(std::ostream& out, const Json& head, const CampaignResults& r) {
+  const auto text = [](const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  std::string start = text(head);
+  start.pop_back();  // the closing brace comes after the trials
+  out << start << (head.empty() ? "" : ",\n") << "\"trials\":[";
+  for (std::size_t i = 0; i < r.results.size(); ++i)
+    out << (i == 0 ? "\n" : ",\n") << text(to_json(r.results[i]));
+  out << "\n]}\n";
 }
 
 CampaignResults campaign_results_from_json(const Json& json) {
