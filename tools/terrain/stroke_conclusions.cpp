@@ -69,7 +69,8 @@ TrialMean slow_slope(const Plate& plate) {
   return mean_over_trials(slopes);
 }
 
-// Exponent p of k ~ A^p, from each trial's own stiffness.
+// Exponent p of k ~ A^p, from each trial's own stiffness: the slope where it was too slow for inertia, which a
+// joint fit could not tell from depth there.
 struct AreaLaw {
   double exponent = NAN, half_width = NAN;
   std::size_t trials = 0;
@@ -78,7 +79,8 @@ AreaLaw area_law(const std::vector<Plate>& plates) {
   std::vector<double> area, stiffness;
   for (const auto& plate : plates)
     for (const auto* trial : plate.trials) {
-      const double k = trial->value("stiffness_joint_N_per_m");
+      const bool slow = speed_of(*trial) < kInertialSpeed_mps;
+      const double k = trial->value(slow ? "slope_N_per_m" : "stiffness_joint_N_per_m");
       if (!(k > 0.0)) continue;
       area.push_back(std::log(0.25 * std::numbers::pi * plate.diameter_m * plate.diameter_m));
       stiffness.push_back(std::log(k));
