@@ -59,6 +59,13 @@ StudyTable errors_table(const LegIdentification& leg) {
   return table;
 }
 
+double least_left_out(const LegIdentification& leg) {
+  double least = std::nan("");
+  for (const auto& [half_width_s, rms_N] : leg.cross_validation_N)
+    if (!(least <= rms_N)) least = rms_N;
+  return least;
+}
+
 StudyTable parameter_table(const LegIdentification& leg) {
   StudyTable table{.title = "Identified figures",
                    .columns = {"figure", "unit", "value", "95 % interval"},
@@ -69,15 +76,20 @@ StudyTable parameter_table(const LegIdentification& leg) {
         {p.title, p.unit, figure_number(p.scale * leg.value[i]),
          interval_text(p.scale * leg.interval[i].ci95_low, p.scale * leg.interval[i].ci95_high)});
   }
+  if (leg.has_spring)
+    table.rows.push_back(
+        {"spring beside the motor, k", "N m/rad", figure_number(leg.spring_stiffness_Nm_per_rad),
+         interval_text(leg.spring_stiffness_interval.ci95_low, leg.spring_stiffness_interval.ci95_high)});
   table.rows.push_back({"mass, from the plate's impulse over a cycle", "kg", figure_number(leg.mass_kg.value),
                         interval_text(leg.mass_kg.ci95_low, leg.mass_kg.ci95_high)});
   table.rows.push_back({"plate's reading in flight, taken off", "N", figure_number(leg.tare_N), "–"});
   table.note = fmt::format(
       "Intervals: bootstrap with whole hops drawn; mass: Student's t over hops. A foot's weight in addition "
-      "would be fitted as {} kg {}, which torque scale and friction can stand in for: not told apart, not "
-      "used.",
+      "would be fitted as {} kg ({}), which torque scale and friction can stand in for: not told apart, not "
+      "used. A spring beside the motor is {}: hops left out are {} N off with it, {} N without.",
       figure_number(leg.foot_mass_kg),
-      interval_text(leg.foot_mass_interval.ci95_low, leg.foot_mass_interval.ci95_high));
+      interval_text(leg.foot_mass_interval.ci95_low, leg.foot_mass_interval.ci95_high),
+      leg.has_spring ? "taken in" : "not needed", newtons(leg.with_spring_N), newtons(least_left_out(leg)));
   return table;
 }
 
@@ -169,6 +181,10 @@ Json parameters_json(const LegIdentification& leg) {
     json[kParameters[i].key] = {{"value", leg.value[i]},
                                 {"ci95", {leg.interval[i].ci95_low, leg.interval[i].ci95_high}}};
   json["mass_kg"] = {{"value", leg.mass_kg.value}, {"ci95", {leg.mass_kg.ci95_low, leg.mass_kg.ci95_high}}};
+  if (leg.has_spring)
+    json["spring_Nm_per_rad"] = {
+        {"value", leg.spring_stiffness_Nm_per_rad},
+        {"ci95", {leg.spring_stiffness_interval.ci95_low, leg.spring_stiffness_interval.ci95_high}}};
   json["plate_tare_N"] = leg.tare_N;
   return json;
 }

@@ -13,13 +13,13 @@ struct LegHop {
   std::string trial;
   bool held_out = false;
   double contact_settling_s = 0.0;  // set-up: how long the plate rings after the landing
-  std::vector<double> t_s;          // rows of the angle
-  std::vector<double> angle_rad;
-  std::vector<double> torque_Nm;  // of all motors, on the upper links
-  std::vector<double> stance;     // 1 where the controller believes the foot on the ground
-  std::vector<double> reference_t_s;
-  std::vector<double> reference_N;  // as recorded, no tare taken off
-  LegParameters leg{};              // as believed
+  std::vector<double> t_s{};        // rows of the angle
+  std::vector<double> angle_rad{};
+  std::vector<double> torque_Nm{};  // of all motors, on the upper links
+  std::vector<double> stance{};     // 1 where the controller believes the foot on the ground
+  std::vector<double> reference_t_s{};
+  std::vector<double> reference_N{};  // as recorded, no tare taken off
+  LegParameters leg{};                // as believed
 };
 
 // Needs motor position and command torque of at least one side, phase and load_cell_force_N; says in

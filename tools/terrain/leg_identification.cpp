@@ -20,12 +20,12 @@ std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equat
 }
 
 // Root mean square over hops, each predicted from the others.
-double leave_one_hop_out_N(const std::vector<HopEquations>& equations) {
+double leave_one_hop_out_N(const std::vector<HopEquations>& equations, LinearModel model) {
   double sum = 0.0;
   for (std::size_t left_out = 0; left_out < equations.size(); ++left_out) {
     auto rest = pointers(equations);
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
-    sum += mean_square(equations[left_out], solve(rest, false));
+    sum += mean_square(equations[left_out], solve(rest, model));
   }
   return std::sqrt(sum / static_cast<double>(equations.size()));
 }
@@ -34,20 +34,27 @@ LegParameterValues values_of(const LinearFit& fit) {
   return {fit.value(0), fit.value(1), fit.value(2), fit.value(3), fit.clock_offset_s};
 }
 
+LinearModel model_of(const LegIdentification& found) {
+  return found.has_spring ? LinearModel::friction_and_spring : LinearModel::friction;
+}
+
 void bootstrap(const std::vector<HopEquations>& equations, const LegIdentificationOptions& options,
                LegIdentification& out) {
   std::mt19937_64 rng(options.seed);
   std::array<std::vector<double>, kLegParameters> replicates;
-  std::vector<double> foot;
+  std::vector<double> foot, spring;
   for (std::size_t draw = 0; draw < options.bootstrap; ++draw) {
     std::vector<const HopEquations*> drawn;
     for (std::size_t i = 0; i < equations.size(); ++i) drawn.push_back(&equations[rng() % equations.size()]);
-    const auto values = values_of(solve(drawn, false));
+    const auto fit = solve(drawn, model_of(out));
+    const auto values = values_of(fit);
+    spring.push_back(fit.value(6));
     for (std::size_t i = 0; i < kLegParameters; ++i) replicates[i].push_back(values[i]);
-    foot.push_back(solve(drawn, true).value(4));
+    foot.push_back(solve(drawn, LinearModel::friction_and_foot).value(4));
   }
   for (std::size_t i = 0; i < kLegParameters; ++i) out.interval[i] = percentile_interval(replicates[i]);
   out.foot_mass_interval = percentile_interval(foot);
+  out.spring_stiffness_interval = percentile_interval(spring);
 }
 
 // The believed leg with what was identified.
@@ -65,16 +72,24 @@ JointFriction identified_friction(const LegIdentification& found, const LegIdent
   return {found.value[2], found.value[3], options.friction_switch_radps};
 }
 
+// What the joint feels of the commanded torque, friction and spring.
+double joint_torque_Nm(const LegIdentification& found, const JointFriction& friction, double command_Nm,
+                       double angle_rad, double rate_radps) {
+  return found.value[0] * command_Nm + friction.torque_Nm(rate_radps) + found.spring_torque_Nm -
+         found.spring_stiffness_Nm_per_rad * angle_rad;
+}
+
 std::vector<double> smooth_force(const PreparedHop& prepared, const LegIdentification& found,
                                  const LegIdentificationOptions& options) {
   const auto& hop = *prepared.hop;
   const Leg leg = identified_leg(hop.leg, found);
   const auto friction = identified_friction(found, options);
   std::vector<double> out;
-  for (std::size_t row = 0; row < hop.t_s.size(); ++row)
+  for (std::size_t row = 0; row < hop.t_s.size(); ++row) {
+    const auto& state = prepared.state[row];
     out.push_back(joint_row_force_N(
-        leg, prepared.state[row],
-        found.value[0] * hop.torque_Nm[row] + friction.torque_Nm(prepared.state[row].rate_radps)));
+        leg, state, joint_torque_Nm(found, friction, hop.torque_Nm[row], state.angle_rad, state.rate_radps)));
+  }
   return out;
 }
 
@@ -102,8 +117,8 @@ CausalForces causal_forces(const LegHop& hop, double gain_per_s, const LegIdenti
     const double dt = hop.t_s[row] - hop.t_s[row - 1];
     const double angle = 0.5 * (hop.angle_rad[row] + hop.angle_rad[row - 1]);
     const double rate = (hop.angle_rad[row] - hop.angle_rad[row - 1]) / dt;
-    const double torque =
-        found.value[0] * 0.5 * (hop.torque_Nm[row] + hop.torque_Nm[row - 1]) + friction.torque_Nm(rate);
+    const double command = 0.5 * (hop.torque_Nm[row] + hop.torque_Nm[row - 1]);
+    const double torque = joint_torque_Nm(found, friction, command, angle, rate);
     if (row == 1) joint.reset(leg, angle, rate);
     out.joint_row_N.push_back(joint.update(leg, angle, rate, torque, dt));
     const double psi_N = -reduced_row_force_N(leg, {angle, rate, 0.0}, torque);
@@ -257,7 +272,7 @@ LegIdentification identify_leg(std::span<const LegHop> hops, const LegIdentifica
   for (const double half_width_s : options.half_widths_s) {
     const auto equations = all_equations(prepare(hops, false, half_width_s, out.tare_N, options), options);
     if (equations.size() < 2) throw std::invalid_argument("fewer than two hops to identify the leg from");
-    const double rms = leave_one_hop_out_N(equations);
+    const double rms = leave_one_hop_out_N(equations, LinearModel::friction);
     out.cross_validation_N.emplace_back(half_width_s, rms);
     if (rms < least) {
       least = rms;
@@ -266,8 +281,13 @@ LegIdentification identify_leg(std::span<const LegHop> hops, const LegIdentifica
   }
   const auto fit_hops = prepare(hops, false, out.half_width_s, out.tare_N, options);
   const auto equations = all_equations(fit_hops, options);
-  out.value = values_of(solve(pointers(equations), false));
-  out.foot_mass_kg = solve(pointers(equations), true).value(4);
+  out.with_spring_N = leave_one_hop_out_N(equations, LinearModel::friction_and_spring);
+  out.has_spring = out.with_spring_N < (1.0 - options.spring_gain) * least;
+  const auto fit = solve(pointers(equations), model_of(out));
+  out.value = values_of(fit);
+  out.spring_torque_Nm = fit.value(5);
+  out.spring_stiffness_Nm_per_rad = fit.value(6);
+  out.foot_mass_kg = solve(pointers(equations), LinearModel::friction_and_foot).value(4);
   bootstrap(equations, options, out);
   std::vector<double> masses;
   for (const auto& prepared : fit_hops) masses.push_back(mass_of_kg(prepared));

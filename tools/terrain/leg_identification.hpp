@@ -13,6 +13,7 @@
 //   F_c(t + d) = weight + [s tau - J phidd - c tanh(phid/0.2) - b phid]/L' + link terms
 // with s the scale of the commanded torque, J the rotors' inertia reflected to the joint, c and b the joint's
 // friction, and d by how much the plate's clock runs behind the motors'. Linear in s, J, c, b; d is searched.
+// A spring beside the motor, + p - k phi, is taken in where it brings the hops left out nearer.
 namespace sandhopper {
 
 enum class LegParameter : std::uint8_t { torque_scale, rotor_inertia, coulomb, viscous, clock_offset };
@@ -25,6 +26,7 @@ struct LegIdentificationOptions {
   double reference_window_s = 0.001;  // the plate is averaged over +- this around each motor row
   double contact_force_N = 10.0;      // above the tare: the foot has landed
   double friction_switch_radps = 0.2;
+  double spring_gain = 0.05;  // share by which a spring must lower the leave-one-hop-out error
   std::size_t bootstrap = 1000;
   unsigned seed = 1;
 };
@@ -72,8 +74,12 @@ struct LegIdentification {
   std::vector<std::pair<double, double>> cross_validation_N;  // half width, rms
   std::vector<std::pair<double, double>> settling_rms_N;      // time after landing, held-out rms offline
   std::size_t fit_hops = 0, held_out_hops = 0;
-  double foot_mass_kg = 0.0;  // that the fit would add if it were free; not used: torque scale and friction
-                              // take its place
+  bool has_spring = false;
+  double spring_torque_Nm = 0.0, spring_stiffness_Nm_per_rad = 0.0;  // p and k
+  PercentileInterval spring_stiffness_interval{};
+  double with_spring_N = 0.0;  // leave-one-hop-out error with it, at the chosen half width
+  double foot_mass_kg = 0.0;   // that the fit would add if it were free; not used: torque scale and friction
+                               // take its place
   PercentileInterval foot_mass_interval{};
   std::vector<LegHopFit> hops;
 

@@ -11,7 +11,14 @@ namespace {
 
 constexpr int kOffsetsEachSide = 20;
 constexpr double kOffsetStep_s = 0.25e-3;
-constexpr int kWithoutFoot = 4;
+
+// 1 for what the model has.
+LinearValues terms_of(LinearModel model) {
+  LinearValues terms;
+  terms << 1, 1, 1, 1, model == LinearModel::friction_and_foot ? 1 : 0,
+      model == LinearModel::friction_and_spring ? 1 : 0, model == LinearModel::friction_and_spring ? 1 : 0;
+  return terms;
+}
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -105,7 +112,7 @@ LinearValues regressors(const Leg& leg, const JointState& state, double torque_N
   const double dl = leg.kinematics(state.angle_rad).dlength_m_per_rad;
   LinearValues x;
   x << torque_Nm / dl, -state.accel_radps2 / dl, -std::tanh(state.rate_radps / switch_radps) / dl,
-      -state.rate_radps / dl, kGravity_mps2;
+      -state.rate_radps / dl, kGravity_mps2, 1.0 / dl, -state.angle_rad / dl;
   return x;
 }
 
@@ -133,11 +140,13 @@ HopEquations equations_of(const PreparedHop& prepared, const LegIdentificationOp
   return out;
 }
 
-LinearFit solve(std::span<const HopEquations* const> hops, bool free_foot) {
-  const int terms = free_foot ? kLinear : kWithoutFoot;
+LinearFit solve(std::span<const HopEquations* const> hops, LinearModel model) {
+  const auto terms = terms_of(model);
   NormalMatrix normal = NormalMatrix::Zero();
   for (const auto* hop : hops) normal += hop->normal;
-  const auto factors = normal.topLeftCorner(terms, terms).ldlt();
+  normal = terms.asDiagonal() * normal * terms.asDiagonal();
+  normal.diagonal() += LinearValues::Ones() - terms;
+  const Eigen::LDLT<NormalMatrix> factors(normal);
   const auto offsets = clock_offsets_s();
   LinearFit best;
   double least = std::numeric_limits<double>::infinity();
@@ -150,7 +159,7 @@ LinearFit solve(std::span<const HopEquations* const> hops, bool free_foot) {
       right += hop->right[i];
       squares += hop->squares[i];
     }
-    fit.value.head(terms) = factors.solve(right.head(terms));
+    fit.value = factors.solve(right.cwiseProduct(terms));
     const double error = squares - fit.value.dot(right);
     if (error < least) {
       least = error;

@@ -22,7 +22,9 @@ PreparedHop prepare_hop(const LegHop& hop, double half_width_s, double tare_N,
 double reference_at_N(const PreparedHop& prepared, double t_s, double window_s);
 bool in_settled_stance(const PreparedHop& prepared, std::size_t row, double settling_s);
 
-inline constexpr int kLinear = 5;  // s, J, c, b and the foot's mass
+// s, J, c, b, the foot's mass, torque at angle zero and stiffness of a spring beside the motor
+inline constexpr int kLinear = 7;
+enum class LinearModel { friction, friction_and_foot, friction_and_spring };
 using NormalMatrix = Eigen::Matrix<double, kLinear, kLinear>;
 using LinearValues = Eigen::Matrix<double, kLinear, 1>;
 
@@ -35,12 +37,12 @@ struct HopEquations {
 std::vector<double> clock_offsets_s();  // the grid: +-5 ms in 0.25 ms
 HopEquations equations_of(const PreparedHop& prepared, const LegIdentificationOptions& options);
 
-// Least squares of several hops at the best offset. With free_foot the foot's mass is fitted too.
+// Least squares of several hops at the best offset; what the model leaves out is zero.
 struct LinearFit {
   LinearValues value = LinearValues::Zero();
   double clock_offset_s = 0.0;
 };
-LinearFit solve(std::span<const HopEquations* const> hops, bool free_foot);
+LinearFit solve(std::span<const HopEquations* const> hops, LinearModel model);
 
 // Mean square error [N^2] of a fit on a hop.
 double mean_square(const HopEquations& hop, const LinearFit& fit);
