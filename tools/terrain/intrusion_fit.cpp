@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace sandhopper {
 namespace {
@@ -88,11 +89,16 @@ LawResult fit_law(DepthLaw kind, const Presses& fit, const Presses& held_out,
   LawResult out;
   out.fit = fit_depth_law(kind, trials, options);
   std::vector<double> stiffness, shape;
+  std::vector<std::vector<double>> predicted(std::size(kPredictedDepths_m));
   for (const auto& trial : trials) {
     const auto own = fit_depth_law(kind, std::span(&trial, 1), options);
     stiffness.push_back(own.stiffness_per_area_N_per_m3);
     shape.push_back(own.shape);
+    for (std::size_t i = 0; i < predicted.size() && !held_out.empty(); ++i)
+      predicted[i].push_back(
+          depth_law_force_N(own, kPredictedDepths_m[i], held_out.front()->loading.diameter_m, options));
   }
+  for (const auto& forces : predicted) out.predicted_N.push_back(mean_over_trials(forces));
   out.stiffness_per_area_N_per_m3 = mean_over_trials(stiffness);
   out.shape = mean_over_trials(shape);
   if (trials.size() > 1) out.cross_validation_N = root_mean_square(cross_validate(kind, trials, options));
@@ -159,6 +165,15 @@ IntrusionFit fit_intrusions(std::span<const PressTrial> trials) {
     auto with = out.options;
     with.compliance_m_per_N = out.rig.stop_compliance_m_per_N.value;
     out.with_stop_compliance = fit_law(out.laws[*out.chosen].fit.law, fit, held_out, with);
+  }
+  if (out.chosen && out.laws[*out.chosen].fit.law == DepthLaw::confined_layer && !held_out.empty()) {
+    const auto error_with = [&](double step_rad) {
+      auto changed = out.options;
+      changed.friction_angle_rad += step_rad;
+      return fit_law(DepthLaw::confined_layer, fit, held_out, changed).relative_error.back();
+    };
+    constexpr double kStep_rad = 5.0 * std::numbers::pi / 180.0;
+    out.friction_angle_sensitivity = {error_with(-kStep_rad), error_with(kStep_rad)};
   }
   out.area = area_exponents(all);
   return out;

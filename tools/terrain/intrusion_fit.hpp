@@ -33,6 +33,9 @@ struct LawResult {
   // Mean over held-out trials of predicted/measured - 1 at each of kPredictedDepths_m.
   std::vector<double> relative_error;
   double heldout_rms_N = 0.0;  // root mean square over held-out trials
+  // Force on the held-out size at each of kPredictedDepths_m, from every fit trial alone: what one press more
+  // or less would change.
+  std::vector<TrialMean> predicted_N;
 };
 
 // What elasticity the recorded depth holds, from trials on a rigid stop and from relieving the bed.
@@ -55,7 +58,10 @@ struct AreaExponent {
 struct IntrusionFit {
   RigResult rig;
   std::vector<LawResult> laws;
-  std::optional<std::size_t> chosen;              // the law with the least cross-validation
+  std::optional<std::size_t> chosen;  // the law with the least cross-validation
+  // Held-out error at the greatest of kPredictedDepths_m under the chosen law, friction angle 5 degrees lower
+  // and higher, where the law has one.
+  std::optional<std::pair<double, double>> friction_angle_sensitivity;
   std::optional<LawResult> with_stop_compliance;  // the chosen law, the stop's compliance taken off anyway
   std::vector<AreaExponent> area;
   std::size_t fit_trials = 0, held_out_trials = 0;

@@ -23,11 +23,13 @@ struct Signals {
   std::vector<std::string> names;
   std::vector<std::vector<double>> accel_mps2;
   std::vector<std::vector<double>> lateral_mps2;
+  std::vector<double> pressure_Pa;  // empty: not recorded
 };
 
 Signals signals_of(const TrialRecording& recording) {
   Signals out;
   std::vector<const std::vector<double>*> axial, lateral;
+  const auto* pressure = recording.find("pressure_Pa");
   for (const auto* name : {"accel_mps2", "accel_2_mps2", "accel_3_mps2", "accel_4_mps2"})
     if (const auto* values = recording.find(name)) {
       axial.push_back(values);
@@ -41,6 +43,7 @@ Signals signals_of(const TrialRecording& recording) {
     const auto missing = [&](const auto* values) { return std::isnan((*values)[row]); };
     if (std::any_of(axial.begin(), axial.end(), missing)) continue;
     out.t_s.push_back(recording.t_s[row]);
+    if (pressure != nullptr) out.pressure_Pa.push_back((*pressure)[row]);
     for (std::size_t i = 0; i < axial.size(); ++i) out.accel_mps2[i].push_back((*axial[i])[row]);
     for (std::size_t i = 0; i < lateral.size(); ++i) out.lateral_mps2[i].push_back((*lateral[i])[row]);
   }
@@ -108,6 +111,22 @@ class DropAnalysis {
         rows += 1.0;
       }
     drop_.speed_before_release_mps = rows > 0.0 ? sum / rows : std::nan("");
+    compare_with_pressure(from);
+  }
+
+  void compare_with_pressure(std::size_t from) {
+    const auto& t = signals_.t_s;
+    drop_.fallen_m = 0.0;
+    for (std::size_t i = from; i < motion_.rest_row; ++i)
+      drop_.fallen_m += 0.5 * (motion_.speed_mps[i] + motion_.speed_mps[i + 1]) * (t[i + 1] - t[i]);
+    drop_.fallen_by_pressure_m = std::nan("");
+    const double weight_N_per_m3 = drop_.body.density_kg_per_m3 * gravity_mps2_;
+    if (signals_.pressure_Pa.empty() || !(weight_N_per_m3 > 0.0)) return;
+    const auto& p = signals_.pressure_Pa;
+    const std::vector<double> before(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(from));
+    const std::size_t last = std::min<std::size_t>(before.size(), 100);
+    drop_.fallen_by_pressure_m =
+        (mean_from(p, p.size() - 100) - mean_from(before, before.size() - last)) / weight_N_per_m3;
   }
 
   void follow_penetration() {
@@ -168,7 +187,9 @@ void keep_numbers(const PenetrometerDrop& drop, TrialResult& result) {
                     drop.body.volume_m3,
                     drop.body.frontal_area_m2,
                     drop.body.density_kg_per_m3,
-                    static_cast<double>(drop.fused.reference)};
+                    static_cast<double>(drop.fused.reference),
+                    drop.fallen_m,
+                    drop.fallen_by_pressure_m};
   for (const auto& c : drop.fused.calibration)
     for (const double number :
          {c.scale, c.bias_mps2, c.noise_mps2, c.saturation_mps2, static_cast<double>(c.saturated_samples)})
@@ -247,6 +268,8 @@ PenetrometerDrop drop_from(const TrialResult& result) {
   drop.mass_max_kg = n.at(10);
   drop.body = {n.at(11), n.at(12), n.at(13), n.at(14)};
   drop.fused.reference = static_cast<std::size_t>(n.at(15));
+  drop.fallen_m = n.at(16);
+  drop.fallen_by_pressure_m = n.at(17);
   const auto& c = series.at("drop_accelerometers");
   for (std::size_t i = 0; i + 4 < c.size(); i += 5) {
     drop.fused.calibration.push_back(

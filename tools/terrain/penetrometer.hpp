@@ -21,6 +21,9 @@ struct PenetrometerDrop {
   double impact_speed_mps = 0.0;          // at touchdown, integrated back from rest
   double speed_before_release_mps = 0.0;  // what the same integral gives where the body still hung: its error
   double depth_m = 0.0;
+  // Way from before the fall to the rest: integrated, and from the pressure, whose sensor lags and whose bed
+  // has a pressure of its own. A check, used for nothing; NaN without pressure.
+  double fallen_m = 0.0, fallen_by_pressure_m = 0.0;
   FluidFit fluid;
   double mass_min_kg = 0.0, mass_max_kg = 0.0;
   FluidBody body;                                        // with the middle of the mass range

@@ -45,29 +45,52 @@ std::string range(double low, double high) {
   return fmt::format("{:.3g} to {:.3g}", std::min(low, high), std::max(low, high));
 }
 
+double greatest_resistance(const PenetrometerDrop& drop) {
+  double greatest = 0.0;
+  for (const auto& sample : drop.penetration) greatest = std::max(greatest, sample.resistance);
+  return greatest;
+}
+
 StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
-  StudyTable table{
-      .title = "Drops",
-      .columns = {"drop", "speed at touchdown, m/s", "depth, m", "α", "κ, 1/m", "moving mass, kg", "C_m",
-                  "C_d", "bias at rest, m/s²", "speed while it hung, m/s"}};
+  StudyTable table{.title = "Drops",
+                   .columns = {"drop", "speed at touchdown, m/s", "depth, m", "greatest resistance, m/s²",
+                               "greatest resistance, N", "speed while it hung, m/s", "fallen, m",
+                               "fallen by pressure, m"}};
   for (const auto& drop : drops) {
     const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
+    const double greatest = greatest_resistance(drop);
     table.rows.push_back(
         {trial_label(drop.trial), fmt::format("{:.2f}", drop.impact_speed_mps),
-         fmt::format("{:.3f}", drop.depth_m), fmt::format("{:.3f}", drop.fluid.alpha),
-         fmt::format("{:.3f}", drop.fluid.kappa_per_m), range(low.moving_mass_kg, high.moving_mass_kg),
-         range(low.added_mass_factor, high.added_mass_factor),
-         range(low.drag_coefficient, high.drag_coefficient), fmt::format("{:+.3f}", drop.rest_bias_mps2),
-         fmt::format("{:+.3f}", drop.speed_before_release_mps)});
+         fmt::format("{:.3f}", drop.depth_m), fmt::format("{:.1f}", greatest),
+         range(low.moving_mass_kg * greatest, high.moving_mass_kg * greatest),
+         fmt::format("{:+.3f}", drop.speed_before_release_mps), fmt::format("{:.2f}", drop.fallen_m),
+         std::isnan(drop.fallen_by_pressure_m) ? "–" : fmt::format("{:.2f}", drop.fallen_by_pressure_m)});
   }
   table.note =
       "Speed is integrated back from the rest after the impact, where it is zero and the accelerometer's "
       "bias is "
       "known. The speed it gives while the body still hung, seconds earlier, shows what the integral is off "
       "by "
-      "then. The fall tells α and κ; moving mass, added-mass and drag coefficients follow for each end of "
-      "the "
-      "range of the mass. A drag on the line it falls with is in κ.";
+      "then. Forces for both ends of the range of the mass. The pressure's way is a check, used for nothing: "
+      "its sensor lags, and the bed has a pressure of its own.";
+  return table;
+}
+
+StudyTable fluid_table(const std::vector<PenetrometerDrop>& drops) {
+  StudyTable table{.title = "The fall through the water",
+                   .columns = {"drop", "α", "κ, 1/m", "rms, m/s²", "moving mass, kg", "C_m", "C_d"}};
+  for (const auto& drop : drops) {
+    const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
+    table.rows.push_back(
+        {trial_label(drop.trial), fmt::format("{:.3f}", drop.fluid.alpha),
+         fmt::format("{:.3f}", drop.fluid.kappa_per_m), fmt::format("{:.2f}", drop.fluid.rms_mps2),
+         range(low.moving_mass_kg, high.moving_mass_kg), range(low.added_mass_factor, high.added_mass_factor),
+         range(low.drag_coefficient, high.drag_coefficient)});
+  }
+  table.note =
+      "v' = α g − κ v². The fall tells α and κ; moving mass, added-mass and drag coefficients follow for "
+      "each "
+      "end of the range of the mass. The drag of the line it falls with is in κ.";
   return table;
 }
 
@@ -205,6 +228,11 @@ Json json_of(const PenetrometerFit& fit, const std::vector<PenetrometerDrop>& dr
          {"moving_mass_kg", {number(low.moving_mass_kg), number(high.moving_mass_kg)}},
          {"added_mass_factor", {number(low.added_mass_factor), number(high.added_mass_factor)}},
          {"drag_coefficient", {number(low.drag_coefficient), number(high.drag_coefficient)}},
+         {"greatest_resistance_N",
+          {number(low.moving_mass_kg * greatest_resistance(drop)),
+           number(high.moving_mass_kg * greatest_resistance(drop))}},
+         {"fallen_m", number(drop.fallen_m)},
+         {"fallen_by_pressure_m", number(drop.fallen_by_pressure_m)},
          {"speed_while_it_hung_mps", number(drop.speed_before_release_mps)}});
   }
   for (const auto& law : fit.laws)
@@ -244,6 +272,7 @@ CampaignConclusions tell_penetrations(const PenetrometerFit& fit,
   section.items.emplace_back(speed_figure(drops));
   section.items.emplace_back(impact_figure(drops));
   section.items.emplace_back(drop_table(drops));
+  section.items.emplace_back(fluid_table(drops));
   section.items.emplace_back(sensor_table(drops));
   section.items.emplace_back(untold(fit, drops));
   out.sections.push_back(std::move(section));

@@ -180,6 +180,23 @@ StudyFigure rig_figure(std::span<const PressTrial> trials) {
   return figure;
 }
 
+// How sure the chosen law's prediction is.
+std::string prediction_text(const IntrusionFit& fit) {
+  const auto& chosen = fit.laws[*fit.chosen];
+  std::string text;
+  for (std::size_t i = 0; i < chosen.predicted_N.size(); ++i)
+    text += fmt::format("{}{:.0f} mm: {} N", text.empty() ? "" : "; ", 1e3 * kPredictedDepths_m[i],
+                        mean_text(chosen.predicted_N[i], 1.0));
+  text = fmt::format(
+      "Predicted from each fitted trial alone, mean and 95 % interval of that mean over trials: {}.", text);
+  if (fit.friction_angle_sensitivity)
+    text +=
+        fmt::format(" With the friction angle 5° lower and higher the error at {:.0f} mm is {} and {}.",
+                    1e3 * *std::rbegin(kPredictedDepths_m), percent(fit.friction_angle_sensitivity->first),
+                    percent(fit.friction_angle_sensitivity->second));
+  return text;
+}
+
 std::string rig_text(const RigResult& rig) {
   std::string text = rig.why;
   if (rig.stop_compliance_m_per_N.trials > 0)
@@ -212,6 +229,7 @@ Json law_json(const LawResult& law) {
             {"rms_N", number(law.fit.rms_N)},
             {"leave_one_trial_out_rms_N", number(law.cross_validation_N)},
             {"held_out_rms_N", number(law.heldout_rms_N)}};
+  for (const auto& force : law.predicted_N) json["predicted_from_each_trial_N"].push_back(mean_json(force));
   for (std::size_t i = 0; i < law.relative_error.size(); ++i)
     json["held_out_relative_error"][fmt::format("{:.0f}_mm", 1e3 * kPredictedDepths_m[i])] =
         number(law.relative_error[i]);
@@ -227,6 +245,9 @@ Json json_of(const IntrusionFit& fit) {
                  {"bed_unloading_N_per_m", mean_json(fit.rig.bed_unloading_N_per_m)},
                  {"compliance_used_m_per_N", fit.rig.compliance_used_m_per_N},
                  {"why", fit.rig.why}};
+  if (fit.friction_angle_sensitivity)
+    json["held_out_error_with_friction_angle_5_deg_lower_and_higher"] = {
+        fit.friction_angle_sensitivity->first, fit.friction_angle_sensitivity->second};
   for (const auto& a : fit.area)
     json["area_exponent"].push_back({{"depth_m", a.depth_m}, {"exponent", mean_json(a.exponent)}});
   return json;
@@ -262,7 +283,10 @@ CampaignConclusions tell_presses(const IntrusionFit& fit, std::span<const PressT
   section.items.emplace_back(law_table(fit));
   if (fit.held_out_trials > 0) {
     section.items.emplace_back(prediction_table(fit));
-    if (fit.chosen) section.items.emplace_back(trial_table(fit.laws[*fit.chosen]));
+    if (fit.chosen) {
+      section.items.emplace_back(trial_table(fit.laws[*fit.chosen]));
+      section.items.emplace_back(prediction_text(fit));
+    }
   }
   if (!fit.area.empty()) section.items.emplace_back(area_text(fit.area));
   section.items.emplace_back(rig_text(fit.rig));
