@@ -1,13 +1,21 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
+#include "tools/benchmark/runner.hpp"
+#include "tools/benchmark/score_study.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/conceal/follow_up.hpp"
 #include "tools/conceal/write_campaign.hpp"
 
 namespace sandhopper::cli {
 namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kListCure = "'hop conceal --list' names what there is";
 
 struct Options {
   std::string output;
@@ -17,6 +25,15 @@ struct Options {
   double size = 0.0;
   int trials = 12;
   bool list = false;
+
+  std::string campaign, setup;     // follow-up
+  std::string answers, diagnoses;  // score
+  std::string report;
+  std::vector<std::string> baselines;
+  double limit_s = 30.0;  // benchmark
+  unsigned jobs = 2;
+  bool no_follow_up = false;
+  std::string tool;
 };
 
 conceal::Request request_of(const Options& options) {
@@ -33,12 +50,15 @@ conceal::Request request_of(const Options& options) {
 ExitCode list(Session& session) {
   for (const auto* plant : conceal::plants()) {
     auto& of_plant = session.result[plant->name()];
-    for (const auto& effect : plant->listed()) of_plant["listed"].push_back(effect.id);
-    for (const auto& effect : plant->unlisted()) of_plant["unlisted"].push_back(effect.id);
     session.say("{}", plant->name());
-    for (const auto& effect : plant->listed()) session.say("  {}", effect.id);
-    for (const auto& effect : plant->unlisted())
+    for (const auto& effect : plant->listed()) {
+      of_plant["listed"].push_back(effect.id);
+      session.say("  {}", effect.id);
+    }
+    for (const auto& effect : plant->unlisted()) {
+      of_plant["unlisted"].push_back({{"id", effect.id}, {"port", effect.port}});
       session.say("  {} (outside the list, port {})", effect.id, effect.port);
+    }
   }
   return ExitCode::ok;
 }
@@ -47,8 +67,8 @@ ExitCode generate(Session& session, const Options& options) {
   if (options.list) return list(session);
   if (options.output.empty())
     throw Failure(ExitCode::usage, "no place to write to", "name a new folder with --output");
-  const std::filesystem::path root = options.output;
-  if (std::filesystem::exists(root / "campaigns"))
+  const fs::path root = options.output;
+  if (fs::exists(root / "campaigns"))
     throw Failure(ExitCode::usage, root.string() + " already holds campaigns",
                   "name a new folder with --output");
   const auto request = request_of(options);
@@ -58,11 +78,11 @@ ExitCode generate(Session& session, const Options& options) {
     try {
       const auto one = conceal::make_case(request, i);
       conceal::write_campaign(root / "campaigns" / name, one);
-      std::filesystem::create_directories(root / "answers");
+      fs::create_directories(root / "answers");
       conceal::write_text(root / "answers" / (name + ".json"),
                           conceal::answer(one, request, i).dump(2) + "\n");
     } catch (const std::invalid_argument& error) {
-      throw Failure(ExitCode::usage, error.what(), "'hop conceal --list' names what there is");
+      throw Failure(ExitCode::usage, error.what(), kListCure);
     }
     progress.at(static_cast<double>(i));
   }
@@ -74,24 +94,174 @@ ExitCode generate(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
+conceal::Json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  auto json = conceal::Json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    throw Failure(ExitCode::usage, file.string() + " is not a JSON object", "name another file");
+  return json;
+}
+
+// The campaign again with one trial more, as somebody asks for it.
+ExitCode follow_up(Session& session, const Options& options) {
+  const auto folder = fs::weakly_canonical(options.campaign);
+  const auto answer =
+      (options.answers.empty() ? folder.parent_path().parent_path() / "answers" : fs::path(options.answers)) /
+      (folder.filename().string() + ".json");
+  if (!fs::exists(answer))
+    throw Failure(ExitCode::usage, "no answer at " + answer.string(),
+                  "name the folder of the answers with --answers");
+  auto asked = read_json(options.setup);
+  if (asked.contains("next_trial")) asked = asked["next_trial"].value("setup", conceal::Json::object());
+  const auto sealed = read_json(answer);
+  try {
+    const auto one =
+        conceal::make_case(conceal::Request::from_json(sealed.at("request")), sealed.at("index"));
+    conceal::write_campaign(options.output, one, {conceal::completed(one, asked)});
+    session.say("{}: the campaign with trial {:03d} added", options.output, one.setups.size() + 1);
+    session.result = {{"campaign", options.output}, {"trial", one.setups.size() + 1}};
+  } catch (const std::invalid_argument& error) {
+    throw Failure(ExitCode::usage, error.what(),
+                  "tools/conceal/README.md lists the trials each plant can do");
+  }
+  return ExitCode::ok;
+}
+
+std::vector<std::pair<std::string, fs::path>> named_folders(const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, fs::path>> folders;
+  for (const auto& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || !fs::is_directory(text.substr(equals + 1)))
+      throw Failure(ExitCode::usage, "--baseline " + text + " is not NAME=FOLDER",
+                    "name a folder of diagnoses NNN.json");
+    folders.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return folders;
+}
+
+ExitCode score(Session& session, const Options& options) {
+  std::vector<benchmark::Truth> truths;
+  try {
+    truths = benchmark::read_truths(options.answers);
+  } catch (const std::runtime_error& error) {
+    throw Failure(ExitCode::usage, error.what(), "name the folder answers/ that 'hop conceal' wrote");
+  }
+  if (truths.empty())
+    throw Failure(ExitCode::usage, "no answers in " + options.answers, "name the folder answers/");
+  const fs::path diagnoses = options.diagnoses, root = diagnoses.parent_path();
+  const auto columns = benchmark::score_all(truths, diagnoses, named_folders(options.baselines));
+  std::vector<benchmark::Figure> splits;
+  if (fs::is_directory(root / "after" / "diagnoses")) {
+    splits.push_back(benchmark::split_figure("the recommended trial splits the class", truths, diagnoses,
+                                             root / "after" / "diagnoses"));
+    splits.push_back(benchmark::split_figure("a random trial splits the class (control)", truths, diagnoses,
+                                             root / "random" / "diagnoses"));
+  }
+  const auto seconds = benchmark::seconds_taken(truths, diagnoses);
+  for (const auto& line : benchmark::score_text(columns, splits, seconds)) session.say("{}", line);
+  bool met = true;
+  for (const auto& column : columns) session.result["tools"][column.name] = benchmark::to_json(column.score);
+  for (const auto& figure : columns.front().score.figures) met = met && (figure.of == 0 || figure.met());
+  for (const auto& split : splits)
+    session.result["splits"].push_back({{"figure", split.name}, {"count", split.count}, {"of", split.of}});
+  if (!options.report.empty()) {
+    write_study_page(benchmark::score_study(columns, splits, seconds), options.report);
+    session.say("page: {}", options.report);
+  }
+  return met ? ExitCode::ok : ExitCode::no;
+}
+
+ExitCode run_and_score(Session& session, Options options) {
+  if (options.output.empty())
+    throw Failure(ExitCode::usage, "no place to write to", "name a folder with --output");
+  benchmark::RunOptions run;
+  run.folder = options.output;
+  run.request = request_of(options);
+  run.campaigns = options.campaigns;
+  run.limit_s = options.limit_s;
+  run.jobs = options.jobs;
+  run.follow_up = !options.no_follow_up;
+  if (options.tool.empty()) {
+    run.tool = {fs::read_symlink("/proc/self/exe").string(), "diagnose", "{campaign}", "--json"};
+  } else {
+    std::istringstream words(options.tool);
+    for (std::string word; words >> word;) run.tool.push_back(word);
+  }
+  {
+    Progress progress("diagnosing", static_cast<double>(run.campaigns));
+    try {
+      benchmark::run_benchmark(run, [&](std::uint64_t count) { progress.at(static_cast<double>(count)); });
+    } catch (const std::invalid_argument& error) {
+      throw Failure(ExitCode::usage, error.what(), kListCure);
+    }
+  }
+  options.answers = (run.folder / "answers").string();
+  options.diagnoses = (run.folder / "diagnoses").string();
+  options.report = (run.folder / "score.html").string();
+  const auto exit = score(session, options);
+  conceal::write_text(run.folder / "score.json", session.result.dump(2) + "\n");
+  return exit;
+}
+
+void add_request_options(CLI::App& app, Options& o) {
+  app.add_option("--output", o.output, "folder to make; campaigns/ and answers/ go into it");
+  app.add_option("--campaigns", o.campaigns, "how many")->check(CLI::Range(1, 100000))->capture_default_str();
+  app.add_option("--seed", o.seed, "the same seed gives the same campaigns")->capture_default_str();
+  app.add_option("--plant", o.plant, "hopper, intruder, falling_body or rotary_axis; default: any");
+  app.add_option("--kind", o.kind, "what is hidden; default: a mixture")
+      ->check(CLI::IsMember({"null", "decoy", "single", "several", "unknown", "indistinguishable"}));
+  app.add_option("--effect", o.effect, "hide this one; --list names them");
+  app.add_option("--size", o.size, "of what is hidden, relative to typical; default: 0.1 to 3")
+      ->check(CLI::Range(0.001, 100.0));
+  app.add_option("--trials", o.trials, "of a campaign")->check(CLI::Range(1, 500))->capture_default_str();
+}
+
 Run set_up(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("--output", options->output, "folder to make; campaigns/ and answers/ go into it");
-  app.add_option("--campaigns", options->campaigns, "how many")
-      ->check(CLI::Range(1, 100000))
+  auto& o = *options;
+  app.require_subcommand(0, 1);
+  add_request_options(app, o);
+  app.add_flag("--list", o.list, "name plants and effects, write nothing");
+
+  auto* following = app.add_subcommand("follow-up", "the campaign again with one trial more");
+  following->add_option("CAMPAIGN", o.campaign, "a campaign's folder")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  following
+      ->add_option("SETUP", o.setup, "JSON: the trial's set-up, or a diagnosis whose next_trial is meant")
+      ->required()
+      ->check(CLI::ExistingFile);
+  following->add_option("--answers", o.answers, "folder of the answers; default: beside the campaigns");
+  following->add_option("--output", o.output, "folder of the new campaign")->required();
+
+  auto* scoring = app.add_subcommand("score", "hold diagnoses against the answers");
+  scoring->add_option("ANSWERS", o.answers, "folder of NNN.json by 'hop conceal'")->required();
+  scoring->add_option("DIAGNOSES", o.diagnoses, "folder of NNN.json by 'hop diagnose --json'")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  scoring->add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
+  scoring->add_option("--report", o.report, "page to write");
+
+  auto* running =
+      app.add_subcommand("benchmark", "conceal, diagnose and score; goes on where it was stopped");
+  add_request_options(*running, o);
+  running->add_option("--jobs", o.jobs, "diagnoses at a time")
+      ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  app.add_option("--seed", options->seed, "the same seed gives the same campaigns")->capture_default_str();
-  app.add_option("--plant", options->plant, "hopper, intruder, falling_body or rotary_axis; default: any");
-  app.add_option("--kind", options->kind, "what is hidden; default: a mixture")
-      ->check(CLI::IsMember({"null", "decoy", "single", "several", "unknown", "indistinguishable"}));
-  app.add_option("--effect", options->effect, "hide this one; --list names them");
-  app.add_option("--size", options->size, "of what is hidden, relative to typical; default: 0.1 to 3")
-      ->check(CLI::Range(0.001, 100.0));
-  app.add_option("--trials", options->trials, "of a campaign")
-      ->check(CLI::Range(1, 500))
+  running->add_option("--limit-s", o.limit_s, "time for one diagnosis")
+      ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
-  app.add_flag("--list", options->list, "name plants and effects, write nothing");
-  return [options](Session& session) { return generate(session, *options); };
+  running->add_flag("--no-follow-up", o.no_follow_up, "do not add the trials the tool recommends");
+  running->add_option("--tool", o.tool,
+                      "command that prints diagnosis.json; {campaign} stands for the folder");
+  running->add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
+
+  return [=](Session& session) {
+    if (following->parsed()) return follow_up(session, *options);
+    if (scoring->parsed()) return score(session, *options);
+    if (running->parsed()) return run_and_score(session, *options);
+    return generate(session, *options);
+  };
 }
 
 const VerbRegistration kConceal({"conceal",

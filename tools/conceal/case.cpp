@@ -14,7 +14,7 @@ namespace {
 constexpr Kind kKinds[] = {Kind::null,    Kind::decoy,   Kind::single,
                            Kind::several, Kind::unknown, Kind::indistinguishable};
 constexpr const char* kNames[] = {"null", "decoy", "single", "several", "unknown", "indistinguishable"};
-constexpr double kShares[] = {0.25, 0.05, 0.34, 0.12, 0.12, 0.12};
+constexpr int kInSixteen[] = {3, 1, 6, 2, 2, 2};
 
 struct Range {
   double low, high;
@@ -36,11 +36,15 @@ Range sizes(Kind kind) {
 constexpr double kActs = 0.02;  // visibility below this: the effect does nothing on this apparatus
 constexpr int kAttempts = 200;
 
-Kind draw_kind(Random& random) {
-  double u = random.uniform();
+// Sixteen campaigns in a row hold every kind in its share, in an order that the seed shuffles.
+Kind kind_of(const Request& request, std::uint64_t index) {
+  std::vector<Kind> deck;
   for (std::size_t i = 0; i < std::size(kKinds); ++i)
-    if ((u -= kShares[i]) < 0.0) return kKinds[i];
-  return Kind::null;
+    for (int n = 0; n < kInSixteen[i]; ++n) deck.push_back(kKinds[i]);
+  auto random = Random(request.seed).stream("kinds", index / deck.size());
+  for (std::size_t i = deck.size() - 1; i > 0; --i)
+    std::swap(deck[i], deck[static_cast<std::size_t>(random.below(static_cast<int>(i) + 1))]);
+  return deck[index % deck.size()];
 }
 
 template <class T>
@@ -113,7 +117,7 @@ const Plant& plant_for(const Request& request, Random& random) {
   return *pick(able, random);
 }
 
-Case attempt(const Request& request, const Random& base, int number) {
+Case attempt(const Request& request, std::uint64_t index, const Random& base, int number) {
   const auto random = base.stream("attempt", static_cast<std::uint64_t>(number));
   auto which =
       base.stream("which");  // the same in every attempt: no plant or kind gets rarer for being hard to see
@@ -121,7 +125,7 @@ Case attempt(const Request& request, const Random& base, int number) {
   c.plant = &plant_for(request, which);
   check(request, *c.plant);
   const bool outside = !request.effect.empty() && named(c.plant->unlisted(), request.effect);
-  const Kind drawn = draw_kind(which);
+  const Kind drawn = kind_of(request, index);
   c.kind = request.kind             ? *request.kind
            : request.effect.empty() ? drawn
            : outside                ? Kind::unknown
@@ -142,10 +146,13 @@ Case attempt(const Request& request, const Random& base, int number) {
   return c;
 }
 
-// Whether the apparatus can express the effect at all: at typical size it moves some channel.
-bool acts(const Case& c, HiddenEffect effect) {
-  effect.size = std::max(effect.size, 1.0);
-  return visibility(c, {effect}).ratio > kActs;
+// Whether the apparatus can express the effect at all: at typical size it moves some channel, at its own a
+// little.
+bool acts(const Case& c, const HiddenEffect& effect) {
+  auto typical = effect;
+  typical.size = std::max(effect.size, 1.0);
+  return visibility(c, {typical}).ratio > kActs &&
+         (effect.size >= 1.0 || visibility(c, {effect}).ratio > 0.0);
 }
 
 }  // namespace
@@ -179,7 +186,7 @@ Request Request::from_json(const Json& json) {
 Case make_case(const Request& request, std::uint64_t index) {
   const auto base = Random(request.seed).stream("case", index);
   for (int i = 0; i < kAttempts; ++i) {
-    auto c = attempt(request, base, i);
+    auto c = attempt(request, index, base, i);
     if (!std::all_of(c.hidden.begin(), c.hidden.end(), [&](const HiddenEffect& e) { return acts(c, e); }))
       continue;
     c.bench = c.plant->build(c.apparatus);

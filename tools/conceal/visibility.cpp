@@ -29,15 +29,17 @@ void add_difference(std::map<std::string, Sum>& sums, const Table& a, const Tabl
 
 }  // namespace
 
-Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden) {
-  const auto with = build(c, hidden), without = build(c, {});
+Visibility difference(const Case& c, const std::vector<HiddenEffect>& one,
+                      const std::vector<HiddenEffect>& other) {
+  const auto first = build(c, one), second = build(c, other), plain = build(c, {});
   std::map<std::string, Sum> effect, repeat;
   const auto stride = std::max<std::size_t>(1, c.setups.size() / kTrials);
   for (std::size_t i = 0; i < c.setups.size(); i += stride) {
     const auto trial = c.recording.stream("trial", i);
-    const auto plain = record(c, *without, c.setups[i], trial);
-    add_difference(effect, plain, record(c, *with, c.setups[i], trial));
-    add_difference(repeat, plain, record(c, *without, c.setups[i], c.recording.stream("repeat", i)));
+    const auto without = record(c, *plain, c.setups[i], trial);
+    const auto reference = other.empty() ? without : record(c, *second, c.setups[i], trial);
+    add_difference(effect, reference, record(c, *first, c.setups[i], trial));
+    add_difference(repeat, without, record(c, *plain, c.setups[i], c.recording.stream("repeat", i)));
   }
   Visibility most;
   for (const auto& [channel, sum] : effect) {
@@ -47,6 +49,10 @@ Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden) {
     if (ratio > most.ratio) most = {channel, ratio};
   }
   return most;
+}
+
+Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden) {
+  return difference(c, hidden, {});
 }
 
 }  // namespace sandhopper::conceal

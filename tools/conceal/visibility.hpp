@@ -11,9 +11,13 @@ struct Visibility {
   double ratio = 0.0;
 };
 
-// How far the hidden effects move a recording: root mean square of the difference they make to a channel over
-// that between two repeats of the same trial without them; the channel moved most. Both recordings of the
-// first difference draw the same noise, so that only the effects differ.
+// How far two sets of hidden effects set the recordings of one case apart: root mean square of the difference
+// in a channel over that between two repeats of the same trial with nothing hidden; the channel that differs
+// most. Both recordings draw the same noise, so that only the effects differ.
+Visibility difference(const Case& c, const std::vector<HiddenEffect>& one,
+                      const std::vector<HiddenEffect>& other);
+
+// From nothing hidden.
 Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden);
 
 }  // namespace sandhopper::conceal

@@ -23,7 +23,7 @@ Json temperature(World& w, double size, Random&) {
 
 // The supply allows this current at 15 rad/s.
 Json voltage(World& w, double size, Random&) {
-  w.hidden.supply_V = 15.0 * w.drive.torque_constant_Nm_per_A + 0.125 * 24.0 / (0.5 + 0.5 * size);
+  w.hidden.supply_V = 15.0 * w.drive.torque_constant_Nm_per_A + 0.125 * 32.0 / (1.0 + 0.33 * size);
   return {{"supply_V", w.hidden.supply_V}};
 }
 

@@ -71,7 +71,7 @@ Json imu_lag(World& w, double size, Random& random) {
 
 Json imu_clipping(World& w, double size, Random& random) {
   const auto channel = either_imu(random);
-  w.faults[channel].limit = 35.0 / (0.6 + 0.4 * size);
+  w.faults[channel].limit = 25.0 / (0.7 + 0.3 * size);
   return {{"channel", channel}, {"limit_mps2", w.faults[channel].limit}};
 }
 

@@ -27,6 +27,7 @@ Target target(const Setup& setup, double t_s) {
   const auto profile = setup.text("profile", "sine");
   const double amplitude = setup.number("amplitude_rad", 1.0);
   if (profile == "release") return {0.0, 0.0, true};
+  if (setup.kind() == "hold") return {setup.number("position_rad", 0.5), 0.0};
   if (profile == "steps") {
     const auto step = static_cast<int>(t_s / setup.number("hold_s", 1.0));
     constexpr double kLevels[] = {0.0, 0.5, 1.0, 0.3, -0.4, -1.0, -0.6, 0.2};

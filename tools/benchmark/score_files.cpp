@@ -1,0 +1,68 @@
+#include "tools/benchmark/score_files.hpp"
+
+#include <fstream>
+
+#include "tools/benchmark/baselines.hpp"
+#include "tools/conceal/core/plant.hpp"
+
+namespace sandhopper::benchmark {
+namespace {
+
+std::vector<std::string> ids_of(const std::string& plant) {
+  std::vector<std::string> ids;
+  if (const auto* found = conceal::find_plant(plant))
+    for (const auto& effect : found->listed()) ids.push_back(effect.id);
+  return ids;
+}
+
+template <class Tool>
+Score score_tool(const std::vector<Truth>& truths, const Tool& tool) {
+  std::vector<Judged> cases;
+  for (const auto& truth : truths) cases.push_back(judge(truth, tool(truth)));
+  return score(std::move(cases));
+}
+
+Score score_folder(const std::vector<Truth>& truths, const std::filesystem::path& folder) {
+  return score_tool(truths,
+                    [&](const Truth& truth) { return read_diagnosis(folder / (truth.name + ".json")); });
+}
+
+}  // namespace
+
+std::vector<Column> score_all(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses,
+                              const std::vector<std::pair<std::string, std::filesystem::path>>& others) {
+  std::vector<Column> columns;
+  columns.push_back({"hop diagnose", score_folder(truths, diagnoses)});
+  columns.push_back(
+      {"null only", score_tool(truths, [](const Truth&) { return std::optional(null_only()); })});
+  columns.push_back({"random pick", score_tool(truths, [](const Truth& truth) {
+                       return std::optional(random_pick(truth, ids_of(truth.plant)));
+                     })});
+  for (const auto& [name, folder] : others) columns.push_back({name, score_folder(truths, folder)});
+  return columns;
+}
+
+Figure split_figure(const std::string& name, const std::vector<Truth>& truths,
+                    const std::filesystem::path& before, const std::filesystem::path& after) {
+  Figure figure{name, 0, 0, 0.85, 0.95};
+  for (const auto& truth : truths) {
+    const auto first = judge(truth, read_diagnosis(before / (truth.name + ".json")));
+    if (!first.right || first.class_size < 2) continue;
+    const auto second = judge(truth, read_diagnosis(after / (truth.name + ".json")));
+    ++figure.of;
+    figure.count += second.right && second.class_size < first.class_size;
+  }
+  return figure;
+}
+
+std::vector<double> seconds_taken(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses) {
+  std::vector<double> seconds;
+  for (const auto& truth : truths) {
+    std::ifstream in(diagnoses / (truth.name + ".run"));
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    if (json.is_object() && json.contains("seconds")) seconds.push_back(json["seconds"]);
+  }
+  return seconds;
+}
+
+}  // namespace sandhopper::benchmark

@@ -1,0 +1,16 @@
+#pragma once
+#include "tools/benchmark/score_files.hpp"
+#include "tools/report/study.hpp"
+
+namespace sandhopper::benchmark {
+
+// The benchmark's report as a page: figures of DIAGNOSIS section 6 with the baselines beside them,
+// reliability, size ladder, what became of each effect, and every case.
+Study score_study(const std::vector<Column>& columns, const std::vector<Figure>& splits,
+                  const std::vector<double>& seconds);
+
+// The figures as lines of text for a terminal.
+std::vector<std::string> score_text(const std::vector<Column>& columns, const std::vector<Figure>& splits,
+                                    const std::vector<double>& seconds);
+
+}  // namespace sandhopper::benchmark
