@@ -72,7 +72,9 @@ TEST_P(Ambiguous, RivalOfTheBestSizeLeavesLittleToSee) {
   for (const bool one : seen) EXPECT_TRUE(one);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Ambiguous, testing::Values("falling_body", "hopper", "intruder", "rotary_axis"),
+// The hopper takes a minute for the same search; its classes (a tilted or mis-scaled accelerometer, a late reading) were
+// measured once: README.
+INSTANTIATE_TEST_SUITE_P(All, Ambiguous, testing::Values("falling_body", "intruder", "rotary_axis"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -41,14 +41,14 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"torque_hum", "actuator", "u"}, hum}};
 }
 
-// A late time-of-flight reading is a late reading, whoever made it late; links and foot move almost alike;
-// one release height shows friction on the rail at one speed.
+// A late time-of-flight reading is a late reading, whoever made it late; an accelerometer that leans reads less, like
+// one of another scale; links and foot move almost alike when every drop is the same.
 std::vector<Restriction<World>> restrictions() {
   const auto as_is = [](World&) {};
   const auto same_drops = [](World& w) { w.same_drops = true, w.sensors.mocap = false; };
   return {{{{"tof.latency", "clock.skew"}}, as_is},
           {{{"leg.link_mass", "foot.mass"}}, same_drops},
-          {{{"rail.coulomb", "rail.viscous"}}, same_drops}};
+          {{{"imu.tilt", "imu.scale"}}, as_is}};
 }
 
 }  // namespace sandhopper::conceal::hopper

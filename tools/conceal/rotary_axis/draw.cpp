@@ -56,11 +56,13 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
   std::vector<Setup> setups;
   for (int i = 0; i < trials; ++i) {
     Setup s;
-    s.keys["kind"] = "motion";
+    s.keys["kind"] = w.only_held ? "hold" : "motion";
     const auto number = [&](const char* key, double value) { s.keys[key] = six_digits(value); };
     // Every profile at least once in five trials: slow, fast, free and far from the bottom.
-    const int profile = w.only_free_swing ? 2 : w.only_slow ? 4 : w.only_one_speed ? 3 : i % 5;
-    if (profile == 0 || profile == 1) {
+    const int profile = w.only_free_swing ? 2 : i % 5;
+    if (w.only_held) {
+      number("position_rad", random.sign() * random.uniform(0.3, 2.5));
+    } else if (profile == 0 || profile == 1) {
       s.keys["profile"] = profile == 0 ? "sine" : "chirp";
       number("amplitude_rad", random.uniform(0.4, 1.6));
       number("frequency_Hz", random.log_uniform(0.3, 1.5));
@@ -70,7 +72,7 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
       number("release_position_rad", random.sign() * random.uniform(0.6, 2.4));
     } else if (profile == 3) {
       s.keys["profile"] = "ramp";  // to and fro at even speed
-      number("speed_radps", w.only_one_speed ? 2.0 : random.log_uniform(0.1, 3.0));
+      number("speed_radps", random.log_uniform(0.1, 3.0));
       number("amplitude_rad", random.uniform(0.8, 1.5));
     } else {
       s.keys["profile"] = "steps";

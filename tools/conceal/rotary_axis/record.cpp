@@ -10,6 +10,7 @@ namespace sandhopper::conceal::rotary_axis {
 namespace {
 
 constexpr double kTick_s = 1e-3;  // of the drive's own position loop
+constexpr int kSettling = 2000;   // cycles
 constexpr double kPi = std::numbers::pi;
 using State = std::array<double, 3>;  // position, velocity, stretch of the hysteretic spring
 
@@ -88,7 +89,8 @@ double command_Nm(const World& w, const Setup& setup, double t_s, const State& x
   const auto goal = target(setup, t_s);
   if (goal.free) return 0.0;
   const double quantum = 2.0 * w.position_range_rad / ((1 << w.position_bits) - 1);
-  const double seen = quantum * std::round(x[0] / quantum);
+  // Held still, the loop works on the motor's own finer encoder and does not hunt.
+  const double seen = setup.kind() == "hold" ? x[0] : quantum * std::round(x[0] / quantum);
   const double stiffness = 400.0 * w.inertia_kg_m2, damping = 30.0 * w.inertia_kg_m2;
   const double torque_Nm = stiffness * (goal.position_rad - seen) + damping * (goal.velocity_radps - x[1]) +
                            w.gravity_torque_Nm * std::sin(seen);
@@ -101,10 +103,14 @@ Motion simulate(const World& w, const Setup& setup, const Random& trial) {
     trace->step_s = kTick_s;
   const double spread = trial.stream("release").normal(0.0, w.initial_position_spread_rad);
   const double stray_Nm = trial.stream("torque offset").normal(0.0, w.torque_offset_spread_Nm);
-  State x{setup.number("release_position_rad", 0.0) + spread, 0.0, 0.0};
+  State x{setup.number(setup.kind() == "hold" ? "position_rad" : "release_position_rad", 0.0) + spread, 0.0,
+          0.0};
   DormandPrince<3> integrator({1e-7, 1e-8, 1e-6});
   const auto never = [](double, const State&) { return 1.0; };
-  const auto ticks = static_cast<int>(std::lround(setup.number("duration_s", w.duration_s) / kTick_s));
+  // An arm that is held has come to rest before the record begins.
+  const int before = setup.kind() == "hold" ? kSettling : 0;
+  const auto ticks =
+      before + static_cast<int>(std::lround(setup.number("duration_s", w.duration_s) / kTick_s));
   Trace reported{kTick_s, {}};
   double t_s = 0.0, torque_Nm = 0.0;
   for (int i = 0; i <= ticks; ++i) {
@@ -118,6 +124,8 @@ Motion simulate(const World& w, const Setup& setup, const Random& trial) {
     integrator.advance(
         t_s, x, (i + 1) * kTick_s, [&](double, const State& y) { return slope(w, y, acting_Nm); }, never);
   }
+  for (auto* trace : {&m.position_rad, &m.velocity_radps, &m.torque_Nm, &m.delivered_Nm})
+    trace->values.erase(trace->values.begin(), trace->values.begin() + before);
   return m;
 }
 

@@ -41,17 +41,19 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"hysteretic_spring", "axis", "u"}, hysteresis}};
 }
 
-// Free swings of a believed frictionless arm fix only gravity over inertia; moves so slow that inertia does
-// not show fix only gravity over torque; one speed fixes one number of friction.
+// Free swings of a believed frictionless arm fix only gravity over inertia; an arm held still fixes only
+// gravity over torque.
 std::vector<Restriction<World>> restrictions() {
   const auto free_swing = [](World& w) {
-    w.only_free_swing = true, w.viscous_Nm_s = w.coulomb_Nm = 0.0, w.bench_load_cell = false;
+    w.only_free_swing = true;
+    w.viscous_Nm_s = w.coulomb_Nm = 0.0;
+    w.bench_load_cell = false;
   };
-  const auto one_speed = [](World& w) { w.only_one_speed = true, w.bench_load_cell = false; };
+  const auto held = [](World& w) { w.only_held = true, w.bench_load_cell = false; };
   return {{{{"axis.inertia", "axis.gravity"}}, free_swing},
           {{{"axis.gravity", "axis.inertia"}}, free_swing},
-          {{{"axis.coulomb", "axis.viscous"}}, one_speed},
-          {{{"axis.viscous", "axis.coulomb"}}, one_speed}};
+          {{{"axis.gravity", "axis.torque_scale"}}, held},
+          {{{"axis.torque_scale", "axis.gravity"}}, held}};
 }
 
 }  // namespace sandhopper::conceal::rotary_axis

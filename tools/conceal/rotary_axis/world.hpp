@@ -30,7 +30,7 @@ struct World {
   bool bench_load_cell = false;
   double load_cell_noise_Nm = 0.01;
   double initial_position_spread_rad = 0.01, torque_offset_spread_Nm = 0.01;
-  bool only_slow = false, only_free_swing = false, only_one_speed = false;  // limits of an ambiguous campaign
+  bool only_held = false, only_free_swing = false;  // limits of an ambiguous campaign
 
   struct Hidden {
     double coulomb_Nm = 0.0, coulomb_width_radps = 0.015;

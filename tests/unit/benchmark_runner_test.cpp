@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tools/benchmark/runner.hpp"
+#include "tools/benchmark/score_files.hpp"
+
+namespace sandhopper::benchmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BenchmarkRunner : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+
+  // A tool of a few lines of shell; its calls are counted in `calls`.
+  RunOptions options(const std::string& script) {
+    const auto file = folder / "tool.sh";
+    std::ofstream(file) << "echo \"$1\" >> '" << (folder / "calls").string() << "'\n" << script << "\n";
+    RunOptions o;
+    o.folder = folder / "run";
+    o.campaigns = 3;
+    o.request.plant = "falling_body";
+    o.request.trials = 2;
+    o.jobs = 2;
+    o.tool = {"sh", file.string(), "{campaign}"};
+    return o;
+  }
+
+  int calls() const {
+    std::ifstream in(folder / "calls");
+    int count = 0;
+    for (std::string line; std::getline(in, line);) ++count;
+    return count;
+  }
+
+  const fs::path folder = fs::path(testing::TempDir()) / "benchmark_runner";
+};
+
+TEST_F(BenchmarkRunner, GoesOnWhereItWasStopped) {
+  const auto o = options("echo '{\"verdict\": \"consistent\", \"effects\": []}'");
+  run_benchmark(o, [](std::uint64_t) {});
+  EXPECT_EQ(calls(), 3);
+  fs::remove(o.folder / "diagnoses" / "002.run");  // as if it had been killed there
+  fs::remove(o.folder / "diagnoses" / "002.done");
+  run_benchmark(o, [](std::uint64_t) {});
+  EXPECT_EQ(calls(), 4);
+  const auto truths = read_truths(o.folder / "answers");
+  EXPECT_EQ(truths.size(), 3u);
+  EXPECT_EQ(read_diagnosis(o.folder / "diagnoses" / "002.json")->verdict, "consistent");
+  EXPECT_EQ(seconds_taken(truths, o.folder / "diagnoses").size(), 3u);
+}
+
+TEST_F(BenchmarkRunner, ToolThatHangsIsKilledAndCountsAsNoAnswer) {
+  auto o = options("sleep 60");
+  o.campaigns = 1;
+  o.limit_s = 0.3;
+  const auto begin = std::chrono::steady_clock::now();
+  run_benchmark(o, [](std::uint64_t) {});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_FALSE(read_diagnosis(o.folder / "diagnoses" / "001.json"));
+}
+
+TEST_F(BenchmarkRunner, AddsTheTrialTheToolAskedForWhereItNamedAClass) {
+  auto o = options(
+      "echo '{\"verdict\": \"missing_physics\", \"effects\": [{\"id\": \"body.mass\", \"probability\": 0.5,"
+      "\"indistinguishable_from\": [\"fluid.buoyancy\"]}],"
+      "\"next_trial\": {\"setup\": {\"kind\": \"drop\", \"release_height_m\": 3.25}}}'");
+  o.campaigns = 1;
+  run_benchmark(o, [](std::uint64_t) {});
+  std::ifstream in(o.folder / "after" / "campaigns" / "001" / "campaign.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("trials/003.csv"), std::string::npos);
+  EXPECT_NE(text.find("release_height_m = 3.25"), std::string::npos);
+  EXPECT_TRUE(fs::exists(o.folder / "after" / "diagnoses" / "001.json"));
+  EXPECT_TRUE(fs::exists(o.folder / "random" / "diagnoses" / "001.json"));
+  EXPECT_EQ(calls(), 3);
+}
+
+}  // namespace
+}  // namespace sandhopper::benchmark
