@@ -54,7 +54,7 @@ TEST_P(Ambiguous, RivalOfTheBestSizeLeavesLittleToSee) {
   request.plant = GetParam();
   request.kind = Kind::indistinguishable;
   request.size = 1.0;
-  request.trials = 2;
+  request.trials = 1;
   const auto count = find_plant(GetParam())->ambiguities().size();
   std::vector<bool> seen(count, false);
   for (std::uint64_t i = 0; i < 8 * count; ++i) {
@@ -72,8 +72,8 @@ TEST_P(Ambiguous, RivalOfTheBestSizeLeavesLittleToSee) {
   for (const bool one : seen) EXPECT_TRUE(one);
 }
 
-// The hopper takes a minute for the same search; its classes (a tilted or mis-scaled accelerometer, a late reading) were
-// measured once: README.
+// The hopper takes a minute for the same search; its classes (a tilted or mis-scaled accelerometer, a late
+// reading) were measured once: README.
 INSTANTIATE_TEST_SUITE_P(All, Ambiguous, testing::Values("falling_body", "intruder", "rotary_axis"),
                          [](const auto& info) { return info.param; });
 

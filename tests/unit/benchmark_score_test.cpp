@@ -8,7 +8,10 @@ namespace sandhopper::benchmark {
 namespace {
 
 Truth hidden(std::string kind, std::vector<std::string> ids, double size = 1.0) {
-  Truth t{.name = "001", .plant = "hopper", .kind = std::move(kind)};
+  Truth t;
+  t.name = "001";
+  t.plant = "hopper";
+  t.kind = std::move(kind);
   for (auto& id : ids) t.effects.push_back({std::move(id), size, {}});
   return t;
 }
@@ -48,7 +51,8 @@ TEST(BenchmarkJudge, AnyAlarmOnNothingIsFalse) {
 
 TEST(BenchmarkJudge, ClassThatHoldsTheTruthIsRightAndCountsItsSize) {
   const auto truth = hidden("single", {"rail.coulomb"});
-  const auto j = judge(truth, saying("missing_physics", {named("rail.viscous", 0.9, {"rail.coulomb", "rail.tilt"})}));
+  const auto j =
+      judge(truth, saying("missing_physics", {named("rail.viscous", 0.9, {"rail.coulomb", "rail.tilt"})}));
   EXPECT_TRUE(j.right);
   EXPECT_EQ(j.class_size, 3u);
   EXPECT_FALSE(j.confident_wrong);
@@ -57,7 +61,8 @@ TEST(BenchmarkJudge, ClassThatHoldsTheTruthIsRightAndCountsItsSize) {
 
 TEST(BenchmarkJudge, ExactSetAllowsNothingMissingAndNothingMore) {
   const auto truth = hidden("several", {"rail.coulomb", "tof.bias"});
-  EXPECT_TRUE(judge(truth, saying("missing_physics", {named("tof.bias", 0.9), named("rail.coulomb", 0.7)})).exact);
+  EXPECT_TRUE(
+      judge(truth, saying("missing_physics", {named("tof.bias", 0.9), named("rail.coulomb", 0.7)})).exact);
   EXPECT_FALSE(judge(truth, saying("missing_physics", {named("tof.bias", 0.9)})).exact);
   EXPECT_FALSE(judge(truth, saying("missing_physics", {named("tof.bias", 0.9), named("rail.coulomb", 0.7),
                                                        named("imu.bias", 0.1)}))
@@ -68,8 +73,8 @@ TEST(BenchmarkJudge, ExactSetAllowsNothingMissingAndNothingMore) {
 
 TEST(BenchmarkJudge, DragBesideAddedMassIsNoMistake) {
   const auto truth = hidden("single", {"terrain.added_mass"});
-  const auto j = judge(truth, saying("missing_physics",
-                                     {named("terrain.added_mass", 0.95), named("terrain.quadratic_drag", 0.9)}));
+  const auto j = judge(truth, saying("missing_physics", {named("terrain.added_mass", 0.95),
+                                                         named("terrain.quadratic_drag", 0.9)}));
   EXPECT_TRUE(j.right);
   EXPECT_TRUE(j.exact);
   EXPECT_FALSE(j.confident_wrong);
@@ -105,8 +110,9 @@ TEST(BenchmarkJudge, IntervalsAreComparedByNameElseByUnit) {
 TEST(BenchmarkScore, CountsFiguresCalibrationAndLadder) {
   const auto nothing = hidden("null", {}), one = hidden("single", {"rail.coulomb"}, 1.0),
              small = hidden("single", {"rail.coulomb"}, 0.2);
-  const auto s = score({judge(nothing, saying("missing_physics", {named("tof.bias", 0.6)})), judge(nothing, null_only()),
-                        judge(one, saying("missing_physics", {named("rail.coulomb", 0.8)})), judge(small, null_only())});
+  const auto s =
+      score({judge(nothing, saying("missing_physics", {named("tof.bias", 0.6)})), judge(nothing, null_only()),
+             judge(one, saying("missing_physics", {named("rail.coulomb", 0.8)})), judge(small, null_only())});
   EXPECT_EQ(s.figures[0].count, 1u);
   EXPECT_EQ(s.figures[0].of, 2u);
   EXPECT_FALSE(s.figures[0].met());
