@@ -60,7 +60,7 @@ TEST_P(EachPlant, SameSeedGivesTheSameBytes) {
 TEST_P(EachPlant, EveryEffectActsAtTypicalSizeAndNothingActsAtNone) {
   auto request = request_for(GetParam(), std::nullopt);
   request.size = 1.0;
-  request.trials = 1;
+  request.trials = GetParam() == "hopper" ? 1 : 3;  // one hop holds several touchdowns
   const auto* plant = find_plant(GetParam());
   auto effects = plant->listed();
   for (const auto& effect : plant->unlisted()) effects.push_back(effect);
