@@ -85,6 +85,11 @@ TEST(BadRecording, AColumnThatIsMostlyTextIsNotUsed) {
   EXPECT_TRUE(recording.has("foot_z_m"));
 }
 
+TEST(BadRecording, ColumnsThatNobodyReadsMayHoldAnything) {
+  const auto recording = read("t_s,force_N,operator\n0,1,anna\n1,2,ben\n2,2.5,NaN\n");
+  EXPECT_TRUE(recording.findings.empty()) << to_string(recording.findings.front());
+}
+
 TEST(BadRecording, TimeGoingBackwards) {
   const auto recording =
       read("t_s,force_N\n0,1\n0.001,2\n0.0005,9\n0.002,3\n0.003,3.5\n0.004,4\n0.005,4.5\n");

@@ -11,8 +11,7 @@ using enum MayRest;
 constexpr bool kRange = true;
 // A motor's current and speed have none here: they stand at the drive's own limit, and that is the truth.
 constexpr std::array kChannels{
-    ChannelTraits{"motor_left_position_rad", hopper},
-    ChannelTraits{"motor_right_position_rad", hopper},
+    ChannelTraits{"motor_left_position_rad", hopper}, ChannelTraits{"motor_right_position_rad", hopper},
     ChannelTraits{"motor_left_velocity_radps", hopper, at_zero},
     ChannelTraits{"motor_right_velocity_radps", hopper, at_zero},
     ChannelTraits{"motor_left_current_A", hopper, at_zero},
@@ -24,28 +23,23 @@ constexpr std::array kChannels{
     ChannelTraits{"imu_body_accel_z_mps2", hopper, at_zero, kRange},
     ChannelTraits{"imu_foot_accel_z_mps2", hopper, at_zero, kRange},
     ChannelTraits{"tof_height_m", hopper, never, kRange},
-    ChannelTraits{"load_cell_force_N", hopper, at_zero, kRange},
-    ChannelTraits{"mocap_body_z_m", hopper},
-    ChannelTraits{"mocap_foot_z_m", hopper, at_zero},
-    ChannelTraits{"phase", hopper, always},
+    ChannelTraits{"load_cell_force_N", hopper, at_zero, kRange}, ChannelTraits{"mocap_body_z_m", hopper},
+    ChannelTraits{"mocap_foot_z_m", hopper, at_zero}, ChannelTraits{"phase", hopper, always},
     ChannelTraits{"imu_body_gyro_x_radps", hopper, at_zero, kRange},
     ChannelTraits{"imu_body_gyro_y_radps", hopper, at_zero, kRange},
     ChannelTraits{"imu_body_gyro_z_radps", hopper, at_zero, kRange},
     ChannelTraits{"imu_foot_gyro_x_radps", hopper, at_zero, kRange},
     ChannelTraits{"imu_foot_gyro_y_radps", hopper, at_zero, kRange},
     ChannelTraits{"imu_foot_gyro_z_radps", hopper, at_zero, kRange},
-    ChannelTraits{"bus_voltage_V", hopper, always},
-    ChannelTraits{"estimate_body_z_m", hopper, always},
+    ChannelTraits{"bus_voltage_V", hopper, always}, ChannelTraits{"estimate_body_z_m", hopper, always},
     ChannelTraits{"estimate_foot_z_m", hopper, always},
     ChannelTraits{"estimate_body_velocity_mps", hopper, always},
     ChannelTraits{"estimate_foot_velocity_mps", hopper, always},
     ChannelTraits{"estimate_contact_force_N", hopper, always},
-    ChannelTraits{"quasi_static_force_N", hopper, always},
-    ChannelTraits{"foot_z_m", intruder},
+    ChannelTraits{"quasi_static_force_N", hopper, always}, ChannelTraits{"foot_z_m", intruder},
     ChannelTraits{"foot_velocity_mps", intruder, always},  // prescribed: constant by intent
     ChannelTraits{"foot_accel_mps2", intruder, at_zero, kRange},
-    ChannelTraits{"force_N", intruder, at_zero, kRange},
-    ChannelTraits{"height_m", falling_body},
+    ChannelTraits{"force_N", intruder, at_zero, kRange}, ChannelTraits{"height_m", falling_body},
     ChannelTraits{"accel_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"pressure_Pa", falling_body, never, kRange},
     // Further accelerometers along the same axis, of other range, and two across it.
@@ -54,8 +48,7 @@ constexpr std::array kChannels{
     ChannelTraits{"accel_4_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"lateral_x_accel_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"lateral_y_accel_mps2", falling_body, at_zero, kRange},
-    ChannelTraits{"position_rad", rotary_axis},
-    ChannelTraits{"velocity_radps", rotary_axis, at_zero, kRange},
+    ChannelTraits{"position_rad", rotary_axis}, ChannelTraits{"velocity_radps", rotary_axis, at_zero, kRange},
     ChannelTraits{"torque_Nm", rotary_axis, at_zero, kRange},
     ChannelTraits{"load_cell_torque_Nm", rotary_axis, at_zero, kRange}};
 

@@ -71,6 +71,7 @@ class Reader {
     if (!read_table(*file)) return std::move(out_);
     translate_issues();
     if (!any_unusable(out_.findings)) take_columns();
+    if (!any_unusable(out_.findings)) forget_unused_columns();
     if (!any_unusable(out_.findings)) judge_plant();
     if (!any_unusable(out_.findings)) select_rows();
     if (!any_unusable(out_.findings)) {
@@ -115,6 +116,7 @@ class Reader {
         std::stringstream text;
         const auto exported = export_csv(file, text, {.optional_channels = true});
         table_ = parse(text);
+        out_.own_log = true;
         if (exported.truncated_at)
           add(FindingKind::unreadable_file, note, 0, 0, "",
               fmt::format("the log is cut at byte {}", *exported.truncated_at),
@@ -319,6 +321,17 @@ class Reader {
         fmt::format("looks like channel {} in the unit \"{}\", which is not the channel's; column left out",
                     misnamed->channel, misnamed->unit),
         cure);
+  }
+
+  // What is wrong in a column that nobody reads costs nothing.
+  void forget_unused_columns() {
+    std::erase_if(out_.findings, [&](const Finding& finding) {
+      const bool in_cells = finding.kind == FindingKind::non_numeric_cell ||
+                            finding.kind == FindingKind::nan_cell ||
+                            finding.kind == FindingKind::duplicate_column;
+      return in_cells && std::find(out_.unused_columns.begin(), out_.unused_columns.end(), finding.channel) !=
+                             out_.unused_columns.end();
+    });
   }
 
   void judge_plant() {

@@ -30,6 +30,7 @@ class TrialRecording {
 
   std::vector<double> t_s;
   std::vector<Channel> channels;
+  bool own_log = false;                     // a log of this firmware, not a table from somewhere
   std::vector<std::string> unused_columns;  // of the file, that no channel or mapping names
   std::vector<SaturatedRows> saturated;
   std::vector<Finding> findings;

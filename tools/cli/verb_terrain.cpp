@@ -87,24 +87,20 @@ void write_json(const Json& head, const CampaignResults& results, const fs::path
     throw Failure(ExitCode::fault, "cannot write " + file.string(), "check the folder and the free space");
 }
 
-// Every finding, once where many trials share it.
+// Every finding once, however many trials share it.
 void tell_findings(Session& session, const CampaignResults& results) {
   constexpr std::size_t kMostLines = 100;
-  std::size_t said = 0, more = 0;
-  const auto say = [&](const Finding& finding) {
-    if (++said > kMostLines)
-      ++more;
-    else
-      session.say("  {}: {}",
-                  finding.severity == FindingSeverity::note
-                      ? "note"
-                      : "unusable " + std::string(cost_text(finding.severity).substr(4)),
-                  to_string(finding));
-  };
-  for (const auto& finding : results.findings) say(finding);
-  for (const auto& result : results.results)
-    for (const auto& finding : result.findings) say(finding);
-  if (more > 0) session.say("  … and {} more; all of them are in the report", more);
+  const auto groups = all_findings(results);
+  for (std::size_t i = 0; i < std::min(groups.size(), kMostLines); ++i) {
+    const auto& [finding, trials] = groups[i];
+    const auto cost = finding->severity == FindingSeverity::note
+                          ? std::string("note")
+                          : "unusable " + std::string(cost_text(finding->severity).substr(4));
+    session.say("  {}: {}{}", cost, to_string(*finding),
+                trials > 1 ? fmt::format(" (in {} trials)", trials) : "");
+  }
+  if (groups.size() > kMostLines)
+    session.say("  … and {} more; all of them are in the report", groups.size() - kMostLines);
 }
 
 ExitCode terrain(Session& session, const Options& options) {

@@ -41,6 +41,13 @@ void write_results(std::ostream& out, const nlohmann::ordered_json& head, const 
 // Throws nlohmann::json::exception where `json` is not what write_results writes.
 CampaignResults campaign_results_from_json(const nlohmann::ordered_json& json);
 
+// The same finding of many trials (a file they share) is one. Points into `results`.
+struct FindingGroup {
+  const Finding* first;
+  std::size_t trials = 0;
+};
+std::vector<FindingGroup> all_findings(const CampaignResults& results);
+
 // Pools and concludes; the JSON has the pooled figures and each analysis' own conclusions, not the trials.
 struct CampaignReport {
   std::vector<std::string> lines;

@@ -25,29 +25,6 @@ Results usable_results(const CampaignResults& results, Takes&& takes) {
   return taken;
 }
 
-// The same finding in many trials is one, with the first place and the number of trials.
-struct FindingGroup {
-  const Finding* first;
-  std::size_t trials = 0;
-};
-std::vector<FindingGroup> all_findings(const CampaignResults& results) {
-  std::vector<FindingGroup> groups;
-  const auto add = [&](const Finding& finding) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& group) {
-      return group.first->kind == finding.kind && group.first->channel == finding.channel &&
-             group.first->what == finding.what && group.first->line == finding.line;
-    });
-    if (same == groups.end())
-      groups.push_back({&finding, 1});
-    else
-      ++same->trials;
-  };
-  for (const auto& finding : results.findings) add(finding);
-  for (const auto& result : results.results)
-    for (const auto& finding : result.findings) add(finding);
-  return groups;
-}
-
 Json pooled_json(const std::vector<PooledQuantity>& pooled) {
   Json json = Json::object();
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
@@ -156,6 +133,25 @@ StudySection trials_section(const CampaignResults& results) {
 }
 
 }  // namespace
+
+std::vector<FindingGroup> all_findings(const CampaignResults& results) {
+  std::vector<FindingGroup> groups;
+  const auto add = [&](const Finding& finding) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& group) {
+      return group.first->kind == finding.kind && group.first->channel == finding.channel &&
+             group.first->what == finding.what && group.first->line == finding.line &&
+             group.first->file == finding.file;
+    });
+    if (same == groups.end())
+      groups.push_back({&finding, 1});
+    else
+      ++same->trials;
+  };
+  for (const auto& finding : results.findings) add(finding);
+  for (const auto& result : results.results)
+    for (const auto& finding : result.findings) add(finding);
+  return groups;
+}
 
 CampaignReport report_on(const CampaignResults& results) {
   CampaignReport report;

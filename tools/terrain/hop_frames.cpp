@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/cycle.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -98,7 +100,9 @@ class FrameMaker {
     const Column speeds = held(speed != nullptr ? *speed : differenced(in_.t_s, position));
     const Column currents = held(current_of(side));
     const Column positions = held(position);
-    const std::int64_t age_ns = nanoseconds(belief_.sensors.other.encoder_latency_s);
+    // In the firmware's own log a cycle holds the reply to the cycle before.
+    const std::int64_t age_ns =
+        in_.own_log ? kCyclePeriod_ns : nanoseconds(belief_.sensors.other.encoder_latency_s);
     for (std::size_t row = 0; row < in_.rows(); ++row) {
       auto& motor = out_.frames[row].motor[side];
       motor.fresh = !std::isnan(position[row]);
@@ -199,6 +203,7 @@ class FrameMaker {
     } else {
       note_once("the recording begins after the release: IMU offsets are taken as zero");
     }
+    out_.speed_known = out_.rest_seen || trial_.number("release_height_m").has_value();
     out_.calibration.body_height_m = height.count > 0 ? height.value() : expected_height_m();
   }
 

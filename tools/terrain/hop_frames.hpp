@@ -18,6 +18,7 @@ struct HopFrames {
   std::size_t release_row = 0;       // the first one free
   StaticCalibration calibration{};   // from the rows before the release
   bool rest_seen = false;            // false: the recording begins in the air, offsets are taken as zero
+  bool speed_known = false;          // starts from rest, as recorded or as the set-up says
   std::vector<std::string> notes{};  // what stands in for channels that were not recorded
 };
 

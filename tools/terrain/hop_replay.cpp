@@ -8,6 +8,7 @@
 namespace sandhopper {
 namespace {
 
+constexpr double kNearlyAtRest_mps = 0.05;
 constexpr double kUnknownSpeed_mps = 0.5;  // of a recording that begins in the air
 
 class Replay {
@@ -42,7 +43,9 @@ class Replay {
 
  private:
   static CycleConfig prepared(const HopFrames& hop, CycleConfig cycle) {
-    if (!hop.rest_seen) cycle.estimator.kalman.initial_speed_noise_mps = kUnknownSpeed_mps;
+    if (!hop.rest_seen)
+      cycle.estimator.kalman.initial_speed_noise_mps =
+          hop.speed_known ? kNearlyAtRest_mps : kUnknownSpeed_mps;
     return cycle;
   }
 

@@ -21,6 +21,19 @@ std::vector<double> without_gravity(const TrialRecording& in) {
   return out;
 }
 
+// What the load cell reads in the air before the first contact: a tare that was not taken off.
+double offset_in_air_N(std::span<const double> force_N, const SmoothMotion& motion, std::size_t first_row) {
+  constexpr double kClear_m = 1e-3;
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t row = first_row; row < force_N.size() && motion.position_m[row] > kClear_m; ++row) {
+    if (std::isnan(force_N[row])) continue;
+    sum += force_N[row];
+    ++count;
+  }
+  return count >= 10 ? sum / static_cast<double>(count) : 0.0;
+}
+
 // States of the rows where no phase was recorded: stance from load to no load.
 class LoadPhases {
  public:
@@ -71,11 +84,12 @@ std::optional<MeasuredStride> measured_stride(const CampaignTrial& trial, const 
   out.phases_known = phase != nullptr;
   if (phase != nullptr)
     while (out.first_row < phase->size() && std::isnan((*phase)[out.first_row])) ++out.first_row;
+  const double offset_N = offset_in_air_N(force, motion, out.first_row);
   LoadPhases by_load(config.contact_force_N);
   State state = State::flight;
   double held_N = 0.0;
   for (std::size_t row = out.first_row; row < in.rows(); ++row) {
-    if (!std::isnan(force[row])) held_N = force[row];
+    if (!std::isnan(force[row])) held_N = force[row] - offset_N;
     const State next = phase != nullptr ? recorded((*phase)[row]).value_or(state) : by_load.next(held_N);
     Estimate e;
     e.force_time_ns = static_cast<std::int64_t>(std::llround(in.t_s[row] * 1e9));

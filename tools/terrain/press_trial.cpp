@@ -40,6 +40,14 @@ Window loading_window(const CampaignTrial& trial, const std::vector<Row>& rows) 
           trial.number("loading_to_s").value_or(deepest->t_s)};
 }
 
+// Inertia shows: a stroke, whose force is not of the depth alone (stroke_trials.hpp).
+bool is_fast(const std::vector<Row>& loading) {
+  constexpr double kInertial_mps = 0.0767;  // sqrt(2 d g) of 0.3 mm grains
+  if (loading.size() < 2) return false;
+  const double duration_s = loading.back().t_s - loading.front().t_s;
+  return loading.back().depth_m - loading.front().depth_m > kInertial_mps * duration_s;
+}
+
 void keep_thinned(TrialSeries& series, const std::string& name, const std::vector<Row>& rows) {
   const std::size_t step = 1 + rows.size() / kMostSamples;
   for (std::size_t i = 0; i < rows.size(); i += step) {
@@ -68,6 +76,7 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
     path.push_back(row);
     if (row.t_s <= window.to_s && row.depth_m > 0.0) loading.push_back(row);
   }
+  if (!on_stop && is_fast(loading)) return;
   keep_thinned(result.series, "press_path", path);
   if (!on_stop) keep_thinned(result.series, "press_loading", loading);
   const double diameter_m = 2.0 * std::get<IntruderBelief>(trial.belief).foot.radius_m;

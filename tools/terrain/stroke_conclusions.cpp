@@ -69,8 +69,8 @@ TrialMean slow_slope(const Plate& plate) {
   return mean_over_trials(slopes);
 }
 
-// Exponent p of k ~ A^p, from each trial's own stiffness: the slope where it was too slow for inertia, which a
-// joint fit could not tell from depth there.
+// Exponent p of k ~ A^p, from each trial's own stiffness: the slope where it was too slow for inertia, which
+// a joint fit could not tell from depth there.
 struct AreaLaw {
   double exponent = NAN, half_width = NAN;
   std::size_t trials = 0;
@@ -226,7 +226,10 @@ PlateReport report_plate(const Plate& plate) {
 CampaignConclusions conclude_strokes(Results results) {
   CampaignConclusions told;
   const auto plates = plates_of(results);
-  if (plates.empty()) return told;
+  // Slow presses alone are the depth law's.
+  const bool fast = std::any_of(plates.begin(), plates.end(),
+                                [](const Plate& plate) { return plate.fastest_mps > kInertialSpeed_mps; });
+  if (!fast) return told;
   StudySection section{.title = "Depth, speed and acceleration"};
   StudyTable table{
       .title = "All strokes of a plate together",

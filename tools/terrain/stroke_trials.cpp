@@ -9,6 +9,7 @@
 #include "estimation/motion_smoother.hpp"
 #include "terrain/joint_fit.hpp"
 #include "terrain/series_compliance.hpp"
+#include "tools/experiment/statistics.hpp"
 #include "tools/terrain/stroke_map.hpp"
 
 namespace sandhopper {
@@ -37,6 +38,8 @@ class Stroke {
       return;
     }
     find_motion();
+    force_N_.assign(in_.channel("force_N").begin(), in_.channel("force_N").end());
+    remove_offset();
     collect();
     if (loading_.size() < kFewestSamples) {
       out_.ruled_out.emplace_back("force against depth and speed: fewer than ten samples at new depths");
@@ -75,9 +78,21 @@ class Stroke {
       if (!std::isnan(recorded[row])) values[row] = recorded[row];
   }
 
+  // What the force sensor reads in the air before the foot first meets the surface.
+  void remove_offset() {
+    constexpr double kClear_m = 5e-4;
+    std::vector<double> in_air;
+    for (std::size_t row = 0; row < in_.rows() && motion_.position_m[row] > 0.0; ++row)
+      if (motion_.position_m[row] > kClear_m && !std::isnan(force_N_[row])) in_air.push_back(force_N_[row]);
+    if (in_air.size() < kFewestSamples) return;
+    const double offset_N = mean(in_air);
+    for (double& value : force_N_) value -= offset_N;
+    add("force_offset_N", offset_N);
+  }
+
   // Rows with a fresh force, paired with the motion of the instant the force belongs to.
   void collect() {
-    const auto force = in_.channel("force_N");
+    const auto& force = force_N_;
     const double lag_s = 1.0 / (2.0 * std::numbers::pi * belief_.sensors.robot.load_cell_bandwidth_Hz) +
                          belief_.sensors.other.load_cell_latency_s;
     const double yield_m_per_N = belief_.rig.stiffness_N_per_m ? 1.0 / *belief_.rig.stiffness_N_per_m : 0.0;
@@ -192,6 +207,7 @@ class Stroke {
   const TrialRecording& in_;
   TrialResult& out_;
   SmoothMotion motion_;
+  std::vector<double> force_N_;
   bool inertia_known_ = false;
   bool fused_ = false;  // speed from camera and accelerometer together
   std::vector<Sample> loading_, path_;
