@@ -32,9 +32,11 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
     const PlantTruth before = truth;  // at the instant of the newest motor reply: the previous cycle's
     board.read(frame);
     truth = world.truth();
-    const auto& out = controller.step(frame);
+    SensorFrame told = frame;
+    if (watch.before_cycle) watch.before_cycle(told);
+    const auto& out = controller.step(told);
     board.write(out.command);
-    if (watch.on_cycle) watch.on_cycle({frame, out, truth});
+    if (watch.on_cycle) watch.on_cycle({told, out, truth});
     for (const auto& event : controller.events())
       if (event.kind == EventKind::armed) request = Request::release;
     if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
@@ -62,6 +64,15 @@ RecordedStride with_true_state(const RecordedStride& stride) {
     estimate.weighting_accel_mps2 = std::abs(sample.true_foot_accel_mps2);
   }
   return truth;
+}
+
+RecordedStride paired_by_row(const RecordedStride& stride) {
+  RecordedStride paired = stride;
+  for (auto& sample : paired.samples) {
+    sample.estimate.force_depth_m = -sample.estimate.foot_z_m;
+    sample.estimate.force_velocity_mps = -sample.estimate.foot_velocity_mps;
+  }
+  return paired;
 }
 
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {

@@ -37,8 +37,10 @@ struct CycleView {
   const PlantTruth& truth;
 };
 
-// Who wants to see every cycle, also those before the release and some after the liftoff.
+// Who wants to see every cycle, also those before the release and some after the liftoff, or to change what
+// the controller is told.
 struct StrideWatch {
+  std::function<void(SensorFrame&)> before_cycle{};
   std::function<void(const CycleView&)> on_cycle{};
   int cycles_after_liftoff = 0;
 };
@@ -49,6 +51,10 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world,
 // The same stride as perfect sensors and a perfect observer would have told it; the quasi-static force
 // remains what the motors' currents say.
 RecordedStride with_true_state(const RecordedStride& stride);
+
+// The same stride for an analysis that takes a row's figures as of one instant: its forces stand beside the
+// newest depth and speed, which are a cycle younger.
+RecordedStride paired_by_row(const RecordedStride& stride);
 
 // The same stride evaluated with another sample window, intercept or weights: bit for bit what the firmware
 // would have said with that configuration.

@@ -96,8 +96,14 @@ struct StrideOutcome {
 StrideOutcome run_one(const StudySetup& setup, const HopCell& cell, std::uint64_t seed) {
   CycleConfig cycle = setup.cycle;
   cycle.controller.compression_stiffness_N_per_m = cell.compression_stiffness_N_per_m;
-  const auto stride = record_stride(cycle, setup.world,
-                                    {.release_height_m = cell.release_height_m, .seed = seed, .noise = true});
+  StrideWatch watch;
+  if (setup.ignore_ages)
+    watch.before_cycle = [](SensorFrame& frame) {
+      if (frame.tof.fresh) frame.tof.time_ns = frame.time_ns;
+    };
+  auto stride = record_stride(
+      cycle, setup.world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true}, watch);
+  if (setup.ignore_ages) stride = paired_by_row(stride);
   StrideOutcome outcome;
   outcome.complete = stride.complete;
   if (!stride.complete) return outcome;

@@ -73,6 +73,9 @@ struct StudySetup {
   int seeds = 8;
   int trials_per_cell = 5;
   unsigned threads = 2;
+  // As if no sample had an age: the filter takes a height reading as of the cycle that hears of it, and
+  // forces are paired with the depth of the row they stand in.
+  bool ignore_ages = false;
   std::function<void(int done, int total)> progress{};  // called from one thread at a time
 };
 TreatmentStudy run_treatment_study(const StudySetup& setup);

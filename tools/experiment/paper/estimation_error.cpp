@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kChiSquared95 = 3.841;  // one degree of freedom
 constexpr double kCycle_s = 1e-3;
+constexpr std::int64_t kCycle_ns = 1'000'000;
 
 double seconds(std::int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); }
 
@@ -115,8 +116,8 @@ EstimationErrors estimation_errors(const HopTrial& trial) {
     depth_error_m.add(row.estimate.foot_z_m - row.truth.foot_z_m);
     errors.cycles += 1.0;
     errors.fresh_load_cell += row.load_cell.fresh ? 1.0 : 0.0;
-    errors.longest_step_error_s =
-        std::max(errors.longest_step_error_s, std::abs(row.time_s - before.time_s - kCycle_s));
+    errors.longest_step_error_s = std::max(
+        errors.longest_step_error_s, std::abs(seconds(row.truth.time_ns - before.truth.time_ns - kCycle_ns)));
   }
   const double centre_m = depth_error_m.sum / depth_error_m.count;
   for (std::size_t i = at.contact; i < at.liftoff; ++i)

@@ -34,7 +34,8 @@ HopTrial run_hop(const CycleConfig& base, const WorldConfig& world, const HopCel
     }
     before = view.truth;
   };
-  trial.stride = record_stride(cycle, world, released, {watch, kCyclesAfterLiftoff});
+  trial.stride =
+      record_stride(cycle, world, released, {.on_cycle = watch, .cycles_after_liftoff = kCyclesAfterLiftoff});
   trial.complete = trial.stride.complete;
   return trial;
 }

@@ -28,7 +28,7 @@ ProgrammeResults run_programme(const ProgrammeSetup& setup) {
   const int strides = setup.seeds * static_cast<int>(hop_cells().size()) * setup.trials_per_cell;
   const int per_condition =
       setup.condition_seeds * static_cast<int>(hop_cells().size()) * setup.trials_per_cell;
-  const int total = 2 * strides + per_condition * static_cast<int>(conditions().size());
+  const int total = 3 * strides + per_condition * static_cast<int>(conditions().size());
   const auto from = [&](int before) {
     return [&setup, before, total](int done, int) {
       if (setup.progress) setup.progress(before + done, total);
@@ -48,9 +48,13 @@ ProgrammeResults run_programme(const ProgrammeSetup& setup) {
                    .threads = setup.threads,
                    .progress = from(strides)};
   r.treatments = run_treatment_study(study);
+  study.ignore_ages = true;
+  study.progress = from(2 * strides);
+  r.without_ages = run_treatment_study(study);
+  study.ignore_ages = false;
   study.seeds = setup.condition_seeds;
   for (std::size_t i = 0; setup.condition_seeds > 0 && i < conditions().size(); ++i) {
-    study.progress = from(2 * strides + static_cast<int>(i) * per_condition);
+    study.progress = from(3 * strides + static_cast<int>(i) * per_condition);
     r.conditions.push_back(run_condition(study, conditions()[i]));
   }
 

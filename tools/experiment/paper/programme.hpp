@@ -34,6 +34,7 @@ struct ProgrammeResults {
   StiffnessDefinitions stiffness{};
   std::vector<HopResult> hops{};
   TreatmentStudy treatments{};
+  TreatmentStudy without_ages{};              // the same hops, as if no sample had an age
   std::vector<ConditionResult> conditions{};  // the treatments under other conditions; the first is the base
   HopTrial example{};                         // 1.0 m/s, 3.75 N/cm
   HopTrial quiet{};                           // the same without noise or spread

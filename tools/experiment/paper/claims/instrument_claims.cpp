@@ -14,7 +14,7 @@ Claim logging_rate(const ProgrammeResults& r) {
   const double load_cell = stale(e.fresh_load_cell);
   Claim c{1, "All sensors are logged at 1 kHz",
           "rows 1 ms apart; every row holds a fresh sample of every sensor"};
-  c.figures = {{"largest error of a row's time", 1e6 * e.longest_step_error_s, "us", 2},
+  c.figures = {{"largest error of a row's time", 1e6 * e.longest_step_error_s, "µs", 2},
                {"rows without a fresh load-cell sample", load_cell, "%", 1},
                {"rows without a fresh time-of-flight sample", stale(e.fresh_tof), "%", 1},
                {"rows without a fresh motion-capture frame", stale(e.fresh_mocap), "%", 1}};
@@ -39,9 +39,8 @@ Claim foot_size(const ProgrammeResults& r) {
       share_of(trials,
                [&](const HopResult& h) { return deep(h) && h.validity == Validity::deeper_than_foot; }) *
       static_cast<double>(trials.size());
-  Claim c{2, "The foot is a disk of 80 mm with sides of 50 mm",
-          "A = 50.27 cm^2; no stride deeper than 50 mm"};
-  c.figures = {{"area", 1e4 * area_m2, "cm^2", 2},
+  Claim c{2, "The foot is a disk of 80 mm with sides of 50 mm", "A = 50.27 cm²; no stride deeper than 50 mm"};
+  c.figures = {{"area", 1e4 * area_m2, "cm²", 2},
                {"rho g A", archimedes, "N/m", 1},
                {"k over rho g A", world.terrain.stiffness_N_per_m / archimedes, "", 1},
                {"strides deeper than 50 mm", too_deep, "", 0},

@@ -54,7 +54,7 @@ Claim massless_limit(const ProgrammeResults& r) {
   const auto remainder = massless_remainder(r.setup.world.robot.leg, mean(accel));
   Claim c{6, "Without link inertia the dynamic estimate is the quasi-static one",
           "F_c - tau/L' vanishes for links and rotors without inertia"};
-  c.figures = {{"mean foot acceleration after touchdown", mean(accel), "m/s^2", 1},
+  c.figures = {{"mean foot acceleration after touchdown", mean(accel), "m/s²", 1},
                {"F_c - tau/L' then", remainder.remainder_N, "N", 2},
                {"m_f (x'' + g)", remainder.foot_inertia_N, "N", 2}};
   const bool is_foot = std::abs(remainder.remainder_N - remainder.foot_inertia_N) < 1e-9;
@@ -85,7 +85,7 @@ Claim observer_law(const ProgrammeResults& r) {
                {"largest difference from the internal form", 100.0 * step.internal_form_difference,
                 "% of the step", 4}};
   c.verdict = comes_out_if(std::abs(error) < 0.02 && step.internal_form_difference < 0.01);
-  c.why = "the cycle's exact update at 1 kHz against r = k (p - integral (psi + r) dt) in steps of 1 us";
+  c.why = "the cycle's exact update at 1 kHz against r = k (p - integral (psi + r) dt) in steps of 1 µs";
   return c;
 }
 

@@ -166,12 +166,12 @@ Claim three_transients(const ProgrammeResults& r) {
     return mean(over(stepped, [&](const HopResult& h) { return h.shape.*feature; }));
   };
   Claim c{25, "Three transients of the acceleration: touchdown, switch, liftoff",
-          "foot's acceleration departs by over 3 m/s^2 within 20 ms of each: up, down, up"};
+          "foot's acceleration departs by over 3 m/s² within 20 ms of each: up, down, up"};
   c.figures = {{"trials with 2.5 and 3.75 N/cm in which it holds", 100.0 * share, "%", 1},
                {"trials with 5 N/cm", 100.0 * share_equal, "%", 1},
-               {"touchdown, mean", average(&StrideShape::touchdown_transient_mps2), "m/s^2", 1},
-               {"switch, mean", average(&StrideShape::switch_transient_mps2), "m/s^2", 1},
-               {"liftoff, mean", average(&StrideShape::liftoff_transient_mps2), "m/s^2", 1}};
+               {"touchdown, mean", average(&StrideShape::touchdown_transient_mps2), "m/s²", 1},
+               {"switch, mean", average(&StrideShape::switch_transient_mps2), "m/s²", 1},
+               {"liftoff, mean", average(&StrideShape::liftoff_transient_mps2), "m/s²", 1}};
   c.verdict =
       share >= 0.95 ? (share_equal >= 0.95 ? Verdict::comes_out : Verdict::only_if) : verdict_of_share(share);
   c.why =

@@ -112,6 +112,8 @@ Json programme_json(const ProgrammeResults& r, const std::vector<Claim>& claims)
   json["estimation"] = errors_json(errors_by_speed(r));
   json["treatments"] = Json::array();
   for (const auto& one : r.treatments.cases) json["treatments"].push_back(case_json(one));
+  json["treatments_with_ages_ignored"] = Json::array();
+  for (const auto& one : r.without_ages.cases) json["treatments_with_ages_ignored"].push_back(case_json(one));
   json["conditions"] = Json::array();
   for (const auto& c : r.conditions)
     json["conditions"].push_back({{"name", c.name},
