@@ -26,10 +26,11 @@ double noise_of(std::span<const double> values, const Believed& believed) {
 Believed away_from_saturation(std::span<const double> values, const FusionOptions& options,
                               AccelerometerCalibration& calibration) {
   Believed believed(values.size(), true);
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double low = *std::min_element(values.begin(), values.end());
+  const double high = *std::max_element(values.begin(), values.end());
   const double noise = noise_of(values, believed);
   const auto at_end = [&](std::size_t i) {
-    return values[i] >= *high - 2.0 * noise || values[i] <= *low + 2.0 * noise;
+    return values[i] >= high - 2.0 * noise || values[i] <= low + 2.0 * noise;
   };
   const auto stands_still = [&](std::size_t i) {
     return i == 0 || std::abs(values[i] - values[i - 1]) <= 0.25 * noise;
@@ -50,7 +51,7 @@ Believed away_from_saturation(std::span<const double> values, const FusionOption
     }
     run = end ? 1 : 0;
   }
-  calibration.saturation_mps2 = std::max(std::abs(*low), std::abs(*high));
+  calibration.saturation_mps2 = std::max(std::abs(low), std::abs(high));
   return believed;
 }
 

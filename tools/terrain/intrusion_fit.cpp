@@ -65,12 +65,12 @@ RigResult judge_rig(std::span<const PressTrial> trials) {
 
 void predict(LawResult& law, const Presses& held_out, const DepthLawOptions& options) {
   std::vector<double> rms;
-  std::vector<std::vector<double>> errors(std::size(kPredictedDepths_m));
+  std::vector<std::vector<double>> errors(kPredictedDepths_m.size());
   for (const auto* press : held_out) {
     PressPrediction prediction{press->trial, press->loading.diameter_m, 0.0, {}, {}};
     prediction.rms_N = rms_residual_N(law.fit, press->loading, options);
     rms.push_back(prediction.rms_N);
-    for (std::size_t i = 0; i < std::size(kPredictedDepths_m); ++i) {
+    for (std::size_t i = 0; i < kPredictedDepths_m.size(); ++i) {
       const double depth_m = kPredictedDepths_m[i];
       prediction.measured_N.push_back(measured_force_N(press->loading, depth_m));
       prediction.predicted_N.push_back(
@@ -89,7 +89,7 @@ LawResult fit_law(DepthLaw kind, const Presses& fit, const Presses& held_out,
   LawResult out;
   out.fit = fit_depth_law(kind, trials, options);
   std::vector<double> stiffness, shape;
-  std::vector<std::vector<double>> predicted(std::size(kPredictedDepths_m));
+  std::vector<std::vector<double>> predicted(kPredictedDepths_m.size());
   for (const auto& trial : trials) {
     const auto own = fit_depth_law(kind, std::span(&trial, 1), options);
     stiffness.push_back(own.stiffness_per_area_N_per_m3);

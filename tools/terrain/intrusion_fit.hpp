@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +14,7 @@
 // how much of the recorded depth is the rig's own elasticity.
 namespace sandhopper {
 
-inline constexpr double kPredictedDepths_m[] = {0.005, 0.010, 0.020};
+inline constexpr std::array kPredictedDepths_m{0.005, 0.010, 0.020};
 
 // A held-out trial against a law's prediction.
 struct PressPrediction {

@@ -231,11 +231,15 @@ CampaignConclusions tell_leg(const LegIdentification& leg) {
   section.items.emplace_back(parameter_table(leg));
   if (tested) section.items.emplace_back(residual_figure(leg));
   section.items.emplace_back(choice_figure(leg));
-  section.items.emplace_back(std::string(
+  section.items.emplace_back(fmt::format(
       "What remains: the blow of the landing and the ringing of the plate after it, which the angle does not "
-      "show; waves of 1 to 3 N in mid-stance; the plate's gain, which is not told apart from the torque's "
-      "scale (a plate that reads low looks like a motor that pulls less); friction that depends on the "
-      "load."));
+      "show; vibration of leg and plate in mid-stance; friction that depends on the load; and the plate's "
+      "gain, "
+      "which is not told apart from the torque's scale. The mass believed is {} kg, by the plate's "
+      "impulse it "
+      "is {} kg: if the belief is right, the plate reads {} times the force.",
+      figure_number(leg.believed_mass_kg), figure_number(leg.mass_kg.value),
+      figure_number(leg.mass_kg.value / leg.believed_mass_kg)));
   out.sections.push_back(std::move(section));
   return out;
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tools/terrain/leg_regression.hpp"
+#include "tools/terrain/leg_forces.hpp"
 
 namespace sandhopper {
 namespace {
@@ -15,6 +15,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equations) {
   std::vector<const HopEquations*> out;
+  out.reserve(equations.size());
   for (const auto& e : equations) out.push_back(&e);
   return out;
 }
@@ -57,76 +58,6 @@ void bootstrap(const std::vector<HopEquations>& equations, const LegIdentificati
   out.spring_stiffness_interval = percentile_interval(spring);
 }
 
-// The believed leg with what was identified.
-Leg identified_leg(const LegParameters& believed, const LegIdentification& found) {
-  LegParameters p = believed;
-  p.rotor_inertia_kg_m2 = found.value[1] / (p.motor_count * p.gear_ratio * p.gear_ratio);
-  if (found.mass_kg.trials > 0)
-    p.body_mass_kg =
-        found.mass_kg.value - p.foot_mass_kg - 2.0 * (p.upper_link_mass_kg + p.lower_link_mass_kg);
-  if (!(p.body_mass_kg > 0.0)) p.body_mass_kg = 1.0;
-  return Leg{p};
-}
-
-JointFriction identified_friction(const LegIdentification& found, const LegIdentificationOptions& options) {
-  return {found.value[2], found.value[3], options.friction_switch_radps};
-}
-
-// What the joint feels of the commanded torque, friction and spring.
-double joint_torque_Nm(const LegIdentification& found, const JointFriction& friction, double command_Nm,
-                       double angle_rad, double rate_radps) {
-  return found.value[0] * command_Nm + friction.torque_Nm(rate_radps) + found.spring_torque_Nm -
-         found.spring_stiffness_Nm_per_rad * angle_rad;
-}
-
-std::vector<double> smooth_force(const PreparedHop& prepared, const LegIdentification& found,
-                                 const LegIdentificationOptions& options) {
-  const auto& hop = *prepared.hop;
-  const Leg leg = identified_leg(hop.leg, found);
-  const auto friction = identified_friction(found, options);
-  std::vector<double> out;
-  for (std::size_t row = 0; row < hop.t_s.size(); ++row) {
-    const auto& state = prepared.state[row];
-    out.push_back(joint_row_force_N(
-        leg, state, joint_torque_Nm(found, friction, hop.torque_Nm[row], state.angle_rad, state.rate_radps)));
-  }
-  return out;
-}
-
-std::vector<double> quasi_static_force(const LegHop& hop) {
-  const Leg leg = bare_leg(hop.leg);
-  std::vector<double> out;
-  for (std::size_t row = 0; row < hop.t_s.size(); ++row)
-    out.push_back(hop.torque_Nm[row] / leg.kinematics(hop.angle_rad[row]).dlength_m_per_rad);
-  return out;
-}
-
-// Both causal forms see the angle up to their row only: rate by difference, torque and angle of the middle of
-// the step.
-struct CausalForces {
-  std::vector<double> joint_row_N, reduced_row_N;
-};
-CausalForces causal_forces(const LegHop& hop, double gain_per_s, const LegIdentification& found,
-                           const LegIdentificationOptions& options) {
-  const Leg leg = identified_leg(hop.leg, found);
-  const auto friction = identified_friction(found, options);
-  JointRowObserver joint(gain_per_s);
-  MomentumObserver reduced(gain_per_s);  // of a foot at rest: its momentum is zero
-  CausalForces out{{0.0}, {0.0}};
-  for (std::size_t row = 1; row < hop.t_s.size(); ++row) {
-    const double dt = hop.t_s[row] - hop.t_s[row - 1];
-    const double angle = 0.5 * (hop.angle_rad[row] + hop.angle_rad[row - 1]);
-    const double rate = (hop.angle_rad[row] - hop.angle_rad[row - 1]) / dt;
-    const double command = 0.5 * (hop.torque_Nm[row] + hop.torque_Nm[row - 1]);
-    const double torque = joint_torque_Nm(found, friction, command, angle, rate);
-    if (row == 1) joint.reset(leg, angle, rate);
-    out.joint_row_N.push_back(joint.update(leg, angle, rate, torque, dt));
-    const double psi_N = -reduced_row_force_N(leg, {angle, rate, 0.0}, torque);
-    out.reduced_row_N.push_back(reduced.update(0.0, psi_N, dt));
-  }
-  return out;
-}
-
 bool counts(const PreparedHop& prepared, std::size_t row, LegWindow window) {
   if (!(prepared.hop->stance[row] > 0.0)) return false;
   switch (window) {
@@ -154,17 +85,6 @@ double rms_where(const std::vector<double>& estimate, const std::vector<double>&
 std::vector<double> reference_of(const PreparedHop& prepared, double offset_s, double window_s) {
   std::vector<double> out;
   for (const double t : prepared.hop->t_s) out.push_back(reference_at_N(prepared, t + offset_s, window_s));
-  return out;
-}
-
-// What an observer of this gain makes of a force it knows exactly.
-std::vector<double> behind_lag(const std::vector<double>& force_N, const std::vector<double>& t_s,
-                               double gain_per_s) {
-  std::vector<double> out{0.0};
-  for (std::size_t row = 1; row < force_N.size(); ++row) {
-    const double keep = std::exp(-gain_per_s * (t_s[row] - t_s[row - 1]));
-    out.push_back(keep * out.back() + (1.0 - keep) * 0.5 * (force_N[row] + force_N[row - 1]));
-  }
   return out;
 }
 
@@ -290,10 +210,12 @@ LegIdentification identify_leg(std::span<const LegHop> hops, const LegIdentifica
   out.foot_mass_kg = solve(pointers(equations), LinearModel::friction_and_foot).value(4);
   bootstrap(equations, options, out);
   std::vector<double> masses;
+  masses.reserve(fit_hops.size());
   for (const auto& prepared : fit_hops) masses.push_back(mass_of_kg(prepared));
   out.mass_kg = mean_over_trials(masses);
   out.observer_gain_per_s = best_gain(fit_hops, out, options);
   out.fit_hops = fit_hops.size();
+  out.believed_mass_kg = bare_leg(hops.front().leg).total_mass_kg();
 
   // From here on nothing is fitted any more.
   for (const auto& prepared : fit_hops) out.hops.push_back(score(prepared, out, options));

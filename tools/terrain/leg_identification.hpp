@@ -68,6 +68,7 @@ struct LegIdentification {
   LegParameterValues value{};
   std::array<PercentileInterval, kLegParameters> interval{};  // bootstrap over hops
   double tare_N = 0.0;                                        // the plate's reading in flight
+  double believed_mass_kg = 0.0;
   TrialMean mass_kg{};        // impulse over the cycle / (g T), hops that land
   double half_width_s = 0.0;  // chosen by leaving one hop out
   double observer_gain_per_s = 0.0;

@@ -34,6 +34,8 @@ struct PenetrometerDrop {
 // Needs accel_mps2 (further ones accel_2_mps2, …); the body's area, volume and the medium's density come from
 // the belief, mass_min_kg and mass_max_kg from the set-up. Says in `ruled_out` why a drop cannot be used.
 void keep_drop(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result);
+// What keep_drop found, into the result's series and back (penetrometer_series.cpp).
+void keep_numbers(const PenetrometerDrop& drop, TrialResult& result);
 bool holds_drop(const TrialResult& result);
 PenetrometerDrop drop_from(const TrialResult& result);
 

@@ -190,10 +190,9 @@ std::string prediction_text(const IntrusionFit& fit) {
   text = fmt::format(
       "Predicted from each fitted trial alone, mean and 95 % interval of that mean over trials: {}.", text);
   if (fit.friction_angle_sensitivity)
-    text +=
-        fmt::format(" With the friction angle 5° lower and higher the error at {:.0f} mm is {} and {}.",
-                    1e3 * *std::rbegin(kPredictedDepths_m), percent(fit.friction_angle_sensitivity->first),
-                    percent(fit.friction_angle_sensitivity->second));
+    text += fmt::format(" With the friction angle 5° lower and higher the error at {:.0f} mm is {} and {}.",
+                        1e3 * kPredictedDepths_m.back(), percent(fit.friction_angle_sensitivity->first),
+                        percent(fit.friction_angle_sensitivity->second));
   return text;
 }
 
