@@ -47,6 +47,23 @@ conceal::Request request_of(const Options& options) {
   return request;
 }
 
+// Before anything is written.
+void check_request(const conceal::Request& request) {
+  try {
+    conceal::check(request);
+  } catch (const std::invalid_argument& error) {
+    throw Failure(ExitCode::usage, error.what(), kListCure);
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
+                  "name a folder you may write with --output");
+}
+
 ExitCode list(Session& session) {
   for (const auto* plant : conceal::plants()) {
     auto& of_plant = session.result[plant->name()];
@@ -72,6 +89,8 @@ ExitCode generate(Session& session, const Options& options) {
     throw Failure(ExitCode::usage, root.string() + " already holds campaigns",
                   "name a new folder with --output");
   const auto request = request_of(options);
+  check_request(request);
+  make_folder(root);
   Progress progress("concealing", static_cast<double>(options.campaigns));
   for (std::uint64_t i = 1; i <= options.campaigns; ++i) {
     const auto name = fmt::format("{:03d}", i);
@@ -177,6 +196,8 @@ ExitCode run_and_score(Session& session, Options options) {
   benchmark::RunOptions run;
   run.folder = options.output;
   run.request = request_of(options);
+  check_request(run.request);
+  make_folder(run.folder);
   run.campaigns = options.campaigns;
   run.limit_s = options.limit_s;
   run.jobs = options.jobs;

@@ -60,7 +60,12 @@ const EffectInfo* named(const std::vector<EffectInfo>& all, const std::string& i
 // What to hide; sets the restriction or the port that goes with it.
 std::vector<EffectInfo> draw_effects(Case& c, const Request& request, Random& random) {
   const auto listed = c.plant->listed(), unlisted = c.plant->unlisted();
-  if (c.kind == Kind::null || c.kind == Kind::decoy) return {};
+  if (c.kind == Kind::null || c.kind == Kind::decoy) {
+    // Some have the limited apparatus of the ambiguous ones, so that it says nothing.
+    if (const auto count = c.plant->ambiguities().size(); count > 0 && random.chance(0.35))
+      c.restriction = static_cast<std::size_t>(random.below(static_cast<int>(count)));
+    return {};
+  }
   if (c.kind == Kind::unknown) {
     const auto* asked = named(unlisted, request.effect);
     const auto one = asked ? *asked : pick(unlisted, random);
@@ -97,12 +102,6 @@ void draw_wear(Case& c, Random& random) {
   c.foreign_names = random.chance(0.25 * more);
 }
 
-void check(const Request& request, const Plant& plant) {
-  if (request.effect.empty()) return;
-  if (!named(plant.listed(), request.effect) && !named(plant.unlisted(), request.effect))
-    throw std::invalid_argument(fmt::format("the plant {} has no effect '{}'", plant.name(), request.effect));
-}
-
 const Plant& plant_for(const Request& request, Random& random) {
   if (!request.plant.empty()) {
     if (const auto* plant = find_plant(request.plant)) return *plant;
@@ -123,7 +122,6 @@ Case attempt(const Request& request, std::uint64_t index, const Random& base, in
       base.stream("which");  // the same in every attempt: no plant or kind gets rarer for being hard to see
   Case c;
   c.plant = &plant_for(request, which);
-  check(request, *c.plant);
   const bool outside = !request.effect.empty() && named(c.plant->unlisted(), request.effect);
   const Kind drawn = kind_of(request, index);
   c.kind = request.kind             ? *request.kind
@@ -157,6 +155,14 @@ bool acts(const Case& c, const HiddenEffect& effect) {
 
 }  // namespace
 
+void check(const Request& request) {
+  auto random = Random(request.seed);
+  const auto& plant = plant_for(request, random);
+  if (request.effect.empty()) return;
+  if (!named(plant.listed(), request.effect) && !named(plant.unlisted(), request.effect))
+    throw std::invalid_argument(fmt::format("the plant {} has no effect '{}'", plant.name(), request.effect));
+}
+
 const char* name_of(Kind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
 std::optional<Kind> kind_named(const std::string& name) {
@@ -184,6 +190,7 @@ Request Request::from_json(const Json& json) {
 }
 
 Case make_case(const Request& request, std::uint64_t index) {
+  check(request);
   const auto base = Random(request.seed).stream("case", index);
   for (int i = 0; i < kAttempts; ++i) {
     auto c = attempt(request, index, base, i);

@@ -51,7 +51,10 @@ struct Case {
   std::unique_ptr<Bench> bench;  // with all that is hidden
 };
 
-// Throws std::invalid_argument when the request names what there is not.
+// Throws std::invalid_argument when the request names a plant or an effect that there is not.
+void check(const Request& request);
+
+// Throws as check() does, and when the effect asked for does nothing on any apparatus.
 Case make_case(const Request& request, std::uint64_t index);
 
 // The apparatus of a case with some of what is hidden in it, or nothing.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <numbers>
 
 #include "tools/conceal/core/dormand_prince.hpp"
@@ -14,36 +13,43 @@ constexpr int kSettling = 2000;   // cycles
 constexpr double kPi = std::numbers::pi;
 using State = std::array<double, 3>;  // position, velocity, stretch of the hysteretic spring
 
-struct Target {
-  double position_rad, velocity_radps;
-  bool free = false;  // no torque
-};
-
 double triangle(double phase) {  // -1 … 1, rising through zero
   const double p = phase - std::floor(phase);
   return p < 0.25 ? 4.0 * p : p < 0.75 ? 2.0 - 4.0 * p : 4.0 * p - 4.0;
 }
 
-Target target(const Setup& setup, double t_s) {
+bool free_swing(const Setup& setup) {
+  return setup.kind() != "hold" && setup.text("profile", "sine") == "release";
+}
+
+// Where the arm is asked to be, before it is smoothed.
+double target_rad(const Setup& setup, double t_s) {
   const auto profile = setup.text("profile", "sine");
   const double amplitude = setup.number("amplitude_rad", 1.0);
-  if (profile == "release") return {0.0, 0.0, true};
-  if (setup.kind() == "hold") return {setup.number("position_rad", 0.5), 0.0};
+  if (setup.kind() == "hold") return setup.number("position_rad", 0.5);
   if (profile == "steps") {
     const auto step = static_cast<int>(t_s / setup.number("hold_s", 1.0));
     constexpr double kLevels[] = {0.0, 0.5, 1.0, 0.3, -0.4, -1.0, -0.6, 0.2};
-    return {amplitude * kLevels[step % 8], 0.0};
+    return amplitude * kLevels[step % 8];
   }
-  if (profile == "ramp") {
-    const double speed = setup.number("speed_radps", 1.0), phase = t_s * speed / (4.0 * amplitude);
-    const double p = phase - std::floor(phase);
-    return {amplitude * triangle(phase), p < 0.25 || p >= 0.75 ? speed : -speed};
-  }
+  if (profile == "ramp")
+    return amplitude * triangle(t_s * setup.number("speed_radps", 1.0) / (4.0 * amplitude));
   const double f0 = setup.number("frequency_Hz", 0.5), f1 = setup.number("end_frequency_Hz", f0);
   const double rate = (f1 - f0) / setup.number("duration_s", 6.0);
-  const double phase = 2.0 * kPi * (f0 * t_s + 0.5 * rate * t_s * t_s);
-  return {amplitude * std::sin(phase), amplitude * std::cos(phase) * 2.0 * kPi * (f0 + rate * t_s)};
+  return amplitude * std::sin(2.0 * kPi * (f0 * t_s + 0.5 * rate * t_s * t_s));
 }
+
+// The target through a critically damped second order of 4 Hz: no motor is given steps, and a torque that
+// jumped would be lost between slow rows.
+struct Reference {
+  double position_rad = 0.0, velocity_radps = 0.0;
+
+  void follow(double target_rad) {
+    constexpr double kPole = 2.0 * kPi * 4.0;
+    velocity_radps += kTick_s * (kPole * kPole * (target_rad - position_rad) - 2.0 * kPole * velocity_radps);
+    position_rad += kTick_s * velocity_radps;
+  }
+};
 
 double hidden_torque_Nm(const World& w, const State& x, double torque_Nm, double& spring_rate) {
   const auto& h = w.hidden;
@@ -85,12 +91,9 @@ struct Motion {
   Trace position_rad, velocity_radps, torque_Nm, delivered_Nm;
 };
 
-double command_Nm(const World& w, const Setup& setup, double t_s, const State& x) {
-  const auto goal = target(setup, t_s);
-  if (goal.free) return 0.0;
-  const double quantum = 2.0 * w.position_range_rad / ((1 << w.position_bits) - 1);
-  // Held still, the loop works on the motor's own finer encoder and does not hunt.
-  const double seen = setup.kind() == "hold" ? x[0] : quantum * std::round(x[0] / quantum);
+double command_Nm(const World& w, const Reference& goal, const State& x) {
+  constexpr double kEncoder_rad = 2.0 * kPi / 16384.0 / 6.0;  // on the motor's side of the gear
+  const double seen = kEncoder_rad * std::round(x[0] / kEncoder_rad);
   const double stiffness = 400.0 * w.inertia_kg_m2, damping = 30.0 * w.inertia_kg_m2;
   const double torque_Nm = stiffness * (goal.position_rad - seen) + damping * (goal.velocity_radps - x[1]) +
                            w.gravity_torque_Nm * std::sin(seen);
@@ -111,18 +114,26 @@ Motion simulate(const World& w, const Setup& setup, const Random& trial) {
   const int before = setup.kind() == "hold" ? kSettling : 0;
   const auto ticks =
       before + static_cast<int>(std::lround(setup.number("duration_s", w.duration_s) / kTick_s));
-  Trace reported{kTick_s, {}};
-  double t_s = 0.0, torque_Nm = 0.0;
+  const bool free = free_swing(setup);
+  Reference goal{setup.kind() == "hold" ? x[0] : 0.0, 0.0};
+  Trace reported{kTick_s, {0.0}};
+  double t_s = 0.0;
   for (int i = 0; i <= ticks; ++i) {
-    torque_Nm += 0.6 * (command_Nm(w, setup, t_s, x) - torque_Nm);  // the current loop
-    reported.values.push_back(torque_Nm);
-    const double acting_Nm = delivered_Nm(w, reported.at(t_s - w.hidden.delay_s)) + stray_Nm;
+    goal.follow(free ? 0.0 : target_rad(setup, t_s));
+    const double now_Nm = reported.values.back();
+    const double next_Nm = free ? 0.0 : now_Nm + 0.6 * (command_Nm(w, goal, x) - now_Nm);  // the current loop
+    reported.values.push_back(next_Nm);
+    // Between cycles the torque goes over evenly, as a reader of the recording will take it to.
+    const auto acting_Nm = [&](double t) {
+      return delivered_Nm(w, reported.at(t - w.hidden.delay_s)) + stray_Nm;
+    };
     m.position_rad.values.push_back(x[0]);
     m.velocity_radps.values.push_back(x[1]);
-    m.torque_Nm.values.push_back(torque_Nm);
-    m.delivered_Nm.values.push_back(acting_Nm);
+    m.torque_Nm.values.push_back(now_Nm);
+    m.delivered_Nm.values.push_back(acting_Nm(t_s));
     integrator.advance(
-        t_s, x, (i + 1) * kTick_s, [&](double, const State& y) { return slope(w, y, acting_Nm); }, never);
+        t_s, x, (i + 1) * kTick_s, [&](double t, const State& y) { return slope(w, y, acting_Nm(t)); },
+        never);
   }
   for (auto* trace : {&m.position_rad, &m.velocity_radps, &m.torque_Nm, &m.delivered_Nm})
     trace->values.erase(trace->values.begin(), trace->values.begin() + before);
