@@ -13,7 +13,8 @@ Claim logging_rate(const ProgrammeResults& r) {
   const auto stale = [&e](double fresh) { return 100.0 * (1.0 - fresh / e.cycles); };
   const double load_cell = stale(e.fresh_load_cell);
   Claim c{1, "All sensors are logged at 1 kHz",
-          "rows 1 ms apart; every row holds a fresh sample of every sensor"};
+          "rows 1 ms apart, each with a fresh sample of every sensor; 860 samples/s leave 14 % of the rows "
+          "without one"};
   c.figures = {{"largest error of a row's time", 1e6 * e.longest_step_error_s, "µs", 2},
                {"rows without a fresh load-cell sample", load_cell, "%", 1},
                {"rows without a fresh time-of-flight sample", stale(e.fresh_tof), "%", 1},
@@ -39,7 +40,8 @@ Claim foot_size(const ProgrammeResults& r) {
       share_of(trials,
                [&](const HopResult& h) { return deep(h) && h.validity == Validity::deeper_than_foot; }) *
       static_cast<double>(trials.size());
-  Claim c{2, "The foot is a disk of 80 mm with sides of 50 mm", "A = 50.27 cm²; no stride deeper than 50 mm"};
+  Claim c{2, "The foot is a disk of 80 mm with sides of 50 mm",
+          "A = 50.27 cm²; every stride within 50 mm, deeper ones flagged"};
   c.figures = {{"area", 1e4 * area_m2, "cm²", 2},
                {"rho g A", archimedes, "N/m", 1},
                {"k over rho g A", world.terrain.stiffness_N_per_m / archimedes, "", 1},

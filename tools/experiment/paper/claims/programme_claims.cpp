@@ -14,7 +14,7 @@ Claim small_release(const ProgrammeResults& r) {
   const double frictionless = drop_speed_mps(r.setup.world, 0.002, false);
   const double real = drop_speed_mps(r.setup.world, 0.0025, true);
   Claim c{13, "A release from 2 mm touches down at 0.2 m/s",
-          "0.198 +- 0.001 m/s without friction; 0.21 +- 0.005 from 2.5 mm with it"};
+          "0.198 ± 0.001 m/s without friction; 0.21 ± 0.005 from 2.5 mm with it"};
   c.figures = {{"from 2 mm without friction", frictionless, "m/s", 4},
                {"from 2 mm with rail friction", drop_speed_mps(r.setup.world, 0.002, true), "m/s", 4},
                {"from 2.5 mm with rail friction", real, "m/s", 4}};

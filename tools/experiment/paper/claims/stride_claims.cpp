@@ -26,7 +26,7 @@ Claim event_times(const ProgrammeResults& r) {
   const double contact = mean(over(trials, [](const HopResult& h) { return h.shape.contact_s; }));
   const double compression = mean(over(trials, [](const HopResult& h) { return h.shape.compression_s; }));
   const double extension = mean(over(trials, [](const HopResult& h) { return h.shape.extension_s; }));
-  Claim c{17, "Touchdown, switch and liftoff at 0.13, 0.28 and 0.47 s", "intervals 0.15 and 0.19 s, +- 20 %"};
+  Claim c{17, "Touchdown, switch and liftoff at 0.13, 0.28 and 0.47 s", "intervals 0.15 and 0.19 s, ± 20 %"};
   c.figures = {{"touchdown", contact, "s", 4},
                {"touchdown to switch", compression, "s", 4},
                {"switch to liftoff", extension, "s", 4}};

@@ -67,7 +67,7 @@ Claim speed_squared(const ProgrammeResults& r) {
   }
   const double exponent = fit_line(log_speed, log_force).slope;
   Claim c{27, "Above sqrt(2 d g) = 0.08 m/s the force grows with the square of the speed",
-          "0.0767 m/s; exponent of F - F_d at 2 mm of 2 +- 0.2 above 0.3 m/s"};
+          "0.0767 m/s; exponent of F - F_d at 2 mm of 2 ± 0.2 above 0.3 m/s"};
   c.figures = {{"sqrt(2 d g)", r.inertial_speed_mps, "m/s", 4},
                {"exponent", exponent, "", 3},
                {"quasi-static force at 2 mm", mean(slow_N), "N", 2}};

@@ -11,7 +11,8 @@ Study programme_report(const ProgrammeResults& results, const std::vector<Claim>
   const auto& setup = results.setup;
   Study data;
   data.title = "The paper's programme on the simulator";
-  data.facts = {{"hops", fmt::format("{} ({} with a liftoff)", results.hops.size(), complete)},
+  data.facts = {{"paper", "arXiv 2604.02563"},
+                {"hops", fmt::format("{} ({} with a liftoff)", results.hops.size(), complete)},
                 {"seeds", std::to_string(setup.seeds)},
                 {"actuator strokes", std::to_string(results.actuator.size())},
                 {"bed", fmt::format("{:g} N/m", setup.world.terrain.stiffness_N_per_m)},

@@ -213,7 +213,7 @@ StudyTable conditions_table(const ProgrammeResults& r) {
 // Beside what another program finds with the same definitions.
 StudyTable reference_table(const ProgrammeResults& r) {
   StudyTable table{.title = "Beside an independent simulation of the same definitions",
-                   .columns = {"case", "treatment", "here", "here, ages ignored", "there", "band, +-",
+                   .columns = {"case", "treatment", "here", "here, ages ignored", "there", "band, ±",
                                "here inside", "ages ignored, inside"},
                    .text_columns = 2,
                    .note =
