@@ -5,3 +5,6 @@ set_target_properties(sample_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BI
 add_test(NAME report.page_in_browser
          COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/page_test.mjs ${CMAKE_BINARY_DIR})
 set_tests_properties(report.page_in_browser PROPERTIES LABELS report TIMEOUT 300)
+add_test(NAME report.study_in_browser
+         COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/study_test.mjs ${CMAKE_BINARY_DIR})
+set_tests_properties(report.study_in_browser PROPERTIES LABELS report TIMEOUT 300)

@@ -103,6 +103,16 @@ void tell_findings(Session& session, const CampaignResults& results) {
     session.say("  … and {} more; all of them are in the report", groups.size() - kMostLines);
 }
 
+void tell_ruled_out(Session& session, const CampaignResults& results) {
+  constexpr std::size_t kMostLines = 12;
+  const auto reasons = all_ruled_out(results);
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostLines); ++i)
+    session.say("  cannot be said: {} ({} of {} trials)", reasons[i].reason, reasons[i].trials,
+                results.results.size());
+  if (reasons.size() > kMostLines)
+    session.say("  … and {} more; all of them are in the report", reasons.size() - kMostLines);
+}
+
 ExitCode terrain(Session& session, const Options& options) {
   if (options.folder.empty() == options.merge.empty())
     throw Failure(ExitCode::usage, "nothing to analyse",
@@ -121,6 +131,7 @@ ExitCode terrain(Session& session, const Options& options) {
   for (const auto& result : results.results) usable += result.usable;
   session.say("{}: {} of {} trials can be used", results.campaign, usable, results.results.size());
   for (const auto& line : report.lines) session.say_line(line);
+  tell_ruled_out(session, results);
   session.say("  figures {}", json_file.string());
   if (options.report) session.say("  report  {}", page.string());
   report.json["files"] = {{"json", json_file.string()}, {"report", options.report ? page.string() : ""}};

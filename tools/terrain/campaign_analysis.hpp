@@ -48,6 +48,13 @@ struct FindingGroup {
 };
 std::vector<FindingGroup> all_findings(const CampaignResults& results);
 
+// A conclusion that some trials do not allow, and how many.
+struct RuledOut {
+  std::string reason;
+  std::size_t trials = 0;
+};
+std::vector<RuledOut> all_ruled_out(const CampaignResults& results);
+
 // Pools and concludes; the JSON has the pooled figures and each analysis' own conclusions, not the trials.
 struct CampaignReport {
   std::vector<std::string> lines;

@@ -92,18 +92,8 @@ StudySection findings_section(const std::vector<FindingGroup>& findings) {
   return section;
 }
 
-StudySection ruled_out_section(const CampaignResults& results) {
+StudySection ruled_out_section(const std::vector<RuledOut>& reasons) {
   StudySection section{.title = "What these recordings cannot say"};
-  std::vector<std::pair<std::string, std::size_t>> reasons;
-  for (const auto& result : results.results)
-    for (const auto& reason : result.ruled_out) {
-      const auto known =
-          std::find_if(reasons.begin(), reasons.end(), [&](auto& r) { return r.first == reason; });
-      if (known == reasons.end())
-        reasons.emplace_back(reason, 1);
-      else
-        ++known->second;
-    }
   StudyTable table{.columns = {"conclusion", "trials"}};
   for (const auto& [reason, trials] : reasons) table.rows.push_back({reason, fmt::format("{}", trials)});
   if (!reasons.empty()) section.items.emplace_back(std::move(table));
@@ -153,6 +143,20 @@ std::vector<FindingGroup> all_findings(const CampaignResults& results) {
   return groups;
 }
 
+std::vector<RuledOut> all_ruled_out(const CampaignResults& results) {
+  std::vector<RuledOut> reasons;
+  for (const auto& result : results.results)
+    for (const auto& reason : result.ruled_out) {
+      const auto known = std::find_if(reasons.begin(), reasons.end(),
+                                      [&](const RuledOut& one) { return one.reason == reason; });
+      if (known == reasons.end())
+        reasons.push_back({reason, 1});
+      else
+        ++known->trials;
+    }
+  return reasons;
+}
+
 CampaignReport report_on(const CampaignResults& results) {
   CampaignReport report;
   const auto findings = all_findings(results);
@@ -195,7 +199,7 @@ CampaignReport report_on(const CampaignResults& results) {
   report.json["pooled"] = std::move(pooled);
   report.json["pooled_by_setup"] = std::move(by_setup);
   report.json["conclusions"] = std::move(conclusions);
-  if (auto ruled_out = ruled_out_section(results); !ruled_out.items.empty())
+  if (auto ruled_out = ruled_out_section(all_ruled_out(results)); !ruled_out.items.empty())
     study.sections.push_back(std::move(ruled_out));
   study.sections.push_back(findings_section(findings));
   study.sections.push_back(trials_section(results));

@@ -109,10 +109,11 @@ StudyFigure window_figure(Results results) {
 
 // Each trial's stiffness against what differs between the trials.
 StudyFigure against(Results results, std::string_view x_name, std::string x_label) {
-  StudyFigure figure{.title = fmt::format("Stiffness against {}", x_label.substr(0, x_label.find(','))),
-                     .x_label = std::move(x_label),
-                     .y_label = "stiffness, N/m",
-                     .note = "Straight lines in window A; one point a trial."};
+  StudyFigure figure{
+      .title = fmt::format("Stiffness against {}", x_label.substr(0, x_label.find(','))),
+      .x_label = std::move(x_label),
+      .y_label = "stiffness, N/m",
+      .note = "Straight lines in window A; one point a trial. Bars: two standard errors of the joint fit."};
   for (const auto& way : stiffness_ways()) {
     StudySeries series{.label = std::string(way.title), .color = std::string(way.color)};
     for (const auto* result : results) {
@@ -123,6 +124,10 @@ StudyFigure against(Results results, std::string_view x_name, std::string x_labe
       if (!std::isfinite(x) || !std::isfinite(y)) continue;
       series.x.push_back(x);
       series.y.push_back(y);
+      if (!is_joint(way.name)) continue;
+      const double error = result->find(name)->standard_error;
+      series.low.push_back(y - 2.0 * error);
+      series.high.push_back(y + 2.0 * error);
     }
     series.shown = way.name != "load_cell_joint";
     if (!series.x.empty()) figure.series.push_back(std::move(series));

@@ -8,6 +8,7 @@ namespace sandhopper {
 namespace {
 
 constexpr double kDefaultFrictionAngle_deg = 30.0;
+constexpr double kRelieved_m = 5e-4;  // above the deepest point: relieved, or pressed again into its own hole
 constexpr std::size_t kMostSamples = 400;  // of one trial; a slow press has no more to say
 
 struct Row {
@@ -71,10 +72,13 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
   }
   const auto window = on_stop ? Window{rows.front().t_s, rows.back().t_s} : loading_window(trial, rows);
   std::vector<Row> loading, path;
+  double deepest_m = 0.0;
   for (const auto& row : rows) {
     if (row.t_s < window.from_s) continue;
     path.push_back(row);
-    if (row.t_s <= window.to_s && row.depth_m > 0.0) loading.push_back(row);
+    deepest_m = std::max(deepest_m, row.depth_m);
+    const bool relieved = row.depth_m < deepest_m - kRelieved_m;
+    if (row.t_s <= window.to_s && row.depth_m > 0.0 && !relieved) loading.push_back(row);
   }
   if (!on_stop && is_fast(loading)) return;
   keep_thinned(result.series, "press_path", path);
