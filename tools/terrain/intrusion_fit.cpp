@@ -101,7 +101,8 @@ LawResult fit_law(DepthLaw kind, const Presses& fit, const Presses& held_out,
   for (const auto& forces : predicted) out.predicted_N.push_back(mean_over_trials(forces));
   out.stiffness_per_area_N_per_m3 = mean_over_trials(stiffness);
   out.shape = mean_over_trials(shape);
-  if (trials.size() > 1) out.cross_validation_N = root_mean_square(cross_validate(kind, trials, options));
+  out.cross_validation_N =
+      trials.size() > 1 ? root_mean_square(cross_validate(kind, trials, options)) : kNone;
   predict(out, held_out, options);
   return out;
 }
@@ -158,7 +159,10 @@ IntrusionFit fit_intrusions(std::span<const PressTrial> trials) {
   for (std::size_t i = 0; i < EnumNames<DepthLaw>::value.size(); ++i) {
     out.laws.push_back(fit_law(static_cast<DepthLaw>(i), fit, held_out, out.options));
     const auto& law = out.laws.back();
-    const bool better = !out.chosen || law.cross_validation_N < out.laws[*out.chosen].cross_validation_N;
+    const auto error = [&](const LawResult& result) {
+      return fit.size() > 1 ? result.cross_validation_N : result.fit.rms_N;
+    };
+    const bool better = !out.chosen || error(law) < error(out.laws[*out.chosen]);
     if (better && std::isfinite(law.fit.rms_N)) out.chosen = i;
   }
   if (out.chosen && out.rig.compliance_used_m_per_N == 0.0 && out.rig.stop_compliance_m_per_N.trials > 0) {

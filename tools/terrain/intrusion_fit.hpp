@@ -59,7 +59,8 @@ struct AreaExponent {
 struct IntrusionFit {
   RigResult rig;
   std::vector<LawResult> laws;
-  std::optional<std::size_t> chosen;  // the law with the least cross-validation
+  // The law with the least cross-validation; of a single trial the one that fits it best.
+  std::optional<std::size_t> chosen;
   // Held-out error at the greatest of kPredictedDepths_m under the chosen law, friction angle 5 degrees lower
   // and higher, where the law has one.
   std::optional<std::pair<double, double>> friction_angle_sensitivity;

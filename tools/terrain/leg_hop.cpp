@@ -1,11 +1,14 @@
 #include "tools/terrain/leg_hop.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace sandhopper {
 namespace {
 
 constexpr double kDefaultSettling_s = 0.015;
+constexpr std::size_t kFewestRows = 50;
 
 // Mean of both sides; of the one there is otherwise. Empty when there is none.
 std::vector<double> of_sides(const TrialRecording& recording, const std::string& quantity, double scale) {
@@ -65,12 +68,21 @@ void keep_leg_hop(const CampaignTrial& trial, const TrialRecording& recording, T
     series["leg_hop_torque_Nm"].push_back(torque[row]);
     series["leg_hop_stance"].push_back((*phase)[row] > 0.0 ? 1.0 : 0.0);
   }
+  if (!holds_leg_hop(result))
+    result.ruled_out.push_back(fmt::format(
+        "the leg's force estimate against the force plate: fewer than {} rows of either", kFewestRows));
   series["leg_hop_held_out"] = {trial.flag("held_out") ? 1.0 : 0.0};
   series["leg_hop_contact_settling_s"] = {trial.number("contact_settling_s").value_or(kDefaultSettling_s)};
   series["leg_hop_leg"] = numbers_of(std::get<HopperBelief>(trial.belief).robot.leg);
 }
 
-bool holds_leg_hop(const TrialResult& result) { return result.series.contains("leg_hop_reference_N"); }
+bool holds_leg_hop(const TrialResult& result) {
+  const auto enough = [&](const char* name) {
+    const auto found = result.series.find(name);
+    return found != result.series.end() && found->second.size() >= kFewestRows;
+  };
+  return enough("leg_hop_t_s") && enough("leg_hop_reference_N");
+}
 
 LegHop leg_hop_from(const TrialResult& result) {
   const auto& series = result.series;

@@ -238,7 +238,10 @@ PenetrometerFit fit_penetrations(const std::vector<PenetrometerDrop>& drops) {
     for (const double error : errors) squares += error * error / static_cast<double>(errors.size());
     result.cross_validation = std::sqrt(squares);
     out.laws.push_back(std::move(result));
-    if (out.laws.back().cross_validation < out.laws[out.chosen].cross_validation) out.chosen = i;
+    const auto error = [&](const ResistanceResult& r) {
+      return drops.size() > 1 ? r.cross_validation : r.fit.rms;
+    };
+    if (error(out.laws.back()) < error(out.laws[out.chosen])) out.chosen = i;
   }
   return out;
 }

@@ -123,12 +123,13 @@ StudyTable law_table(const PenetrometerFit& fit) {
     const bool n = law.fit.law != ResistanceLaw::depth && law.fit.law != ResistanceLaw::speed_square;
     const bool b =
         law.fit.law == ResistanceLaw::depth_power_rate || law.fit.law == ResistanceLaw::depth_power_square;
-    table.rows.push_back({title_of(law.fit.law) + (i == fit.chosen ? " (chosen)" : ""),
-                          n ? figure_number(law.fit.exponent) : "–",
-                          n ? interval_text(law.exponent.ci95_low, law.exponent.ci95_high) : "–",
-                          b ? figure_number(law.fit.rate) : "–",
-                          b ? interval_text(law.rate.ci95_low, law.rate.ci95_high) : "–",
-                          figure_number(law.fit.rms), fmt::format("{:.1f} %", 100.0 * law.cross_validation)});
+    table.rows.push_back(
+        {title_of(law.fit.law) + (i == fit.chosen ? " (chosen)" : ""),
+         n ? figure_number(law.fit.exponent) : "–",
+         n ? interval_text(law.exponent.ci95_low, law.exponent.ci95_high) : "–",
+         b ? figure_number(law.fit.rate) : "–",
+         b ? interval_text(law.rate.ci95_low, law.rate.ci95_high) : "–", figure_number(law.fit.rms),
+         std::isnan(law.cross_validation) ? "–" : fmt::format("{:.1f} %", 100.0 * law.cross_validation)});
   }
   table.note =
       "Resistance per moving mass, beyond buoyancy and the water's drag; k is each drop's own. Intervals: "
@@ -254,11 +255,13 @@ CampaignConclusions tell_penetrations(const PenetrometerFit& fit,
                                       const std::vector<PenetrometerDrop>& drops) {
   CampaignConclusions out;
   const auto& law = fit.laws[fit.chosen];
-  out.lines.push_back(fmt::format(
-      "Resistance of the bed over {} drops: {} with n = {:.2f}, b = {:.2f}; the others' shape misses a drop "
-      "by "
-      "{:.1f} % of its greatest resistance.",
-      drops.size(), title_of(law.fit.law), law.fit.exponent, law.fit.rate, 100.0 * law.cross_validation));
+  out.lines.push_back(
+      fmt::format("Resistance of the bed over {} {}: {} with n = {:.2f}, b = {:.2f}; {}.", drops.size(),
+                  drops.size() == 1 ? "drop" : "drops", title_of(law.fit.law), law.fit.exponent, law.fit.rate,
+                  drops.size() == 1
+                      ? std::string("fitted, not tested on another")
+                      : fmt::format("the others' shape misses a drop by {:.1f} % of its greatest resistance",
+                                    100.0 * law.cross_validation)));
   out.json = json_of(fit, drops);
   StudySection section{.title = "Penetration into the bed"};
   section.items.emplace_back(
