@@ -74,9 +74,10 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
   std::vector<Row> loading, path;
   double deepest_m = 0.0;
   for (const auto& row : rows) {
+    deepest_m =
+        std::max(deepest_m, row.depth_m);  // of earlier pushes, too: a foot falls freely into its hole
     if (row.t_s < window.from_s) continue;
     path.push_back(row);
-    deepest_m = std::max(deepest_m, row.depth_m);
     const bool relieved = row.depth_m < deepest_m - kRelieved_m;
     if (row.t_s <= window.to_s && row.depth_m > 0.0 && !relieved) loading.push_back(row);
   }
