@@ -261,6 +261,7 @@ class Reader {
   void take_time() {
     const auto* mapping = mapping_of("t_s");
     const auto* column = time_column();
+    if (column == nullptr) return;  // said already
     const auto i = index_of(*column);
     const bool mapped = mapping != nullptr && table_.names[i] == mapping->column;
     const double scale = mapped ? mapping->scale : 1.0;
@@ -372,7 +373,9 @@ class Reader {
       return;
     }
     std::vector<std::size_t> keep;
-    const auto time_s = *time_column();
+    const auto* file_time_s = time_column();
+    if (file_time_s == nullptr) return;
+    const auto time_s = *file_time_s;
     for (std::size_t row = 0; row < out_.t_s.size(); ++row)
       if ((column == nullptr || (*column)[row] == rows.value) && time_s[row] >= rows.from_s &&
           time_s[row] <= rows.to_s)
