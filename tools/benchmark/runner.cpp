@@ -18,10 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using conceal::Json;
 
-std::vector<std::string> command_for(const RunOptions& options, const fs::path& campaign) {
+std::vector<std::string> command_for(const RunOptions& options, const fs::path& campaign,
+                                     const fs::path& output) {
   auto command = options.tool;
-  for (auto& word : command)
+  for (auto& word : command) {
     if (word == "{campaign}") word = campaign.string();
+    if (word == "{output}") word = output.string();
+  }
   return command;
 }
 
@@ -32,7 +35,7 @@ void diagnose(const RunOptions& options, const fs::path& root, const std::string
   if (fs::exists(note)) return;
   fs::create_directories(folder);
   const auto partial = folder / (name + ".partial");
-  const auto outcome = run_limited(command_for(options, root / "campaigns" / name), partial,
+  const auto outcome = run_limited(command_for(options, root / "campaigns" / name, folder / name), partial,
                                    folder / (name + ".log"), options.limit_s);
   fs::rename(partial, folder / (name + ".json"));
   const Json json{{"seconds", outcome.seconds}, {"exit", outcome.exit}, {"timed_out", outcome.timed_out}};

@@ -21,7 +21,8 @@ struct RunOptions {
   double limit_s = 30.0;
   unsigned jobs = 1;
   bool follow_up = true;
-  std::vector<std::string> tool;  // the word {campaign} stands for the campaign's folder
+  std::vector<std::string>
+      tool;  // {campaign}: the campaign's folder; {output}: a folder of its own to write to
 };
 
 // Calls `done` after each campaign, from any thread but one at a time.

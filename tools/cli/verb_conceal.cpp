@@ -203,7 +203,12 @@ ExitCode run_and_score(Session& session, Options options) {
   run.jobs = options.jobs;
   run.follow_up = !options.no_follow_up;
   if (options.tool.empty()) {
-    run.tool = {fs::read_symlink("/proc/self/exe").string(), "diagnose", "{campaign}", "--json"};
+    run.tool = {fs::read_symlink("/proc/self/exe").string(),
+                "diagnose",
+                "{campaign}",
+                "--json",
+                "--output",
+                "{output}"};
   } else {
     std::istringstream words(options.tool);
     for (std::string word; words >> word;) run.tool.push_back(word);
@@ -274,7 +279,7 @@ Run set_up(CLI::App& app) {
       ->capture_default_str();
   running->add_flag("--no-follow-up", o.no_follow_up, "do not add the trials the tool recommends");
   running->add_option("--tool", o.tool,
-                      "command that prints diagnosis.json; {campaign} stands for the folder");
+                      "command that prints diagnosis.json; {campaign} and {output} stand for folders");
   running->add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
 
   return [=](Session& session) {

@@ -64,11 +64,8 @@ Belief belief(const World& w) {
                        {"linear_drag_N_s_per_m", w.linear_drag_N_s_per_m},
                        {"buoyancy_factor", w.buoyancy_factor},
                        {"added_mass_factor", w.added_mass_factor}}});
-  b.tables.push_back({"sensors",
-                      {{"height_rate_Hz", w.height_rate_Hz},
-                       {"height_noise_m", w.height_noise_m},
-                       {"accel_noise_mps2", w.accel_noise_mps2},
-                       {"accel_bandwidth_Hz", w.accel_bandwidth_Hz}}});
+  b.tables.push_back(
+      {"sensors", {{"height_noise_m", w.height_noise_m}, {"accel_noise_mps2", w.accel_noise_mps2}}});
   b.tables.push_back({"spread",
                       {{"release_height_m", w.release_height_spread_m},
                        {"release_speed_mps", w.release_speed_spread_mps},

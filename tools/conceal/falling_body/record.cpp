@@ -87,8 +87,7 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
                    w.faults_of("height_m"), trial);
   if (w.has_accel)
     record_channel(table, "accel_mps2", specific, rows_s,
-                   {.bandwidth_Hz = w.accel_bandwidth_Hz,
-                    .offset = trial.stream("bias").normal(0.0, w.accel_bias_spread_mps2),
+                   {.offset = trial.stream("bias").normal(0.0, w.accel_bias_spread_mps2),
                     .noise = w.accel_noise_mps2,
                     .quantum = 1e-3,
                     .decimals = 3},

@@ -22,7 +22,7 @@ struct World {
 
   bool has_height = true, has_accel = true;
   double row_rate_Hz = 500.0, height_rate_Hz = 100.0;
-  double height_noise_m = 2e-3, accel_noise_mps2 = 0.03, accel_bandwidth_Hz = 200.0;
+  double height_noise_m = 2e-3, accel_noise_mps2 = 0.03;
   double release_height_spread_m = 5e-3, release_speed_spread_mps = 0.01, accel_bias_spread_mps2 = 0.02;
   double bed_stiffness_spread = 0.03;
 

@@ -41,8 +41,8 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"torque_hum", "actuator", "u"}, hum}};
 }
 
-// A late time-of-flight reading is a late reading, whoever made it late; an accelerometer that leans reads less, like
-// one of another scale; links and foot move almost alike when every drop is the same.
+// A late time-of-flight reading is a late reading, whoever made it late; an accelerometer that leans reads
+// less, like one of another scale; links and foot move almost alike when every drop is the same.
 std::vector<Restriction<World>> restrictions() {
   const auto as_is = [](World&) {};
   const auto same_drops = [](World& w) { w.same_drops = true, w.sensors.mocap = false; };

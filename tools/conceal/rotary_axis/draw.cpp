@@ -44,8 +44,7 @@ Belief belief(const World& w) {
                        {"encoder_velocity_bandwidth_Hz", w.velocity_bandwidth_Hz},
                        {"torque_range_Nm", w.torque_range_Nm},
                        {"torque_bits", w.torque_bits},
-                       {"torque_noise_Nm", w.torque_noise_Nm},
-                       {"load_cell_noise_Nm", w.load_cell_noise_Nm}}});
+                       {"torque_noise_Nm", w.torque_noise_Nm}}});
   b.tables.push_back({"spread",
                       {{"initial_position_rad", w.initial_position_spread_rad},
                        {"torque_offset_Nm", w.torque_offset_spread_Nm}}});

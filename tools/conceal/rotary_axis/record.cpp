@@ -174,7 +174,7 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
       {.noise = w.torque_noise_Nm, .quantum = step_of(w.torque_range_Nm, w.torque_bits), .decimals = 8});
   if (w.bench_load_cell)
     add("load_cell_torque_Nm", motion.delivered_Nm,
-        {.bandwidth_Hz = 300.0, .noise = w.load_cell_noise_Nm, .decimals = 5});
+        {.bandwidth_Hz = 300.0, .noise = w.torque_noise_Nm, .decimals = 5});
   return table;
 }
 

@@ -28,7 +28,6 @@ struct World {
   double position_noise_rad = 2e-4, velocity_noise_radps = 0.03, torque_noise_Nm = 0.02;
   double velocity_bandwidth_Hz = 120.0;
   bool bench_load_cell = false;
-  double load_cell_noise_Nm = 0.01;
   double initial_position_spread_rad = 0.01, torque_offset_spread_Nm = 0.01;
   bool only_held = false, only_free_swing = false;  // limits of an ambiguous campaign
 
