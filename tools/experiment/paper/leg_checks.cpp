@@ -17,7 +17,7 @@ constexpr double kComplexStep = 1e-30;
 // Angles at which the leg is compared: the whole working range.
 template <class Visit>
 void over_angles(Visit&& visit) {
-  for (double angle_rad = 0.3; angle_rad < 2.4; angle_rad += 0.05) visit(angle_rad);
+  for (int i = 0; i <= 42; ++i) visit(0.3 + 0.05 * i);
 }
 
 // Heights over the foot's sole and horizontal places of the moving masses of one side, and the link angles.

@@ -150,8 +150,8 @@ Claim weight_formula(const ProgrammeResults& r) {
   const double ratio = acceleration_weight(w, 0.0) / acceleration_weight(w, 1e3);
   const double expected = std::pow(w.sigma_bad_N / w.sigma_good_N, 2);
   bool monotone = true;
-  for (double a = 0.0; a < 100.0; a += 0.1)
-    monotone = monotone && acceleration_weight(w, a) >= acceleration_weight(w, a + 0.1);
+  for (int i = 0; i < 1000; ++i)
+    monotone = monotone && acceleration_weight(w, 0.1 * i) >= acceleration_weight(w, 0.1 * (i + 1));
   Claim c{36, "Weights 1/sigma_i^2 with a logistic s of the acceleration",
           "s(a0) = 0.5; falling throughout; ratio of weights (sigma_bad/sigma_good)^2 within 10 %"};
   c.figures = {{"s(a0)", half, "", 4},

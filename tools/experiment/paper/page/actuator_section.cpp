@@ -71,7 +71,8 @@ StudyFigure mass_profile(const ProgrammeResults& r, bool gradient) {
   auto truth = curve("bed", "text", Style::dashed);
   auto map = curve(gradient ? "coefficient of v² in the map" : "integrated map", "blue");
   auto lag = curve("amplifier's lag left in", "orange");
-  for (double z = 0.0; z <= 0.0401; z += 0.0005) {
+  for (int i = 0; i <= 80; ++i) {
+    const double z = 0.0005 * i;
     const auto value = [&](const ForceMap& m) {
       return gradient ? m.mass_gradient_kg_per_m(z) : 1e3 * m.added_mass_kg(z);
     };
