@@ -1,3 +1,4 @@
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -118,7 +119,9 @@ ExitCode terrain(Session& session, const Options& options) {
     throw Failure(ExitCode::usage, "nothing to analyse",
                   "name a campaign's folder, or parts of one with --merge");
   const auto [part, parts] = part_of(options.part);
+  const auto start = std::chrono::steady_clock::now();
   const auto results = options.merge.empty() ? analyse(options) : merge(options);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   auto report = report_on(results);
   const auto folder = output_folder(options);
   const std::string stem = parts > 1 ? fmt::format("terrain_part_{}_of_{}", part, parts) : "terrain";
@@ -129,7 +132,8 @@ ExitCode terrain(Session& session, const Options& options) {
   tell_findings(session, results);
   std::size_t usable = 0;
   for (const auto& result : results.results) usable += result.usable;
-  session.say("{}: {} of {} trials can be used", results.campaign, usable, results.results.size());
+  session.say("{}: {} of {} trials can be used; {:.1f} s", results.campaign, usable, results.results.size(),
+              spent.count());
   for (const auto& line : report.lines) session.say_line(line);
   tell_ruled_out(session, results);
   session.say("  figures {}", json_file.string());

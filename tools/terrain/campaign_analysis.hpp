@@ -57,9 +57,9 @@ std::vector<RuledOut> all_ruled_out(const CampaignResults& results);
 
 // Pools and concludes; the JSON has the pooled figures and each analysis' own conclusions, not the trials.
 struct CampaignReport {
-  std::vector<std::string> lines;
-  nlohmann::ordered_json json;
-  Study study;
+  std::vector<std::string> lines{};
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  Study study{};
 };
 CampaignReport report_on(const CampaignResults& results);
 

@@ -193,16 +193,23 @@ Json treatments_json(Results results) {
   return json;
 }
 
+std::string introduction(const PooledStiffness& pooled) {
+  const std::string what =
+      "The firmware's own Kalman filter, momentum observer and fits, run on the recorded channels. "
+      "The joint fit takes depth, drag and added mass together";
+  const std::string lines =
+      "The straight lines take drag and inertia for stiffness, so they depend on the window.";
+  if (pooled.strides == 0)
+    return fmt::format("{}; no stride here allows it (\"Trial by trial\" says why). {}", what, lines);
+  return fmt::format(
+      "{}: {} N/m (95 % interval of the mean {}, {} strides; sd from stride to stride {} N/m). {}", what,
+      figure_number(pooled.value_N_per_m), interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
+      pooled.strides, figure_number(pooled.between_strides_sd_N_per_m), lines);
+}
+
 StudySection stiffness_section(Results results, const PooledStiffness& pooled) {
   StudySection section{.title = "Stiffness of the ground from hops"};
-  section.items.emplace_back(fmt::format(
-      "The firmware's own Kalman filter, momentum observer and fits, run on the recorded channels. The joint "
-      "fit takes "
-      "depth, drag and added mass together: {} N/m ({} N/m, 95 % interval of the mean, {} strides; {} N/m "
-      "from stride to "
-      "stride). The straight lines take drag and inertia for stiffness, so they depend on the window.",
-      figure_number(pooled.value_N_per_m), interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
-      pooled.strides, figure_number(pooled.between_strides_sd_N_per_m)));
+  section.items.emplace_back(introduction(pooled));
   section.items.emplace_back(treatment_table(results));
   section.items.emplace_back(window_figure(results));
   section.items.emplace_back(against(results, "touchdown_speed_mps", "touchdown speed, m/s"));
