@@ -45,7 +45,8 @@ double Bed::quasi_static_force_N(double depth_m) const noexcept {
       p_.stiffness_per_area_N_per_m3 > 0.0
           ? depth_m * std::pow(depth_m / kExponentDepth_m, p_.exponent - 1.0)
           : depth_m + p_.intercept_depth_m * (1.0 - std::exp(-depth_m / p_.intercept_growth_depth_m));
-  return stiffness_N_per_m() * depth * fluctuation_.factor(depth_m);
+  const double force_N = stiffness_N_per_m() * depth * fluctuation_.factor(depth_m);
+  return extension_ ? force_N * extension_->static_factor(depth_m) : force_N;
 }
 
 double Bed::added_mass_gradient_kg_per_m(double depth_m) const noexcept {
@@ -59,6 +60,18 @@ double Bed::added_mass_kg(double depth_m) const noexcept {
 }
 
 BedReaction Bed::reaction(const BedContact& c) const noexcept {
+  BedReaction r = unextended(c);
+  if (extension_ && c.depth_m > 0.0) {
+    const bool virgin = c.depth_m >= c.max_depth_m && c.speed_mps > 0.0;
+    const BedReaction more = extension_->added(c, quasi_static_force_N(c.depth_m), virgin);
+    r.force_N += more.force_N;
+    r.added_mass_kg += more.added_mass_kg;
+    r.least_N += more.least_N;
+  }
+  return r;
+}
+
+BedReaction Bed::unextended(const BedContact& c) const noexcept {
   if (c.depth_m <= 0.0) return {};
   if (c.depth_m >= c.max_depth_m && c.speed_mps > 0.0) {
     const double drag_kg_per_m = p_.drag_factor * added_mass_gradient_kg_per_m(c.depth_m) +

@@ -81,16 +81,30 @@ struct BedContact {
 struct BedReaction {
   double force_N = 0.0;
   double added_mass_kg = 0.0;
+  double least_N = 0.0;  // negative only where an extension lets grains pull
 
   double at_acceleration(double foot_accel_mps2) const noexcept {
     const double force = force_N - added_mass_kg * foot_accel_mps2;
-    return force > 0.0 ? force : 0.0;
+    return force > least_N ? force : least_N;
   }
+};
+
+// Further laws of a bed that the one above does not have; see tools/diagnose.
+class BedExtension {
+ public:
+  virtual ~BedExtension() = default;
+  // Multiplies the quasi-static force, on the virgin curve and where an unloading line starts from it.
+  virtual double static_factor(double depth_m) const = 0;
+  // Added where the foot is below the undisturbed surface; `virgin`: at new depth and going down.
+  virtual BedReaction added(const BedContact& contact, double quasi_static_N, bool virgin) const = 0;
 };
 
 class Bed {
  public:
   Bed(const BedParameters& parameters, double foot_radius_m, const BedFluctuation& fluctuation = {});
+
+  // `extension` must outlive this bed; null for none.
+  void extend(const BedExtension* extension) noexcept { extension_ = extension; }
 
   double quasi_static_force_N(double depth_m) const noexcept;
   double added_mass_kg(double depth_m) const noexcept;
@@ -104,7 +118,9 @@ class Bed {
 
  private:
   double stiffness_N_per_m() const noexcept;
+  BedReaction unextended(const BedContact& contact) const noexcept;
 
+  const BedExtension* extension_ = nullptr;
   BedParameters p_;
   BedFluctuation fluctuation_;
   double radius_m_;

@@ -30,6 +30,11 @@ void Plant::place(const PlantState& state) noexcept {
   standing_ = false;
 }
 
+void Plant::place_in_crater(const PlantState& state, double max_depth_m) noexcept {
+  place(state);
+  max_depth_m_ = std::max(max_depth_m_, max_depth_m);
+}
+
 double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
   const double friction =
       -motors_ * robot_.joint_coulomb_Nm * std::tanh(s.angular_velocity_radps / kJointSwitchSpeed_radps);
@@ -49,6 +54,11 @@ Plant::Rates Plant::rates(const PlantState& s, double torque_Nm) const noexcept 
   r.rail_force_N = -robot_.rail_coulomb_N * std::tanh(body_velocity / kRailSwitchSpeed_mps) -
                    robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
   r.joint_torque_Nm = joint_torque_Nm(s);
+  if (options_.extension != nullptr) {
+    const double body_z = s.foot_z_m + leg_.parameters().foot_height_m + d.leg.length_m;
+    r.rail_force_N += options_.extension->rail_force_N(body_z, body_velocity);
+    r.joint_torque_Nm += options_.extension->joint_torque_Nm(s, torque_Nm);
+  }
   const double torque = torque_Nm + r.rail_force_N * d.leg.dlength_m_per_rad + r.joint_torque_Nm;
   const double free_force = r.rail_force_N - d.torque_gain_per_m * torque - d.coriolis_N_s2_per_rad2 * spin2 -
                             d.reduced_mass_kg * gravity_mps2_;
@@ -71,8 +81,8 @@ Plant::Rates Plant::rates(const PlantState& s, double torque_Nm) const noexcept 
   return r;
 }
 
-void Plant::step(double torque_Nm) noexcept {
-  constexpr double h = kStep_s;
+void Plant::step(double torque_Nm, double step_s) noexcept {
+  const double h = step_s;
   const PlantState s0 = state_;
   const auto moved = [&s0](const PlantState& at, const Rates& rate, double dt) {
     return PlantState{.foot_z_m = s0.foot_z_m + dt * at.foot_velocity_mps,

@@ -25,6 +25,15 @@ struct PlantMotion {
   double joint_torque_Nm = 0.0;  // friction, cogging and end stops on the upper links
 };
 
+// Forces beyond the plant's own parameters; see tools/diagnose.
+class PlantExtension {
+ public:
+  virtual ~PlantExtension() = default;
+  virtual double rail_force_N(double body_z_m, double body_velocity_mps) const = 0;  // on the body, up
+  // On the links, both sides together, in the direction of growing angle.
+  virtual double joint_torque_Nm(const PlantState& state, double motor_torque_Nm) const = 0;
+};
+
 // Body, foot, leg and bed, coupled, on a 0.1 ms grid (RK4):
 //   M_f a_f = Q1 - beta (tau + Q2) - C phid^2 - M_f g + F_c,   phidd from the second row of
 //   estimation/leg.hpp Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable Q2 = Q1 L' - n
@@ -37,8 +46,9 @@ class Plant {
   static constexpr double kStep_s = 1e-4;
 
   struct Options {
-    double cable_force_N = 0.0;  // constant, pulls the body down
-    bool bed_memory = true;      // false: the surface closes as soon as the foot is above it
+    double cable_force_N = 0.0;                 // constant, pulls the body down
+    bool bed_memory = true;                     // false: the surface closes as soon as the foot is above it
+    const PlantExtension* extension = nullptr;  // must outlive the plant
   };
 
   // Throws std::invalid_argument where the leg is impossible.
@@ -46,9 +56,10 @@ class Plant {
   Plant(const WorldConfig& config, const Bed& bed) : Plant(config, bed, Options{}) {}
 
   void place(const PlantState& state) noexcept;
+  void place_in_crater(const PlantState& state, double max_depth_m) noexcept;
 
-  // One step of 0.1 ms with the motors' summed torque held through it.
-  void step(double torque_Nm) noexcept;
+  // One step with the motors' summed torque held through it.
+  void step(double torque_Nm, double step_s = kStep_s) noexcept;
 
   PlantMotion motion(double torque_Nm) const noexcept;
   const PlantState& state() const noexcept { return state_; }

@@ -1,0 +1,165 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/diagnosis_json.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using ::testing::Contains;
+using ::testing::DoubleNear;
+
+double no_force(double, double, double) { return 0.0; }
+
+const FoundEffect* effect(const Diagnosis& d, const std::string& id) {
+  for (const auto& e : d.effects)
+    if (e.id == id) return &e;
+  return nullptr;
+}
+
+void expect_alone(const Diagnosis& d, const std::string& id, double low, double high) {
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  const auto& found = d.effects.front();
+  EXPECT_EQ(found.id, id);
+  EXPECT_GT(found.probability, 0.8);
+  EXPECT_GE(found.parameters.front().value, low);
+  EXPECT_LE(found.parameters.front().value, high);
+  EXPECT_LE(d.fits.front().heldout.after, 1.1 * d.fits.front().floor);
+  EXPECT_GT(d.fits.front().heldout.before, 1.5 * d.fits.front().floor);
+}
+
+TEST(Diagnose, FindsNothingWhereNothingIsMissing) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const auto d = diagnose(drops(no_force, seed));
+    EXPECT_EQ(d.verdict, "consistent") << seed;
+    EXPECT_TRUE(d.effects.empty());
+    EXPECT_FALSE(d.absent.empty());
+  }
+}
+
+TEST(Diagnose, FindsNothingOnAnAxisWhereNothingIsMissing) {
+  const auto d = diagnose(swings([](double, double, double) { return 0.0; }));
+  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_TRUE(d.effects.empty());
+}
+
+TEST(Diagnose, NamesAirDragWithItsCoefficient) {
+  // C_d 0.5, A 0.01 m^2, 1.2 kg/m^3
+  const auto d =
+      diagnose(drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }));
+  expect_alone(d, "air.quadratic_drag", 0.48, 0.52);
+}
+
+TEST(Diagnose, NamesLinearDragWithItsCoefficient) {
+  const auto d = diagnose(drops([](double, double, double v) { return -0.01 * v; }));
+  expect_alone(d, "air.linear_drag", 0.0096, 0.0104);
+}
+
+TEST(Diagnose, BlamesTheSensorForAFaultOfTheSensor) {
+  expect_alone(diagnose(drops(no_force, 1, 8, 0.97)), "tof.scale", 0.968, 0.972);
+}
+
+TEST(Diagnose, NamesDryFrictionOfAnAxis) {
+  const auto d = diagnose(swings([](double, double w, double) { return -0.1 * std::tanh(w / 0.01); }));
+  expect_alone(d, "axis.coulomb", 0.095, 0.105);
+}
+
+TEST(Diagnose, NamesViscousFrictionOfAnAxis) {
+  const auto d = diagnose(swings([](double, double w, double) { return -0.03 * w; }));
+  expect_alone(d, "axis.viscous", 0.029, 0.031);
+}
+
+TEST(Diagnose, NamesATorqueScale) {
+  const auto d = diagnose(swings([](double, double, double torque) { return 0.06 * torque; }));
+  expect_alone(d, "axis.torque_scale", 1.055, 1.065);
+}
+
+TEST(Diagnose, StatesTheClassWhereAConstantForceHasTwoExplanations) {
+  // A constant share of the weight: carried by the medium, or spent on fluid that moves along.
+  const auto d = diagnose(drops([](double, double, double) { return 0.05 * 0.2 * 9.81; }));
+  ASSERT_EQ(d.verdict, "missing_physics");
+  EXPECT_EQ(d.detail, "one_of_class");
+  ASSERT_EQ(d.effects.size(), 1u);
+  const auto& found = d.effects.front();
+  auto named = found.indistinguishable_from;
+  named.push_back(found.id);
+  EXPECT_THAT(named, Contains("fluid.buoyancy"));
+  EXPECT_THAT(named, Contains("fluid.added_mass"));
+  EXPECT_LT(found.probability, 0.8);
+}
+
+TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
+  // A tether that tightens below 3.5 m.
+  const auto d = diagnose(
+      drops([](double, double h, double) { return 0.4 * std::max(0.0, 3.5 - h) * (h < 3.0 ? 1.0 : 0.0); }));
+  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_NE(effect(d, "unknown@body"), nullptr);
+  ASSERT_FALSE(d.unknown.empty());
+  EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
+}
+
+TEST(Diagnose, NamesAStuckSensorAndIsNotMisledByIt) {
+  auto recordings = drops(no_force);
+  for (auto& trial : recordings.trials) {
+    auto& accel = trial.channels["accel_mps2"];
+    for (std::size_t i = 40; i < 60; ++i) accel[i] = accel[40];
+  }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.detail, "data_fault");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.stuck");
+  EXPECT_EQ(d.effects.front().channel, "accel_mps2");
+}
+
+TEST(Diagnose, DoesNotDependOnTheOrderOfTrials) {
+  auto recordings = drops([](double, double, double v) { return -0.003 * std::abs(v) * v; });
+  const auto first = diagnose(recordings);
+  std::reverse(recordings.trials.begin(), recordings.trials.end());
+  const auto second = diagnose(recordings);
+  ASSERT_EQ(first.effects.size(), 1u);
+  ASSERT_EQ(second.effects.size(), 1u);
+  EXPECT_EQ(first.effects.front().id, second.effects.front().id);
+  EXPECT_THAT(first.effects.front().parameters.front().value,
+              DoubleNear(second.effects.front().parameters.front().value, 1e-3));
+}
+
+TEST(Diagnose, SaysTooLittleDataWhereOneTrialShowsNothing) {
+  const auto d = diagnose(drops(no_force, 1, 1));
+  EXPECT_EQ(d.verdict, "insufficient_data");
+  EXPECT_EQ(d.detail, "too_little_data");
+}
+
+TEST(Diagnose, TellsWhatAMissingChannelRulesOut) {
+  auto recordings = drops(no_force);
+  for (auto& trial : recordings.trials) trial.channels.erase("accel_mps2");
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_THAT(d.notes, Contains(::testing::HasSubstr("accel_mps2")));
+}
+
+TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
+  const auto json =
+      to_json(diagnose(drops([](double, double, double v) { return -0.003 * std::abs(v) * v; }, 1, 6)));
+  for (const char* key : {"verdict", "detail", "noise_floor", "where", "effects", "fit", "next_trial"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  ASSERT_FALSE(json["effects"].empty());
+  const auto& effect = json["effects"][0];
+  for (const char* key :
+       {"id", "statement", "equation", "parameters", "probability", "heldout_gain", "indistinguishable_from"})
+    EXPECT_TRUE(effect.contains(key)) << key;
+  const auto& parameter = effect["parameters"].begin().value();
+  EXPECT_LE(parameter["ci95"][0].get<double>(), parameter["value"].get<double>());
+  EXPECT_GE(parameter["ci95"][1].get<double>(), parameter["value"].get<double>());
+  ASSERT_FALSE(json["where"].empty());
+  for (const char* key :
+       {"channel", "phase", "from_s", "to_s", "trials", "coordinate", "range", "share_of_excess", "p_value"})
+    EXPECT_TRUE(json["where"][0].contains(key)) << key;
+  EXPECT_TRUE(json["fit"]["heldout"].contains("floor"));
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,71 @@
+#include "tools/diagnose/campaign_input.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <type_traits>
+
+namespace sandhopper::diagnose {
+namespace {
+
+template <class T>
+void flatten(const T& table, const std::string& prefix, std::map<std::string, double>& out) {
+  T::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
+    const std::string name = prefix + std::string(key);
+    if constexpr (HasFields<const Member>) {
+      flatten(member, name + ".", out);
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      out[name] = static_cast<double>(member);
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+      if (member) out[name] = *member;
+    }
+  });
+}
+
+PlantKind kind_of(CampaignPlant plant) {
+  switch (plant) {
+    case CampaignPlant::hopper:
+      return PlantKind::hopper;
+    case CampaignPlant::intruder:
+      return PlantKind::intruder;
+    case CampaignPlant::falling_body:
+      return PlantKind::falling_body;
+    case CampaignPlant::rotary_axis:
+      return PlantKind::rotary_axis;
+  }
+  return PlantKind::hopper;
+}
+
+}  // namespace
+
+Belief flattened(const sandhopper::Belief& belief) {
+  Belief flat;
+  std::visit([&](const auto& plant) { flatten(plant, "", flat.numbers); }, belief);
+  return flat;
+}
+
+CampaignInput read_campaign(const Campaign& campaign) {
+  CampaignInput input;
+  input.recordings.plant = kind_of(campaign.plant);
+  input.recordings.belief = flattened(campaign.belief);
+  input.findings = campaign.findings;
+  for (const auto& described : campaign.trials) {
+    const TrialRecording recording = read_trial(campaign, described);
+    input.findings.insert(input.findings.end(), recording.findings.begin(), recording.findings.end());
+    if (!recording.usable()) {
+      ++input.unusable;
+      continue;
+    }
+    Trial trial;
+    trial.name = std::filesystem::path(described.name).stem().string();
+    trial.kind = name_of(described.kind);
+    for (const auto& entry : described.setup)
+      if (const auto* number = std::get_if<double>(&entry.value)) trial.setup[entry.key] = *number;
+    for (const double t : recording.t_s) trial.time_s.push_back(t - recording.t_s.front());
+    for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
+    input.recordings.trials.push_back(std::move(trial));
+    input.recordings.beliefs.push_back(flattened(described.belief));
+  }
+  return input;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,171 @@
+#include "tools/diagnose/data_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kNeighbours = 10;  // samples on each side
+constexpr double kByChance = 1e-6;       // probability of a stretch, given how often neighbours repeat
+constexpr double kMostRepeats = 0.6;     // of the neighbourhood: above, the sensor rests
+constexpr double kLong_s = 0.03;         // a stuck sensor; shorter stretches are lost samples
+constexpr std::size_t kShortest = 4;
+
+struct Stretch {
+  std::size_t first, last;  // of `rows`
+  double duration_s;
+};
+
+// How often successive samples repeat around a stretch.
+double repeats_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  double equal = 0.5, count = 1.0;
+  const auto look = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from + 1; i <= to && i < v.size(); ++i) {
+      equal += v[i] == v[i - 1] ? 1.0 : 0.0;
+      ++count;
+    }
+  };
+  if (first > 0) look(first > kNeighbours ? first - kNeighbours : 0, first - 1);
+  if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
+  return equal / count;
+}
+
+// Root mean square of successive differences around a stretch.
+double changes_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  double sum = 0.0, count = 0.0;
+  const auto look = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from + 1; i <= to && i < v.size(); ++i) {
+      sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+      ++count;
+    }
+  };
+  if (first > 0) look(first > kNeighbours ? first - kNeighbours : 0, first - 1);
+  if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+// Where noise moves the sensor by several steps of its grid, a repeat is no chance; where it does not, the
+// quantity must have gone on in the meantime.
+bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size_t last, double grid) {
+  const double change = changes_around(v, first, last);
+  if (change >= 4.0 * grid) return true;
+  return std::abs(v[last + 1] - v[last]) >= std::max(4.0 * grid, 3.0 * change);
+}
+
+std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
+                                    std::size_t shortest_by_number) {
+  std::vector<Stretch> found;
+  double grid = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < v.size(); ++i)
+    if (v[i] != v[i - 1]) grid = std::min(grid, std::abs(v[i] - v[i - 1]));
+  for (std::size_t i = 0; i < v.size();) {
+    std::size_t j = i;
+    while (j + 1 < v.size() && v[j + 1] == v[i]) ++j;
+    const std::size_t length = j - i + 1;
+    // At the end of its range a sensor rests on the limit: that is another fault.
+    const bool inside = i > 0 && j + 1 < v.size();
+    if (length >= kShortest && inside) {
+      const double chance = repeats_around(v, i, j);
+      if (chance < kMostRepeats &&
+          (std::pow(chance, static_cast<double>(length - 1)) < kByChance || length >= shortest_by_number) &&
+          quantity_went_on(v, i, j, grid))
+        found.push_back({i, j, t[j] - t[i]});
+    }
+    i = j + 1;
+  }
+  return found;
+}
+
+// Stretches whose number grows again with length did not come from a geometric law of chance repeats.
+std::size_t shortest_by_number(const std::map<std::size_t, double>& runs) {
+  const auto count = [&](std::size_t length) {
+    const auto it = runs.find(length);
+    return it == runs.end() ? 0.0 : it->second;
+  };
+  const double ratio = std::clamp((count(3) + 1.0) / (count(2) + 2.0), 0.02, 0.6);
+  for (std::size_t length = kShortest + 1; length < 200; ++length) {
+    const double expected = (count(2) + 1.0) * std::pow(ratio, static_cast<double>(length - 2));
+    if (count(length) >= 4.0 + 8.0 * expected && count(length) > 2.0 * count(length - 1)) return length;
+  }
+  return std::numeric_limits<std::size_t>::max();
+}
+
+}  // namespace
+
+std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
+  std::set<std::string> channels;
+  for (const auto& trial : trials)
+    for (const auto& [name, values] : trial.channels)
+      if (name != "phase" && !name.starts_with("command_") && !name.starts_with("estimate_") &&
+          !name.ends_with("temperature_C"))
+        channels.insert(name);
+  std::vector<DataFault> faults;
+  for (const auto& channel : channels) {
+    struct Sampled {
+      Trial* trial;
+      std::vector<std::size_t> rows;
+      std::vector<double> value, time;
+    };
+    std::vector<Sampled> sampled;
+    std::map<std::size_t, double> runs;
+    double repeated = 0.0, total = 0.0, recorded_s = 0.0;
+    double low = 1e300, high = -1e300;
+    for (auto& trial : trials) {
+      const auto* values = trial.find(channel);
+      if (values == nullptr) continue;
+      Sampled s{&trial, {}, {}, {}};
+      for (std::size_t i = 0; i < values->size(); ++i)
+        if (std::isfinite((*values)[i])) {
+          s.rows.push_back(i);
+          s.value.push_back((*values)[i]);
+          s.time.push_back(trial.time_s[i]);
+          low = std::min(low, s.value.back());
+          high = std::max(high, s.value.back());
+        }
+      for (std::size_t i = 0; i < s.value.size();) {
+        std::size_t j = i;
+        while (j + 1 < s.value.size() && s.value[j + 1] == s.value[i]) ++j;
+        if (j > i) ++runs[j - i + 1];
+        repeated += static_cast<double>(j - i);
+        i = j + 1;
+      }
+      total += static_cast<double>(s.value.size());
+      if (!s.time.empty()) recorded_s += s.time.back() - s.time.front();
+      sampled.push_back(std::move(s));
+    }
+    if (total < 20.0 || repeated > 0.5 * total) continue;  // a slow sensor, held in the log
+    const std::size_t by_number = shortest_by_number(runs);
+    DataFault fault{channel, "", 0, 0.0, 0.0, false, {}};
+    std::vector<double> durations;
+    std::size_t longest = 0;
+    for (auto& s : sampled) {
+      const auto stretches = held_stretches(s.value, s.time, by_number);
+      auto& values = s.trial->channels[channel];
+      bool hit = false;
+      for (const auto& stretch : stretches) {
+        if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
+        hit = true;
+        longest = std::max(longest, stretch.last - stretch.first + 1);
+        durations.push_back(stretch.duration_s);
+        for (std::size_t k = stretch.first + 1; k <= stretch.last; ++k)
+          values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
+      }
+      if (hit) fault.trials.push_back(s.trial->name);
+    }
+    fault.stretches = durations.size();
+    if (fault.stretches < 2 && longest < 8) continue;
+    std::sort(durations.begin(), durations.end());
+    fault.duration_s = durations[durations.size() / 2];
+    fault.rate_Hz = recorded_s > 0.0 ? static_cast<double>(fault.stretches) / recorded_s : 0.0;
+    fault.id = fault.duration_s > kLong_s ? "data.stuck" : "data.dropout";
+    fault.borderline = fault.duration_s > 0.5 * kLong_s && fault.duration_s < 2.0 * kLong_s;
+    faults.push_back(std::move(fault));
+  }
+  return faults;
+}
+
+}  // namespace sandhopper::diagnose

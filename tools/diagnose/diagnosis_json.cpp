@@ -1,0 +1,74 @@
+#include "tools/diagnose/diagnosis_json.hpp"
+
+namespace sandhopper::diagnose {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Diagnosis& d) {
+  Json json;
+  json["verdict"] = d.verdict;
+  json["detail"] = d.detail.empty() || d.detail == "null" ? Json(nullptr) : Json(d.detail);
+  json["noise_floor"] = Json::object();
+  for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
+  json["where"] = Json::array();
+  for (const auto& w : d.where)
+    json["where"].push_back({{"channel", w.channel},
+                             {"phase", w.phase},
+                             {"from_s", w.from_s},
+                             {"to_s", w.to_s},
+                             {"trials", w.trials},
+                             {"coordinate", w.coordinate},
+                             {"range", {w.range_low, w.range_high}},
+                             {"share_of_excess", w.share_of_excess},
+                             {"p_value", w.p_value}});
+  json["effects"] = Json::array();
+  for (const auto& e : d.effects) {
+    Json parameters = Json::object();
+    for (const auto& p : e.parameters) parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
+    Json effect{{"id", e.id},
+                {"statement", e.statement},
+                {"equation", e.equation},
+                {"parameters", parameters},
+                {"probability", e.probability},
+                {"heldout_gain", e.heldout_gain},
+                {"indistinguishable_from", e.indistinguishable_from}};
+    if (!e.channel.empty()) effect["channel"] = e.channel;
+    json["effects"].push_back(std::move(effect));
+  }
+  if (!d.fits.empty()) {
+    const auto one = [](const ChannelFit& f) {
+      return Json{
+          {"channel", f.channel},
+          {"train", {{"before", f.train.before}, {"after", f.train.after}}},
+          {"heldout", {{"before", f.heldout.before}, {"after", f.heldout.after}, {"floor", f.floor}}}};
+    };
+    json["fit"] = one(d.fits.front());
+    json["fit_by_channel"] = Json::array();
+    for (const auto& fit : d.fits) json["fit_by_channel"].push_back(one(fit));
+  } else {
+    json["fit"] = nullptr;
+  }
+  Json setup = Json::object();
+  if (!d.next_kind.empty()) setup["kind"] = d.next_kind;
+  for (const auto& [key, value] : d.next_setup) setup[key] = value;
+  json["next_trial"] = {{"why", d.next_why}, {"setup", setup}};
+  json["unknown"] = Json::array();
+  for (const auto& u : d.unknown)
+    json["unknown"].push_back({{"port", u.port},
+                               {"p_value", u.p_value},
+                               {"share", u.share},
+                               {"variable", u.curve.variable},
+                               {"at", u.curve.at},
+                               {"value", u.curve.value},
+                               {"sd", u.curve.sd}});
+  json["absent"] = Json::array();
+  for (const auto& b : d.absent)
+    json["absent"].push_back({{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}});
+  json["notes"] = d.notes;
+  json["trials"] = d.trials;
+  json["simulations"] = d.simulations;
+  json["seconds"] = d.seconds;
+  return json;
+}
+
+}  // namespace sandhopper::diagnose

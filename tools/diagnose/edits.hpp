@@ -1,0 +1,76 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sandhopper::diagnose {
+
+// What a port shows to a law that acts there. Falling body, rail: height or position and velocity, up
+// positive. Axis, joint: angle and angular velocity; `load` the torque of the drive. Ground: depth, downward
+// speed and acceleration; `load` the quasi-static force, `extreme` the deepest point. Sensor: the value as
+// position, its rate as velocity.
+struct PortState {
+  double time_s = 0.0;
+  double position = 0.0;
+  double velocity = 0.0;
+  double accel = 0.0;
+  double load = 0.0;
+  double extreme = 0.0;
+};
+using Law = std::function<double(const PortState&)>;
+
+// One change of the way from a true quantity to a recorded one. Torque and current that drive the plant pass
+// the same way from "recorded" to "acting": they are the channel "actuator".
+struct SensorEdit {
+  enum class Kind : std::uint8_t { gain, offset, lag_s, delay_s, time_scale, clip_high, clip_low, law };
+  std::string channel;
+  Kind kind{};
+  double value = 0.0;
+  Law law{};  // added to the value
+};
+
+struct BeliefEdit {
+  std::string key;
+  double factor = 1.0;
+  double addend = 0.0;
+};
+
+// Everything a set of effects changes in a simulation; empty is the belief as it stands.
+struct Edits {
+  std::vector<BeliefEdit> belief;
+  std::vector<std::pair<std::string, Law>> laws;  // port, force or torque added there
+  std::vector<SensorEdit> sensors;
+
+  void scale(std::string key, double factor) { belief.push_back({std::move(key), factor, 0.0}); }
+  void add(std::string key, double addend) { belief.push_back({std::move(key), 1.0, addend}); }
+  void law(std::string port, Law law) { laws.emplace_back(std::move(port), std::move(law)); }
+  void sensor(std::string channel, SensorEdit::Kind kind, double value) {
+    sensors.push_back({std::move(channel), kind, value, {}});
+  }
+  void sensor_law(std::string channel, Law law) {
+    sensors.push_back({std::move(channel), SensorEdit::Kind::law, 0.0, std::move(law)});
+  }
+
+  double edited(std::string_view key, double value) const {
+    for (const auto& edit : belief)
+      if (edit.key == key) value = value * edit.factor + edit.addend;
+    return value;
+  }
+  std::vector<const Law*> at(std::string_view port) const {
+    std::vector<const Law*> found;
+    for (const auto& [name, law] : laws)
+      if (name == port) found.push_back(&law);
+    return found;
+  }
+};
+
+inline double sum_of(const std::vector<const Law*>& laws, const PortState& state) {
+  double sum = 0.0;
+  for (const auto* law : laws) sum += (*law)(state);
+  return sum;
+}
+
+}  // namespace sandhopper::diagnose

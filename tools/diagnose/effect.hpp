@@ -1,0 +1,72 @@
+#pragma once
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/context.hpp"
+#include "tools/diagnose/edits.hpp"
+
+namespace sandhopper::diagnose {
+
+// A number of an effect. `value = 0` for the first parameter switches the effect off; others only shape it,
+// unless they are amplitudes, too. What is reported is base + scale * value, so that a parameter that bears
+// the name of a nominal.toml key reads like that key.
+struct EffectParameter {
+  std::string name{};  // with unit
+  double typical = 1.0;
+  double low = 0.0;
+  double high = 1.0;
+  bool either_sign = false;  // starts are tried on both sides
+  double base = 0.0;
+  double scale = 1.0;
+  bool amplitude = false;        // besides the first: zero switches this part off, too
+  bool reciprocal = false;       // reported as 1 / (base + scale * value)
+  std::vector<double> shapes{};  // of a shape: values worth a start of their own
+
+  double reported(double value) const {
+    const double plain = base + scale * value;
+    return reciprocal ? 1.0 / plain : plain;
+  }
+};
+
+// A piece of physics, or a fault of a sensor, that a simulation may lack.
+//
+// One file in effects/ each, which registers it; its test says that it acts and is found when alone.
+struct Effect {
+  std::string id{};  // port.effect, as the design's list has it
+  std::string
+      port{};  // rail joint ground inertia actuator controller clock geometry solver body axis, or sensor
+  std::string statement{};  // one sentence; {channel} stands for the channel of a sensor's fault
+  std::string equation{};
+  std::vector<PlantKind> plants{};
+  // Channels whose sensor may have it, each a candidate of its own; null for physics.
+  std::function<std::vector<std::string>(const Context&)> channels{};
+  // Empty where this campaign cannot have it.
+  std::function<std::vector<EffectParameter>(const Context&, const std::string& channel)> parameters{};
+  std::function<void(const Context&, const std::string& channel, std::span<const double> values,
+                     Edits& edits)>
+      apply{};
+  std::string belief_key{};  // of nominal.toml, when the effect is a change of one number there
+};
+
+class EffectRegistration {
+ public:
+  explicit EffectRegistration(Effect effect);
+};
+
+// In alphabetical order of their ids.
+std::vector<Effect> known_effects();
+
+// An effect as it may be in one campaign.
+struct Candidate {
+  const Effect* effect = nullptr;
+  std::string channel;
+  std::vector<EffectParameter> parameters;
+
+  std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }
+};
+std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const Context& context);
+
+}  // namespace sandhopper::diagnose

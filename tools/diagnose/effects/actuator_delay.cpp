@@ -1,0 +1,21 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "actuator.delay",
+     .port = "actuator",
+     .statement = "Torque acts later than it is reported or commanded.",
+     .equation = "torque(t) = reported(t - T)",
+     .plants = {PlantKind::rotary_axis, PlantKind::hopper},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "delay_s", .typical = 2e-3, .low = 0.0, .high = 0.03}};
+         },
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.sensor("actuator", SensorEdit::Kind::delay_s, v[0]); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

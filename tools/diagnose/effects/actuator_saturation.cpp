@@ -1,0 +1,33 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// Of the largest torque seen.
+double reference_of(const Context& c) {
+  return c.plant == PlantKind::hopper ? c.belief.value("motor.torque_limit_Nm", 2.8) * 2.0
+                                      : 3.0 * c.scale("torque_Nm");
+}
+
+const EffectRegistration kEffect(
+    {.id = "actuator.saturation",
+     .port = "actuator",
+     .statement = "The motor's torque falls behind its current at high torque: the iron saturates.",
+     .equation = "torque = reported (1 - s (reported / reference)^2)",
+     .plants = {PlantKind::rotary_axis, PlantKind::hopper},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "saturation", .typical = 0.15, .low = 0.0, .high = 0.9}};
+         },
+     .apply =
+         [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+           const double s = v[0], reference = reference_of(c);
+           edits.sensor_law("actuator", [=](const PortState& at) {
+             const double u = std::min(1.0, std::abs(at.position) / reference);
+             return -s * u * u * at.position;
+           });
+         }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

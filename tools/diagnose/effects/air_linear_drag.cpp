@@ -1,0 +1,28 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("medium.linear_drag_N_s_per_m");
+  const double typical = 0.1 * c.scale("weight_N") / c.scale("speed_mps");
+  return {{.name = "linear_drag_N_s_per_m",
+           .typical = typical,
+           .low = -believed,
+           .high = 100.0 * typical,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "air.linear_drag",
+                                  .port = "body",
+                                  .statement = "The medium resists with a force proportional to speed.",
+                                  .equation = "F += -b v",
+                                  .plants = {PlantKind::falling_body},
+                                  .parameters = parameters,
+                                  .apply =
+                                      [](const Context&, const std::string&, std::span<const double> v,
+                                         Edits& edits) { edits.add("medium.linear_drag_N_s_per_m", v[0]); },
+                                  .belief_key = "medium.linear_drag_N_s_per_m"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,28 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("axis.gravity_torque_Nm", 0.0);
+  const double typical = std::max(0.1 * std::abs(believed), 0.1 * c.scale("torque_Nm"));
+  return {{.name = "gravity_torque_Nm",
+           .typical = typical,
+           .low = -100.0 * typical,
+           .high = 100.0 * typical,
+           .either_sign = true,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "axis.gravity",
+                                  .port = "inertia",
+                                  .statement = "Gravity pulls on the axis otherwise than believed.",
+                                  .equation = "tau += -dG sin(theta)",
+                                  .plants = {PlantKind::rotary_axis},
+                                  .parameters = parameters,
+                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                              Edits& edits) { edits.add("axis.gravity_torque_Nm", v[0]); },
+                                  .belief_key = "axis.gravity_torque_Nm"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,28 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("axis.inertia_kg_m2", 1.0);
+  const double typical = 0.1 * believed;
+  return {{.name = "inertia_kg_m2",
+           .typical = typical,
+           .low = -0.9 * believed,
+           .high = 10.0 * believed,
+           .either_sign = true,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "axis.inertia",
+                                  .port = "inertia",
+                                  .statement = "The inertia of the axis is not what is believed.",
+                                  .equation = "J -> J + dJ",
+                                  .plants = {PlantKind::rotary_axis},
+                                  .parameters = parameters,
+                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                              Edits& edits) { edits.add("axis.inertia_kg_m2", v[0]); },
+                                  .belief_key = "axis.inertia_kg_m2"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,25 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "axis.torque_scale",
+     .port = "actuator",
+     .statement = "The torque that acts is in proportion to the reported one, but not equal to it.",
+     .equation = "torque = (1 + e) reported",
+     .plants = {PlantKind::rotary_axis},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{{.name = "torque_scale",
+                                                .typical = 0.05,
+                                                .low = -0.9,
+                                                .high = 5.0,
+                                                .either_sign = true,
+                                                .base = 1.0}};
+         },
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.sensor("actuator", SensorEdit::Kind::gain, 1.0 + v[0]); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,29 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("axis.viscous_friction_Nm_s", 0.0);
+  const double typical = 0.1 * c.scale("torque_Nm") / c.scale("speed_radps");
+  return {{.name = "viscous_friction_Nm_s",
+           .typical = typical,
+           .low = -believed,
+           .high = 100.0 * typical,
+           .either_sign = false,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "axis.viscous",
+                                  .port = "axis",
+                                  .statement = "Friction proportional to speed opposes the axis.",
+                                  .equation = "tau += -b w",
+                                  .plants = {PlantKind::rotary_axis},
+                                  .parameters = parameters,
+                                  .apply =
+                                      [](const Context&, const std::string&, std::span<const double> v,
+                                         Edits& edits) { edits.add("axis.viscous_friction_Nm_s", v[0]); },
+                                  .belief_key = "axis.viscous_friction_Nm_s"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

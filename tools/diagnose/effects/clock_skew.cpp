@@ -1,0 +1,52 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// A sensor's time may be off against the others'; of an axis, both sensors' against the drive's torque.
+std::vector<std::string> channels(const Context& c) {
+  if (c.plant == PlantKind::rotary_axis) {
+    auto found = present(c, {"velocity_radps"});
+    if (c.has("position_rad") && c.has("velocity_radps")) found.emplace_back("position_rad");
+    found.emplace_back("motion");
+    return found;
+  }
+  if (c.plant == PlantKind::falling_body && c.channels.size() < 2) return {};
+  return present(c, {"height_m", "force_N", "load_cell_force_N", "imu_body_accel_z_mps2",
+                     "imu_foot_accel_z_mps2", "mocap_body_z_m"});
+}
+
+void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
+  if (channel == "motion") {
+    for (const auto& each : present(c, {"position_rad", "velocity_radps"}))
+      edits.sensor(each, SensorEdit::Kind::delay_s, v[0]);
+  } else if (channel == "mocap_body_z_m") {
+    for (const auto& each : present(c, {"mocap_body_z_m", "mocap_foot_z_m"}))
+      edits.sensor(each, SensorEdit::Kind::delay_s, v[0]);
+  } else {
+    edits.sensor(channel, SensorEdit::Kind::delay_s, v[0]);
+  }
+}
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
+  const auto it = c.channels.find(channel);
+  const double step_s = it == c.channels.end() ? 1e-3 : it->second.step_s;
+  return {{.name = "skew_s",
+           .typical = 2e-3,
+           .low = -10.0 * std::max(step_s, 2e-3),
+           .high = 10.0 * std::max(step_s, 2e-3),
+           .either_sign = true}};
+}
+
+const EffectRegistration kEffect(
+    {.id = "clock.skew",
+     .port = "clock",
+     .statement = "The time stamps of {channel} are late against the other channels.",
+     .equation = "y(t) = x(t - skew)",
+     .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
+     .channels = channels,
+     .parameters = parameters,
+     .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

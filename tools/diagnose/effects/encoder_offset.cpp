@@ -1,0 +1,27 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.plant == PlantKind::rotary_axis && c.belief.value("axis.gravity_torque_Nm") == 0.0) return {};
+  return {{.name = "encoder_offset_rad", .typical = 0.02, .low = -0.5, .high = 0.5, .either_sign = true}};
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  if (c.plant == PlantKind::rotary_axis) return edits.sensor("position_rad", SensorEdit::Kind::offset, v[0]);
+  for (const char* channel : {"motor_left_position_rad", "motor_right_position_rad"})
+    edits.sensor(channel, SensorEdit::Kind::offset, v[0]);
+}
+
+const EffectRegistration kEffect(
+    {.id = "encoder.offset",
+     .port = "sensor",
+     .statement = "The encoder's zero is off: the angle is not the one that is read.",
+     .equation = "y = theta + o",
+     .plants = {PlantKind::rotary_axis, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,35 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.scale("angle_rad") < 0.3) return {};
+  const double typical = 0.1 * c.scale("torque_Nm");
+  std::vector<double> orders;
+  for (const double n : {1., 2., 3., 4., 6., 8., 12., 18., 24., 36., 48.}) orders.push_back(n);
+  return {{.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
+          {.name = "cogging_cos_Nm",
+           .typical = typical,
+           .low = -50.0 * typical,
+           .high = 50.0 * typical,
+           .amplitude = true},
+          {.name = "cogging_periods_per_rev", .typical = 12.0, .low = 1.0, .high = 300.0, .shapes = orders}};
+}
+
+const EffectRegistration kEffect({.id = "joint.cogging",
+                                  .port = "axis",
+                                  .statement = "Torque ripples with the angle of the motor (cogging).",
+                                  .equation = "tau += A sin(h theta) + B cos(h theta)",
+                                  .plants = {PlantKind::rotary_axis},
+                                  .parameters = parameters,
+                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                              Edits& edits) {
+                                    const double a = v[0], b = v[1], h = v[2];
+                                    edits.law("axis", [=](const PortState& s) {
+                                      return a * std::sin(h * s.position) + b * std::cos(h * s.position);
+                                    });
+                                  }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

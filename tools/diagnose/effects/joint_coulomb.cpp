@@ -1,0 +1,27 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("robot.joint_coulomb_Nm", 0.015);
+  return {{.name = "joint_coulomb_Nm",
+           .typical = 0.03,
+           .low = -believed,
+           .high = 1.0,
+           .either_sign = true,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "joint.coulomb",
+                                  .port = "joint",
+                                  .statement = "Dry friction of constant size acts in the joints.",
+                                  .equation = "tau += -tau_c sign(w)",
+                                  .plants = {PlantKind::hopper},
+                                  .parameters = parameters,
+                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                              Edits& edits) { edits.add("robot.joint_coulomb_Nm", v[0]); },
+                                  .belief_key = "robot.joint_coulomb_Nm"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,24 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "joint.viscous",
+     .port = "joint",
+     .statement = "Friction proportional to speed acts in the joints.",
+     .equation = "tau += -b w, each motor",
+     .plants = {PlantKind::hopper},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "joint_viscous_Nm_s_per_rad", .typical = 5e-3, .low = 0.0, .high = 0.2}};
+         },
+     .apply =
+         [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+           const double factor = v[0] * c.belief.value("robot.motor_count", 2.0);
+           edits.law("joint", [factor](const PortState& s) { return -factor * s.velocity; });
+         }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,25 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "load_cell.gain",
+     .port = "sensor",
+     .statement = "The load cell reads in proportion too much or too little.",
+     .equation = "y = (1 + g) F",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .channels =
+         [](const Context& c) {
+           return present(c, {"force_N", "load_cell_force_N"});
+         },
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "gain", .typical = 0.03, .low = -0.5, .high = 1.0, .either_sign = true, .base = 1.0}};
+         },
+     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
+                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, 1.0 + v[0]); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,28 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "load_cell.inertia",
+     .port = "sensor",
+     .statement = "A mass between load cell and contact adds its inertia to what the load cell reads.",
+     .equation = "y = F + m a",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .channels =
+         [](const Context& c) {
+           return present(c, {"force_N", "load_cell_force_N"});
+         },
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "mass_kg", .typical = 0.1, .low = -5.0, .high = 5.0, .either_sign = true}};
+         },
+     .apply =
+         [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+           const double mass = v[0];
+           edits.law("load_cell", [mass](const PortState& s) { return mass * s.accel; });
+         }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,29 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "load_cell.lag",
+     .port = "sensor",
+     .statement = "The load cell follows with a first-order lag.",
+     .equation = "tau y' + y = F",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .channels =
+         [](const Context& c) {
+           return present(c, {"force_N", "load_cell_force_N"});
+         },
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{{.name = "lag_s",
+                                                .typical = 3e-3,
+                                                .low = 0.0,
+                                                .high = 0.1,
+                                                .either_sign = false,
+                                                .base = 0.0}};
+         },
+     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
+                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::lag_s, v[0]); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

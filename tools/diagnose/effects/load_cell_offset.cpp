@@ -1,0 +1,29 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "load_cell.offset",
+     .port = "sensor",
+     .statement = "The load cell reads a constant amount off.",
+     .equation = "y = F + o",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .channels =
+         [](const Context& c) {
+           return present(c, {"force_N", "load_cell_force_N"});
+         },
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{{.name = "offset_N",
+                                                .typical = 0.5,
+                                                .low = -50.0,
+                                                .high = 50.0,
+                                                .either_sign = true,
+                                                .base = 0.0}};
+         },
+     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
+                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::offset, v[0]); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

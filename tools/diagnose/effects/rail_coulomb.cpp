@@ -1,0 +1,27 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("robot.rail_coulomb_N", 4.0);
+  return {{.name = "rail_coulomb_N",
+           .typical = 1.0,
+           .low = -believed,
+           .high = 50.0,
+           .either_sign = true,
+           .base = believed}};
+}
+
+const EffectRegistration kEffect({.id = "rail.coulomb",
+                                  .port = "rail",
+                                  .statement = "Dry friction of constant size acts between body and rail.",
+                                  .equation = "F += -F_c sign(z')",
+                                  .plants = {PlantKind::hopper},
+                                  .parameters = parameters,
+                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                              Edits& edits) { edits.add("robot.rail_coulomb_N", v[0]); },
+                                  .belief_key = "robot.rail_coulomb_N"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

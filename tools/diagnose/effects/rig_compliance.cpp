@@ -1,0 +1,32 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double stiffness = c.belief.value("rig.stiffness_N_per_m");
+  return {{.name = "stiffness_N_per_m",
+           .typical = 1e-5,
+           .low = stiffness > 0.0 ? -0.9 / stiffness : 0.0,
+           .high = 1e-3,
+           .base = stiffness > 0.0 ? 1.0 / stiffness : 0.0,
+           .reciprocal = true}};
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  (void)c;
+  edits.add("rig.compliance_m_per_N", v[0]);
+}
+
+const EffectRegistration kEffect(
+    {.id = "rig.compliance",
+     .port = "geometry",
+     .statement = "The rig yields under the force: the foot is less deep than the encoder says.",
+     .equation = "z = z_recorded - F / k_r",
+     .plants = {PlantKind::intruder},
+     .parameters = parameters,
+     .apply = apply,
+     .belief_key = "rig.stiffness_N_per_m"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

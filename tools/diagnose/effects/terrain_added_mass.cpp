@@ -1,0 +1,42 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double radius = c.scale("foot_radius_m", 0.04);
+  const double cone = 1450.0 * 1.732 * 3.1416 * radius * radius * radius / 3.0;
+  return {{.name = "added_mass_kg", .typical = cone, .low = 0.0, .high = 20.0 * cone},
+          {.name = "saturation_depth_m",
+           .typical = 0.866 * radius,
+           .low = 0.2 * radius,
+           .high = 4.0 * radius,
+           .shapes = {0.4 * radius, 1.8 * radius}}};
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  (void)c;
+  const double mass = v[0], depth = v[1];
+  const auto left = [depth](double z) { return std::max(0.0, 1.0 - z / depth); };
+  edits.law("ground.force", [=](const PortState& s) {
+    const double l = left(s.position);
+    return s.accel * 3.0 * mass / depth * l * l * s.velocity * s.velocity;
+  });
+  edits.law("ground.mass", [=](const PortState& s) {
+    const double l = left(s.position);
+    return s.accel * mass * (1.0 - l * l * l) * std::clamp(s.velocity / 0.005, 0.0, 1.0);
+  });
+}
+
+const EffectRegistration kEffect(
+    {.id = "terrain.added_mass",
+     .port = "ground",
+     .statement = "Grains that move with the foot add to its inertia; as they are taken up with depth they "
+                  "also resist with the square of speed.",
+     .equation = "F += m_a(z) z'' + m_a'(z) z'^2, m_a = m (1 - (1 - z/z_c)^3)",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

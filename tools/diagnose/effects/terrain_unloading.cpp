@@ -1,0 +1,32 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double believed = c.belief.value("terrain.unloading_stiffness_ratio", 30.0);
+  return {{.name = "unloading_stiffness_ratio",
+           .typical = 0.5 * believed,
+           .low = 1.0 - believed,
+           .high = 10.0 * believed,
+           .either_sign = true,
+           .base = believed}};
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  (void)c;
+  edits.add("terrain.unloading_stiffness_ratio", v[0]);
+}
+
+const EffectRegistration kEffect(
+    {.id = "terrain.unloading",
+     .port = "ground",
+     .statement = "The bed gives back along another line than believed when the foot moves up.",
+     .equation = "F = F_max - r k (z_max - z)",
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply,
+     .belief_key = "terrain.unloading_stiffness_ratio"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

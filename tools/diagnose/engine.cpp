@@ -1,0 +1,144 @@
+#include "tools/diagnose/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "tools/diagnose/corrected_model.hpp"
+#include "tools/diagnose/data_faults.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/open_world.hpp"
+#include "tools/diagnose/posterior.hpp"
+#include "tools/diagnose/report_parts.hpp"
+#include "tools/diagnose/search.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kTooFewTrials = 3;
+constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
+constexpr double kRestShare = 0.10;
+constexpr double kUnknownSignificance = 0.01;
+constexpr double kUnknownGain = 25.0;
+constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
+
+std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
+  if (set.empty()) return "nothing";
+  std::string text;
+  for (const auto c : set) text += (text.empty() ? "" : " + ") + problem.candidates[c].label();
+  return text;
+}
+
+void log_sets(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
+  std::vector<const SetFit*> fits;
+  for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
+  std::sort(fits.begin(), fits.end(),
+            [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
+  for (std::size_t i = 0; i < fits.size() && i < 14; ++i) {
+    const auto& f = *fits[i];
+    std::string evidence;
+    for (const auto& e : f.evidence)
+      evidence += fmt::format(" ({}: {:.3g} typical, p {:.1e}, flip {:.3f}, gain {:.1f}{})",
+                              problem.candidates[e.candidate].label(), e.typicals, e.p_value, e.flip_p_value,
+                              e.gain, e.at_bound ? ", at bound" : "");
+    diagnosis.log.push_back(fmt::format("deviance {:.1f} dispersion {:.2f} {} {}{}", f.fit.deviance,
+                                        f.dispersion, f.needed ? "needed" : "-", set_text(problem, f.set),
+                                        evidence));
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  Diagnosis diagnosis;
+  Recordings clean = recordings;
+  const auto faults = remove_data_faults(clean.trials);
+  Prepared prepared = prepare(clean);
+  Problem& problem = prepared.problem;
+  diagnosis.trials = problem.trials.size();
+  note_what_is_missing(prepared, diagnosis);
+  if (problem.trials.empty()) {
+    diagnosis.verdict = "insufficient_data";
+    diagnosis.detail = "too_little_data";
+    return diagnosis;
+  }
+  options.progress(0.0, "");
+  Point point = fit_from(problem, null_point(problem)).point;
+  update_noise(problem, point);
+  keep_nuisance_columns(problem, point);
+  SearchOptions search_options;
+  search_options.most_effects = options.most_effects;
+  search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
+  Search search(problem, search_options);
+  search.run(point);
+  log_sets(problem, search, diagnosis);
+  if (!search.best().set.empty()) {
+    // With what was found in place the noise shows better; everything is weighed again.
+    options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
+    update_noise(problem, search.best().fit.point);
+    keep_nuisance_columns(problem, search.best().fit.point);
+    Point again = search.best().fit.point;
+    again.hypothesis = {};
+    search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
+    Search second(problem, search_options);
+    second.run(again);
+    search = std::move(second);
+    diagnosis.log.emplace_back("second round");
+    log_sets(problem, search, diagnosis);
+  }
+  options.progress(0.9, "");
+  const SetFit& best = search.best();
+  const auto gains = free_gains(problem, best.fit.point);
+  const double explained = search.null().fit.deviance - best.fit.deviance;
+  const FreeGain* rest = nullptr;
+  double rows = 0.0;
+  for (const auto& trial : problem.trials) rows += static_cast<double>(trial->rows.size());
+  const double least_gain = std::max(kUnknownGain, kUnknownGainPerRow * rows);
+  for (const auto& gain : gains)
+    if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
+        gain.trials_better >= 0.75)
+      rest = &gain;
+  for (std::size_t i = 0; i < gains.size() && i < 4; ++i)
+    diagnosis.log.push_back(fmt::format(
+        "free law at {} of {}: held-out gain {:.1f}, p {:.1e}, better in {:.0f} %", gains[i].family.port,
+        gains[i].family.variable, gains[i].held_out, gains[i].p_value, 100.0 * gains[i].trials_better));
+  const double remainder = rest ? rest->held_out : 0.0;
+  const double share = remainder > 0.0 ? remainder / (remainder + std::max(explained, 0.0)) : 0.0;
+  diagnosis.log.push_back(
+      fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %)", explained, remainder, 100.0 * share));
+
+  const Posterior belief = posterior(problem, search, remainder);
+  const bool unknown = rest != nullptr && share > kUnknownShare;
+  if (unknown) {
+    diagnosis.verdict = "unknown_physics";
+    diagnosis.detail = "unknown_at_port";
+    report_unknown(problem, *rest, share, diagnosis);
+  } else if (best.set.empty()) {
+    diagnosis.verdict = problem.trials.size() < kTooFewTrials ? "insufficient_data" : "consistent";
+    diagnosis.detail = problem.trials.size() < kTooFewTrials ? "too_little_data" : "null";
+  } else {
+    diagnosis.verdict = "missing_physics";
+    report_effects(problem, search, belief, diagnosis);
+    bool classes = false;
+    for (const auto& effect : diagnosis.effects) classes = classes || !effect.indistinguishable_from.empty();
+    diagnosis.detail = classes                                 ? "one_of_class"
+                       : rest != nullptr && share > kRestShare ? "known_and_rest"
+                                                               : "known";
+    if (rest != nullptr && share > kRestShare) report_unknown(problem, *rest, share, diagnosis);
+  }
+  report_data_faults(faults, diagnosis);
+  report_errors(problem, search, diagnosis);
+  report_absent(problem, search, diagnosis);
+  report_where(problem, search, diagnosis);
+  if (!diagnosis.effects.empty())
+    diagnosis.corrected_model_toml = corrected_model(recordings.belief, problem.effects, diagnosis);
+  diagnosis.simulations = problem.simulations;
+  diagnosis.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  options.progress(1.0, "");
+  return diagnosis;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,18 @@
+#pragma once
+#include <functional>
+
+#include "tools/diagnose/diagnosis.hpp"
+#include "tools/diagnose/prepare.hpp"
+
+namespace sandhopper::diagnose {
+
+struct EngineOptions {
+  std::size_t most_effects = 3;
+  // Called with the share of work done; the first call with a text other than empty is the quick verdict.
+  std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};
+};
+
+// Finds what the recordings hold that the belief does not. Deterministic.
+Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options = {});
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/problem.hpp"
+
+namespace sandhopper::diagnose {
+
+enum class FitStatus : std::uint8_t { converged, at_bound, failed };
+
+// A joint fit of effects, tolerances and all nuisances through the simulation:
+//   Phi = 1/2 sum_t |W (y - yhat)|^2 + 1/2 |(beta / (10 typical))|^2 + 1/2 |tolerance|^2 + 1/2 sum |zeta /
+//   sd|^2
+// by Levenberg-Marquardt; a step counts when simulating it again lowers Phi.
+struct Fit {
+  Point point;
+  FitStatus status = FitStatus::failed;
+  double deviance = 0.0;               // 2 Phi
+  std::vector<double> trial_deviance;  // without the priors of effects and tolerances
+  Eigen::MatrixXd information;         // of effects' parameters (scaled by typical), then tolerances
+  int iterations = 0;
+};
+
+struct FitOptions {
+  int max_iterations = 14;
+  double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
+};
+
+// From `start`; its nuisances and tolerances are kept as starting values.
+Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options = {});
+
+// Deviances of the trials at a point as it stands.
+std::vector<double> deviances(const Problem& problem, const Point& point);
+
+// Directions of the free parameters of a point, each scaled by its typical size, then tolerances.
+std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);
+
+}  // namespace sandhopper::diagnose

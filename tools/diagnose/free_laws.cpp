@@ -1,0 +1,121 @@
+#include "tools/diagnose/free_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr int kKnots = 9;
+
+struct Variable {
+  std::string name;
+  double (*value)(const PortState&);
+  double (*weight)(const PortState&);  // multiplies the law
+};
+
+double one(const PortState&) { return 1.0; }
+double time_of(const PortState& s) { return s.time_s; }
+double position_of(const PortState& s) { return s.position; }
+double velocity_of(const PortState& s) { return s.velocity; }
+double load_of(const PortState& s) { return s.load; }
+double direction_of(const PortState& s) { return std::tanh(s.velocity / 0.02); }
+double virgin(const PortState& s) { return s.accel; }
+double not_virgin(const PortState& s) { return 1.0 - s.accel; }
+double virgin_speed(const PortState& s) { return s.accel * s.velocity; }
+
+std::vector<Variable> variables_of(const std::string& port, bool sensor) {
+  if (sensor) return {{"value", position_of, one}, {"rate", velocity_of, one}, {"t_s", time_of, one}};
+  if (port == "ground.force")
+    return {{"depth_m", position_of, virgin},
+            {"speed_mps", velocity_of, virgin},
+            {"depth_m, times speed", position_of, virgin_speed},
+            {"depth_m, unloading", position_of, not_virgin},
+            {"t_s", time_of, one}};
+  if (port == "axis")
+    return {{"velocity_radps", velocity_of, one},
+            {"position_rad", position_of, one},
+            {"position_rad, with the sign of velocity", position_of, direction_of},
+            {"torque_Nm", load_of, one},
+            {"t_s", time_of, one}};
+  if (port == "joint")
+    return {
+        {"velocity_radps", velocity_of, one}, {"angle_rad", position_of, one}, {"torque_Nm", load_of, one}};
+  return {{"velocity_mps", velocity_of, one}, {"height_m", position_of, one}, {"t_s", time_of, one}};
+}
+
+// Lowest and highest value of each variable that the simulation visits.
+std::vector<std::pair<double, double>> visited(const Problem& problem, const Point& point,
+                                               const std::string& port, bool sensor,
+                                               const std::vector<Variable>& variables) {
+  std::vector<std::pair<double, double>> ranges(
+      variables.size(), {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+  Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
+  const Law probe = [&](const PortState& s) {
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (variables[i].weight(s) == 0.0) continue;
+      const double v = variables[i].value(s);
+      if (!std::isfinite(v)) continue;
+      ranges[i].first = std::min(ranges[i].first, v);
+      ranges[i].second = std::max(ranges[i].second, v);
+    }
+    return 0.0;
+  };
+  if (sensor)
+    edits.sensor_law(port, probe);
+  else
+    edits.law(port, probe);
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    std::vector<double> out(problem.trials[t]->rows.size());
+    problem.trials[t]->predict(edits, point.nuisances[t], out);
+  }
+  return ranges;
+}
+
+}  // namespace
+
+std::vector<FreeFamily> free_families(const Problem& problem, const Point& point) {
+  auto ports = problem.plant->free_ports(problem.context);
+  for (const auto& channel : problem.channels)
+    if (const auto it = problem.context.channels.find(channel); it != problem.context.channels.end())
+      ports.push_back({channel, true, 0.05 * (it->second.high - it->second.low)});
+  std::vector<FreeFamily> families;
+  for (const auto& port : ports) {
+    const auto variables = variables_of(port.port, port.sensor);
+    const auto ranges = visited(problem, point, port.port, port.sensor, variables);
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      const auto [low, high] = ranges[v];
+      if (!(high > low)) continue;
+      FreeFamily family{port.port, port.sensor, variables[v].name, port.scale, low, high, {}};
+      const double spacing = (high - low) / (kKnots - 1);
+      for (int k = 0; k < kKnots; ++k) {
+        const double knot = low + spacing * k;
+        const auto value = variables[v].value;
+        const auto weight = variables[v].weight;
+        const double scale = port.scale;
+        family.terms.push_back({port.port, port.sensor,
+                                [=](const PortState& s) {
+                                  const double u = 1.0 - std::abs(value(s) - knot) / spacing;
+                                  return u > 0.0 ? scale * u * weight(s) : 0.0;
+                                },
+                                scale});
+      }
+      families.push_back(std::move(family));
+    }
+  }
+  return families;
+}
+
+Edits with_term(Edits base, const FreeTerm& term, double amplitude) {
+  const Law law = term.law;
+  const Law scaled = [law, amplitude](const PortState& s) { return amplitude * law(s); };
+  if (term.sensor)
+    base.sensor_law(term.port, scaled);
+  else
+    base.law(term.port, scaled);
+  return base;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "tools/diagnose/problem.hpp"
+
+namespace sandhopper::diagnose {
+
+// A direction in which the simulation may change: prediction(edits) - prediction, divided by `step`.
+struct Direction {
+  Edits edits;
+  double step = 1.0;
+};
+
+// One trial at one point: whitened residual in column 0 and one whitened derivative per direction after it,
+// with the trial's nuisances integrated out under their priors.
+//   gram  = X'X - X'Z (Z'Z + S^-1)^-1 Z'X,   X = [r, directions], Z nuisances, S prior variances
+// so gram(0,0) is the trial's deviance, gram(0,i) the score of direction i, gram(i,j) its information.
+struct TrialLinear {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd residual;  // plain, as recorded minus predicted
+  Eigen::MatrixXd solution;  // change of every nuisance per column of X: dz = s_0 - sum_i s_i b_i
+  Eigen::MatrixXd whitened;  // X, whitened, nuisances not removed; empty unless asked for
+  Eigen::MatrixXd plain;  // derivatives as they are, and what the nuisances then do; empty unless asked for
+};
+
+struct LineariseOptions {
+  bool keep_whitened = false;
+  bool keep_plain = false;
+  bool fresh_nuisances = false;
+};
+
+TrialLinear linearise(const Problem& problem, std::size_t trial, const Edits& base,
+                      const std::vector<double>& nuisances, const std::vector<Direction>& directions,
+                      const LineariseOptions& options = {});
+
+// All trials, in parallel.
+std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& point,
+                                       const std::vector<Direction>& directions,
+                                       const LineariseOptions& options = {});
+
+// Keeps the nuisance derivatives at this point for what follows.
+void keep_nuisance_columns(Problem& problem, const Point& point);
+
+}  // namespace sandhopper::diagnose

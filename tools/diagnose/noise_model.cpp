@@ -1,0 +1,162 @@
+#include "tools/diagnose/noise_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kOrder = 3;
+constexpr double kTooFewSamples = 30.0;
+constexpr double kOutlier = 6.0;  // robust standard deviations
+
+double median_magnitude(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Autoregression of the best order up to kOrder by Akaike's criterion; a shorter one where data are few.
+void levinson(const std::vector<double>& correlation, double samples, ChannelNoise& noise) {
+  std::vector<double> a, best;
+  double error = 1.0, best_error = 1.0, best_score = 0.0;
+  for (std::size_t m = 1; m < correlation.size(); ++m) {
+    double reflection = correlation[m];
+    for (std::size_t j = 1; j < m; ++j) reflection -= a[j - 1] * correlation[m - j];
+    reflection = std::clamp(reflection / error, -0.995, 0.995);
+    std::vector<double> next(m);
+    next[m - 1] = reflection;
+    for (std::size_t j = 1; j < m; ++j) next[j - 1] = a[j - 1] - reflection * a[m - j - 1];
+    a = std::move(next);
+    error *= 1.0 - reflection * reflection;
+    const double score = samples * std::log(error) + 2.0 * static_cast<double>(m);
+    if (score < best_score) {
+      best_score = score;
+      best = a;
+      best_error = error;
+    }
+  }
+  noise.autoregression = best;
+  noise.innovation_sd = std::sqrt(std::max(best_error, 1e-4));
+}
+
+}  // namespace
+
+double ChannelNoise::sd() const {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t p = 0; p < sd_of_phase.size(); ++p) {
+    const double n = p < samples_of_phase.size() ? samples_of_phase[p] : 1.0;
+    sum += n * sd_of_phase[p] * sd_of_phase[p];
+    count += n;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
+                        Eigen::Ref<Eigen::VectorXd> values) const {
+  std::vector<double> past;  // scaled residuals of the chain, newest last
+  const Row* before = nullptr;
+  for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+    const Row& row = trial.rows[k];
+    const auto index = static_cast<Eigen::Index>(k);
+    const ChannelNoise& noise = channels_[row.channel];
+    if (before == nullptr || before->channel != row.channel || before->block != row.block) past.clear();
+    before = &row;
+    if (!used[k]) {
+      values[index] = 0.0;
+      past.clear();
+      continue;
+    }
+    const double e = values[index] / noise.sd_of_phase[row.phase];
+    const auto& a = noise.autoregression;
+    if (past.size() >= a.size()) {
+      double w = e;
+      for (std::size_t j = 0; j < a.size(); ++j) w -= a[j] * past[past.size() - 1 - j];
+      values[index] = w / noise.innovation_sd;
+    } else {
+      values[index] = e;
+    }
+    past.push_back(e);
+  }
+}
+
+NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
+                          const std::vector<std::vector<std::uint8_t>>& used,
+                          const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
+                          std::span<const double> floor_sd) {
+  std::vector<ChannelNoise> channels(floor_sd.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    ChannelNoise& noise = channels[c];
+    std::vector<std::vector<double>> of_phase(phases);
+    std::vector<double> all;
+    for (std::size_t t = 0; t < trials.size(); ++t)
+      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
+        const Row& row = trials[t]->rows[k];
+        if (row.channel != c || !used[t][k]) continue;
+        const double r = residuals[t][static_cast<Eigen::Index>(k)];
+        of_phase[row.phase].push_back(r);
+        all.push_back(r);
+      }
+    const auto spread = [&](const std::vector<double>& values) {
+      const double limit = kOutlier * 1.4826 * std::max(median_magnitude(values), 1e-300);
+      double sum = 0.0, count = 0.0;
+      for (const double v : values)
+        if (std::abs(v) <= limit) {
+          sum += v * v;
+          ++count;
+        }
+      return std::max(count > 0.0 ? std::sqrt(sum / count) : 0.0, floor_sd[c]);
+    };
+    const double overall = all.empty() ? std::max(floor_sd[c], 1e-12) : spread(all);
+    noise.sd_of_phase.assign(phases, overall);
+    noise.samples_of_phase.assign(phases, 0.0);
+    for (std::size_t p = 0; p < phases; ++p) {
+      noise.samples_of_phase[p] = static_cast<double>(of_phase[p].size());
+      if (noise.samples_of_phase[p] >= kTooFewSamples) noise.sd_of_phase[p] = spread(of_phase[p]);
+    }
+    // Autocorrelation of scaled residuals, outliers limited.
+    std::vector<double> sums(kOrder + 1, 0.0), counts(kOrder + 1, 0.0);
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      std::vector<double> chain;
+      const Row* before = nullptr;
+      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
+        const Row& row = trials[t]->rows[k];
+        if (row.channel != c) continue;
+        if (before != nullptr && before->block != row.block) chain.clear();
+        before = &row;
+        if (!used[t][k]) {
+          chain.clear();
+          continue;
+        }
+        const double e =
+            std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / noise.sd_of_phase[row.phase], -4.0, 4.0);
+        chain.push_back(e);
+        for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
+          sums[lag] += e * chain[chain.size() - 1 - lag];
+          ++counts[lag];
+        }
+      }
+    }
+    if (counts[0] >= kTooFewSamples) {
+      std::vector<double> correlation(kOrder + 1);
+      const double variance = sums[0] / counts[0];
+      for (std::size_t lag = 0; lag <= kOrder; ++lag)
+        correlation[lag] = counts[lag] > 0.0 && variance > 0.0 ? sums[lag] / counts[lag] / variance : 0.0;
+      levinson(correlation, counts[0], noise);
+    }
+  }
+  return NoiseModel(std::move(channels));
+}
+
+NoiseModel white_noise(std::span<const double> sd, std::size_t phases) {
+  std::vector<ChannelNoise> channels(sd.size());
+  for (std::size_t c = 0; c < sd.size(); ++c) {
+    channels[c].sd_of_phase.assign(phases, sd[c]);
+    channels[c].samples_of_phase.assign(phases, 1.0);
+  }
+  return NoiseModel(std::move(channels));
+}
+
+}  // namespace sandhopper::diagnose

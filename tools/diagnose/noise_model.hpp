@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/diagnose/plant.hpp"
+
+namespace sandhopper::diagnose {
+
+// What is left when nothing is missing: per channel and phase a standard deviation, per channel the
+// coefficients of an autoregression over successive samples,
+//   e_k = r_k / sd,   w_k = (e_k - a_1 e_{k-1} - … - a_p e_{k-p}) / s,   w white of unit variance.
+struct ChannelNoise {
+  std::vector<double> sd_of_phase;
+  std::vector<double> autoregression;
+  double innovation_sd = 1.0;  // s
+
+  double sd() const;  // of all phases together
+  std::vector<double> samples_of_phase;
+};
+
+class NoiseModel {
+ public:
+  NoiseModel() = default;
+  explicit NoiseModel(std::vector<ChannelNoise> channels) : channels_(std::move(channels)) {}
+
+  // Whitens a residual or a derivative of it in place. Rows that are not `used` become zero and break the
+  // chain.
+  void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
+              Eigen::Ref<Eigen::VectorXd> values) const;
+  const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
+  std::size_t channels() const { return channels_.size(); }
+
+ private:
+  std::vector<ChannelNoise> channels_;
+};
+
+// From residuals of all trials (Levinson's recursion on their autocorrelation within channel and block).
+// `floor_sd` bounds each channel's standard deviation from below.
+NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
+                          const std::vector<std::vector<std::uint8_t>>& used,
+                          const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
+                          std::span<const double> floor_sd);
+
+// White noise of these levels in every phase.
+NoiseModel white_noise(std::span<const double> sd, std::size_t phases);
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,84 @@
+#include "tools/diagnose/open_world.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/fit.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kProbe = 0.2;
+constexpr double kPriorInformation = 0.25;  // of a knot in scales of the port: sd 2
+constexpr double kSensorHandicap = 0.9;     // a law in the plant is preferred to one in a sensor
+
+// One-sided, trials as units: are the held-out gains more than chance, given their own spread?
+double p_of_gains(const std::vector<double>& gains) {
+  const double n = static_cast<double>(gains.size());
+  if (n < 2.0) return gains.empty() || gains[0] < 30.0 ? 1.0 : 0.01;
+  // Signed square roots: one trial with a huge gain is not the evidence of many.
+  double sum = 0.0, squares = 0.0;
+  for (const double g : gains) {
+    const double x = std::copysign(std::sqrt(std::abs(g)), g);
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / n;
+  const double variance = (4.0 + squares - n * mean * mean) / (n + 3.0);
+  const double t = mean / std::sqrt(variance / n);
+  return t <= 0.0 ? 1.0 : 0.5 * student_t_two_sided(t, n + 3.0);
+}
+
+}  // namespace
+
+std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
+  auto directions = parameter_directions(problem, point);
+  const auto own = static_cast<Index>(directions.size());
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  const auto families = free_families(problem, point);
+  std::vector<std::vector<Index>> columns;
+  for (const auto& family : families) {
+    columns.emplace_back();
+    for (const auto& term : family.terms) {
+      columns.back().push_back(static_cast<Index>(directions.size()) + 1);
+      directions.push_back({with_term(base, term, kProbe), kProbe});
+    }
+  }
+  const auto linear = linearise_all(problem, point, directions);
+  VectorXd prior = VectorXd::Constant(own, 0.01);
+  prior.tail(static_cast<Index>(point.tolerances.size())).setOnes();
+  const auto grams = eliminated(linear, 1, own, prior);
+  std::vector<FreeGain> gains;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const auto held_out = held_out_gain(grams, columns[f], kPriorInformation);
+    FreeGain gain{families[f], held_out.gain, 0.0, 1.0, {}, {}};
+    for (const double g : held_out.of_trial)
+      gain.trials_better += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(held_out.of_trial.size());
+    gain.p_value = std::min(1.0, p_of_gains(held_out.of_trial) * static_cast<double>(families.size()));
+    const auto k = static_cast<Index>(columns[f].size());
+    MatrixXd information = MatrixXd::Identity(k, k) * kPriorInformation;
+    VectorXd score = VectorXd::Zero(k);
+    for (const auto& gram : grams)
+      for (Index i = 0; i < k; ++i) {
+        score[i] += gram(columns[f][static_cast<std::size_t>(i)], 0);
+        for (Index j = 0; j < k; ++j)
+          information(i, j) +=
+              gram(columns[f][static_cast<std::size_t>(i)], columns[f][static_cast<std::size_t>(j)]);
+      }
+    const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(k, k));
+    gain.size = covariance * score;
+    gain.sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    gains.push_back(std::move(gain));
+  }
+  const auto rank = [](const FreeGain& g) { return g.held_out * (g.family.sensor ? kSensorHandicap : 1.0); };
+  std::sort(gains.begin(), gains.end(),
+            [&](const FreeGain& a, const FreeGain& b) { return rank(a) > rank(b); });
+  return gains;
+}
+
+}  // namespace sandhopper::diagnose

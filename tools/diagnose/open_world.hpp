@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/screen.hpp"
+
+namespace sandhopper::diagnose {
+
+// What a free law at one port would still explain at a point, on trials it was not fitted to.
+struct FreeGain {
+  FreeFamily family;
+  double held_out = 0.0;       // drop of the deviance
+  double trials_better = 0.0;  // share of trials where it helps
+  double p_value = 1.0;        // trials as units, for all families together
+  Eigen::VectorXd size;
+  Eigen::VectorXd sd;
+};
+
+// All families, the largest gain first.
+std::vector<FreeGain> free_gains(const Problem& problem, const Point& point);
+
+}  // namespace sandhopper::diagnose

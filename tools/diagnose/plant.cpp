@@ -1,0 +1,26 @@
+#include "tools/diagnose/plant.hpp"
+
+#include <stdexcept>
+
+#include "tools/diagnose/plants/falling_body.hpp"
+#include "tools/diagnose/plants/hopper.hpp"
+#include "tools/diagnose/plants/intruder.hpp"
+#include "tools/diagnose/plants/rotary_axis.hpp"
+
+namespace sandhopper::diagnose {
+
+std::unique_ptr<PlantModel> make_plant(PlantKind kind) {
+  switch (kind) {
+    case PlantKind::falling_body:
+      return make_falling_body();
+    case PlantKind::rotary_axis:
+      return make_rotary_axis();
+    case PlantKind::intruder:
+      return make_intruder();
+    case PlantKind::hopper:
+      return make_hopper();
+  }
+  throw std::invalid_argument("diagnose: this plant cannot be simulated");
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,79 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/context.hpp"
+#include "tools/diagnose/edits.hpp"
+#include "tools/diagnose/trial.hpp"
+
+namespace sandhopper::diagnose {
+
+// One recorded sample that the simulation predicts.
+struct Row {
+  std::uint32_t channel = 0;  // index into the plant's channels
+  std::uint32_t block = 0;    // stretch that starts from an initial state of its own
+  std::uint32_t phase = 0;    // index into the plant's phases
+  double time_s = 0.0;
+  double measured = 0.0;
+};
+
+// Something that differs from trial to trial and is fitted along, with the spread that is believed.
+struct Nuisance {
+  std::string name;
+  double sd = 1.0;
+  double step = 0.01;  // of numerical derivatives
+};
+
+// What can be told about a row besides its value: the axes on which a mismatch is placed.
+struct Coordinate {
+  std::string name;            // of a channel or a plant's own, with unit
+  std::vector<double> values;  // one per row
+};
+
+// One trial as a simulation: recorded inputs and set-up inside, effects and nuisances as arguments.
+class TrialModel {
+ public:
+  virtual ~TrialModel() = default;
+
+  // Predictions for all rows. `nuisances`: those of the trial, then those of each block in turn.
+  virtual void predict(const Edits& edits, std::span<const double> nuisances,
+                       std::span<double> out) const = 0;
+
+  std::size_t nuisance_count() const {
+    return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
+  }
+
+  std::string name;
+  std::vector<Row> rows;  // channel by channel, in time within each channel
+  std::uint32_t blocks = 1;
+  std::vector<Nuisance> trial_nuisances;
+  std::vector<Nuisance> block_nuisances;
+  std::vector<Coordinate> coordinates;
+};
+
+// A free-form law at this port: what it is a function of is found out by trying.
+struct FreePort {
+  std::string port;  // of Edits::laws, or a channel for a sensor
+  bool sensor = false;
+  double scale = 1.0;  // of the force, torque or reading
+};
+
+// A plant is one file in plants/ that makes one of these.
+class PlantModel {
+ public:
+  virtual ~PlantModel() = default;
+  virtual std::vector<std::string> channels() const = 0;
+  virtual std::vector<std::string> phases() const = 0;
+  // Null where the trial has nothing that can be predicted; `why` then says what is missing.
+  virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
+                                            std::string& why) const = 0;
+  // Scales and whatever else the effects ask for.
+  virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
+  virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
+};
+
+std::unique_ptr<PlantModel> make_plant(PlantKind kind);
+
+}  // namespace sandhopper::diagnose

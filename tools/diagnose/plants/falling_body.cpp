@@ -1,0 +1,302 @@
+#include "tools/diagnose/plants/falling_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kSpeedOfAThrow_mps = 3.0;  // release speed where nothing is known of it
+constexpr double kKnownHeight_m = 0.01;     // release height as an experimenter reads it off
+constexpr double kKnownSpeed_mps = 0.02;
+constexpr double kReleaseTime_s = 0.03;  // of a release seen in the recording
+enum Phase : std::uint32_t { kHeld, kSlow, kFast, kBed };
+
+struct Figures {
+  double gravity_mps2, mass_kg, area_m2, volume_m3, density_kg_per_m3, drag_coefficient,
+      linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, surface_height_m, bed_stiffness_N_per_m;
+
+  Figures(const Belief& belief, const Edits& edits) {
+    const auto read = [&](const char* key, double otherwise) {
+      return edits.edited(key, belief.value(key, otherwise));
+    };
+    gravity_mps2 = read("gravity_mps2", 9.81);
+    mass_kg = std::max(1e-9, read("body.mass_kg", 1.0));
+    area_m2 = read("body.frontal_area_m2", 0.0);
+    volume_m3 = read("body.volume_m3", 0.0);
+    density_kg_per_m3 = read("medium.density_kg_per_m3", 0.0);
+    drag_coefficient = read("medium.drag_coefficient", 0.0);
+    linear_drag_N_s_per_m = read("medium.linear_drag_N_s_per_m", 0.0);
+    buoyancy_factor = read("medium.buoyancy_factor", 0.0);
+    added_mass_factor = read("medium.added_mass_factor", 0.0);
+    surface_height_m = read("bed.surface_height_m", 0.0);
+    bed_stiffness_N_per_m = read("bed.stiffness_N_per_m", 0.0);
+  }
+};
+
+// Body in a medium, perhaps onto a bed:
+//   (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h' + F_bed + laws
+struct Motion {
+  Signal height, velocity, accel;
+};
+
+class FallingTrial final : public TrialModel {
+ public:
+  FallingTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
+    name = trial.name;
+    const auto heights = without_repeats(samples_of(trial, "height_m"));
+    const auto accels = without_repeats(samples_of(trial, "accel_mps2"));
+    bed_ = belief.value("bed.stiffness_N_per_m") > 0.0;
+    end_s_ = trial.time_s.empty() ? 0.0 : trial.time_s.back();
+    double step_s = 5e-3;
+    for (const auto* s : {&heights, &accels})
+      if (!s->empty()) step_s = std::min(step_s, median_step_s(s->time_s));
+    step_s_ = std::clamp(step_s, bed_ ? 2.5e-4 : 5e-4, bed_ ? 5e-4 : 5e-3);
+    find_release(heights, accels);
+    if (bed_) find_stop(accels);
+    place(trial, heights);
+    add_rows(0, heights);
+    add_rows(1, accels);
+    label_rows();
+  }
+
+  void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
+    Motion motion = simulate(edits, nuisances);
+    const Figures f(belief_, edits);
+    for (double& a : motion.accel.values) a += f.gravity_mps2;
+    observe(motion.height, height_sensor_, edits, "height_m", height_times_, out.first(height_times_.size()));
+    observe(motion.accel, accel_sensor_, edits, "accel_mps2", accel_times_,
+            out.subspan(height_times_.size()));
+    if (height_bias_ >= 0)
+      for (double& h : out.first(height_times_.size()))
+        h += nuisances[static_cast<std::size_t>(height_bias_)];
+    if (accel_bias_ >= 0)
+      for (double& a : out.subspan(height_times_.size()))
+        a += nuisances[static_cast<std::size_t>(accel_bias_)];
+  }
+
+ private:
+  // The recording may begin while the body is still held.
+  void find_release(const Samples& heights, const Samples& accels) {
+    const double g = belief_.value("gravity_mps2", 9.81);
+    std::size_t held = 0;
+    while (held < accels.value.size() && std::abs(accels.value[held] - g) < 0.3 * g) ++held;
+    if (held >= 5 && held < accels.value.size()) {
+      release_s_ = accels.time_s[held];
+      held_ = true;
+    }
+    if (held_ || heights.value.size() < 10) return;
+    const double noise = std::max({fluctuation_rms(heights), belief_.value("sensors.height_noise_m"), 1e-6});
+    std::size_t still = 0;
+    double sum = 0.0;
+    while (still < heights.value.size()) {
+      const double mean = still > 0 ? sum / static_cast<double>(still) : heights.value[0];
+      if (std::abs(heights.value[still] - mean) > 4.0 * noise) break;
+      sum += heights.value[still++];
+    }
+    if (still < 5 || still >= heights.value.size()) return;
+    const double fall_s = std::sqrt(2.0 * 5.0 * noise / g);
+    const double still_s = heights.time_s[still] - heights.time_s[0];
+    if (still_s > 2.0 * fall_s + 0.02) {
+      release_s_ = still_s - fall_s;
+      held_ = true;
+    }
+  }
+
+  // On the bed the body stops with a jump that a fit cannot follow smoothly: rows end shortly before.
+  void find_stop(const Samples& accels) {
+    constexpr double kShareOfPeak = 0.85;
+    double most = 0.0;
+    for (const double a : accels.value) most = std::max(most, a);
+    if (most < 3.0 * belief_.value("gravity_mps2", 9.81)) return;
+    for (std::size_t i = 0; i < accels.value.size(); ++i)
+      if (accels.value[i] > kShareOfPeak * most) {
+        stop_s_ = accels.time_s[i];
+        return;
+      }
+  }
+
+  void place(const Trial& trial, const Samples& heights) {
+    const double spread_height = belief_.value("spread.release_height_m");
+    const double spread_speed = belief_.value("spread.release_speed_mps");
+    const bool told = trial.setup.contains("release_height_m");
+    double seen = 0.0;
+    if (!heights.empty()) {
+      const std::size_t n = std::min<std::size_t>(heights.value.size(), 3);
+      for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
+    }
+    start_height_m_ = told ? trial.setup_or("release_height_m", 0.0) : seen;
+    start_speed_mps_ = trial.setup_or("release_speed_mps", -trial.setup_or("impact_speed_mps", 0.0));
+    const double noise = std::max(fluctuation_rms(heights), belief_.value("sensors.height_noise_m"));
+    double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
+    // What is written down refers to another zero, or nothing is written down: the recording decides.
+    if (!told || (!heights.empty() && std::abs(seen - start_height_m_) > 0.2 + 8.0 * height_sd)) {
+      if (!heights.empty()) start_height_m_ = seen;
+      height_sd = 1.0;
+    }
+    double speed_sd = spread_speed > 0.0 ? spread_speed : told ? kKnownSpeed_mps : kSpeedOfAThrow_mps;
+    if (held_) speed_sd = std::min(speed_sd, 0.1);
+    trial_nuisances.push_back({"release_height_m", height_sd, 1e-4});
+    trial_nuisances.push_back({"release_speed_mps", speed_sd, 1e-4});
+    if (held_) {
+      release_nuisance_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back({"release_time_s", kReleaseTime_s, 1e-4});
+    }
+    if (const double sd = belief_.value("spread.height_bias_m"); sd > 0.0 && !heights.empty()) {
+      height_bias_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back({"height_bias_m", sd, 1e-3});
+    }
+    if (const double sd = belief_.value("spread.accel_bias_mps2"); sd > 0.0 && trial.find("accel_mps2")) {
+      accel_bias_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back({"accel_bias_mps2", sd, 1e-2});
+    }
+    if (bed_) {
+      bed_nuisance_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back(
+          {"bed_stiffness_relative", std::max(belief_.value("spread.bed_stiffness_relative"), 1e-3), 1e-3});
+      trial_nuisances.push_back(
+          {"surface_height_m", std::max(belief_.value("spread.surface_height_m"), 1e-3), 1e-4});
+    }
+    height_sensor_ = sensor_belief(belief_, "height", "m");
+    accel_sensor_ = sensor_belief(belief_, "accel", "mps2");
+  }
+
+  void add_rows(std::uint32_t channel, const Samples& samples) {
+    auto& times = channel == 0 ? height_times_ : accel_times_;
+    for (std::size_t i = 0; i < samples.value.size(); ++i) {
+      if (samples.time_s[i] > stop_s_) break;
+      times.push_back(samples.time_s[i]);
+      rows.push_back({channel, 0, kSlow, samples.time_s[i], samples.value[i]});
+    }
+  }
+
+  void label_rows() {
+    const std::vector<double> nothing(nuisance_count(), 0.0);
+    const Motion motion = simulate({}, nothing);
+    double fastest = 0.0;
+    for (const double v : motion.velocity.values) fastest = std::max(fastest, std::abs(v));
+    Coordinate height{"height_m", {}}, velocity{"velocity_mps", {}}, time{"t_s", {}};
+    const double surface_m = belief_.value("bed.surface_height_m");
+    for (Row& row : rows) {
+      height.values.push_back(motion.height.at(row.time_s));
+      velocity.values.push_back(motion.velocity.at(row.time_s));
+      time.values.push_back(row.time_s);
+      row.phase = held_ && row.time_s < release_s_                   ? kHeld
+                  : bed_ && height.values.back() <= surface_m        ? kBed
+                  : std::abs(velocity.values.back()) < 0.5 * fastest ? kSlow
+                                                                     : kFast;
+    }
+    coordinates = {std::move(velocity), std::move(height), std::move(time)};
+  }
+
+  Motion simulate(const Edits& edits, std::span<const double> nuisances) const {
+    Figures f(belief_, edits);
+    if (bed_nuisance_ >= 0) {
+      f.bed_stiffness_N_per_m *= 1.0 + nuisances[static_cast<std::size_t>(bed_nuisance_)];
+      f.surface_height_m += nuisances[static_cast<std::size_t>(bed_nuisance_) + 1];
+    }
+    const auto laws = edits.at("body");
+    const double inertia_kg = f.mass_kg + f.added_mass_factor * f.density_kg_per_m3 * f.volume_m3;
+    const double constant_N =
+        (-f.mass_kg + f.buoyancy_factor * f.density_kg_per_m3 * f.volume_m3) * f.gravity_mps2;
+    const double quadratic = 0.5 * f.density_kg_per_m3 * f.area_m2 * f.drag_coefficient;
+    double release_s = release_s_;
+    if (release_nuisance_ >= 0) release_s += nuisances[static_cast<std::size_t>(release_nuisance_)];
+    const auto accel = [&](double t, double h, double v) {
+      double force_N = constant_N - quadratic * std::abs(v) * v - f.linear_drag_N_s_per_m * v;
+      if (bed_ && v < 0.0) force_N += f.bed_stiffness_N_per_m * std::max(0.0, f.surface_height_m - h);
+      if (!laws.empty())
+        force_N += sum_of(
+            laws, {.time_s = t - release_s, .position = h, .velocity = v, .load = f.surface_height_m - h});
+      return force_N / inertia_kg;
+    };
+    const auto count = static_cast<std::size_t>(std::ceil(end_s_ / step_s_)) + 2;
+    Motion m;
+    for (Signal* s : {&m.height, &m.velocity, &m.accel}) *s = {0.0, step_s_, std::vector<double>(count, 0.0)};
+    double h = start_height_m_ + nuisances[0], v = start_speed_mps_ + nuisances[1];
+    const double speed = v;
+    double t = 0.0;
+    bool falling = !held_, resting = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double grid_s = step_s_ * static_cast<double>(i);
+      if (!falling && grid_s > release_s) {
+        falling = true;
+        t = std::max(release_s, grid_s - step_s_);
+        v = speed;
+      }
+      if (falling && !resting && grid_s > t) {
+        // The bed begins with a kink: short steps near and in it.
+        const bool near_bed = bed_ && h + 2.0 * (grid_s - t) * std::min(v, 0.0) < f.surface_height_m;
+        const int parts = near_bed ? 5 : 1;
+        const double dt = (grid_s - t) / parts;
+        for (int part = 0; part < parts && !resting; ++part) {
+          const double a1 = accel(t, h, v);
+          const double a2 = accel(t + 0.5 * dt, h + 0.5 * dt * v, v + 0.5 * dt * a1);
+          const double a3 = accel(t + 0.5 * dt, h + 0.5 * dt * (v + 0.5 * dt * a1), v + 0.5 * dt * a2);
+          const double a4 = accel(t + dt, h + dt * (v + 0.5 * dt * a2), v + dt * a3);
+          h += dt * (v + dt * (a1 + a2 + a3) / 6.0);
+          v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
+          t += dt;
+          resting = bed_ && v >= 0.0 && h < f.surface_height_m;
+        }
+        t = grid_s;
+      }
+      m.height.values[i] = h;
+      m.velocity.values[i] = falling && !resting ? v : 0.0;
+      m.accel.values[i] = falling && !resting ? accel(grid_s, h, v) : 0.0;
+    }
+    return m;
+  }
+
+  Belief belief_;
+  bool bed_ = false;
+  bool held_ = false;
+  double release_s_ = 0.0;
+  double stop_s_ = 1e300;
+  int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, accel_bias_ = -1;
+  double start_height_m_ = 0.0, start_speed_mps_ = 0.0;
+  double end_s_ = 0.0, step_s_ = 1e-3;
+  SensorBelief height_sensor_, accel_sensor_;
+  std::vector<double> height_times_, accel_times_;
+};
+
+class FallingBody final : public PlantModel {
+ public:
+  std::vector<std::string> channels() const override { return {"height_m", "accel_mps2"}; }
+  std::vector<std::string> phases() const override { return {"held", "slow_fall", "fast_fall", "bed"}; }
+
+  std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
+                                    std::string& why) const override {
+    auto model = std::make_unique<FallingTrial>(trial, belief);
+    if (model->rows.size() >= 10) return model;
+    why = "fewer than 10 samples of height_m and accel_mps2";
+    return nullptr;
+  }
+
+  void describe(const std::vector<Trial>& trials, Context& context) const override {
+    const auto& b = context.belief;
+    const double g = b.value("gravity_mps2", 9.81);
+    double longest_s = 0.0;
+    for (const auto& trial : trials)
+      if (!trial.time_s.empty()) longest_s = std::max(longest_s, trial.time_s.back());
+    double drop_m = 0.0;
+    if (const auto it = context.channels.find("height_m"); it != context.channels.end())
+      drop_m = it->second.high - it->second.low;
+    const double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
+    context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
+    context.scales["speed_mps"] = std::max(speed, 0.1);
+    context.scales["duration_s"] = longest_s;
+  }
+
+  std::vector<FreePort> free_ports(const Context& context) const override {
+    return {{"body", false, 0.1 * context.scale("weight_N")}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PlantModel> make_falling_body() { return std::make_unique<FallingBody>(); }
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,43 @@
+#include "tools/diagnose/plants/ground_laws.hpp"
+
+#include <algorithm>
+
+namespace sandhopper::diagnose {
+
+GroundLaws::GroundLaws(const Edits& edits)
+    : factor_(edits.at("ground.factor")),
+      force_(edits.at("ground.force")),
+      mass_(edits.at("ground.mass")),
+      tension_(edits.at("ground.tension")) {}
+
+double GroundLaws::static_factor(double depth_m) const {
+  if (factor_.empty()) return 1.0;
+  return std::max(0.0, 1.0 + sum_of(factor_, {.time_s = time_s_, .position = depth_m}));
+}
+
+BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, bool virgin) const {
+  const PortState state{.time_s = time_s_,
+                        .position = c.depth_m,
+                        .velocity = c.speed_mps,
+                        .accel = virgin ? 1.0 : 0.0,
+                        .load = quasi_static_N,
+                        .extreme = c.max_depth_m};
+  return {.force_N = sum_of(force_, state),
+          .added_mass_kg = sum_of(mass_, state),
+          .least_N = -sum_of(tension_, state)};
+}
+
+BedParameters bed_parameters(const Belief& belief, const Edits& edits) {
+  BedParameters p;
+  BedParameters::fields(p, [&]<class Member>(std::string_view key, Member& member, Range range = {}) {
+    const std::string full = "terrain." + std::string(key);
+    if constexpr (std::is_same_v<Member, double>) {
+      member = std::clamp(edits.edited(full, belief.value(full, member)), range.low, range.high);
+    } else {
+      member = belief.value(full, member ? 1.0 : 0.0) != 0.0;
+    }
+  });
+  return p;
+}
+
+}  // namespace sandhopper::diagnose

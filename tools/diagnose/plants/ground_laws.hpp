@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "terrain/bed.hpp"
+#include "tools/diagnose/context.hpp"
+#include "tools/diagnose/edits.hpp"
+
+namespace sandhopper::diagnose {
+
+// The bed with what effects add to it. Ports:
+//   ground.factor   F_d is multiplied by 1 + law(position = depth)
+//   ground.force    law is added to the force, everywhere below the surface
+//   ground.mass     law times downward acceleration is added: an added mass
+//   ground.tension  how far below zero the force may go
+// `extreme` is the deepest point; `accel` is 1 on the virgin curve (new depth, going down), else 0; `load`
+// the quasi-static force at this depth; `time_s` that of the trial.
+class GroundLaws final : public BedExtension {
+ public:
+  explicit GroundLaws(const Edits& edits);
+
+  double static_factor(double depth_m) const override;
+  BedReaction added(const BedContact& contact, double quasi_static_N, bool virgin) const override;
+
+  void at_time(double time_s) { time_s_ = time_s; }
+  bool empty() const { return factor_.empty() && force_.empty() && mass_.empty() && tension_.empty(); }
+
+ private:
+  std::vector<const Law*> factor_, force_, mass_, tension_;
+  double time_s_ = 0.0;
+};
+
+BedParameters bed_parameters(const Belief& belief, const Edits& edits);
+
+}  // namespace sandhopper::diagnose

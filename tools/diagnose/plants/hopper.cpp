@@ -1,0 +1,397 @@
+#include "tools/diagnose/plants/hopper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/plants/hopper_belief.hpp"
+#include "tools/diagnose/plants/hopper_recording.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kMostKnots = 8;  // of the bed's fluctuation along depth
+constexpr double kTick_s = 1e-3;
+constexpr std::size_t kSmoothing = 6;  // samples to each side
+constexpr double kDeepest_m = 0.06;    // that the knots cover
+constexpr double kSurfaceUnknown_m = 3e-4;
+constexpr double kReleaseUnknown_m = 2e-4;
+constexpr double kReleaseSpeedUnknown_mps = 1e-3;
+constexpr double kAtRest = 0.01;  // share of a later hop's uncertainty that a release at rest has
+
+enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
+
+// How a recorded channel comes from a run: which trace, with which share, through which sensor.
+struct ChannelSource {
+  const char* channel;
+  Signal HopperTraces::*trace;
+  const char* sensor;  // of the belief's keys
+  const char* unit;
+  std::size_t every;  // sample that is kept: fast channels say the same thing many times
+};
+constexpr std::array<ChannelSource, 14> kSources{
+    {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
+     {"motor_right_position_rad", &HopperTraces::angle_rad, "", "", 4},
+     {"motor_left_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
+     {"motor_right_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
+     {"motor_left_current_A", &HopperTraces::current_torque_Nm, "", "", 2},
+     {"motor_right_current_A", &HopperTraces::current_torque_Nm, "", "", 2},
+     {"command_left_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
+     {"command_right_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
+     {"imu_body_accel_z_mps2", &HopperTraces::body_accel_mps2, "imu", "mps2", 2},
+     {"imu_foot_accel_z_mps2", &HopperTraces::foot_accel_mps2, "imu", "mps2", 2},
+     {"tof_height_m", &HopperTraces::body_z_m, "tof", "m", 1},
+     {"load_cell_force_N", &HopperTraces::force_N, "load_cell", "N", 1},
+     {"mocap_body_z_m", &HopperTraces::body_z_m, "mocap", "m", 1},
+     {"mocap_foot_z_m", &HopperTraces::foot_z_m, "mocap", "m", 1}}};
+enum Source : std::size_t {
+  kLeftCurrent = 4,
+  kRightCurrent,
+  kLeftCommand,
+  kRightCommand,
+  kImuBody,
+  kImuFoot,
+  kTof,
+  kLoadCell
+};
+
+enum TrialNuisance : std::size_t {
+  kStiffness,
+  kReleaseHeight,
+  kReleaseSpeed,
+  kSurface,
+  kCable,
+  kTorqueConstant,
+  kTofBias,
+  kBodyBias,
+  kFootBias,
+  kBodyScale,
+  kFootScale,
+  kLeftOffset,
+  kRightOffset,
+  kCellOffset,
+  kFirstKnot
+};
+enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
+
+class HopperTrial final : public TrialModel {
+ public:
+  HopperTrial(const Trial& trial, const Belief& belief) : belief_(belief), world_(world_of(belief, {})) {
+    name = trial.name;
+    const Leg leg(world_.robot.leg);
+    compression_stiffness_ = trial.setup_or("compression_stiffness_N_per_m", 375.0);
+    course_ = course_of(trial, leg, world_.controller.compression_length_m);
+    if (course_.hops.empty()) return;
+    if (world_.terrain.rigid || course_.phases.empty())
+      take_commands(trial);
+    else
+      compare_commands(trial, leg);
+    blocks = static_cast<std::uint32_t>(course_.hops.size());
+    add_nuisances();
+    for (std::size_t c = 0; c < kSources.size(); ++c) add_rows(trial, c);
+    if (!rows.empty()) label_rows();
+  }
+
+  void predict(const Edits& edits, std::span<const double> n, std::span<double> out) const override {
+    const WorldConfig world = world_of(belief_, edits);
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      const HopperTraces traces = simulate_hopper(run_of(world, b, n), edits);
+      for (std::size_t c = 0; c < kSources.size(); ++c) {
+        const auto& span = spans_[c][b];
+        if (span.count > 0) read_channel(world, traces, edits, n, c, span, out);
+      }
+    }
+  }
+
+ private:
+  struct Span {
+    std::size_t first = 0, count = 0;
+  };
+
+  void take_commands(const Trial& trial) {
+    const auto commands = commands_of(trial);
+    if (commands.empty()) return;
+    commands_ = on_grid(commands, 0.0, kTick_s, static_cast<std::size_t>(course_.end_s / kTick_s) + 2, true);
+  }
+
+  // The recorded command against what the believed controller makes of the leg as it was recorded, smoothed:
+  // what is left is the encoder's noise on its way through the controller.
+  void compare_commands(const Trial& trial, const Leg& leg) {
+    measured_ = measured_leg(trial);
+    if (measured_.time_s.size() < 50) return;
+    const Smoothed smoothed = smooth({measured_.time_s, measured_.angle_rad}, kSmoothing);
+    const auto count = static_cast<std::size_t>(course_.end_s / kTick_s) + 2;
+    const Signal angle = on_grid({measured_.time_s, smoothed.value}, 0.0, kTick_s, count, false);
+    Signal rate = on_grid({measured_.time_s, smoothed.rate}, 0.0, kTick_s, count, false);
+    rate.low_pass(1.0 / (2.0 * std::numbers::pi * world_.sensors.encoder_velocity_bandwidth_Hz));
+    residual_ = on_grid({measured_.time_s, measured_.command_Nm}, 0.0, kTick_s, count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = kTick_s * static_cast<double>(i);
+      residual_.values[i] -= spring_torque_Nm(world_, compression_stiffness_, leg,
+                                              {phase_at(course_.phases, t), angle.values[i], rate.values[i]});
+    }
+  }
+
+  void add_nuisances() {
+    const auto& s = world_.spread;
+    const auto add = [&](const char* what, double sd, double step) {
+      trial_nuisances.push_back({what, sd, step});
+    };
+    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-2);
+    add("release_height_m", std::max(s.release_height_m, kReleaseUnknown_m), 2e-4);
+    add("release_speed_mps", std::max(s.release_speed_mps, kReleaseSpeedUnknown_mps), 1e-3);
+    add("surface_height_m", std::max(s.surface_height_m, kSurfaceUnknown_m), 2e-4);
+    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.1);
+    add("torque_constant_relative", std::max(s.torque_constant_relative, 1e-3), 1e-2);
+    add("tof_bias_m", std::max(s.tof_bias_m, 1e-4), 1e-3);
+    add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
+    add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
+    add("imu_scale_relative", std::max(s.imu_scale_relative, 1e-4), 1e-2);
+    add("imu_scale_relative", std::max(s.imu_scale_relative, 1e-4), 1e-2);
+    add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
+    add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
+    add("load_cell_offset_N", std::max(s.load_cell_offset_N, 0.02), 0.05);
+    if (s.bed_fluctuation_relative > 0.0 && !world_.terrain.rigid) {
+      knot_spacing_m_ =
+          std::max(s.bed_fluctuation_length_m, kDeepest_m / static_cast<double>(kMostKnots - 1));
+      const double sd = s.bed_fluctuation_relative * std::sqrt(s.bed_fluctuation_length_m / knot_spacing_m_);
+      for (knots_ = 0; knots_ < kMostKnots; ++knots_) add("bed_fluctuation", sd, 0.01);
+    }
+    if (blocks > 1 || !course_.hops.front().at_rest)
+      block_nuisances = {{"foot_z_m", 0.010, 2e-4},
+                         {"foot_velocity_mps", 0.15, 1e-3},
+                         {"angle_rad", 0.02, 1e-3},
+                         {"rate_radps", 1.0, 1e-2},
+                         {"crater_depth_m", 0.005, 2e-4}};
+  }
+
+  HopperRun run_of(const WorldConfig& world, std::uint32_t block, std::span<const double> n) const {
+    HopperRun run;
+    run.world = world;
+    run.world.terrain.stiffness_N_per_m *= 1.0 + n[kStiffness];
+    run.world.terrain.stiffness_per_area_N_per_m3 *= 1.0 + n[kStiffness];
+    run.compression_stiffness_N_per_m = compression_stiffness_;
+    run.surface_m = n[kSurface];
+    run.cable_force_N = n[kCable];
+    run.torque_constant_factor = 1.0 + n[kTorqueConstant];
+    if (knots_ > 0) {
+      run.fluctuation.relative = 1.0;
+      run.fluctuation.spacing_m = knot_spacing_m_;
+      for (std::size_t i = 0; i < knots_; ++i) run.fluctuation.knots[i] = n[kFirstKnot + i];
+    }
+    const HopStart& hop = course_.hops[block];
+    run.start = hop.state;
+    run.crater_m = hop.crater_m;
+    run.from_s = hop.from_s;
+    run.to_s = block + 1 < blocks ? course_.hops[block + 1].from_s : course_.end_s;
+    if (hop.at_rest) {
+      run.start.foot_z_m += n[kReleaseHeight];
+      run.start.foot_velocity_mps += n[kReleaseSpeed];
+    }
+    if (!block_nuisances.empty()) {
+      const auto own = n.subspan(trial_nuisances.size() + block * kHopNuisances, kHopNuisances);
+      const double share = hop.at_rest ? kAtRest : 1.0;
+      run.start.foot_z_m += share * own[kFootZ];
+      run.start.foot_velocity_mps += share * own[kFootV];
+      run.start.angle_rad += share * own[kAngle];
+      run.start.angular_velocity_radps += share * own[kRate];
+      run.crater_m = std::max(0.0, run.crater_m + (block == 0 ? 0.0 : own[kCrater]));
+    }
+    run.phases = &course_.phases;
+    if (!commands_.values.empty()) run.recorded_command_Nm = &commands_;
+    if (!residual_.values.empty()) run.command_residual_Nm = &residual_;
+    return run;
+  }
+
+  void read_channel(const WorldConfig& world, const HopperTraces& traces, const Edits& edits,
+                    std::span<const double> n, std::size_t c, const Span& span, std::span<double> out) const {
+    Signal signal = traces.*kSources[c].trace;
+    const double motors = world.robot.leg.motor_count;
+    double offset = 0.0;
+    switch (c) {
+      case kLeftCurrent:
+      case kRightCurrent:
+        for (double& v : signal.values) v /= motors * world.motor.torque_constant_Nm_per_A;
+        offset = n[c == kLeftCurrent ? kLeftOffset : kRightOffset];
+        break;
+      case kLeftCommand:
+      case kRightCommand:
+        if (predict_commands(world, span, out)) return;
+        for (double& v : signal.values) v /= motors;
+        break;
+      case kImuBody:
+      case kImuFoot: {
+        const double scale = 1.0 + n[c == kImuBody ? kBodyScale : kFootScale];
+        for (double& v : signal.values) v = scale * (v + world.gravity_mps2);
+        offset = n[c == kImuBody ? kBodyBias : kFootBias];
+        break;
+      }
+      case kTof:
+        offset = n[kTofBias];
+        break;
+      case kLoadCell: {
+        const auto laws = edits.at("load_cell");
+        if (!laws.empty())
+          for (std::size_t i = 0; i < signal.values.size(); ++i)
+            signal.values[i] += sum_of(laws, {.accel = traces.foot_accel_mps2.values[i]});
+        offset = n[kCellOffset];
+        break;
+      }
+      default:
+        break;
+    }
+    const auto at = out.subspan(span.first, span.count);
+    observe(signal, sensors_[c], edits, kSources[c].channel,
+            std::span(times_).subspan(span.first, span.count), at);
+    for (double& v : at) v += offset;
+  }
+
+  // A command is what the controller makes of what it measured: nothing of the plant is in between.
+  bool predict_commands(const WorldConfig& world, const Span& span, std::span<double> out) const {
+    if (measured_.time_s.size() < 50) return false;
+    const Leg leg(world.robot.leg);
+    std::size_t k = 0;
+    for (std::size_t i = span.first; i < span.first + span.count; ++i) {
+      while (k + 1 < measured_.time_s.size() && measured_.time_s[k + 1] <= times_[i] + 1e-7) ++k;
+      const SpringState at{phase_at(course_.phases, times_[i]), measured_.angle_rad[k],
+                           measured_.rate_radps[k]};
+      out[i] = spring_torque_Nm(world, compression_stiffness_, leg, at) / world.robot.leg.motor_count;
+    }
+    return true;
+  }
+
+  void add_rows(const Trial& trial, std::size_t c) {
+    sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
+    spans_[c].assign(blocks, {});
+    const auto samples = samples_of(trial, kSources[c].channel);
+    if (samples.value.size() < 10) return;
+    const bool fast = median_step_s(samples.time_s) < 1.5e-3;
+    const std::size_t every = fast ? kSources[c].every : 1;
+    for (std::size_t i = 0; i < samples.value.size(); i += every) {
+      const double t = samples.time_s[i];
+      if (t < course_.hops.front().from_s || t > course_.end_s) continue;
+      std::uint32_t block = 0;
+      while (block + 1 < blocks && t >= course_.hops[block + 1].from_s) ++block;
+      auto& span = spans_[c][block];
+      if (span.count++ == 0) span.first = rows.size();
+      times_.push_back(t);
+      rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i]});
+    }
+  }
+
+  Phase window_at(double t) const {
+    Phase phase = kFlight;
+    for (std::size_t i = 0; i < course_.phases.size(); ++i) {
+      const double change = course_.phases[i].time_s;
+      if (i > 0) {
+        const auto now = course_.phases[i].phase;
+        if (now == HopperPhase::compression && t > change - 0.015 && t < change + 0.015) return kTouchdown;
+        if (now == HopperPhase::extension && t > change - 0.010 && t < change + 0.015) return kSwitch;
+        if (now == HopperPhase::flight && t > change - 0.010 && t < change + 0.015) return kLiftoff;
+      }
+      if (change <= t)
+        phase = course_.phases[i].phase == HopperPhase::flight        ? kFlight
+                : course_.phases[i].phase == HopperPhase::compression ? kCompression
+                                                                      : kExtension;
+    }
+    return phase;
+  }
+
+  void label_rows() {
+    Coordinate z{"foot_z_m", {}}, v{"foot_velocity_mps", {}}, a{"foot_accel_mps2", {}},
+        phi{"motor_position_rad", {}}, time{"t_s", {}};
+    const std::vector<double> zero(nuisance_count(), 0.0);
+    std::vector<HopperTraces> runs;
+    for (std::uint32_t b = 0; b < blocks; ++b) runs.push_back(simulate_hopper(run_of(world_, b, zero), {}));
+    for (Row& row : rows) {
+      const auto& run = runs[row.block];
+      z.values.push_back(run.foot_z_m.at(row.time_s));
+      v.values.push_back(run.foot_velocity_mps.at(row.time_s));
+      a.values.push_back(run.foot_accel_mps2.at(row.time_s));
+      phi.values.push_back(run.angle_rad.at(row.time_s));
+      time.values.push_back(row.time_s);
+      row.phase = window_at(row.time_s);
+    }
+    coordinates = {std::move(z), std::move(v), std::move(a), std::move(phi), std::move(time)};
+  }
+
+  Belief belief_;
+  WorldConfig world_;
+  double compression_stiffness_ = 375.0;
+  HopperCourse course_;
+  Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
+  MeasuredLeg measured_;
+  std::size_t knots_ = 0;
+  double knot_spacing_m_ = 0.008;
+  std::array<std::vector<Span>, kSources.size()> spans_;
+  std::array<SensorBelief, kSources.size()> sensors_{};
+  std::vector<double> times_;
+};
+
+double largest_of(const Trial& trial, const std::string& channel) {
+  double largest = 0.0;
+  for (const double v : samples_of(trial, channel).value) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+class Hopper final : public PlantModel {
+ public:
+  std::vector<std::string> channels() const override {
+    std::vector<std::string> names;
+    for (const auto& source : kSources) names.emplace_back(source.channel);
+    return names;
+  }
+  std::vector<std::string> phases() const override {
+    return {"flight", "touchdown", "compression", "switch", "extension", "liftoff"};
+  }
+
+  std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
+                                    std::string& why) const override {
+    auto model = std::make_unique<HopperTrial>(trial, belief);
+    if (model->rows.size() >= 50) return model;
+    why = "needs at least one of motor position, accelerometer, height, load cell or motion capture";
+    return nullptr;
+  }
+
+  void describe(const std::vector<Trial>& trials, Context& context) const override {
+    const WorldConfig world = world_of(context.belief, {});
+    double force = 0.0, duration = 0.0, accel = 0.0, current = 0.0, fastest = 0.0, low = 1e9, high = -1e9;
+    for (const auto& trial : trials) {
+      force = std::max(force, largest_of(trial, "load_cell_force_N"));
+      accel = std::max(accel, largest_of(trial, "imu_foot_accel_z_mps2"));
+      current = std::max(current, largest_of(trial, "motor_left_current_A"));
+      fastest =
+          std::max(fastest, std::sqrt(2.0 * world.gravity_mps2 * trial.setup_or("release_height_m", 0.05)));
+      for (const double phi : mean_of_motors(trial, "position_rad").value) {
+        low = std::min(low, phi);
+        high = std::max(high, phi);
+      }
+      if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back() - trial.time_s.front());
+    }
+    auto& s = context.scales;
+    s["weight_N"] = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
+    s["foot_radius_m"] = world.robot.leg.foot_radius_m;
+    s["depth_m"] = 0.04;
+    s["speed_mps"] = std::max(fastest, 0.1);
+    s["accel_mps2"] = std::max(accel, 10.0);
+    s["force_N"] = force > 0.0 ? force : 60.0;
+    s["torque_Nm"] = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
+    s["angle_rad"] = high > low ? high - low : 1.0;
+    s["speed_radps"] = 10.0;
+    s["duration_s"] = duration;
+  }
+
+  std::vector<FreePort> free_ports(const Context& context) const override {
+    return {{"rail", false, 0.05 * context.scale("weight_N")},
+            {"joint", false, 0.05 * context.scale("torque_Nm")},
+            {"ground.force", false, 0.1 * context.scale("force_N")},
+            {"actuator", true, 0.1 * context.scale("torque_Nm")}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PlantModel> make_hopper() { return std::make_unique<Hopper>(); }
+
+}  // namespace sandhopper::diagnose

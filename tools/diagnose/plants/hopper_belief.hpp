@@ -1,0 +1,11 @@
+#pragma once
+#include "tools/diagnose/context.hpp"
+#include "tools/diagnose/edits.hpp"
+#include "tools/plant/world_config.hpp"
+
+namespace sandhopper::diagnose {
+
+// The belief with what effects change in it: robot, motor, controller, terrain, sensors, spread.
+WorldConfig world_of(const Belief& belief, const Edits& edits);
+
+}  // namespace sandhopper::diagnose

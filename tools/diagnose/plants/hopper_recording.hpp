@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "estimation/leg.hpp"
+#include "tools/diagnose/plants/hopper_simulation.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+
+// What a recorded hop trial says of its own course: when it was released, when phases changed, where each hop
+// starts.
+namespace sandhopper::diagnose {
+
+struct HopStart {
+  double from_s = 0.0;
+  PlantState state{};
+  double crater_m = 0.0;
+  bool at_rest = false;  // released from the catch: known by the set-up
+};
+
+struct HopperCourse {
+  std::vector<PhaseChange> phases;
+  std::vector<HopStart> hops;  // the first is the release or the start of the recording
+  double end_s = 0.0;
+};
+
+// Both motors' commands together; empty where they were not recorded.
+Samples commands_of(const Trial& trial);
+
+// The leg as the controller measured it, each command's row.
+struct MeasuredLeg {
+  std::vector<double> time_s, angle_rad, rate_radps;
+  std::vector<double> command_Nm;
+};
+MeasuredLeg measured_leg(const Trial& trial);
+
+HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_m);
+
+// Mean of both motors, or the one there is.
+Samples mean_of_motors(const Trial& trial, const std::string& quantity);
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,245 @@
+#include "tools/diagnose/plants/hopper_simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/plants/ground_laws.hpp"
+#include "tools/plant/nominal_controller.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kStep_s = 2.5e-4;
+
+class PortLaws final : public PlantExtension {
+ public:
+  explicit PortLaws(const Edits& edits) : rail_(edits.at("rail")), joint_(edits.at("joint")) {}
+  bool empty() const { return rail_.empty() && joint_.empty(); }
+  void at_time(double time_s) { time_s_ = time_s; }
+
+  double rail_force_N(double z, double v) const override {
+    return rail_.empty() ? 0.0 : sum_of(rail_, {.time_s = time_s_, .position = z, .velocity = v});
+  }
+  double joint_torque_Nm(const PlantState& s, double motor_torque_Nm) const override {
+    if (joint_.empty()) return 0.0;
+    return sum_of(joint_, {.time_s = time_s_,
+                           .position = s.angle_rad,
+                           .velocity = s.angular_velocity_radps,
+                           .load = motor_torque_Nm});
+  }
+
+ private:
+  std::vector<const Law*> rail_, joint_;
+  double time_s_ = 0.0;
+};
+
+// From the commanded torque to the current, and from the current to the torque on the links.
+class Actuator {
+ public:
+  Actuator(const Edits& edits, double time_constant_s, double torque_constant_factor)
+      : factor_(torque_constant_factor) {
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "actuator") continue;
+      switch (edit.kind) {
+        case SensorEdit::Kind::gain:
+          factor_ *= edit.value;
+          break;
+        case SensorEdit::Kind::offset:
+          offset_Nm_ += edit.value;
+          break;
+        case SensorEdit::Kind::delay_s:
+          delay_s_ += std::max(0.0, edit.value);
+          break;
+        case SensorEdit::Kind::lag_s:
+          lag_decay_ = decay(edit.value);
+          break;
+        case SensorEdit::Kind::law:
+          laws_.push_back(&edit.law);
+          break;
+        default:
+          break;
+      }
+    }
+    loop_decay_ = decay(time_constant_s);
+    // The nominal loop acts at the start of its 0.1 ms steps: half a step ahead of the continuous one.
+    const double ahead = time_constant_s > 0.0 ? std::exp(-0.5 * Plant::kStep_s / time_constant_s) : 0.0;
+    loop_mean_ = time_constant_s > 0.0 ? ahead * (1.0 - loop_decay_) * time_constant_s / kStep_s : 0.0;
+    history_.fill(0.0);
+  }
+
+  // One grid step with `command` in force; returns the current (as torque of the nominal constant), mean over
+  // the step.
+  double step(double command_Nm) {
+    newest_ = (newest_ + 1) % history_.size();
+    history_[newest_] = command_Nm;
+    const double steps = std::min(delay_s_ / kStep_s, static_cast<double>(history_.size() - 2));
+    const auto whole = static_cast<std::size_t>(steps);
+    const double part = steps - static_cast<double>(whole);
+    const auto back = [&](std::size_t n) {
+      return history_[(newest_ + history_.size() - n) % history_.size()];
+    };
+    const double delayed = (1.0 - part) * back(whole) + part * back(whole + 1);
+    lagged_ = delayed + (lagged_ - delayed) * lag_decay_;
+    const double mean_Nm = lagged_ + (current_Nm_ - lagged_) * loop_mean_;
+    current_Nm_ = lagged_ + (current_Nm_ - lagged_) * loop_decay_;
+    return mean_Nm;
+  }
+
+  double torque_Nm(double current_Nm, double time_s) const {
+    double torque = factor_ * current_Nm + offset_Nm_;
+    if (!laws_.empty()) torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm});
+    return torque;
+  }
+
+ private:
+  static double decay(double time_constant_s) {
+    return time_constant_s > 0.0 ? std::exp(-kStep_s / time_constant_s) : 0.0;
+  }
+
+  double factor_, offset_Nm_ = 0.0, delay_s_ = 0.0, lag_decay_ = 0.0, loop_decay_ = 0.0, loop_mean_ = 0.0;
+  double lagged_ = 0.0, current_Nm_ = 0.0;
+  std::vector<const Law*> laws_;
+  std::array<double, 256> history_{};
+  std::size_t newest_ = 0;
+};
+
+// The angle as the controller reads it.
+class MeasuredAngle {
+ public:
+  explicit MeasuredAngle(const Edits& edits) {
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "motor_left_position_rad") continue;
+      if (edit.kind == SensorEdit::Kind::gain) gain_ *= edit.value;
+      if (edit.kind == SensorEdit::Kind::offset) offset_ += edit.value;
+      if (edit.kind == SensorEdit::Kind::law) laws_.push_back(&edit.law);
+    }
+  }
+  double operator()(const PlantState& s) const {
+    const double angle = gain_ * s.angle_rad + offset_;
+    return laws_.empty() ? angle
+                         : angle + sum_of(laws_, {.position = angle, .velocity = s.angular_velocity_radps});
+  }
+
+ private:
+  double gain_ = 1.0, offset_ = 0.0;
+  std::vector<const Law*> laws_;
+};
+
+// The believed controller on the simulated leg; see HopperRun for what else can drive it.
+class SpringLeg {
+ public:
+  SpringLeg(const HopperRun& run, const Leg& leg)
+      : run_(run), leg_(leg), own_(run.world.controller, run.compression_stiffness_N_per_m) {
+    const double bandwidth_Hz = run.world.sensors.encoder_velocity_bandwidth_Hz;
+    rate_decay_ = std::exp(-2.0 * std::numbers::pi * bandwidth_Hz * kStep_s);
+    rate_radps_ = run.start.angular_velocity_radps;
+  }
+
+  void follow(double rate_radps) { rate_radps_ = rate_radps + (rate_radps_ - rate_radps) * rate_decay_; }
+
+  double command_Nm(double time_s, double angle_rad, const PlantState& state) {
+    const auto& world = run_.world;
+    const double limit = world.motor.torque_limit_Nm * world.robot.leg.motor_count;
+    if (run_.recorded_command_Nm != nullptr)
+      return std::clamp(run_.recorded_command_Nm->at(time_s), -limit, limit);
+    if (run_.phases == nullptr || run_.phases->empty())
+      return std::clamp(own_.step(leg_, {state.foot_z_m, angle_rad, rate_radps_}), -limit, limit);
+    const double own = spring_torque_Nm(world, run_.compression_stiffness_N_per_m, leg_,
+                                        {phase_at(*run_.phases, time_s), angle_rad, rate_radps_});
+    const double residual = run_.command_residual_Nm != nullptr ? run_.command_residual_Nm->at(time_s) : 0.0;
+    return std::clamp(own + residual, -limit, limit);
+  }
+
+ private:
+  const HopperRun& run_;
+  const Leg& leg_;
+  NominalController own_;
+  double rate_decay_, rate_radps_;
+};
+
+HopperTraces empty_traces(double from_s, std::size_t count) {
+  HopperTraces traces;
+  for (Signal* signal : {&traces.angle_rad, &traces.rate_radps, &traces.current_torque_Nm,
+                         &traces.command_torque_Nm, &traces.body_accel_mps2, &traces.foot_accel_mps2,
+                         &traces.body_z_m, &traces.foot_z_m, &traces.foot_velocity_mps, &traces.force_N}) {
+    signal->start_s = from_s;
+    signal->step_s = kStep_s;
+    signal->values.resize(count);
+  }
+  return traces;
+}
+
+}  // namespace
+
+HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s) {
+  HopperPhase phase = phases.empty() ? HopperPhase::flight : phases.front().phase;
+  for (const auto& change : phases)
+    if (change.time_s <= time_s + 1e-6) phase = change.phase;
+  return phase;
+}
+
+double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m, const Leg& leg,
+                        const SpringState& at) {
+  const auto& c = world.controller;
+  double k = c.flight_stiffness_N_per_m, length = c.compression_length_m, b = c.flight_damping_N_s_per_m;
+  if (at.phase != HopperPhase::flight) b = c.stance_damping_N_s_per_m;
+  if (at.phase == HopperPhase::compression) k = compression_stiffness_N_per_m;
+  if (at.phase == HopperPhase::extension) {
+    k = c.extension_stiffness_N_per_m;
+    length = c.extension_length_m;
+  }
+  const auto kinematics = leg.kinematics(at.angle_rad);
+  const double force = k * (length - kinematics.length_m) - b * kinematics.dlength_m_per_rad * at.rate_radps;
+  const double limit = world.motor.torque_limit_Nm * world.robot.leg.motor_count;
+  return std::clamp(force * kinematics.dlength_m_per_rad, -limit, limit);
+}
+
+HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
+  GroundLaws ground(edits);
+  PortLaws ports(edits);
+  Bed bed(run.world.terrain, run.world.robot.leg.foot_radius_m, run.fluctuation);
+  if (!ground.empty()) bed.extend(&ground);
+  Plant::Options options;
+  options.cable_force_N = run.cable_force_N;
+  if (!ports.empty()) options.extension = &ports;
+  Plant plant(run.world, bed, options);
+  PlantState start = run.start;
+  start.foot_z_m -= run.surface_m;  // the plant's zero is the surface
+  plant.place_in_crater(start, run.crater_m);
+  SpringLeg spring(run, plant.leg());
+  Actuator actuator(edits, run.world.motor.current_loop_time_constant_s, run.torque_constant_factor);
+  const MeasuredAngle measured(edits);
+
+  const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / kStep_s)) + 2;
+  const double tick_s = 1.0 / run.world.controller.rate_Hz;
+  const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / kStep_s)));
+  HopperTraces traces = empty_traces(run.from_s, count);
+  double command_Nm = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = run.from_s + kStep_s * static_cast<double>(i);
+    ground.at_time(t);
+    ports.at_time(t);
+    const PlantState& state = plant.state();
+    if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
+    spring.follow(state.angular_velocity_radps);
+    const double current_Nm = actuator.step(command_Nm);
+    const double torque_Nm = actuator.torque_Nm(current_Nm, t);
+    const PlantMotion motion = plant.motion(torque_Nm);
+    traces.angle_rad.values[i] = state.angle_rad;
+    traces.rate_radps.values[i] = state.angular_velocity_radps;
+    traces.current_torque_Nm.values[i] = current_Nm;
+    traces.command_torque_Nm.values[i] = command_Nm;
+    traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
+    traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
+    traces.body_z_m.values[i] = motion.body_z_m + run.surface_m;
+    traces.foot_z_m.values[i] = state.foot_z_m + run.surface_m;
+    traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
+    traces.force_N.values[i] = motion.contact_force_N;
+    plant.step(torque_Nm, kStep_s);
+  }
+  return traces;
+}
+
+}  // namespace sandhopper::diagnose

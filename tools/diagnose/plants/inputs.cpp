@@ -1,0 +1,136 @@
+#include "tools/diagnose/plants/inputs.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+
+Samples samples_of(const Trial& trial, const std::string& channel) {
+  Samples samples;
+  if (const auto* values = trial.find(channel))
+    for (std::size_t i = 0; i < values->size(); ++i)
+      if (std::isfinite((*values)[i])) {
+        samples.time_s.push_back(trial.time_s[i]);
+        samples.value.push_back((*values)[i]);
+      }
+  return samples;
+}
+
+double fluctuation_rms(const Samples& s) {
+  std::vector<double> differences;
+  for (std::size_t i = 3; i < s.value.size(); ++i)
+    differences.push_back(
+        std::abs(s.value[i] - 3.0 * s.value[i - 1] + 3.0 * s.value[i - 2] - s.value[i - 3]));
+  if (differences.size() < 5) return 0.0;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return 1.4826 * *middle / std::sqrt(20.0);  // variance of a third difference is 20 times a sample's
+}
+
+double median_step_s(std::span<const double> time_s) {
+  if (time_s.size() < 2) return 1e-3;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return std::max(*middle, 1e-6);
+}
+
+Smoothed smooth(const Samples& s, std::size_t half_width) {
+  const std::size_t n = s.value.size();
+  Smoothed out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t from = i > half_width ? i - half_width : 0;
+    const std::size_t to = std::min(n, i + half_width + 1);
+    const double span_s = std::max(s.time_s[to - 1] - s.time_s[from], 1e-9);
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-12;
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t k = from; k < to; ++k) {
+      const double u = (s.time_s[k] - s.time_s[i]) / span_s;
+      const Eigen::Vector3d basis(1.0, u, u * u);
+      normal += basis * basis.transpose();
+      right += basis * s.value[k];
+    }
+    const Eigen::Vector3d fit = normal.ldlt().solve(right);
+    out.value[i] = fit[0];
+    out.rate[i] = fit[1] / span_s;
+    out.curvature[i] = 2.0 * fit[2] / (span_s * span_s);
+  }
+  return out;
+}
+
+Samples without_repeats(const Samples& s) {
+  std::size_t repeats = 0, longest = 0, run = 0;
+  for (std::size_t i = 1; i < s.value.size(); ++i) {
+    run = s.value[i] == s.value[i - 1] ? run + 1 : 0;
+    repeats += run > 0;
+    longest = std::max(longest, run);
+  }
+  // A held log repeats nearly every value a few times; a resting or stuck sensor repeats one many times.
+  if (s.value.size() < 20 || static_cast<double>(repeats) < 0.4 * static_cast<double>(s.value.size()) ||
+      longest > 60)
+    return s;
+  Samples out;
+  for (std::size_t i = 0; i < s.value.size(); ++i)
+    if (i == 0 || s.value[i] != s.value[i - 1]) {
+      out.time_s.push_back(s.time_s[i]);
+      out.value.push_back(s.value[i]);
+    }
+  return out;
+}
+
+Samples averaged(const Samples& s, double least_step_s) {
+  const double step_s = median_step_s(s.time_s);
+  const auto group = static_cast<std::size_t>(std::max(1.0, std::round(least_step_s / step_s)));
+  if (group <= 1) return s;
+  Samples out;
+  for (std::size_t i = 0; i + group <= s.value.size();) {
+    // A gap ends a group.
+    std::size_t n = 1;
+    while (n < group && s.time_s[i + n] - s.time_s[i + n - 1] < 2.5 * step_s) ++n;
+    double time = 0.0, value = 0.0;
+    for (std::size_t k = i; k < i + n; ++k) {
+      time += s.time_s[k];
+      value += s.value[k];
+    }
+    if (n == group) {
+      out.time_s.push_back(time / static_cast<double>(n));
+      out.value.push_back(value / static_cast<double>(n));
+    }
+    i += n;
+  }
+  return out;
+}
+
+Signal on_grid(const Samples& s, double start_s, double step_s, std::size_t count, bool hold) {
+  Signal signal{start_s, step_s, std::vector<double>(count, 0.0)};
+  if (s.empty()) return signal;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = start_s + step_s * static_cast<double>(i);
+    while (k + 1 < s.time_s.size() && s.time_s[k + 1] <= t) ++k;
+    double value = s.value[k];
+    if (!hold && k + 1 < s.time_s.size() && t > s.time_s[k])
+      value += (s.value[k + 1] - s.value[k]) * (t - s.time_s[k]) / (s.time_s[k + 1] - s.time_s[k]);
+    signal.values[i] = value;
+  }
+  return signal;
+}
+
+SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit) {
+  constexpr double kAsGoodAsNone_Hz = 4000.0;
+  SensorBelief sensor;
+  sensor.bandwidth_Hz = belief.value("sensors." + prefix + "_bandwidth_Hz");
+  if (sensor.bandwidth_Hz > kAsGoodAsNone_Hz) sensor.bandwidth_Hz = 0.0;
+  sensor.latency_s = belief.value("sensors." + prefix + "_latency_s");
+  const double range = belief.value("sensors." + prefix + "_range_" + unit);
+  if (range > 0.0) {
+    sensor.range_low = -range;
+    sensor.range_high = range;
+  }
+  return sensor;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,45 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/plant.hpp"
+#include "tools/diagnose/signal.hpp"
+
+// What the plants share: recorded channels made into rows and inputs.
+namespace sandhopper::diagnose {
+
+// Samples of a channel, empty cells left out.
+struct Samples {
+  std::vector<double> time_s;
+  std::vector<double> value;
+  bool empty() const { return value.empty(); }
+};
+Samples samples_of(const Trial& trial, const std::string& channel);
+
+// Root mean square of a channel's own fast fluctuation: third differences of successive samples, robust.
+double fluctuation_rms(const Samples& samples);
+
+// Local fit of a polynomial (degree 2) over `half_width` samples to each side: value, first and second
+// derivative at each sample.
+struct Smoothed {
+  std::vector<double> value, rate, curvature;
+};
+Smoothed smooth(const Samples& samples, std::size_t half_width);
+
+double median_step_s(std::span<const double> time_s);
+
+// Held values of a slow sensor logged again and again count once; the rest is returned.
+Samples without_repeats(const Samples& samples);
+
+// Means over successive samples, so that no two are closer than `least_step_s`: what a slow motion shows is
+// kept, the number of rows is not.
+Samples averaged(const Samples& samples, double least_step_s);
+
+// Samples on a uniform grid; before the first and after the last the end values hold.
+Signal on_grid(const Samples& samples, double start_s, double step_s, std::size_t count, bool hold);
+
+// What the belief says about the sensor of a channel, from keys like `height_bandwidth_Hz`.
+SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit);
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,263 @@
+#include "tools/diagnose/plants/rotary_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kBlock_s = 0.5;
+constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
+enum Phase : std::uint32_t { kRest, kSlow, kFast };
+
+struct Figures {
+  double inertia_kg_m2, gravity_torque_Nm, viscous_Nm_s, coulomb_Nm, switch_speed_radps;
+
+  Figures(const Belief& belief, const Edits& edits) {
+    const auto read = [&](const char* key, double otherwise) {
+      return edits.edited(key, belief.value(key, otherwise));
+    };
+    inertia_kg_m2 = std::max(1e-9, read("axis.inertia_kg_m2", 1.0));
+    gravity_torque_Nm = read("axis.gravity_torque_Nm", 0.0);
+    viscous_Nm_s = read("axis.viscous_friction_Nm_s", 0.0);
+    coulomb_Nm = read("axis.coulomb_friction_Nm", 0.0);
+    switch_speed_radps = std::max(1e-6, read("axis.friction_switch_speed_radps", 0.02));
+  }
+};
+
+// J th'' = torque - G sin th - c tanh(th'/v_s) - b th' + laws
+class RotaryTrial final : public TrialModel {
+ public:
+  RotaryTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
+    name = trial.name;
+    constexpr double kRow_s = 5e-3;  // faster rows are averaged
+    const auto positions = averaged(samples_of(trial, "position_rad"), kRow_s);
+    const auto velocities = averaged(samples_of(trial, "velocity_radps"), kRow_s);
+    torque_ = samples_of(trial, "torque_Nm");
+    if (torque_.empty() || (positions.empty() && velocities.empty())) return;
+    const auto& lead = positions.empty() ? velocities : positions;
+    const double row_s = median_step_s(lead.time_s);
+    take_torque();
+    const double block_s = std::max(kBlock_s, row_s * static_cast<double>(kBlockRows));
+    const double end_s = trial.time_s.back();
+    blocks = static_cast<std::uint32_t>(std::max(1.0, std::floor(end_s / block_s)));
+    // A whole number of steps, so that blocks share the torque's grid.
+    block_s_ = step_s_ * std::ceil((end_s / blocks + 1e-9) / step_s_);
+    blocks = static_cast<std::uint32_t>(std::ceil(end_s / block_s_));
+    const double torque_sd = belief.value("spread.torque_offset_Nm");
+    if (torque_sd > 0.0) trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
+    add_rows(0, positions);
+    add_rows(1, velocities);
+    find_starts(positions, velocities);
+  }
+
+  void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
+    const Figures f(belief_, edits);
+    const auto laws = edits.at("axis");
+    Signal torque = acting_torque(edits);
+    const std::size_t q = trial_nuisances.size();
+    if (q > 0)
+      for (double& value : torque.values) value += nuisances[0];
+    Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      const double from_s = block_s_ * b, to_s = block_s_ * (b + 1);
+      simulate(f, laws, torque,
+               {from_s, to_s, starts_[b].first + nuisances[q + 2 * b],
+                starts_[b].second + nuisances[q + 2 * b + 1]},
+               position, velocity);
+      for (const std::uint32_t channel : {0u, 1u}) {
+        const auto& span = spans_[b][channel];
+        if (span.count == 0) continue;
+        Signal signal = channel == 0 ? position : velocity;
+        observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
+                std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
+      }
+    }
+  }
+
+ private:
+  struct Stretch {
+    double from_s, to_s, position, velocity;
+  };
+  struct Span {
+    std::size_t first = 0, count = 0;
+  };
+
+  // Torque holds from row to row; a step of the simulation takes its mean.
+  void take_torque() {
+    const double row_s = median_step_s(torque_.time_s);
+    const auto rows_per_step = static_cast<std::size_t>(std::clamp(std::round(2e-3 / row_s), 1.0, 8.0));
+    step_s_ = std::min(row_s * static_cast<double>(rows_per_step), 5e-3);
+    const auto count = static_cast<std::size_t>(std::ceil(torque_.time_s.back() / step_s_)) + 2;
+    constexpr std::size_t kParts = 8;
+    const Signal fine = on_grid(torque_, 0.0, step_s_ / kParts, count * kParts, true);
+    drive_ = {0.0, step_s_, std::vector<double>(count, 0.0)};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < kParts; ++k) drive_.values[i] += fine.values[i * kParts + k] / kParts;
+  }
+
+  Signal acting_torque(const Edits& edits) const {
+    const Signal recorded = drive_;
+    const auto count = recorded.values.size();
+    bool edited = false;
+    for (const auto& edit : edits.sensors) edited = edited || edit.channel == "actuator";
+    if (!edited) return recorded;
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < count; ++i) times[i] = step_s_ * static_cast<double>(i);
+    Signal acting{0.0, step_s_, std::vector<double>(count)};
+    Signal used = recorded;
+    observe(used, {}, edits, "actuator", times, acting.values);
+    return acting;
+  }
+
+  void add_rows(std::uint32_t channel, const Samples& samples) {
+    if (spans_.empty()) spans_.assign(blocks, {});
+    for (std::size_t i = 0; i < samples.value.size(); ++i) {
+      const auto block =
+          std::min(blocks - 1, static_cast<std::uint32_t>(std::max(0.0, samples.time_s[i] / block_s_)));
+      auto& span = spans_[block][channel];
+      if (span.count++ == 0) span.first = rows.size();
+      times_.push_back(samples.time_s[i]);
+      rows.push_back({channel, block, kFast, samples.time_s[i], samples.value[i]});
+    }
+  }
+
+  // State at the beginning of each block, from the recording smoothed; the fit moves it from there.
+  void find_starts(const Samples& positions, const Samples& velocities) {
+    const auto& lead = positions.empty() ? velocities : positions;
+    const double row_s = median_step_s(lead.time_s);
+    const auto half_width = static_cast<std::size_t>(std::clamp(0.01 / row_s, 3.0, 12.0));
+    const Smoothed at = smooth(lead, half_width);
+    Samples position = lead, velocity = lead;
+    if (!positions.empty()) {
+      position.value = at.value;
+      velocity.value = at.rate;
+    } else {
+      velocity.value = at.value;
+      double angle = 0.0;
+      for (std::size_t i = 0; i < position.value.size(); ++i) {
+        if (i > 0) angle += 0.5 * (at.value[i] + at.value[i - 1]) * (lead.time_s[i] - lead.time_s[i - 1]);
+        position.value[i] = angle;
+      }
+    }
+    const auto count = static_cast<std::size_t>(std::ceil(block_s_ * blocks / step_s_)) + 2;
+    const Signal angle = on_grid(position, 0.0, step_s_, count, false);
+    const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
+    for (std::uint32_t b = 0; b < blocks; ++b)
+      starts_.emplace_back(angle.at(block_s_ * b), speed.at(block_s_ * b));
+    double fastest = 0.0;
+    for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
+    const double noise = std::max(fluctuation_rms(lead), 1e-6);
+    block_nuisances = {{"position_rad", std::max(0.05, 20.0 * noise), 1e-4},
+                       {"velocity_radps", std::max(0.3 * fastest, 0.05), 1e-3 * std::max(fastest, 0.1)}};
+    Coordinate v{"velocity_radps", {}}, p{"position_rad", {}}, torque{"torque_Nm", {}}, time{"t_s", {}};
+    for (Row& row : rows) {
+      v.values.push_back(speed.at(row.time_s));
+      p.values.push_back(angle.at(row.time_s));
+      torque.values.push_back(drive_.at(row.time_s));
+      time.values.push_back(row.time_s);
+      const double share = std::abs(v.values.back()) / std::max(fastest, 1e-9);
+      row.phase = share < 0.03 ? kRest : share < 0.4 ? kSlow : kFast;
+    }
+    coordinates = {std::move(v), std::move(p), std::move(torque), std::move(time)};
+    sensors_[0] = sensor_belief(belief_, "position", "rad");
+    sensors_[1] = sensor_belief(belief_, "velocity", "radps");
+  }
+
+  void simulate(const Figures& f, const std::vector<const Law*>& laws, const Signal& torque, const Stretch& s,
+                Signal& position, Signal& velocity) const {
+    const auto count = static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
+    position.start_s = velocity.start_s = s.from_s;
+    position.values.resize(count);
+    velocity.values.resize(count);
+    double th = s.position, w = s.velocity;
+    // Friction near rest is stiff: its own rate limits the step.
+    const double stiffness_per_s = f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
+    const double slow_steps = std::ceil(step_s_ * stiffness_per_s / 1.5);
+    const auto accel = [&](double t, double torque_Nm, double angle, double speed) {
+      double sum = torque_Nm - f.gravity_torque_Nm * std::sin(angle) - f.viscous_Nm_s * speed;
+      if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
+      if (!laws.empty())
+        sum += sum_of(laws, {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm});
+      return sum / f.inertia_kg_m2;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      position.values[i] = th;
+      velocity.values[i] = w;
+      const double t0 = s.from_s + step_s_ * static_cast<double>(i);
+      const double tau = torque.values[std::min(
+          torque.values.size() - 1, static_cast<std::size_t>(std::max(0.0, std::round(t0 / step_s_))))];
+      const bool near_rest = std::abs(w) < 8.0 * f.switch_speed_radps;
+      const int parts =
+          static_cast<int>(std::clamp(near_rest ? slow_steps : 1.0, !laws.empty() ? 2.0 : 1.0, 40.0));
+      const double dt = step_s_ / parts;
+      for (int k = 0; k < parts; ++k) {
+        const double t = t0 + dt * k;
+        const double a1 = accel(t, tau, th, w);
+        const double a2 = accel(t, tau, th + 0.5 * dt * w, w + 0.5 * dt * a1);
+        const double a3 = accel(t, tau, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
+        const double a4 = accel(t, tau, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
+        th += dt * (w + dt * (a1 + a2 + a3) / 6.0);
+        w += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
+        w = std::clamp(w, -1e4, 1e4);
+      }
+    }
+  }
+
+  Belief belief_;
+  Samples torque_;
+  Signal drive_;
+  double step_s_ = 1e-3, block_s_ = 0.5;
+  std::vector<std::pair<double, double>> starts_;
+  std::vector<std::array<Span, 2>> spans_;
+  std::array<SensorBelief, 2> sensors_{};
+  std::vector<double> times_;
+};
+
+class RotaryAxis final : public PlantModel {
+ public:
+  std::vector<std::string> channels() const override { return {"position_rad", "velocity_radps"}; }
+  std::vector<std::string> phases() const override { return {"rest", "slow", "fast"}; }
+
+  std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
+                                    std::string& why) const override {
+    auto model = std::make_unique<RotaryTrial>(trial, belief);
+    if (model->rows.size() >= 20) return model;
+    why = "needs torque_Nm, and position_rad or velocity_radps";
+    return nullptr;
+  }
+
+  void describe(const std::vector<Trial>& trials, Context& context) const override {
+    double torque = 0.0, speed = 0.0, angle = 0.0, duration = 0.0;
+    double samples = 0.0;
+    for (const auto& trial : trials) {
+      for (const double v : samples_of(trial, "torque_Nm").value) {
+        torque += v * v;
+        ++samples;
+      }
+      const auto positions = samples_of(trial, "position_rad");
+      for (const double p : positions.value) angle = std::max(angle, std::abs(p));
+      const auto velocities = samples_of(trial, "velocity_radps");
+      for (const double v : velocities.value) speed = std::max(speed, std::abs(v));
+      if (velocities.empty() && positions.value.size() > 10)
+        for (const double v : smooth(positions, 5).rate) speed = std::max(speed, std::abs(v));
+      if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back());
+    }
+    context.scales["torque_Nm"] = samples > 0.0 ? std::max(std::sqrt(torque / samples), 1e-6) : 1.0;
+    context.scales["speed_radps"] = std::max(speed, 0.1);
+    context.scales["angle_rad"] = std::max(angle, 0.1);
+    context.scales["duration_s"] = duration;
+  }
+
+  std::vector<FreePort> free_ports(const Context& context) const override {
+    return {{"axis", false, 0.1 * context.scale("torque_Nm")}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PlantModel> make_rotary_axis() { return std::make_unique<RotaryAxis>(); }
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,172 @@
+#include "tools/diagnose/prepare.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kClockTolerance = 0.15;  // of a sample's period
+constexpr double kOutlier = 8.0;          // standard deviations
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& channel) {
+  ChannelScale scale{1e300, -1e300, 0.0, 1e-3, 0.0, 0.0};
+  std::vector<double> noises, steps;
+  double samples = 0.0;
+  for (const auto& trial : trials) {
+    const auto s = samples_of(trial, channel);
+    if (s.value.size() < 5) continue;
+    noises.push_back(fluctuation_rms(without_repeats(s)));
+    steps.push_back(median_step_s(s.time_s));
+    samples += static_cast<double>(s.value.size());
+    for (const double v : s.value) {
+      scale.low = std::min(scale.low, v);
+      scale.high = std::max(scale.high, v);
+    }
+  }
+  if (samples == 0.0) return scale;
+  for (const auto& trial : trials)
+    for (const double v : samples_of(trial, channel).value) {
+      scale.share_at_high += v == scale.high ? 1.0 / samples : 0.0;
+      scale.share_at_low += v == scale.low ? 1.0 / samples : 0.0;
+    }
+  scale.noise_rms = median(noises);
+  scale.step_s = median(steps);
+  return scale;
+}
+
+// Smallest step between values that differ: what a converter's grid adds.
+double grid_rms(const std::vector<Trial>& trials, const std::string& channel) {
+  double least = 1e300;
+  for (const auto& trial : trials) {
+    const auto s = samples_of(trial, channel);
+    for (std::size_t i = 1; i < s.value.size(); ++i)
+      if (s.value[i] != s.value[i - 1]) least = std::min(least, std::abs(s.value[i] - s.value[i - 1]));
+  }
+  return least < 1e299 ? least / std::sqrt(12.0) : 0.0;
+}
+
+double believed_noise(const Belief& belief, const std::string& channel) {
+  static const std::map<std::string, std::string> kKeys{
+      {"height_m", "height_noise_m"},         {"accel_mps2", "accel_noise_mps2"},
+      {"position_rad", "position_noise_rad"}, {"velocity_radps", "velocity_noise_radps"},
+      {"force_N", "load_cell_noise_N"},       {"load_cell_force_N", "load_cell_noise_N"}};
+  const auto it = kKeys.find(channel);
+  return it == kKeys.end() ? 0.0 : belief.value("sensors." + it->second);
+}
+
+void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const auto& rows = problem.trials[t]->rows;
+    for (std::size_t k = 1; k + 1 < rows.size(); ++k) {
+      const auto at = static_cast<Index>(k);
+      const double sd = problem.noise.channel(rows[k].channel).sd_of_phase[rows[k].phase];
+      const auto far = [&](Index i) { return std::abs(residuals[t][i]) > kOutlier * sd; };
+      // A spike stands alone; a mismatch has neighbours.
+      const bool alone = far(at) && std::abs(residuals[t][at - 1]) < 0.3 * std::abs(residuals[t][at]) &&
+                         std::abs(residuals[t][at + 1]) < 0.3 * std::abs(residuals[t][at]);
+      if (alone) problem.used[t][k] = 0;
+    }
+  }
+}
+
+}  // namespace
+
+void update_noise(Problem& problem, const Point& point) {
+  auto directions = parameter_directions(problem, point);
+  const auto own = directions.size();
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    if (point.hypothesis.contains(c)) continue;
+    const auto& parameters = problem.candidates[c].parameters;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      values.push_back(i == 0                    ? std::min(0.3 * parameters[i].typical, parameters[i].high)
+                       : parameters[i].amplitude ? 0.0
+                                                 : parameters[i].typical);
+    Edits edits = base;
+    problem.candidates[c].effect->apply(problem.context, problem.candidates[c].channel, values, edits);
+    directions.push_back({std::move(edits), values[0] / parameters[0].typical});
+  }
+  for (const auto& family : free_families(problem, point))
+    for (const auto& term : family.terms) directions.push_back({with_term(base, term, 0.3), 0.3});
+
+  const auto linear = linearise_all(problem, point, directions, {.keep_plain = true});
+  const auto k = static_cast<Index>(directions.size());
+  MatrixXd information = MatrixXd::Zero(k, k);
+  VectorXd score = VectorXd::Zero(k);
+  for (const auto& trial : linear) {
+    information += trial.gram.bottomRightCorner(k, k);
+    score += trial.gram.col(0).tail(k);
+  }
+  for (Index i = 0; i < k; ++i) information(i, i) += i < static_cast<Index>(own) ? 0.01 : 0.04;
+  const VectorXd size = information.ldlt().solve(score);
+  std::vector<VectorXd> residuals;
+  for (const auto& trial : linear) residuals.push_back(trial.plain.col(0) - trial.plain.rightCols(k) * size);
+  problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
+                                 problem.floor_sd);
+  mark_outliers(problem, residuals);
+}
+
+Prepared prepare(const Recordings& recordings) {
+  Prepared prepared;
+  Problem& problem = prepared.problem;
+  problem.plant = make_plant(recordings.plant);
+  problem.channels = problem.plant->channels();
+  problem.phases = problem.plant->phases();
+  problem.context.plant = recordings.plant;
+  problem.context.belief = recordings.belief;
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    std::string why;
+    auto model = problem.plant->trial(recordings.trials[i], recordings.beliefs[i], why);
+    if (!model) {
+      prepared.left_out.push_back(recordings.trials[i].name + ": " + why);
+      continue;
+    }
+    problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
+    problem.trials.push_back(std::move(model));
+  }
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const auto& channel = problem.channels[c];
+    const ChannelScale scale = scale_of(recordings.trials, channel);
+    const double span = std::max(scale.high - scale.low, 0.0);
+    const double floor =
+        std::max({scale.noise_rms, 0.5 * grid_rms(recordings.trials, channel), 1e-6 * span, 1e-12});
+    problem.floor_sd.push_back(floor);
+    if (span > 0.0)
+      problem.context.channels[channel] = scale;
+    else
+      prepared.missing_channels.push_back(channel);
+  }
+  problem.plant->describe(recordings.trials, problem.context);
+  problem.effects = known_effects();
+  problem.candidates = candidates_for(problem.effects, problem.context);
+  for (const auto& [channel, scale] : problem.context.channels)
+    problem.tolerances.push_back({"time of " + channel,
+                                  problem.context.scale("clock_tolerance", kClockTolerance) * scale.step_s,
+                                  channel});
+  std::vector<double> first_sd = problem.floor_sd;
+  for (std::size_t c = 0; c < first_sd.size(); ++c)
+    first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));
+  problem.noise = white_noise(first_sd, problem.phases.size());
+  return prepared;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,86 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/noise_model.hpp"
+#include "tools/diagnose/plant.hpp"
+
+namespace sandhopper::diagnose {
+
+// A number that belongs to no effect but cannot be believed exactly: a fraction of a sample in a channel's
+// time. Always fitted, with a narrow prior of unit variance on value / scale.
+struct Tolerance {
+  std::string name;
+  double scale = 1.0;
+  std::string channel;
+};
+
+// Everything a campaign is, ready to be fitted.
+struct Problem {
+  std::unique_ptr<PlantModel> plant;
+  Context context;
+  std::vector<std::unique_ptr<TrialModel>> trials;
+  std::vector<std::vector<std::uint8_t>> used;  // rows that count; others are outliers or faults
+  std::vector<std::string> channels;
+  std::vector<std::string> phases;
+  std::vector<Effect> effects;
+  std::vector<Candidate> candidates;
+  std::vector<Tolerance> tolerances;
+  std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
+  NoiseModel noise;
+  mutable std::uint64_t simulations = 0;
+  // Derivatives of each trial by its nuisances, kept from one point for all fits nearby: they hardly change
+  // with the effects, and a fit that gets stuck makes its own. Empty: made anew each time.
+  struct NuisanceColumns {
+    Eigen::MatrixXd trial, block;
+  };
+  std::vector<NuisanceColumns> nuisance_columns;
+
+  std::vector<const TrialModel*> trial_pointers() const {
+    std::vector<const TrialModel*> pointers;
+    for (const auto& trial : trials) pointers.push_back(trial.get());
+    return pointers;
+  }
+};
+
+// A law of free form at a port, as one column of a fit: amplitude times `law`.
+struct FreeTerm {
+  std::string port;
+  bool sensor = false;
+  Law law;
+  double scale = 1.0;
+};
+
+// A set of effects with the values of their parameters, one after another in each effect.
+struct Hypothesis {
+  std::vector<std::size_t> candidates;
+  std::vector<std::vector<double>> values;
+
+  std::size_t parameters() const {
+    std::size_t n = 0;
+    for (const auto& v : values) n += v.size();
+    return n;
+  }
+  bool contains(std::size_t candidate) const {
+    for (const auto c : candidates)
+      if (c == candidate) return true;
+    return false;
+  }
+};
+
+// Where a fit stands: effects, tolerances (in their scales), nuisances of every trial.
+struct Point {
+  Hypothesis hypothesis;
+  std::vector<double> tolerances;
+  std::vector<std::vector<double>> nuisances;
+};
+
+Point null_point(const Problem& problem);
+
+Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<const double> tolerances);
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,96 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/report_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Covariance of a fit's parameters in typical sizes: the larger of what the noise gives and what the spread
+// between trials gives (sandwich), the latter held up as if `kModelTrials` trials agreed with the noise.
+MatrixXd parameter_covariance(const Problem& problem, const Point& point) {
+  constexpr double kModelTrials = 4.0;
+  const auto directions = parameter_directions(problem, point);
+  const auto linear = linearise_all(problem, point, directions);
+  const auto k = static_cast<Index>(directions.size());
+  const auto own = static_cast<Index>(point.hypothesis.parameters());
+  MatrixXd information = MatrixXd::Zero(k, k), between = MatrixXd::Zero(k, k);
+  for (const auto& trial : linear) {
+    information += trial.gram.bottomRightCorner(k, k);
+    const VectorXd score = trial.gram.col(0).tail(k);
+    between += score * score.transpose();
+  }
+  MatrixXd held = information;
+  Index at = 0;
+  for (const auto c : point.hypothesis.candidates)
+    for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
+      held(at, at) += j == 0 || problem.candidates[c].parameters[j].amplitude ? 0.01 : 1.0;
+  for (; at < k; ++at) held(at, at) += 1.0;
+  const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
+  const double trials = static_cast<double>(linear.size());
+  const MatrixXd middle = (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0);
+  const MatrixXd sandwich = inverse * middle * inverse;
+  return sandwich.topLeftCorner(own, own);
+}
+
+std::string filled(std::string text, const std::string& channel) {
+  if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
+  return text;
+}
+
+}  // namespace
+
+void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
+                    Diagnosis& diagnosis) {
+  const SetFit& best = search.best();
+  const Point& point = best.fit.point;
+  const MatrixXd covariance = parameter_covariance(problem, point);
+  const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
+  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
+  Index at = 0;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto c = point.hypothesis.candidates[e];
+    const Candidate& candidate = problem.candidates[c];
+    FoundEffect found;
+    found.id = candidate.effect->id;
+    found.channel = candidate.channel;
+    found.statement = filled(candidate.effect->statement, candidate.channel);
+    found.equation = candidate.effect->equation;
+    for (std::size_t j = 0; j < candidate.parameters.size(); ++j, ++at) {
+      const auto& p = candidate.parameters[j];
+      const double value = point.hypothesis.values[e][j];
+      const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
+      FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
+                         p.reported(std::min(p.high, value + half))};
+      if (p.scale == 0.0) {  // a limit is read off, within a thousandth
+        out.low = out.value - 1e-3 * std::abs(out.value);
+        out.high = out.value + 1e-3 * std::abs(out.value);
+      }
+      if (out.low > out.high) std::swap(out.low, out.high);
+      found.parameters.push_back(std::move(out));
+    }
+    found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
+    if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
+      for (const auto other : it->second) {
+        const auto& id = problem.candidates[other].effect->id;
+        auto& list = found.indistinguishable_from;
+        if (id != found.id && std::find(list.begin(), list.end(), id) == list.end()) list.push_back(id);
+      }
+    for (const auto& evidence : best.evidence)
+      if (evidence.candidate == c) {
+        found.heldout_gain = std::min(1.0, evidence.gain / explained);
+        found.p_value = std::max(evidence.p_value, 1e-300);
+        found.typicals = evidence.typicals;
+      }
+    diagnosis.effects.push_back(std::move(found));
+  }
+  std::sort(diagnosis.effects.begin(), diagnosis.effects.end(),
+            [](const FoundEffect& a, const FoundEffect& b) { return a.heldout_gain > b.heldout_gain; });
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,21 @@
+#pragma once
+#include "tools/diagnose/data_faults.hpp"
+#include "tools/diagnose/diagnosis.hpp"
+#include "tools/diagnose/open_world.hpp"
+#include "tools/diagnose/posterior.hpp"
+#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/search.hpp"
+
+// Parts of the answer, each made from the finished search.
+namespace sandhopper::diagnose {
+
+void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
+void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
+                    Diagnosis& diagnosis);
+void report_unknown(const Problem& problem, const FreeGain& gain, double share, Diagnosis& diagnosis);
+void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
+void report_errors(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
+void report_where(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+
+}  // namespace sandhopper::diagnose

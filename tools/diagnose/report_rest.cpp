@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/report_parts.hpp"
+
+namespace sandhopper::diagnose {
+
+void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
+  for (const auto& text : prepared.left_out) diagnosis.notes.push_back("left out: " + text);
+  for (const auto& channel : prepared.missing_channels)
+    diagnosis.notes.push_back(fmt::format(
+        "{} was not recorded: faults of that sensor, and what only it shows, cannot be found", channel));
+  const auto trials = prepared.problem.trials.size();
+  if (trials > 0 && trials < 5)
+    diagnosis.notes.push_back(fmt::format(
+        "{} trials: how far trials repeat is barely known, the test is the weaker one within trials",
+        trials));
+}
+
+void report_unknown(const Problem& problem, const FreeGain& gain, double share, Diagnosis& diagnosis) {
+  (void)problem;
+  std::string port = gain.family.port;
+  if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
+  UnknownForce unknown{port, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
+  const auto n = gain.family.terms.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    unknown.curve.at.push_back(gain.family.low + (gain.family.high - gain.family.low) *
+                                                     static_cast<double>(i) / static_cast<double>(n - 1));
+    unknown.curve.value.push_back(gain.size[static_cast<Eigen::Index>(i)] * gain.family.scale);
+    unknown.curve.sd.push_back(gain.sd[static_cast<Eigen::Index>(i)] * gain.family.scale);
+  }
+  FoundEffect effect;
+  effect.id = "unknown@" + port;
+  effect.statement =
+      fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
+  effect.equation = fmt::format("F += f({})", gain.family.variable);
+  effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
+  effect.heldout_gain = share;
+  effect.p_value = gain.p_value;
+  diagnosis.effects.push_back(std::move(effect));
+  diagnosis.unknown.push_back(std::move(unknown));
+}
+
+void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
+  for (const auto& fault : faults) {
+    FoundEffect effect;
+    effect.id = fault.id;
+    effect.channel = fault.channel;
+    effect.statement = fault.id == "data.stuck"
+                           ? fmt::format("{} stood still {} times while the quantity went on.", fault.channel,
+                                         fault.stretches)
+                           : fmt::format("{} repeats an old sample {} times where new ones were lost.",
+                                         fault.channel, fault.stretches);
+    effect.equation = "y(t) = y(t_0), t_0 < t < t_0 + T";
+    effect.parameters = {{"duration_s", fault.duration_s, 0.7 * fault.duration_s, 1.3 * fault.duration_s},
+                         {"rate_Hz", fault.rate_Hz, 0.7 * fault.rate_Hz, 1.4 * fault.rate_Hz}};
+    effect.probability = fault.borderline ? 0.6 : 0.97;
+    if (fault.borderline)
+      effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};
+    if (diagnosis.verdict == "consistent" || diagnosis.verdict == "insufficient_data") {
+      diagnosis.verdict = "missing_physics";
+      diagnosis.detail = "data_fault";
+    }
+    diagnosis.effects.push_back(std::move(effect));
+  }
+}
+
+void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
+  for (const auto& s : search.screened(search.best().set)) {
+    const auto& candidate = problem.candidates[s.candidate];
+    const auto& p = candidate.parameters[0];
+    const double error = s.evidence.standard_error();
+    if (!(error < 1e6)) continue;
+    const double bound =
+        (std::abs(s.evidence.size()) + 2.0 * error) * p.typical * std::max(std::abs(p.scale), 1e-300);
+    diagnosis.absent.push_back({candidate.label(), p.name, p.reciprocal ? 1.0 / bound : bound});
+  }
+}
+
+}  // namespace sandhopper::diagnose

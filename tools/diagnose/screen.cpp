@@ -1,0 +1,182 @@
+#include "tools/diagnose/screen.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/fit.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kProbe = 0.4;              // of the typical size, for a candidate's signature
+constexpr double kPriorInformation = 0.01;  // of a size in typicals: sd 10
+
+struct Alternative {
+  std::size_t candidate;
+  std::vector<double> values;  // shapes; amplitudes are set per column
+  std::vector<Index> columns;
+  std::vector<std::size_t> amplitudes;
+};
+
+bool is_amplitude(const EffectParameter& p, std::size_t index) { return index == 0 || p.amplitude; }
+
+// One alternative for every value of the shape that has a list of them.
+std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
+  std::vector<double> typical;
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    typical.push_back(is_amplitude(candidate.parameters[i], i) ? 0.0 : candidate.parameters[i].typical);
+  std::vector<std::vector<double>> choices{typical};
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    for (const double shape : candidate.parameters[i].shapes) {
+      choices.push_back(typical);
+      choices.back()[i] = shape;
+    }
+  return choices;
+}
+
+}  // namespace
+
+std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index first, Index count,
+                                 const VectorXd& prior_information) {
+  std::vector<MatrixXd> grams;
+  for (const auto& trial : trials) grams.push_back(trial.gram);
+  if (count == 0) return grams;
+  const Index width = grams.front().cols();
+  MatrixXd pooled = MatrixXd::Zero(width, width);
+  for (const auto& gram : grams) pooled += gram;
+  MatrixXd block = pooled.block(first, first, count, count);
+  block.diagonal() += prior_information;
+  const MatrixXd regression = block.ldlt().solve(pooled.middleRows(first, count));
+  MatrixXd transform = MatrixXd::Identity(width, width);
+  for (Index j = 0; j < width; ++j)
+    if (j < first || j >= first + count) transform.block(first, j, count, 1) = -regression.col(j);
+  for (auto& gram : grams) gram = transform.transpose() * gram * transform;
+  return grams;
+}
+
+GroupGain group_gain(const std::vector<MatrixXd>& grams, const std::vector<Index>& columns,
+                     double prior_information) {
+  const auto k = static_cast<Index>(columns.size());
+  MatrixXd information = MatrixXd::Identity(k, k) * prior_information;
+  VectorXd score = VectorXd::Zero(k);
+  for (const auto& gram : grams)
+    for (Index i = 0; i < k; ++i) {
+      score[i] += gram(columns[static_cast<std::size_t>(i)], 0);
+      for (Index j = 0; j < k; ++j)
+        information(i, j) += gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+    }
+  GroupGain out;
+  out.size = information.ldlt().solve(score);
+  out.gain = std::max(0.0, score.dot(out.size));
+  const double length = out.size.norm();
+  const VectorXd direction = length > 0.0 ? VectorXd(out.size / length) : VectorXd(VectorXd::Unit(k, 0));
+  for (const auto& gram : grams) {
+    double u = 0.0, info = 0.0;
+    for (Index i = 0; i < k; ++i) {
+      u += direction[i] * gram(columns[static_cast<std::size_t>(i)], 0);
+      for (Index j = 0; j < k; ++j)
+        info += direction[i] * direction[j] *
+                gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+    }
+    out.evidence.score.push_back(u);
+    out.evidence.information.push_back(std::max(info, 0.0));
+  }
+  return out;
+}
+
+HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Index>& columns,
+                      double prior_information) {
+  const auto k = static_cast<Index>(columns.size());
+  const auto pick = [&](const MatrixXd& gram, MatrixXd& h, VectorXd& u) {
+    for (Index i = 0; i < k; ++i) {
+      u[i] = gram(columns[static_cast<std::size_t>(i)], 0);
+      for (Index j = 0; j < k; ++j)
+        h(i, j) = gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+    }
+  };
+  MatrixXd all = MatrixXd::Identity(k, k) * prior_information, h(k, k);
+  VectorXd score = VectorXd::Zero(k), u(k);
+  for (const auto& gram : grams) {
+    pick(gram, h, u);
+    all += h;
+    score += u;
+  }
+  HeldOut out;
+  for (const auto& gram : grams) {
+    pick(gram, h, u);
+    const VectorXd size = (all - h).ldlt().solve(score - u);
+    out.of_trial.push_back(2.0 * size.dot(u) - size.dot(h * size));
+    out.gain += out.of_trial.back();
+  }
+  return out;
+}
+
+std::vector<Screened> screen(const Problem& problem, const Point& point) {
+  auto directions = parameter_directions(problem, point);
+  const auto own = static_cast<Index>(directions.size());
+  std::vector<Alternative> alternatives;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    if (point.hypothesis.contains(c)) continue;
+    const Candidate& candidate = problem.candidates[c];
+    for (const auto& choice : shape_choices(candidate)) {
+      Alternative alternative{c, choice, {}, {}};
+      for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
+        const auto& parameter = candidate.parameters[i];
+        if (!is_amplitude(parameter, i)) continue;
+        Hypothesis with = point.hypothesis;
+        auto values = choice;
+        const double step = std::min(kProbe, parameter.high / parameter.typical);
+        values[i] = step * parameter.typical;
+        with.candidates.push_back(c);
+        with.values.push_back(values);
+        alternative.columns.push_back(static_cast<Index>(directions.size()) + 1);
+        alternative.amplitudes.push_back(i);
+        directions.push_back({edits_for(problem, with, point.tolerances), step});
+      }
+      alternatives.push_back(std::move(alternative));
+    }
+  }
+  const auto linear = linearise_all(problem, point, directions);
+  VectorXd prior = VectorXd::Constant(own, kPriorInformation);
+  prior.tail(static_cast<Index>(point.tolerances.size())).setOnes();
+  const auto grams = eliminated(linear, 1, own, prior);
+
+  std::vector<Screened> found;
+  for (const auto& alternative : alternatives) {
+    auto group = group_gain(grams, alternative.columns, kPriorInformation);
+    const auto& parameters = problem.candidates[alternative.candidate].parameters;
+    Screened s{alternative.candidate, alternative.values, group.gain, group.evidence, group.size[0]};
+    for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i) {
+      const auto& p = parameters[alternative.amplitudes[i]];
+      double& value = s.values[alternative.amplitudes[i]];
+      const double wanted = group.size[static_cast<Index>(i)] * p.typical;
+      value = std::clamp(wanted, p.low, p.high);
+      if (alternative.columns.size() == 1 && value != wanted) {
+        // Held at a bound the drop is that of the bounded size.
+        double score = 0.0, information = 0.0;
+        for (const auto& gram : grams) {
+          score += gram(alternative.columns[0], 0);
+          information += gram(alternative.columns[0], alternative.columns[0]);
+        }
+        const double b = value / p.typical;
+        s.gain = std::max(0.0, 2.0 * b * score - b * b * information);
+        s.typicals = b;
+      }
+    }
+    const auto same = std::find_if(found.begin(), found.end(),
+                                   [&](const Screened& f) { return f.candidate == s.candidate; });
+    if (same == found.end())
+      found.push_back(std::move(s));
+    else if (s.gain > same->gain)
+      *same = std::move(s);
+  }
+  std::sort(found.begin(), found.end(), [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
+  return found;
+}
+
+}  // namespace sandhopper::diagnose

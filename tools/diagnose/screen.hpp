@@ -1,0 +1,46 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/problem.hpp"
+#include "tools/diagnose/statistics.hpp"
+
+namespace sandhopper::diagnose {
+
+// Pooled linear algebra over trials: columns are residual, then directions. What a point already fits (its
+// own parameters, tolerances) is eliminated over all trials together, with its priors.
+//   A'_t = T' A_t T,  T subtracts from each column its pooled regression on the eliminated ones
+std::vector<Eigen::MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Eigen::Index first,
+                                        Eigen::Index count, const Eigen::VectorXd& prior_information);
+
+// What a group of columns explains together (ridge `prior_information` each), trial by trial.
+struct GroupGain {
+  Eigen::VectorXd size;    // of each column
+  double gain = 0.0;       // drop of the deviance
+  TrialEvidence evidence;  // along the fitted direction
+};
+GroupGain group_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns,
+                     double prior_information);
+
+// Sum over trials of the drop of each trial's deviance when the sizes come from the other trials only.
+struct HeldOut {
+  double gain = 0.0;
+  std::vector<double> of_trial;
+};
+HeldOut held_out_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns,
+                      double prior_information);
+
+// A candidate as it looks in a linear approximation at a point that does not contain it.
+struct Screened {
+  std::size_t candidate = 0;
+  std::vector<double> values;  // where a fit may start
+  double gain = 0.0;
+  TrialEvidence evidence;
+  double typicals = 0.0;  // size of the first amplitude
+};
+
+// All candidates that the point does not hold, the largest gain first.
+std::vector<Screened> screen(const Problem& problem, const Point& point);
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,290 @@
+#include "tools/diagnose/search.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWorthAFit = 6.0;  // drop of the deviance
+constexpr double kPriorOfAnEffect = 1.0 / 40.0;
+constexpr double kSignificance = 0.01;  // family-wise
+constexpr double kSmallestOfTypical = 0.04;
+constexpr double kSmallestShare = 0.004;  // of what all effects explain
+constexpr double kHopeless = 0.15;        // of the largest gain on the screen
+constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
+
+std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
+  set.push_back(candidate);
+  std::sort(set.begin(), set.end());
+  return set;
+}
+
+std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
+  set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
+  return set;
+}
+
+}  // namespace
+
+double Search::criterion(const SetFit& fit) const {
+  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
+  return fit.fit.deviance / dispersion_ -
+         2.0 * static_cast<double>(fit.set.size()) * std::log(kPriorOfAnEffect) +
+         static_cast<double>(fit.fit.point.hypothesis.parameters()) * std::log(trials);
+}
+
+const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {
+  const auto it = screens_.find(set);
+  if (it != screens_.end()) return it->second;
+  return screens_[set] = screen(*problem_, sets_.at(set).fit.point);
+}
+
+void Search::judge(SetFit& result) {
+  const Point& point = result.fit.point;
+  const auto directions = parameter_directions(*problem_, point);
+  const auto linear = linearise_all(*problem_, point, directions);
+  const auto k = static_cast<Index>(directions.size());
+  const auto parameters = static_cast<Index>(point.hypothesis.parameters());
+  VectorXd prior = VectorXd::Constant(k, 0.01);
+  prior.tail(k - parameters).setOnes();
+  double dispersion = 0.0, count = 0.0;
+  Index first = 1;
+  result.evidence.clear();
+  result.judged = true;
+  result.needed = true;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
+    const auto width = static_cast<Index>(candidate.parameters.size());
+    // The first amplitude of this effect, with its other parameters and everything else eliminated; shapes of
+    // an effect do not shelter others.
+    std::vector<TrialLinear> reordered = linear;
+    std::vector<Index> order{0, first};
+    std::vector<double> amplitudes;
+    std::vector<Index> amplitude_columns;
+    for (Index i = 0; i < width; ++i) {
+      const auto& p = candidate.parameters[static_cast<std::size_t>(i)];
+      if (i == 0 || p.amplitude) {
+        amplitude_columns.push_back(first + i);
+        amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
+      }
+    }
+    std::vector<Index> others;
+    for (Index i = 1; i <= k; ++i)
+      if (i < first || i >= first + width) others.push_back(i);
+    const auto n_own = static_cast<Index>(amplitude_columns.size());
+    const auto n_others = static_cast<Index>(others.size());
+    VectorXd others_prior(n_others);
+    for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
+    for (auto& trial : reordered) {
+      MatrixXd gram(1 + n_own + n_others, 1 + n_own + n_others);
+      std::vector<Index> columns{0};
+      columns.insert(columns.end(), amplitude_columns.begin(), amplitude_columns.end());
+      columns.insert(columns.end(), others.begin(), others.end());
+      for (Index i = 0; i < gram.rows(); ++i)
+        for (Index j = 0; j < gram.cols(); ++j)
+          gram(i, j) = trial.gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+      // Put the effect back into the residual: column 0 becomes what is there without it.
+      VectorXd back = VectorXd::Zero(gram.rows());
+      back[0] = 1.0;
+      for (Index i = 0; i < n_own; ++i) back[1 + i] = amplitudes[static_cast<std::size_t>(i)];
+      const VectorXd column = gram * back;
+      const double corner = back.dot(column);
+      gram.col(0) = column;
+      gram.row(0) = column.transpose();
+      gram(0, 0) = corner;
+      trial.gram = gram;
+    }
+    const auto grams = eliminated(reordered, 1 + n_own, n_others, others_prior);
+    std::vector<Index> own;
+    for (Index i = 0; i < n_own; ++i) own.push_back(1 + i);
+    const auto group = group_gain(grams, own, 0.01);
+    EffectEvidence evidence;
+    evidence.candidate = point.hypothesis.candidates[e];
+    evidence.evidence = group.evidence;
+    evidence.gain = group.gain;
+    evidence.typicals = std::abs(amplitudes[0]);
+    for (const double a : amplitudes) evidence.typicals = std::max(evidence.typicals, std::abs(a));
+    evidence.p_value =
+        std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
+    const auto& p = candidate.parameters[0];
+    const double value = point.hypothesis.values[e][0];
+    evidence.at_bound = value >= p.high - 1e-9 * std::abs(p.high) ||
+                        (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0);
+    const double model = std::max(1e-300, [&] {
+      double s = 0.0;
+      for (const double i : group.evidence.information) s += i;
+      return s;
+    }());
+    const double robust = std::pow(group.evidence.standard_error() * model, 2);
+    dispersion += robust / model;
+    ++count;
+    result.evidence.push_back(std::move(evidence));
+    first += width;
+  }
+  result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
+  const double explained = null().fit.deviance - result.fit.deviance;
+  for (auto& evidence : result.evidence) {
+    // Signs are flipped at the set without this effect, against all candidates there.
+    const auto parent = without(result.set, evidence.candidate);
+    if (screens_.contains(parent)) {
+      std::vector<TrialEvidence> rivals;
+      std::size_t chosen = 0;
+      for (const auto& s : screened(parent)) {
+        if (s.candidate == evidence.candidate) chosen = rivals.size();
+        rivals.push_back(s.evidence);
+      }
+      if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
+    } else {
+      evidence.flip_p_value = 0.0;
+    }
+    const double flip_needed = problem_->trials.size() >= 6 ? 0.05 : 1.0;
+    if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
+        evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
+        evidence.gain < kSmallestShare * explained)
+      result.needed = false;
+  }
+}
+
+const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
+  const auto set = with(from.set, added.candidate);
+  if (const auto it = sets_.find(set); it != sets_.end()) return it->second;
+  Point start = from.fit.point;
+  start.hypothesis.candidates.push_back(added.candidate);
+  start.hypothesis.values.push_back(added.values);
+  SetFit result;
+  result.set = set;
+  result.fit = fit_from(*problem_, start);
+  // A second start where the first got nowhere near what its linear approximation promised.
+  if (from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
+    const auto& parameters = problem_->candidates[added.candidate].parameters;
+    for (const double factor : {0.3, 1.0, -1.0}) {
+      if (factor < 0.0 && !parameters[0].either_sign) continue;
+      auto values = added.values;
+      values[0] = std::clamp(factor * parameters[0].typical, parameters[0].low, parameters[0].high);
+      start.hypothesis.values.back() = values;
+      Fit again = fit_from(*problem_, start);
+      if (again.deviance < result.fit.deviance) result.fit = std::move(again);
+    }
+  }
+  // With the effect nearly off the fit cannot be worse than without it.
+  if (result.fit.deviance > from.fit.deviance + 0.1) {
+    auto values = added.values;
+    values[0] = std::clamp(
+        0.01 * std::copysign(problem_->candidates[added.candidate].parameters[0].typical, added.values[0]),
+        problem_->candidates[added.candidate].parameters[0].low,
+        problem_->candidates[added.candidate].parameters[0].high);
+    start.hypothesis.values.back() = values;
+    Fit again = fit_from(*problem_, start);
+    if (again.deviance < result.fit.deviance) result.fit = std::move(again);
+  }
+  return sets_[set] = std::move(result);
+}
+
+void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
+  const SetFit parent = sets_.at(from);
+  const auto candidates = screened(from);
+  std::size_t done = 0;
+  for (const auto& s : candidates) {
+    if (done >= fits || s.gain < kWorthAFit || (done >= 3 && s.gain < kHopeless * candidates.front().gain))
+      break;
+    evaluate(parent, s);
+    ++done;
+  }
+}
+
+void Search::choose_best() {
+  // The closest fit first; only sets that can still win are judged.
+  std::vector<SetFit*> order;
+  for (auto& [set, fit] : sets_)
+    if (fit.fit.status != FitStatus::failed || set.empty()) order.push_back(&fit);
+  std::sort(order.begin(), order.end(),
+            [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
+  const auto needed = [&](SetFit& fit) {
+    if (!fit.judged) judge(fit);
+    return fit.needed;
+  };
+  for (auto* fit : order)
+    if (needed(*fit)) {
+      dispersion_ = fit->dispersion;
+      break;
+    }
+  std::sort(order.begin(), order.end(),
+            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
+  for (auto* fit : order)
+    if (needed(*fit)) {
+      best_ = fit->set;
+      break;
+    }
+}
+
+// Each effect of the best set against all others in its place.
+void Search::exchange() {
+  for (int round = 0; round < 3; ++round) {
+    const auto before = best_;
+    for (const auto candidate : before) {
+      const auto rest = without(before, candidate);
+      if (!sets_.contains(rest)) {
+        SetFit fit;
+        fit.set = rest;
+        Point start = sets_.at(before).fit.point;
+        Hypothesis h;
+        for (std::size_t i = 0; i < start.hypothesis.candidates.size(); ++i)
+          if (start.hypothesis.candidates[i] != candidate) {
+            h.candidates.push_back(start.hypothesis.candidates[i]);
+            h.values.push_back(start.hypothesis.values[i]);
+          }
+        start.hypothesis = h;
+        fit.fit = fit_from(*problem_, start);
+        sets_[rest] = std::move(fit);
+      }
+      expand(rest, options_.fits_per_screen);
+    }
+    choose_best();
+    if (best_ == before) break;
+  }
+}
+
+const SetFit& Search::run(const Point& start) {
+  sets_.clear();
+  screens_.clear();
+  SetFit null;
+  null.fit = fit_from(*problem_, start);
+  null.needed = null.judged = true;
+  sets_[{}] = std::move(null);
+  std::vector<std::vector<std::size_t>> front{{}};
+  for (std::size_t size = 1; size <= options_.most_effects; ++size) {
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      options_.progress(
+          (static_cast<double>(size - 1) + static_cast<double>(i) / static_cast<double>(front.size())) /
+              static_cast<double>(options_.most_effects + 1),
+          "trying effects");
+      expand(front[i], options_.fits_per_screen);
+    }
+    std::vector<const SetFit*> grown;
+    for (const auto& [set, fit] : sets_)
+      if (set.size() == size) grown.push_back(&fit);
+    if (grown.empty()) break;
+    std::sort(grown.begin(), grown.end(),
+              [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
+    const auto before = best_;
+    choose_best();
+    const double smaller = criterion(sets_.at(front.front()));
+    front.clear();
+    const double explained = this->null().fit.deviance - grown.front()->fit.deviance;
+    for (const auto* fit : grown)
+      if (front.size() < options_.beam &&
+          fit->fit.deviance - grown.front()->fit.deviance <= kNearlyAsGood * explained)
+        front.push_back(fit->set);
+    if (criterion(*grown.front()) >= smaller && best_ == before) break;
+  }
+  exchange();
+  return best();
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,71 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/screen.hpp"
+
+namespace sandhopper::diagnose {
+
+// Evidence for one effect of a fitted set, the others and the tolerances free to take its place.
+struct EffectEvidence {
+  std::size_t candidate = 0;
+  TrialEvidence evidence;
+  double gain = 0.0;     // what the deviance would rise by without it, linearly
+  double p_value = 1.0;  // trials as units, for all candidates together
+  double flip_p_value = 1.0;
+  double typicals = 0.0;  // |size| of the first amplitude
+  bool at_bound = false;
+};
+
+struct SetFit {
+  std::vector<std::size_t> set;  // sorted
+  Fit fit;
+  std::vector<EffectEvidence> evidence;
+  double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
+  bool judged = false;
+  bool needed = false;  // every effect stands on its own; known once judged
+};
+
+struct SearchOptions {
+  std::size_t most_effects = 3;
+  std::size_t beam = 2;
+  std::size_t fits_per_screen = 6;
+  std::function<void(double share, const char* what)> progress = [](double, const char*) {};
+};
+
+// Forward search over sets of effects with a beam, exchanges and deletions; every set that was tried is kept.
+class Search {
+ public:
+  Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
+
+  // From what is already known at `start` (nuisances): the set that explains most with every effect needed.
+  const SetFit& run(const Point& start);
+
+  const SetFit& best() const { return sets_.at(best_); }
+  const SetFit& null() const { return sets_.at({}); }
+  const std::map<std::vector<std::size_t>, SetFit>& sets() const { return sets_; }
+  const std::vector<Screened>& screened(const std::vector<std::size_t>& set);
+
+  // Penalised deviance: smaller is better. All sets share one dispersion, that of the set that fits best, or
+  // a set that fits badly would be forgiven for it.
+  double criterion(const SetFit& fit) const;
+  double dispersion() const { return dispersion_; }
+
+ private:
+  const SetFit& evaluate(const SetFit& from, const Screened& added);
+  void judge(SetFit& fit);
+  void expand(const std::vector<std::size_t>& from, std::size_t fits);
+  void exchange();
+  void choose_best();
+
+  const Problem* problem_;
+  SearchOptions options_;
+  std::map<std::vector<std::size_t>, SetFit> sets_;
+  std::map<std::vector<std::size_t>, std::vector<Screened>> screens_;
+  std::vector<std::size_t> best_;
+  double dispersion_ = 1.0;
+};
+
+}  // namespace sandhopper::diagnose

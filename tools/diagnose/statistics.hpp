@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sandhopper::diagnose {
+
+// Two-sided tail probability of Student's t, accurate to about 1e-6 relative; by the incomplete beta
+// function.
+double student_t_two_sided(double t, double degrees_of_freedom);
+// Value that a two-sided probability belongs to.
+double student_t_quantile(double two_sided, double degrees_of_freedom);
+
+// One number of evidence per trial: score u_t and information I_t of an effect's size b, whose best value is
+// sum u / sum I. Its variance is taken between trials, held up by what the noise alone would give as if that
+// came from `kModelTrials` trials more:
+//   var = (nu0 sum I + sum (u_t - b I_t)^2 T) / (nu0 + T - 1)
+struct TrialEvidence {
+  std::vector<double> score;
+  std::vector<double> information;
+
+  double size() const;
+  double t() const;  // of size / its error
+  double degrees_of_freedom() const;
+  double p_value() const;         // one candidate alone
+  double standard_error() const;  // of size
+};
+
+// Largest |sum s_t u_t| / sqrt(sum I_t) over candidates, for every choice of signs s_t (all of them up to
+// 2^11, else 2,000 drawn from `seed`): how often it reaches that of `chosen`. The family-wise probability
+// that trials agree by chance.
+double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed);
+
+}  // namespace sandhopper::diagnose
