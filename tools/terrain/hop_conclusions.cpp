@@ -108,10 +108,10 @@ StudyFigure window_figure(Results results) {
 }
 
 // Each trial's stiffness against what differs between the trials.
-StudyFigure against(Results results, std::string_view x_name, std::string x_label) {
+StudyFigure against(Results results, std::string_view x_name, const std::string& x_label) {
   StudyFigure figure{
       .title = fmt::format("Stiffness against {}", x_label.substr(0, x_label.find(','))),
-      .x_label = std::move(x_label),
+      .x_label = x_label,
       .y_label = "stiffness, N/m",
       .note = "Straight lines in window A; one point a trial. Bars: two standard errors of the joint fit."};
   for (const auto& way : stiffness_ways()) {
