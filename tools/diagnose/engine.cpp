@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t kTooFewTrials = 3;
 constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
 constexpr double kRestShare = 0.10;
-constexpr double kUnknownSignificance = 0.01;
+constexpr double kUnknownSignificance = 0.003;
+constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 
@@ -96,7 +97,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const FreeGain* rest = nullptr;
   double rows = 0.0;
   for (const auto& trial : problem.trials) rows += static_cast<double>(trial->rows.size());
-  const double least_gain = std::max(kUnknownGain, kUnknownGainPerRow * rows);
+  const double least_gain =
+      std::max({kUnknownGain, kUnknownGainPerRow * rows, kUnknownShareOfDeviance * best.fit.deviance});
   for (const auto& gain : gains)
     if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
         gain.trials_better >= 0.75)
