@@ -63,6 +63,7 @@ Combination added_mass_force(const StrokeMap& map) {
 TrialMean jackknife(double whole, const std::vector<double>& without_one) {
   const double n = static_cast<double>(without_one.size());
   std::vector<double> pseudo;
+  pseudo.reserve(without_one.size());
   for (const double value : without_one) pseudo.push_back(n * whole - (n - 1.0) * value);
   auto mean = mean_over_trials(pseudo);
   const double shift = whole - mean.value;
@@ -153,6 +154,7 @@ StrokeMapWithIntervals fit_stroke_map(std::span<const StrokeSums> trials, Stroke
   }
   const auto interval = [&](auto&& figure) {
     std::vector<double> values;
+    values.reserve(without.size());
     for (const auto& map : without) values.push_back(figure(map));
     return jackknife(figure(out.map), values);
   };

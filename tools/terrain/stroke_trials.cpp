@@ -114,6 +114,7 @@ class Stroke {
 
   double median_speed_mps() const {
     std::vector<double> speeds;
+    speeds.reserve(loading_.size());
     for (const auto& s : loading_) speeds.push_back(s.speed_mps);
     if (speeds.empty()) return NAN;
     const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
@@ -181,8 +182,11 @@ class Stroke {
   }
 
   void add_unloading() {
+    const auto contact = in_contact();
     std::vector<double> depth_m, force_N;
-    for (const auto& s : in_contact()) {
+    depth_m.reserve(contact.size());
+    force_N.reserve(contact.size());
+    for (const auto& s : contact) {
       depth_m.push_back(s.depth_m);
       force_N.push_back(s.force_N);
     }
