@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@ namespace fs = std::filesystem;
 
 class BenchmarkRunner : public testing::Test {
  protected:
+  void TearDown() override { fs::remove_all(folder); }
   void SetUp() override {
     fs::remove_all(folder);
     fs::create_directories(folder);
@@ -39,7 +41,7 @@ class BenchmarkRunner : public testing::Test {
     return count;
   }
 
-  const fs::path folder = fs::path(testing::TempDir()) / "benchmark_runner";
+  const fs::path folder = fs::path(testing::TempDir()) / ("benchmark_runner_" + std::to_string(::getpid()));
 };
 
 TEST_F(BenchmarkRunner, GoesOnWhereItWasStopped) {
