@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 
 std::string refusal(const CampaignFolder& folder, CampaignPlant plant) {
   try {
-    load_belief(folder.path() / "nominal.toml", plant);
+    std::vector<Finding> notes;
+    load_belief(folder.path() / "nominal.toml", plant, notes);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -90,6 +91,19 @@ TEST(Belief, AnUnknownKeyIsRefusedWithLineAndCure) {
   EXPECT_THAT(refusal(folder, CampaignPlant::hopper), HasSubstr("'axis' is unknown"));
   folder.write("nominal.toml", "[body]\nmass_g = 45.9\n");
   EXPECT_THAT(refusal(folder, CampaignPlant::falling_body), HasSubstr("write 'mass_kg = 0.0459'"));
+}
+
+TEST(Belief, AnUnknownSensorOrSpreadKeyIsNotedAndLeftOut) {
+  CampaignFolder folder;
+  folder.write("nominal.toml",
+               "[sensors]\nlidar_noise_m = 0.01\nmocap_noise_m = 0.001\n[spread]\nmood = 3\n");
+  std::vector<Finding> notes;
+  const auto belief =
+      std::get<HopperBelief>(load_belief(folder.path() / "nominal.toml", CampaignPlant::hopper, notes));
+  EXPECT_EQ(belief.sensors.robot.mocap_noise_m, 0.001);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_THAT(to_string(notes[0]), HasSubstr("nominal.toml:2:1: sensors.lidar_noise_m"));
+  EXPECT_EQ(notes[1].severity, FindingSeverity::note);
 }
 
 TEST(Belief, ASetUpKeyOfTheSameNameTakesItsPlaceInThatTrial) {

@@ -12,9 +12,40 @@
 namespace sandhopper {
 namespace {
 
+template <HasFields Table>
+std::vector<std::string> keys_of(const Table& table) {
+  std::vector<std::string> keys;
+  Table::fields(table, [&](std::string_view key, const auto&, Range = {}) { keys.emplace_back(key); });
+  return keys;
+}
+
+// Takes out of `table` what is not among `known`, with a note of each.
+void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known, const std::string& file,
+                       std::vector<Finding>& notes) {
+  std::erase_if(table.children, [&](const ConfigNode& child) {
+    if (std::find(known.begin(), known.end(), child.key) != known.end()) return false;
+    notes.push_back(
+        {.kind = FindingKind::set_up,
+         .severity = FindingSeverity::note,
+         .file = file,
+         .line = child.key_position.line,
+         .column = child.key_position.column,
+         .channel = table.key + "." + child.key,
+         .what = fmt::format("key '{}' is not known in [{}] and is not used", child.key, table.key),
+         .cure = "see tools/campaign/README.md for the keys, or leave it as it is"});
+    return true;
+  });
+}
+
 template <class Plant>
-Belief read_belief(const std::filesystem::path& file, Plant base) {
-  return load_file<Plant>(file.string(), MissingKeys::use_default, std::move(base));
+Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes) {
+  auto document = parse_config_file(file.string());
+  for (auto& table : document.root.children) {
+    if (table.kind != ConfigNode::Kind::table) continue;
+    if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), notes);
+    if (table.key == "spread") leave_out_unknown(table, keys_of(base.spread), file.string(), notes);
+  }
+  return load_document<Plant>(document, MissingKeys::use_default, std::move(base));
 }
 
 // Reads `value` into the first number of that name, table by table; [spread] is not looked at.
@@ -107,8 +138,9 @@ Belief default_belief(CampaignPlant plant) {
   return HopperBelief{};
 }
 
-Belief load_belief(const std::filesystem::path& file, CampaignPlant plant) {
-  return std::visit([&](auto base) { return read_belief(file, std::move(base)); }, default_belief(plant));
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes) {
+  return std::visit([&](auto base) { return read_belief(file, std::move(base), notes); },
+                    default_belief(plant));
 }
 
 bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,

@@ -9,6 +9,7 @@
 #include "config/node.hpp"
 #include "config/problem.hpp"
 #include "tools/campaign/belief_sensors.hpp"
+#include "tools/campaign/finding.hpp"
 #include "tools/campaign/plant_kind.hpp"
 #include "tools/plant/world_config.hpp"
 
@@ -174,8 +175,10 @@ using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, Rot
 
 // What the plant believes when nothing is said.
 Belief default_belief(CampaignPlant plant);
-// Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure.
-Belief load_belief(const std::filesystem::path& file, CampaignPlant plant);
+// Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
+// key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
+// their simulator has, and what is not known here limits no conclusion.
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
 
 // A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say
 // how much trials differ, and some bear the name of a set-up key); `diameter_m`, `foot_diameter_m` and

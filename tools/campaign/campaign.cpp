@@ -81,7 +81,7 @@ class Loader {
             fmt::format("the model {} does not exist: name a file in this folder, or leave the key out for "
                         "the plant's default",
                         campaign_.model.string()));
-      campaign_.belief = load_belief(campaign_.model, campaign_.plant);
+      campaign_.belief = load_belief(campaign_.model, campaign_.plant, campaign_.findings);
     }
   }
 
