@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
+constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.04;
 constexpr double kSmallestShare = 0.004;  // of what all effects explain
 constexpr double kHopeless = 0.15;        // of the largest gain on the screen
@@ -143,7 +144,10 @@ void Search::judge(SetFit& result) {
     } else {
       evidence.flip_p_value = 0.0;
     }
-    const double flip_needed = problem_->trials.size() >= 6 ? 0.05 : 1.0;
+    // Flips are made where the simulation is linear in nothing yet; what the trials say this clearly at the
+    // fit itself does not need them.
+    const bool beyond_doubt = evidence.p_value < kBeyondDoubt;
+    const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
         evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
         evidence.gain < kSmallestShare * explained)
@@ -223,26 +227,51 @@ void Search::choose_best() {
     }
 }
 
+// A set's fit with only `part` of its effects; a set that was tried stays as it is.
+bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
+  if (sets_.contains(part)) return false;
+  SetFit fit;
+  fit.set = part;
+  Point start = whole.fit.point;
+  Hypothesis h;
+  for (std::size_t i = 0; i < start.hypothesis.candidates.size(); ++i)
+    if (std::find(part.begin(), part.end(), start.hypothesis.candidates[i]) != part.end()) {
+      h.candidates.push_back(start.hypothesis.candidates[i]);
+      h.values.push_back(start.hypothesis.values[i]);
+    }
+  start.hypothesis = h;
+  fit.fit = fit_from(*problem_, start);
+  sets_[part] = std::move(fit);
+  return true;
+}
+
+// Sets that fit better than the best but hold an effect they do not need: what is left without it may be the
+// answer, although no forward step led there.
+void Search::prune() {
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> parts;
+    for (const auto& [set, fit] : sets_) {
+      if (!fit.judged || fit.needed || fit.fit.deviance > best().fit.deviance) continue;
+      std::vector<std::size_t> part;
+      for (const auto& evidence : fit.evidence)
+        if (evidence.p_value < kSignificance) part.push_back(evidence.candidate);
+      std::sort(part.begin(), part.end());
+      if (!part.empty() && part.size() < set.size()) parts.emplace_back(set, part);
+    }
+    bool tried = false;
+    for (const auto& [set, part] : parts) tried = fit_part(SetFit(sets_.at(set)), part) || tried;
+    if (!tried) return;
+    choose_best();
+  }
+}
+
 // Each effect of the best set against all others in its place.
 void Search::exchange() {
   for (int round = 0; round < 3; ++round) {
     const auto before = best_;
     for (const auto candidate : before) {
       const auto rest = without(before, candidate);
-      if (!sets_.contains(rest)) {
-        SetFit fit;
-        fit.set = rest;
-        Point start = sets_.at(before).fit.point;
-        Hypothesis h;
-        for (std::size_t i = 0; i < start.hypothesis.candidates.size(); ++i)
-          if (start.hypothesis.candidates[i] != candidate) {
-            h.candidates.push_back(start.hypothesis.candidates[i]);
-            h.values.push_back(start.hypothesis.values[i]);
-          }
-        start.hypothesis = h;
-        fit.fit = fit_from(*problem_, start);
-        sets_[rest] = std::move(fit);
-      }
+      fit_part(SetFit(sets_.at(before)), rest);
       expand(rest, options_.fits_per_screen);
     }
     choose_best();
@@ -284,6 +313,9 @@ const SetFit& Search::run(const Point& start) {
     if (criterion(*grown.front()) >= smaller && best_ == before) break;
   }
   exchange();
+  const auto before = best_;
+  prune();
+  if (best_ != before) exchange();
   return best();
 }
 

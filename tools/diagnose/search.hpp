@@ -58,6 +58,8 @@ class Search {
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void exchange();
+  void prune();
+  bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
   void choose_best();
 
   const Problem* problem_;
