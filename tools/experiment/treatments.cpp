@@ -1,9 +1,8 @@
 #include "tools/experiment/treatments.hpp"
 
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <thread>
+
+#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper {
 
@@ -126,20 +125,15 @@ std::vector<StrideOutcome> run_all(const StudySetup& setup) {
   const int per_seed = static_cast<int>(cells.size()) * setup.trials_per_cell;
   const int total = setup.seeds * per_seed;
   std::vector<StrideOutcome> outcomes(static_cast<std::size_t>(total));
-  std::atomic<int> next{0};
-  std::mutex report;
-  int done = 0;
-  const auto work = [&] {
-    for (int i = next++; i < total; i = next++) {
-      const auto& cell = cells[static_cast<std::size_t>(i % per_seed / setup.trials_per_cell)];
-      outcomes[static_cast<std::size_t>(i)] = run_one(setup, cell, static_cast<std::uint64_t>(i + 1));
-      const std::lock_guard lock(report);
-      if (setup.progress) setup.progress(++done, total);
-    }
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned t = 0; t < std::max(setup.threads, 1U); ++t) threads.emplace_back(work);
-  threads.clear();
+  parallel_for(
+      total, std::max(setup.threads, 1U),
+      [&](long i) {
+        const auto& cell = cells[static_cast<std::size_t>(i % per_seed / setup.trials_per_cell)];
+        outcomes[static_cast<std::size_t>(i)] = run_one(setup, cell, static_cast<std::uint64_t>(i + 1));
+      },
+      [&](long done, long all) {
+        if (setup.progress) setup.progress(static_cast<int>(done), static_cast<int>(all));
+      });
   return outcomes;
 }
 

@@ -32,4 +32,26 @@ inline std::string unit_of(const std::string& channel) {
   return "unit";
 }
 
+// A sensor that reads in proportion too much or too little, under the name its kind of sensor has.
+inline Effect scale_effect(std::string id, std::vector<PlantKind> plants,
+                           std::function<std::vector<std::string>(const Context&)> channels) {
+  return {.id = std::move(id),
+          .port = "sensor",
+          .statement = "{channel} reads in proportion too much or too little.",
+          .equation = "y = (1 + s) x",
+          .plants = std::move(plants),
+          .channels = std::move(channels),
+          .parameters =
+              [](const Context&, const std::string&) {
+                return std::vector<EffectParameter>{{.name = "scale",
+                                                     .typical = 0.02,
+                                                     .low = -0.5,
+                                                     .high = 1.0,
+                                                     .either_sign = true,
+                                                     .base = 1.0}};
+              },
+          .apply = [](const Context&, const std::string& channel, std::span<const double> v,
+                      Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, 1.0 + v[0]); }};
+}
+
 }  // namespace sandhopper::diagnose
