@@ -8,6 +8,7 @@
 #include "tools/diagnose/diagnosis_json.hpp"
 #include "tools/diagnose/diagnosis_text.hpp"
 #include "tools/diagnose/engine.hpp"
+#include "tools/diagnose/page/diagnosis_page.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -16,7 +17,15 @@ struct Options {
   std::string campaign;
   std::string output;
   bool search = false;
+  bool report = true;
 };
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file);
+  if (!(out << text).flush())
+    throw Failure(ExitCode::fault, file.string() + " cannot be written",
+                  "name a folder that can be written with --output");
+}
 
 ExitCode diagnose(Session& session, const Options& options) {
   const Campaign campaign = load_campaign(options.campaign);
@@ -36,14 +45,20 @@ ExitCode diagnose(Session& session, const Options& options) {
   session.result = sandhopper::diagnose::to_json(diagnosis);
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  std::ofstream answer(folder / "diagnosis.json");
-  if (!(answer << session.result.dump(2) << "\n"))
-    throw Failure(ExitCode::fault, fmt::format("{} cannot be written", (folder / "diagnosis.json").string()),
-                  "name a folder that can be written with --output");
-  if (!diagnosis.corrected_model_toml.empty())
-    std::ofstream(folder / "corrected.toml") << diagnosis.corrected_model_toml;
+  write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
-  session.say("verdict: {} ({})", diagnosis.verdict, diagnosis.detail);
+  if (!diagnosis.corrected_model_toml.empty()) {
+    write(folder / "corrected.toml", diagnosis.corrected_model_toml);
+    session.say("corrected model: {}", (folder / "corrected.toml").string());
+  }
+  session.say("answer: {}", (folder / "diagnosis.json").string());
+  if (options.report) {
+    const auto page = folder / "diagnosis.html";
+    sandhopper::diagnose::PageFacts facts{campaign.name, std::string(name_of(campaign.plant)), {}};
+    for (const auto& finding : input.findings) facts.findings.push_back(to_string(finding));
+    sandhopper::diagnose::write_diagnosis_page(diagnosis, facts, page);
+    session.say("page: {}", page.string());
+  }
   return ExitCode::ok;
 }
 
@@ -51,6 +66,7 @@ Run set_up(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml")->required();
   app.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
+  app.add_flag("--report,!--no-report", options->report, "write diagnosis.html beside it (default)");
   app.add_flag("--search", options->search, "also print what was tried");
   return [options](Session& session) { return diagnose(session, *options); };
 }

@@ -15,6 +15,7 @@ struct FoundParameter {
 
 struct FoundEffect {
   std::string id;
+  std::string port;
   std::string channel;
   std::string statement;
   std::string equation;
@@ -28,6 +29,7 @@ struct FoundEffect {
 
 struct Where {
   std::string channel;
+  std::string port;  // of what was found to act in this cell; empty where nothing found says
   std::string phase;
   double from_s = 0.0, to_s = 0.0;
   std::vector<std::string> trials;
@@ -47,10 +49,28 @@ struct ChannelFit {
   double floor = 0.0;
 };
 
+// Held-out error in one phase; the floor is that phase's own.
+struct PhaseError {
+  std::string channel;
+  std::string phase;
+  double before = 0.0, after = 0.0, floor = 0.0;
+  std::size_t samples = 0;
+};
+
+// One channel of one trial as recorded and as simulated, thinned to what a page draws.
+struct Trace {
+  std::string trial;
+  std::string setup;  // in words
+  std::string channel;
+  double floor = 0.0;
+  std::vector<double> time_s, measured, before, after;  // after: held out
+};
+
 struct Bound {  // of an effect that was looked for and not found
   std::string id;
   std::string parameter;
-  double value = 0.0;  // 95 % upper bound of its magnitude
+  double value = 0.0;     // 95 % upper bound of its magnitude
+  double typicals = 0.0;  // the same, of the size at which the effect matters
 };
 
 struct Curve {
@@ -60,9 +80,26 @@ struct Curve {
 
 struct UnknownForce {
   std::string port;
+  std::string quantity;  // that acts there, with its unit: force_N
   double p_value = 1.0;
   double share = 0.0;  // of what can be explained at all
   Curve curve;
+};
+
+// The trial worth doing next.
+struct NextTrial {
+  std::string why;
+  std::string kind;
+  std::map<std::string, double> setup;
+  std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
+  double settles = 0.0;          // chance that one such trial decides; 0: not a question of deciding
+  double expected = 0.0;         // rise of the wrong explanation's deviance
+  double of_median_trial = 0.0;  // the same for the middle one of all trials that could be done
+  // What it would record, by two explanations; empty where there is only one.
+  std::string channel;
+  std::string first, second;
+  double floor = 0.0;
+  std::vector<double> time_s, by_first, by_second;
 };
 
 struct Diagnosis {
@@ -75,9 +112,9 @@ struct Diagnosis {
   std::vector<Bound> absent;
   std::vector<UnknownForce> unknown;
   std::vector<std::string> notes;  // missing channels, trials left out, weaker tests
-  std::string next_why;
-  std::map<std::string, double> next_setup;
-  std::string next_kind;
+  std::vector<PhaseError> phase_errors;
+  std::vector<Trace> traces;
+  NextTrial next;
   std::string corrected_model_toml;
   std::size_t trials = 0;
   std::uint64_t simulations = 0;

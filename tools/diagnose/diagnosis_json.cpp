@@ -13,6 +13,7 @@ Json to_json(const Diagnosis& d) {
   json["where"] = Json::array();
   for (const auto& w : d.where)
     json["where"].push_back({{"channel", w.channel},
+                             {"port", w.port.empty() ? Json(nullptr) : Json(w.port)},
                              {"phase", w.phase},
                              {"from_s", w.from_s},
                              {"to_s", w.to_s},
@@ -49,9 +50,18 @@ Json to_json(const Diagnosis& d) {
     json["fit"] = nullptr;
   }
   Json setup = Json::object();
-  if (!d.next_kind.empty()) setup["kind"] = d.next_kind;
-  for (const auto& [key, value] : d.next_setup) setup[key] = value;
-  json["next_trial"] = {{"why", d.next_why}, {"setup", setup}};
+  if (!d.next.kind.empty()) setup["kind"] = d.next.kind;
+  for (const auto& [key, text] : d.next.words) setup[key] = text;
+  for (const auto& [key, value] : d.next.setup) setup[key] = value;
+  json["next_trial"] = {{"why", d.next.why}, {"setup", setup}};
+  if (d.next.settles > 0.0) json["next_trial"]["probability_it_settles"] = d.next.settles;
+  json["fit_by_phase"] = Json::array();
+  for (const auto& e : d.phase_errors)
+    json["fit_by_phase"].push_back(
+        {{"channel", e.channel},
+         {"phase", e.phase},
+         {"heldout", {{"before", e.before}, {"after", e.after}, {"floor", e.floor}}},
+         {"samples", e.samples}});
   json["unknown"] = Json::array();
   for (const auto& u : d.unknown)
     json["unknown"].push_back({{"port", u.port},
@@ -63,7 +73,8 @@ Json to_json(const Diagnosis& d) {
                                {"sd", u.curve.sd}});
   json["absent"] = Json::array();
   for (const auto& b : d.absent)
-    json["absent"].push_back({{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}});
+    json["absent"].push_back(
+        {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}});
   json["notes"] = d.notes;
   json["trials"] = d.trials;
   json["simulations"] = d.simulations;

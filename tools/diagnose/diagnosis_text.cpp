@@ -2,8 +2,63 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sandhopper::diagnose {
 namespace {
+
+constexpr std::size_t kMostCells = 3;
+constexpr std::size_t kMostChannels = 3;
+constexpr std::size_t kMostBounds = 4;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string effect_text(const FoundEffect& e) {
+  std::string text = fmt::format("what   {} (probability {:.2f}): {}\n       {}\n", e.id, e.probability,
+                                 e.statement, e.equation);
+  for (const auto& p : e.parameters)
+    text +=
+        fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}\n", p.name, p.value, p.low, p.high);
+  if (!e.indistinguishable_from.empty())
+    text += fmt::format("       cannot be told apart on these recordings from {}\n",
+                        joined(e.indistinguishable_from));
+  return text;
+}
+
+std::string where_text(const Where& w) {
+  std::string text = "where  ";
+  if (!w.port.empty()) text += w.port + ": ";
+  text += fmt::format("{} during {}, {:.0f} % of the excess", w.channel, w.phase, 100.0 * w.share_of_excess);
+  if (!w.coordinate.empty())
+    text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
+  return text + fmt::format(", p = {:.1g}\n", w.p_value);
+}
+
+std::string next_text(const NextTrial& next) {
+  if (next.kind.empty()) return next.why.empty() ? "" : "next   " + next.why + "\n";
+  std::string setup = next.kind;
+  for (const auto& [key, text] : next.words) setup += fmt::format(", {} {}", key, text);
+  for (const auto& [key, value] : next.setup) setup += fmt::format(", {} {:.4g}", key, value);
+  return fmt::format("next   {}\n       {}\n", setup, next.why);
+}
+
+// The few that matter: what was looked for and is left with the widest bounds.
+std::string absent_text(const std::vector<Bound>& absent) {
+  if (absent.empty()) return "";
+  std::string text = "absent ";
+  for (std::size_t i = 0; i < absent.size() && i < kMostBounds; ++i)
+    text += fmt::format("{}{}: {} < {:.2g}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
+                        absent[i].value);
+  if (absent.size() > kMostBounds)
+    text += fmt::format("; {} more bounded closer", absent.size() - kMostBounds);
+  return text + "\n";
+}
+
+}  // namespace
 
 std::string headline(const Diagnosis& d) {
   if (d.verdict == "consistent")
@@ -15,39 +70,28 @@ std::string headline(const Diagnosis& d) {
   if (d.detail == "one_of_class")
     return "Something is missing; these recordings leave more than one explanation.";
   if (d.detail == "known_and_rest") return "Something is missing; what was found does not explain all of it.";
-  return "Something is missing.";
+  std::vector<std::string> names;
+  for (const auto& e : d.effects) names.push_back(e.id);
+  return "Something is missing: " + joined(names) + ".";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+double simulations_per_second(const Diagnosis& d) {
+  return static_cast<double>(d.simulations) / std::max(d.seconds, 1e-3);
 }
-
-}  // namespace
 
 std::string to_text(const Diagnosis& d) {
-  std::string text = headline(d) + "\n";
-  for (const auto& e : d.effects) {
+  std::string text =
+      fmt::format("verdict: {}{}. {}\n", d.verdict, d.detail == "null" ? "" : ", " + d.detail, headline(d));
+  for (const auto& e : d.effects) text += effect_text(e);
+  for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
+  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i)
     text +=
-        fmt::format("  {} (probability {:.2f}): {}\n    {}\n", e.id, e.probability, e.statement, e.equation);
-    for (const auto& p : e.parameters)
-      text +=
-          fmt::format("    {} = {:.5g}, 95 % between {:.5g} and {:.5g}\n", p.name, p.value, p.low, p.high);
-    if (!e.indistinguishable_from.empty())
-      text += fmt::format("    cannot be told apart on these recordings from {}\n",
-                          joined(e.indistinguishable_from));
-  }
-  for (const auto& w : d.where)
-    text += fmt::format("  seen in {} during {}: {:.0f} % of the excess, {} {:.4g} to {:.4g}, p = {:.2g}\n",
-                        w.channel, w.phase, 100.0 * w.share_of_excess, w.coordinate, w.range_low,
-                        w.range_high, w.p_value);
-  for (const auto& f : d.fits)
-    text += fmt::format("  {}: held-out error {:.4g} before, {:.4g} after, floor {:.4g}\n", f.channel,
-                        f.heldout.before, f.heldout.after, f.floor);
-  for (const auto& note : d.notes) text += "  note: " + note + "\n";
+        fmt::format("error  {}: {:.4g} before, {:.4g} after on held-out trials, floor {:.4g}\n",
+                    d.fits[i].channel, d.fits[i].heldout.before, d.fits[i].heldout.after, d.fits[i].floor);
+  text += next_text(d.next) + absent_text(d.absent);
+  for (const auto& note : d.notes) text += "note   " + note + "\n";
   text += fmt::format("{} simulations in {:.1f} s ({:.0f} a second)", d.simulations, d.seconds,
-                      static_cast<double>(d.simulations) / (d.seconds > 0.0 ? d.seconds : 1.0));
+                      simulations_per_second(d));
   return text;
 }
 

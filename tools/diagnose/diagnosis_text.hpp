@@ -5,7 +5,12 @@
 
 namespace sandhopper::diagnose {
 
-// The answer for people: where, what, how sure, how much better, what it could have been instead.
+// The verdict as a sentence.
+std::string headline(const Diagnosis& diagnosis);
+
+double simulations_per_second(const Diagnosis& diagnosis);
+
+// The answer for people: verdict, what, where, how much better, what next, the bounds that matter.
 std::string to_text(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

@@ -20,6 +20,12 @@ std::vector<Effect> known_effects() {
   return effects;
 }
 
+std::string port_of(const Candidate& candidate) {
+  if (!candidate.channel.empty()) return candidate.channel;
+  if (candidate.effect->port != "sensor") return candidate.effect->port;
+  return candidate.effect->id.substr(0, candidate.effect->id.find('.'));
+}
+
 std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const Context& context) {
   std::vector<Candidate> found;
   for (const auto& effect : effects) {

@@ -67,6 +67,10 @@ struct Candidate {
 
   std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }
 };
+
+// Where it acts, for the reader: the effect's port, or the channel whose sensor has it.
+std::string port_of(const Candidate& candidate);
+
 std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const Context& context);
 
 }  // namespace sandhopper::diagnose

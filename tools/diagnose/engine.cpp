@@ -132,9 +132,12 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     if (rest != nullptr && share > kRestShare) report_unknown(problem, *rest, share, diagnosis);
   }
   report_data_faults(faults, diagnosis);
-  report_errors(problem, search, diagnosis);
+  const Residuals residuals =
+      residuals_of(problem, search, diagnosis.unknown.empty() ? nullptr : &rest->family);
+  report_errors(problem, residuals, diagnosis);
   report_absent(problem, search, diagnosis);
-  report_where(problem, search, diagnosis);
+  report_where(problem, search, residuals, diagnosis);
+  report_traces(problem, clean, residuals, diagnosis);
   if (!diagnosis.effects.empty())
     diagnosis.corrected_model_toml = corrected_model(recordings.belief, problem.effects, diagnosis);
   diagnosis.simulations = problem.simulations;

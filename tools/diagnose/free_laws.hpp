@@ -16,6 +16,8 @@ struct FreeFamily {
   std::vector<FreeTerm> terms;
 };
 
+inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of the port: prior sd 2
+
 // Families for every port of the plant and for every channel, over the ranges that the trials visit at
 // `point`.
 std::vector<FreeFamily> free_families(const Problem& problem, const Point& point);

@@ -14,8 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kProbe = 0.2;
-constexpr double kPriorInformation = 0.25;  // of a knot in scales of the port: sd 2
-constexpr double kSensorHandicap = 0.9;     // a law in the plant is preferred to one in a sensor
+constexpr double kSensorHandicap = 0.9;  // a law in the plant is preferred to one in a sensor
 
 // One-sided, trials as units: are the held-out gains more than chance, given their own spread?
 double p_of_gains(const std::vector<double>& gains) {
@@ -55,13 +54,13 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
   const auto grams = eliminated(linear, 1, own, prior);
   std::vector<FreeGain> gains;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const auto held_out = held_out_gain(grams, columns[f], kPriorInformation);
+    const auto held_out = held_out_gain(grams, columns[f], kFreeLawInformation);
     FreeGain gain{families[f], held_out.gain, 0.0, 1.0, {}, {}};
     for (const double g : held_out.of_trial)
       gain.trials_better += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(held_out.of_trial.size());
     gain.p_value = std::min(1.0, p_of_gains(held_out.of_trial) * static_cast<double>(families.size()));
     const auto k = static_cast<Index>(columns[f].size());
-    MatrixXd information = MatrixXd::Identity(k, k) * kPriorInformation;
+    MatrixXd information = MatrixXd::Identity(k, k) * kFreeLawInformation;
     VectorXd score = VectorXd::Zero(k);
     for (const auto& gram : grams)
       for (Index i = 0; i < k; ++i) {

@@ -58,6 +58,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     const Candidate& candidate = problem.candidates[c];
     FoundEffect found;
     found.id = candidate.effect->id;
+    found.port = port_of(candidate);
     found.channel = candidate.channel;
     found.statement = filled(candidate.effect->statement, candidate.channel);
     found.equation = candidate.effect->equation;

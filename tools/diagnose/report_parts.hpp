@@ -4,6 +4,7 @@
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/residuals.hpp"
 #include "tools/diagnose/search.hpp"
 
 // Parts of the answer, each made from the finished search.
@@ -14,8 +15,11 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
                     Diagnosis& diagnosis);
 void report_unknown(const Problem& problem, const FreeGain& gain, double share, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
-void report_errors(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
+                   Diagnosis& diagnosis);
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
-void report_where(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
+                  Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

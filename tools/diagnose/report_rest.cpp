@@ -23,9 +23,13 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   (void)problem;
   std::string port = gain.family.port;
   if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
-  UnknownForce unknown{port, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
+  const char* acts = port == "axis" || port == "joint" || port == "actuator" ? "torque_Nm" : "force_N";
+  const std::string quantity = gain.family.sensor && port != "actuator" ? port : acts;
+  UnknownForce unknown{port, quantity, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
   const auto n = gain.family.terms.size();
   for (std::size_t i = 0; i < n; ++i) {
+    // A knot that no recording visits keeps its prior: nothing is known there.
+    if (gain.sd[static_cast<Eigen::Index>(i)] > 0.8 / std::sqrt(kFreeLawInformation)) continue;
     unknown.curve.at.push_back(gain.family.low + (gain.family.high - gain.family.low) *
                                                      static_cast<double>(i) / static_cast<double>(n - 1));
     unknown.curve.value.push_back(gain.size[static_cast<Eigen::Index>(i)] * gain.family.scale);
@@ -33,6 +37,7 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   }
   FoundEffect effect;
   effect.id = "unknown@" + port;
+  effect.port = port;
   effect.statement =
       fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
   effect.equation = fmt::format("F += f({})", gain.family.variable);
@@ -47,6 +52,7 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
   for (const auto& fault : faults) {
     FoundEffect effect;
     effect.id = fault.id;
+    effect.port = fault.channel;
     effect.channel = fault.channel;
     effect.statement = fault.id == "data.stuck"
                            ? fmt::format("{} stood still {} times while the quantity went on.", fault.channel,
@@ -75,8 +81,11 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
     if (!(error < 1e6)) continue;
     const double bound =
         (std::abs(s.evidence.size()) + 2.0 * error) * p.typical * std::max(std::abs(p.scale), 1e-300);
-    diagnosis.absent.push_back({candidate.label(), p.name, p.reciprocal ? 1.0 / bound : bound});
+    diagnosis.absent.push_back({candidate.label(), p.name, p.reciprocal ? 1.0 / bound : bound,
+                                std::abs(s.evidence.size()) + 2.0 * error});
   }
+  std::sort(diagnosis.absent.begin(), diagnosis.absent.end(),
+            [](const Bound& a, const Bound& b) { return a.typicals > b.typicals; });
 }
 
 }  // namespace sandhopper::diagnose

@@ -8,15 +8,9 @@ namespace {
 
 using Eigen::Index;
 
-struct Cell {
-  std::vector<double> excess;  // per trial: sum of squared residual over the floor, less what noise gives
-  std::vector<double> from_s, to_s;
-  double total = 0.0;
-};
-
 // The axis along which the mismatch gathers: that whose bins differ most in mean square, and the range of the
 // bins that hold the upper half.
-void place_on_axis(const Problem& problem, const std::vector<TrialLinear>& linear, std::size_t channel,
+void place_on_axis(const Problem& problem, const std::vector<Eigen::VectorXd>& residual, std::size_t channel,
                    std::size_t phase, Where& where) {
   constexpr std::size_t kBins = 10;
   double best_ratio = 0.0;
@@ -28,7 +22,7 @@ void place_on_axis(const Problem& problem, const std::vector<TrialLinear>& linea
         const auto& trial = *problem.trials[t];
         for (std::size_t k = 0; k < trial.rows.size(); ++k)
           if (trial.rows[k].channel == channel && trial.rows[k].phase == phase && problem.used[t][k])
-            visit(trial.coordinates[a].values[k], linear[t].plain(static_cast<Index>(k), 0));
+            visit(trial.coordinates[a].values[k], residual[t][static_cast<Index>(k)]);
       }
     };
     each([&](double x, double) {
@@ -67,12 +61,31 @@ void place_on_axis(const Problem& problem, const std::vector<TrialLinear>& linea
   }
 }
 
+// The port of the effect that changes this cell most; an unknown force stands for what no effect does.
+std::string port_in_cell(const Problem& problem, const Search& search, const Residuals& residuals,
+                         std::size_t channel, std::size_t phase, const Diagnosis& diagnosis) {
+  if (!diagnosis.unknown.empty()) return diagnosis.unknown.front().port;
+  const auto& found = search.best().fit.point.hypothesis.candidates;
+  std::vector<double> energy(found.size(), 0.0);
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    for (std::size_t k = 0; k < problem.trials[t]->rows.size(); ++k) {
+      const Row& row = problem.trials[t]->rows[k];
+      if (row.channel != channel || row.phase != phase || !problem.used[t][k]) continue;
+      for (std::size_t e = 0; e < found.size(); ++e)
+        energy[e] += std::pow(residuals.change[t][e][static_cast<Index>(k)], 2);
+    }
+  const auto most = std::max_element(energy.begin(), energy.end());
+  if (most == energy.end() || *most <= 0.0) return "";
+  return port_of(problem.candidates[found[static_cast<std::size_t>(most - energy.begin())]]);
+}
+
 }  // namespace
 
 // The null fit's residual by channel and phase, above the floor. Trials are the units of the p-value.
-void report_where(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
+void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
+                  Diagnosis& diagnosis) {
   if (diagnosis.verdict == "consistent" || diagnosis.verdict == "insufficient_data") return;
-  const auto linear = linearise_all(problem, search.null().fit.point, {}, {.keep_plain = true});
+  const auto& residual = residuals.before;
   const std::size_t channels = problem.channels.size(), phases = problem.phases.size();
   double whole = 0.0;
   std::vector<Where> found;
@@ -90,7 +103,7 @@ void report_where(const Problem& problem, const Search& search, Diagnosis& diagn
           const auto& row = trial.rows[k];
           if (row.channel != c || row.phase != p || !problem.used[t][k]) continue;
           const double sd = problem.noise.channel(c).sd_of_phase[p];
-          sum += std::pow(linear[t].plain(static_cast<Index>(k), 0) / sd, 2) - 1.0;
+          sum += std::pow(residual[t][static_cast<Index>(k)] / sd, 2) - 1.0;
           ++count;
           earliest = std::min(earliest, row.time_s);
           latest = std::max(latest, row.time_s);
@@ -113,7 +126,8 @@ void report_where(const Problem& problem, const Search& search, Diagnosis& diagn
       where.to_s = latest;
       where.share_of_excess = total;
       whole += total;
-      place_on_axis(problem, linear, c, p, where);
+      place_on_axis(problem, residual, c, p, where);
+      where.port = port_in_cell(problem, search, residuals, c, p, diagnosis);
       found.push_back(std::move(where));
     }
   for (auto& where : found) where.share_of_excess /= std::max(whole, 1e-300);

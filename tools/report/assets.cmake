@@ -31,7 +31,7 @@ function(sandhopper_embed_report_assets target)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   endforeach()
   sandhopper_join_scripts(kScript ${page} data theme legend svg panels time_plots force_depth stiffness_chart tables main)
-  sandhopper_join_scripts(kStudyScript ${page} data theme legend svg study_figure study)
+  sandhopper_join_scripts(kStudyScript ${page} data theme legend svg study_figure math answers study)
 
   configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
                  ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)

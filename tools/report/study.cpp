@@ -55,6 +55,7 @@ Json item_json(const StudyTable& table) {
           {"text_columns", table.text_columns},
           {"note", table.note},
           {"row_marks", table.row_marks},
+          {"shades", table.shades},
           {"whole", table.whole}};
 }
 
@@ -69,6 +70,16 @@ Json item_json(const StudyFigure& figure) {
           {"marks", figure.marks}};
 }
 
+Json answer_json(const StudyAnswer& answer) {
+  constexpr std::array<const char*, 4> kStyles{"lead", "text", "equation", "quiet"};
+  Json lines = Json::array(), bars = Json::array();
+  for (const auto& [style, text] : answer.lines)
+    lines.push_back({{"style", kStyles[static_cast<std::size_t>(style)]}, {"text", text}});
+  for (const auto& bar : answer.bars)
+    bars.push_back({{"label", bar.label}, {"share", bar.share}, {"text", bar.text}, {"color", bar.color}});
+  return {{"heading", answer.heading}, {"lines", lines}, {"bars", bars}, {"columns", answer.columns}};
+}
+
 std::string data_json(const Study& study) {
   Json sections = Json::array();
   for (const auto& section : study.sections) {
@@ -77,8 +88,12 @@ std::string data_json(const Study& study) {
       items.push_back(std::visit([](const auto& one) { return item_json(one); }, item));
     sections.push_back({{"title", section.title}, {"items", items}, {"folded", section.folded}});
   }
-  const Json json{
-      {"title", study.title}, {"facts", study.facts}, {"warnings", study.warnings}, {"sections", sections}};
+  Json answers = Json::array();
+  for (const auto& answer : study.answers) answers.push_back(answer_json(answer));
+  const Json json{{"title", study.title},     {"facts", study.facts},
+                  {"verdict", study.verdict}, {"verdict_mark", study.verdict_mark},
+                  {"answers", answers},       {"warnings", study.warnings},
+                  {"sections", sections}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

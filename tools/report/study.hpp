@@ -49,7 +49,9 @@ struct StudyTable {
   std::size_t text_columns = 1;  // the first so many are text, left-aligned; the rest numbers
   std::string note{};
   std::vector<std::string> row_marks{};  // "good", "partly" or "bad" for each row: its coloured edge
-  bool whole = false;                    // as long as it is, without a scroll bar of its own
+  // Shade of a cell's left and right half, 0 to 1, per row and column; empty: none.
+  std::vector<std::vector<std::pair<double, double>>> shades{};
+  bool whole = false;  // as long as it is, without a scroll bar of its own
 };
 
 struct StudySection {
@@ -59,8 +61,26 @@ struct StudySection {
   bool folded = false;
 };
 
+// A box of the first screen: a question as heading and its answer.
+struct StudyAnswer {
+  enum class Style { lead, text, equation, quiet };
+  struct Bar {
+    std::string label{};
+    double share = 0.0;  // of the box's width
+    std::string text{};
+    std::string color = "blue";
+  };
+  std::string heading{};
+  std::vector<std::pair<Style, std::string>> lines{};
+  std::vector<Bar> bars{};  // after the first line
+  int columns = 2;          // of the six that the page has
+};
+
 struct Study {
   std::string title;
+  std::string verdict{};       // one sentence above the answers
+  std::string verdict_mark{};  // good, partly or bad
+  std::vector<StudyAnswer> answers{};
   std::vector<std::pair<std::string, std::string>> facts{};  // label, text
   std::vector<std::string> warnings{};                       // what the reader must know first
   std::vector<StudySection> sections{};

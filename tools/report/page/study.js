@@ -5,6 +5,7 @@ theme.start(document.getElementById('theme'));
 for (const [label, text] of study.facts) {
   document.getElementById('facts').append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
 }
+showAnswers(study);
 for (const text of study.warnings) document.getElementById('notes').append(element('p', {}, text));
 
 study.sections.forEach((section, i) => {
@@ -38,15 +39,23 @@ function fillSection(section, body) {
   });
 }
 
+function shadeOf(share) {
+  return `color-mix(in srgb, var(--orange) ${Math.round(70 * share)}%, transparent)`;
+}
+
 function tableOf(table) {
-  const cell = (tag, text, i) => element(tag, { className: i < table.text_columns ? 'text' : '' }, text);
+  const cell = (tag, text, i, shade) => {
+    const made = element(tag, { className: i < table.text_columns ? 'text' : '' }, ...(tag === 'td' && table.columns[i] === 'equation' ? mathOf(text) : [text]));
+    if (shade) made.style.background = `linear-gradient(90deg, ${shadeOf(shade[0])} 50%, ${shadeOf(shade[1])} 50%)`;
+    return made;
+  };
   const head = element('thead', {}, element('tr', {}, ...table.columns.map((name, i) => {
     const [title, unit] = name.split(/, (?=[^,]*$)/);
     const made = cell('th', title, i);
     if (unit) made.append(element('small', {}, unit));
     return made;
   })));
-  const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j))));
+  const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j, table.shades[i]?.[j]))));
   return element('div', { className: 'table' },
     ...(table.title ? [element('h3', {}, table.title)] : []),
     element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),

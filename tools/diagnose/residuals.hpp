@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/search.hpp"
+
+namespace sandhopper::diagnose {
+
+// Recorded minus simulated for every row of every trial, the trial's own nuisances fitted.
+struct Residuals {
+  std::vector<Eigen::VectorXd> before;    // as believed
+  std::vector<Eigen::VectorXd> after;     // with what was found
+  std::vector<Eigen::VectorXd> held_out;  // the same, its sizes from the other trials
+  std::vector<std::vector<Eigen::VectorXd>>
+      change;  // [trial][effect of the best set]: what it does to the rows
+};
+
+// `rest`: a free law that belongs to the answer; null where none does. Its sizes are linear.
+Residuals residuals_of(const Problem& problem, const Search& search, const FreeFamily* rest);
+
+}  // namespace sandhopper::diagnose
