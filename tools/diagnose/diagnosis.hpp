@@ -92,9 +92,9 @@ struct NextTrial {
   std::string kind;
   std::map<std::string, double> setup;
   std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
-  double settles = 0.0;          // chance that one such trial decides; 0: not a question of deciding
-  double expected = 0.0;         // rise of the wrong explanation's deviance
-  double of_median_trial = 0.0;  // the same for the middle one of all trials that could be done
+  // Chance that one such trial tells all rivals from what was found, and at least one; 0: not a question of
+  // telling.
+  double settles = 0.0, splits = 0.0;
   // What it would record, by two explanations; empty where there is only one.
   std::string channel;
   std::string first, second;

@@ -54,7 +54,10 @@ Json to_json(const Diagnosis& d) {
   for (const auto& [key, text] : d.next.words) setup[key] = text;
   for (const auto& [key, value] : d.next.setup) setup[key] = value;
   json["next_trial"] = {{"why", d.next.why}, {"setup", setup}};
-  if (d.next.settles > 0.0) json["next_trial"]["probability_it_settles"] = d.next.settles;
+  if (d.next.splits > 0.0) {
+    json["next_trial"]["probability_it_settles"] = d.next.settles;
+    json["next_trial"]["probability_it_splits"] = d.next.splits;
+  }
   json["fit_by_phase"] = Json::array();
   for (const auto& e : d.phase_errors)
     json["fit_by_phase"].push_back(

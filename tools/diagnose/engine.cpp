@@ -9,6 +9,7 @@
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/next_trial.hpp"
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/report_parts.hpp"
@@ -138,6 +139,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_absent(problem, search, diagnosis);
   report_where(problem, search, residuals, diagnosis);
   report_traces(problem, clean, residuals, diagnosis);
+  propose_next_trial(problem, clean, search, belief, rest, diagnosis);
   if (!diagnosis.effects.empty())
     diagnosis.corrected_model_toml = corrected_model(recordings.belief, problem.effects, diagnosis);
   diagnosis.simulations = problem.simulations;

@@ -60,6 +60,15 @@ struct FreePort {
   double scale = 1.0;  // of the force, torque or reading
 };
 
+// A trial that could be done next, as it would be recorded, without noise, if the edits it was planned with
+// are true.
+struct DoableTrial {
+  Trial trial;
+  Belief belief;                             // the campaign's with this set-up's own values
+  std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
+  double cost = 0.0;  // trouble, in doublings of information: one that takes 1 must tell twice as much
+};
+
 // A plant is one file in plants/ that makes one of these.
 class PlantModel {
  public:
@@ -72,6 +81,12 @@ class PlantModel {
   // Scales and whatever else the effects ask for.
   virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
   virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
+  // Trials like the recorded ones and around them; none where planning is not known.
+  virtual std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                          const Edits& edits) const {
+    (void)recorded, (void)belief, (void)edits;
+    return {};
+  }
 };
 
 std::unique_ptr<PlantModel> make_plant(PlantKind kind);

@@ -21,6 +21,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
   const double explained =
       std::max(0.0, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
   const double temperature = 1.0 + remainder / kRemainderScale + kShareOfExplained * explained / kSameClass;
+  out.apart = kSameClass * temperature;
   double total = 0.0;
   std::map<std::vector<std::size_t>, double> weight;
   for (const auto& [set, fit] : search.sets()) {
@@ -44,7 +45,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
       if (std::find(set.begin(), set.end(), candidate) != set.end()) continue;
       if (!std::includes(set.begin(), set.end(), rest.begin(), rest.end())) continue;
       const double difference = (fit.fit.deviance - best.fit.deviance) / search.dispersion();
-      if (difference > kSameClass * temperature) continue;
+      if (difference > out.apart) continue;
       for (const auto other : set)
         if (std::find(rest.begin(), rest.end(), other) == rest.end()) rivals.emplace_back(difference, other);
     }

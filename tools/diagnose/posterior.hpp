@@ -10,6 +10,7 @@ namespace sandhopper::diagnose {
 // where the best set itself leaves something unexplained: `remainder` is what free laws would still explain
 // on held-out trials.
 struct Posterior {
+  double apart = 9.0;  // a rival whose deviance is this much larger, over the dispersion, is no alternative
   std::map<std::size_t, double> probability;                     // of each effect of the best set
   std::map<std::size_t, std::vector<std::size_t>> alternatives;  // that explain as much in its place
 };

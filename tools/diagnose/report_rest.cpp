@@ -76,6 +76,12 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   for (const auto& s : search.screened(search.best().set)) {
     const auto& candidate = problem.candidates[s.candidate];
+    // What may stand in place of something found is not absent.
+    bool alternative = false;
+    for (const auto& found : diagnosis.effects)
+      for (const auto& id : found.indistinguishable_from)
+        alternative = alternative || id == candidate.effect->id;
+    if (alternative) continue;
     const auto& p = candidate.parameters[0];
     const double error = s.evidence.standard_error();
     if (!(error < 1e6)) continue;

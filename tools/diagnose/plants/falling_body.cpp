@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
@@ -46,6 +47,7 @@ class FallingTrial final : public TrialModel {
  public:
   FallingTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
     name = trial.name;
+    payload_kg_ = trial.setup_or("payload_kg", 0.0);
     const auto heights = without_repeats(samples_of(trial, "height_m"));
     const auto accels = without_repeats(samples_of(trial, "accel_mps2"));
     bed_ = belief.value("bed.stiffness_N_per_m") > 0.0;
@@ -128,7 +130,11 @@ class FallingTrial final : public TrialModel {
       for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
     }
     start_height_m_ = told ? trial.setup_or("release_height_m", 0.0) : seen;
-    start_speed_mps_ = trial.setup_or("release_speed_mps", -trial.setup_or("impact_speed_mps", 0.0));
+    // Downward, as one writes it down for a drop, unless the heights rise.
+    const double told_mps =
+        std::abs(trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0)));
+    const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
+    start_speed_mps_ = rises ? told_mps : -told_mps;
     const double noise = std::max(fluctuation_rms(heights), belief_.value("sensors.height_noise_m"));
     double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
     // What is written down refers to another zero, or nothing is written down: the recording decides.
@@ -193,6 +199,7 @@ class FallingTrial final : public TrialModel {
 
   Motion simulate(const Edits& edits, std::span<const double> nuisances) const {
     Figures f(belief_, edits);
+    f.mass_kg += payload_kg_;
     if (bed_nuisance_ >= 0) {
       f.bed_stiffness_N_per_m *= 1.0 + nuisances[static_cast<std::size_t>(bed_nuisance_)];
       f.surface_height_m += nuisances[static_cast<std::size_t>(bed_nuisance_) + 1];
@@ -251,6 +258,7 @@ class FallingTrial final : public TrialModel {
   }
 
   Belief belief_;
+  double payload_kg_ = 0.0;  // as the experimenter weighed it
   bool bed_ = false;
   bool held_ = false;
   double release_s_ = 0.0;
@@ -288,6 +296,11 @@ class FallingBody final : public PlantModel {
     context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
     context.scales["speed_mps"] = std::max(speed, 0.1);
     context.scales["duration_s"] = longest_s;
+  }
+
+  std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                  const Edits& edits) const override {
+    return doable_drops(*this, recorded, belief, edits);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
@@ -185,6 +186,11 @@ class Intruder final : public PlantModel {
     context.scales["accel_mps2"] = std::max(hardest, 0.1);
     context.scales["force_N"] = std::max(strongest, 0.1);
     context.scales["duration_s"] = duration;
+  }
+
+  std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                  const Edits& /*edits*/) const override {
+    return doable_intrusions(recorded, belief);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
@@ -249,6 +250,11 @@ class RotaryAxis final : public PlantModel {
     context.scales["speed_radps"] = std::max(speed, 0.1);
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;
+  }
+
+  std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                  const Edits& edits) const override {
+    return doable_motions(recorded, belief, edits);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/plants/doable.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kHighest_m = 30.0;
+constexpr double kLongest_s = 10.0;
+
+struct Drop {
+  double height_m, speed_mps, payload_kg;
+};
+
+// A first guess falls freely; the simulation then says how it falls and when it is over.
+Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief, const Edits& edits,
+              const Drop& drop) {
+  const double g = belief.value("gravity_mps2", 9.81);
+  const double duration_s = std::min(kLongest_s, 4.0 * std::sqrt(2.0 * drop.height_m / g));
+  Trial trial = recorded_like(sample, duration_s, [&](const std::string& channel, double t) {
+    return channel == "height_m" ? drop.height_m - drop.speed_mps * t - 0.5 * g * t * t : 0.0;
+  });
+  trial.setup = {{"release_height_m", drop.height_m}, {"release_speed_mps", drop.speed_mps}};
+  if (drop.payload_kg > 0.0) trial.setup["payload_kg"] = drop.payload_kg;
+  std::string why;
+  // A height is always simulated, for it says when the fall ends.
+  Trial with_height = trial;
+  auto& heights = with_height.channels["height_m"];
+  for (std::size_t i = 0; i < trial.time_s.size(); ++i) {
+    const double t = trial.time_s[i];
+    if (heights.size() <= i) heights.push_back(0.0);
+    heights[i] = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
+  }
+  const auto model = plant.trial(with_height, belief, why);
+  if (!model) return {};
+  std::vector<double> predicted(model->rows.size());
+  model->predict(edits, std::vector<double>(model->nuisance_count(), 0.0), predicted);
+  const double ground_m = belief.value("bed.surface_height_m");
+  const bool bed = belief.value("bed.stiffness_N_per_m") > 0.0;
+  double end_s = duration_s;
+  const auto channels = plant.channels();
+  for (std::size_t k = 1; k < model->rows.size(); ++k)
+    if (channels[model->rows[k].channel] == "height_m" &&
+        model->rows[k - 1].channel == model->rows[k].channel &&
+        (predicted[k] < ground_m || predicted[k] > predicted[k - 1] + 1e-6)) {
+      end_s = model->rows[k].time_s + (bed ? 0.1 : 0.0);
+      break;
+    }
+  const auto rows = static_cast<std::size_t>(
+      std::upper_bound(trial.time_s.begin(), trial.time_s.end(), end_s) - trial.time_s.begin());
+  trial.time_s.resize(rows);
+  for (auto& [name, values] : trial.channels) values.resize(rows);
+  for (std::size_t k = 0; k < model->rows.size(); ++k) {
+    const auto& row = model->rows[k];
+    const auto found = trial.channels.find(channels[row.channel]);
+    const auto at = std::lower_bound(trial.time_s.begin(), trial.time_s.end(), row.time_s - 1e-9);
+    if (found == trial.channels.end() || at == trial.time_s.end()) continue;
+    double& cell = found->second[static_cast<std::size_t>(at - trial.time_s.begin())];
+    if (std::isfinite(cell)) cell = predicted[k];
+  }
+  return trial;
+}
+
+}  // namespace
+
+std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector<Trial>& recorded,
+                                      const Belief& belief, const Edits& edits) {
+  std::vector<DoableTrial> trials;
+  if (recorded.empty()) return trials;
+  const auto heights = extent_of(recorded, "release_height_m", 2.0);
+  const double mass_kg = belief.value("body.mass_kg", 1.0);
+  for (const double height_m :
+       {0.5 * heights.low, heights.low, std::sqrt(heights.low * heights.high), heights.high,
+        2.0 * heights.high, 4.0 * heights.high, 8.0 * heights.high, 16.0 * heights.high})
+    for (const double speed_mps : {0.0, 3.0, 8.0})
+      for (const double payload : {0.0, 0.5, 1.0}) {
+        if (height_m > std::max(kHighest_m, heights.high)) continue;
+        DoableTrial one;
+        one.belief = belief;
+        one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload * mass_kg});
+        one.trial.kind = "drop";
+        one.cost = std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) +
+                   (payload > 0.0 ? 0.5 : 0.0);
+        if (one.trial.time_s.size() >= 10) trials.push_back(std::move(one));
+      }
+  return trials;
+}
+
+}  // namespace sandhopper::diagnose
