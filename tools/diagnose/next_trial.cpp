@@ -16,9 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNarrow = 0.5;       // a bound below this share of the typical size needs no closer one
-constexpr double kWorthATrial = 0.2;  // doublings of the information
-constexpr double kEnough = 10.0;      // times what tells two explanations apart: more brings nothing
+constexpr double kNarrow = 0.5;          // a bound below this share of the typical size needs no closer one
+constexpr double kWorthATrial = 0.2;     // doublings of the information
+constexpr double kPriceOfTrouble = 0.1;  // doublings for one unit of cost
+constexpr double kEnough = 10.0;         // times what tells two explanations apart: more brings nothing
 constexpr std::size_t kMostPoints = 400;
 
 // One trial's worth in doublings, before its cost; the best wins, earlier ones in a tie.
@@ -34,8 +35,8 @@ Choice best_of(const PlannedTrials& planned, const Worth& worth) {
   in_parallel(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
   double most = -1e300;
   for (std::size_t i = 0; i < planned.size(); ++i)
-    if (choice.all[i] - planned[i].cost > most) {
-      most = choice.all[i] - planned[i].cost;
+    if (const double net = choice.all[i] - kPriceOfTrouble * planned[i].cost; net > most) {
+      most = net;
       choice.trial = i;
       choice.worth = choice.all[i];
     }
@@ -56,7 +57,7 @@ void take(const DoableTrial& trial, NextTrial& next) {
 }
 
 // The trace on which two predictions differ most against the floor.
-void show(const Problem& problem, const TrialModel& model, const Predictions& at, NextTrial& next) {
+void show(const Problem& problem, const TrialModel& model, const Contest::Predictions& at, NextTrial& next) {
   std::vector<double> energy(problem.channels.size(), 0.0);
   double most = 0.0;
   std::size_t where = 0;
@@ -92,40 +93,60 @@ void show(const Problem& problem, const TrialModel& model, const Predictions& at
                          next.second, at.second[where] - at.first[where], next.floor);
 }
 
+// A pair of explanations in one contest.
+struct Pair {
+  std::size_t group, i, j;
+};
+std::vector<Pair> pairs_of(const std::vector<Rivals>& groups) {
+  std::vector<Pair> pairs;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t i = 0; i < groups[g].size(); ++i)
+      for (std::size_t j = i + 1; j < groups[g].size(); ++j) pairs.push_back({g, i, j});
+  return pairs;
+}
+
 void split(const Problem& problem, const PlannedTrials& planned, const Search& search,
-           const Posterior& belief, const std::vector<Rivalry>& rivals, NextTrial& next) {
-  const auto contests = [&](std::size_t i) {
+           const Posterior& belief, const std::vector<Rivals>& groups, NextTrial& next) {
+  const auto pairs = pairs_of(groups);
+  const auto contests = [&](std::size_t trial) {
     std::vector<Contest> all;
-    for (const auto& rivalry : rivals)
-      all.push_back(contest(problem, planned, i, rivalry, search.dispersion(), belief.apart));
+    for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, search.dispersion());
     return all;
   };
   const double enough = kEnough * belief.apart;
-  const auto choice = best_of(planned, [&](std::size_t i) {
+  const auto choice = best_of(planned, [&](std::size_t trial) {
+    const auto all = contests(trial);
     double sum = 0.0;
-    for (const auto& one : contests(i)) sum += std::log2(1.0 + std::min(one.lambda, enough));
-    return sum / static_cast<double>(rivals.size());
+    for (const auto& p : pairs) sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j), enough));
+    return sum / static_cast<double>(pairs.size());
   });
   const auto all = contests(choice.trial);
   take(planned[choice.trial], next);
-  std::size_t shown = 0;
   std::string chances;
+  Pair shown = pairs.front();
+  double most = -1.0;
   next.settles = 1.0;
-  for (std::size_t r = 0; r < rivals.size(); ++r) {
-    if (all[r].lambda > all[shown].lambda) shown = r;
-    next.settles = std::min(next.settles, all[r].settles);
-    next.splits = std::max(next.splits, all[r].settles);
-    chances += fmt::format("{}{} from {} {:.2f}", r == 0 ? "" : ", ", rivals[r].first_name,
-                           rivals[r].second_name, all[r].settles);
+  for (const auto& p : pairs) {
+    const double chance = all[p.group].settles(p.i, p.j, belief.apart);
+    const double lambda = all[p.group].lambda(p.i, p.j);
+    next.settles = std::min(next.settles, chance);
+    next.splits = std::max(next.splits, chance);
+    // Shown is what was found against the rival it is told from best.
+    if (p.i == 0 && lambda > most) {
+      most = lambda;
+      shown = p;
+    }
+    if (p.i == 0)
+      chances += fmt::format("{}{} {:.2f}", chances.empty() ? "" : ", ", groups[p.group].names[p.j], chance);
   }
-  next.first = rivals[shown].first_name;
-  next.second = rivals[shown].second_name;
-  show(problem, planned.model(choice.trial), predictions(problem, planned, choice.trial, rivals[shown]),
+  next.first = groups[shown.group].names[shown.i];
+  next.second = groups[shown.group].names[shown.j];
+  show(problem, planned.model(choice.trial), all[shown.group].predictions(problem, planned, shown.i, shown.j),
        next);
-  next.why += " Chance that one such trial tells " + chances + ".";
+  next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
   if (next.splits < 0.5)
-    next.why += fmt::format(" About {:.0f} of them would.",
-                            std::ceil(1.5 * belief.apart / std::max(all[shown].lambda, 1e-3)));
+    next.why +=
+        fmt::format(" About {:.0f} of them would.", std::ceil(1.5 * belief.apart / std::max(most, 1e-3)));
 }
 
 // Doublings of the information on some parameters of a point; `information` so far.
@@ -274,7 +295,7 @@ void propose_next_trial(Problem& problem, const Recordings& recordings, Search& 
     next.why = "Trials of this plant cannot be planned.";
     return;
   }
-  const auto rivals = rivalries(problem, search, belief);
+  const auto rivals = rivals_of(problem, search, belief);
   if (!diagnosis.unknown.empty() && rest != nullptr)
     map_further(problem, planned, search, *rest, next);
   else if (search.best().set.empty())

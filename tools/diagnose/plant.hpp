@@ -66,7 +66,7 @@ struct DoableTrial {
   Trial trial;
   Belief belief;                             // the campaign's with this set-up's own values
   std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
-  double cost = 0.0;  // trouble, in doublings of information: one that takes 1 must tell twice as much
+  double cost = 0.0;  // trouble: 1 for something unusual, or twice what was done so far
 };
 
 // A plant is one file in plants/ that makes one of these.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/page/quantity.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {
@@ -40,7 +41,8 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   effect.port = port;
   effect.statement =
       fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
-  effect.equation = fmt::format("F += f({})", gain.family.variable);
+  effect.equation =
+      fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
   effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
   effect.heldout_gain = share;
   effect.p_value = gain.p_value;

@@ -14,114 +14,117 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kDraws = 200;
-constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostRivals = 5;
 
-// Columns of one linearisation at the first explanation: difference of the two, derivatives of the first, of
-// the second.
-struct Layout {
-  std::vector<Direction> directions;
-  Index first = 0, second = 0;  // count of derivatives
-};
-
-Layout layout_of(const Problem& problem, const Rivalry& rivalry) {
-  const Point &a = rivalry.first->fit.point, &b = rivalry.second->fit.point;
-  Layout layout;
-  layout.directions.push_back({edits_for(problem, b.hypothesis, b.tolerances), 1.0});
-  for (auto& d : parameter_directions(problem, a)) layout.directions.push_back(std::move(d));
-  layout.first = static_cast<Index>(layout.directions.size()) - 1;
-  for (auto& d : parameter_directions(problem, b)) layout.directions.push_back(std::move(d));
-  layout.second = static_cast<Index>(layout.directions.size()) - 1 - layout.first;
-  return layout;
+Edits edits_of(const Problem& problem, const SetFit& fit) {
+  return edits_for(problem, fit.fit.point.hypothesis, fit.fit.point.tolerances);
 }
 
-// The derivatives of the second are differences to the first so far: column - difference / step makes them
-// its own.
-MatrixXd transform_of(const Layout& layout) {
-  const Index n = 1 + static_cast<Index>(layout.directions.size());
-  MatrixXd transform = MatrixXd::Identity(n, n);
-  for (Index j = 2 + layout.first; j < n; ++j)
-    transform(1, j) = -1.0 / layout.directions[static_cast<std::size_t>(j - 1)].step;
-  return transform;
-}
-
+// Of a difference of deviances whose mean is lambda and whose variance is four times that.
 double chance_above(double lambda, double limit) {
   return lambda <= 0.0 ? 0.0 : 0.5 * std::erfc((limit - lambda) / (2.0 * std::sqrt(2.0 * lambda)));
 }
 
 }  // namespace
 
-std::vector<Rivalry> rivalries(const Problem& problem, const Search& search, const Posterior& belief) {
-  std::vector<Rivalry> out;
+std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, const Posterior& belief) {
+  std::vector<Rivals> out;
   const SetFit& best = search.best();
   for (const auto candidate : best.set) {
     const auto found = belief.alternatives.find(candidate);
     if (found == belief.alternatives.end()) continue;
-    std::size_t taken = 0;
+    Rivals rivals{{&best}, {problem.candidates[candidate].label()}};
     for (const auto other : found->second) {
       auto set = best.set;
       std::replace(set.begin(), set.end(), candidate, other);
       std::sort(set.begin(), set.end());
       const auto it = search.sets().find(set);
-      if (it == search.sets().end() || taken == kMostRivals) continue;
-      ++taken;
-      out.push_back(
-          {&best, &it->second, problem.candidates[candidate].label(), problem.candidates[other].label()});
+      if (it == search.sets().end() || rivals.size() == kMostRivals) continue;
+      rivals.fits.push_back(&it->second);
+      rivals.names.push_back(problem.candidates[other].label());
     }
+    if (rivals.size() > 1) out.push_back(std::move(rivals));
   }
   return out;
 }
 
-Contest contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
-                const Rivalry& rivalry, double dispersion, double apart) {
-  const Layout layout = layout_of(problem, rivalry);
-  const Point& a = rivalry.first->fit.point;
-  const auto linear =
-      planned.linearised(trial, edits_for(problem, a.hypothesis, a.tolerances), layout.directions);
-  const MatrixXd transform = transform_of(layout);
-  const MatrixXd gram = transform.transpose() * linear.gram * transform;
-  // What is left of some columns when an explanation follows them.
-  const auto left = [&](Index from, Index count, const MatrixXd& information) {
-    const MatrixXd own = information + gram.block(from, from, count, count);
-    return MatrixXd(gram - gram.middleCols(from, count) * own.ldlt().solve(gram.middleRows(from, count)));
-  };
-  const MatrixXd by_second = left(2 + layout.first, layout.second, rivalry.second->fit.information);
-  const MatrixXd by_first = left(2, layout.first, rivalry.first->fit.information);
-  Contest out;
-  out.lambda = std::max(0.0, std::min(by_second(1, 1), by_first(1, 1))) / dispersion;
-  // The first's parameters as uncertain as they are: what other differences would then be seen?
-  const Eigen::LLT<MatrixXd> information(rivalry.first->fit.information);
-  Random random(1, trial);
+Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
+                 const Rivals& rivals, double dispersion)
+    : fits_(rivals.fits), trial_(trial), dispersion_(dispersion) {
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    Columns columns;
+    if (i > 0) {
+      directions_.push_back({edits_of(problem, *fits_[i]), 1.0});
+      columns.difference = static_cast<Index>(directions_.size());
+    }
+    columns.from = static_cast<Index>(directions_.size()) + 1;
+    for (auto& d : parameter_directions(problem, fits_[i]->fit.point)) directions_.push_back(std::move(d));
+    columns.count = static_cast<Index>(directions_.size()) + 1 - columns.from;
+    columns_.push_back(columns);
+  }
+  const auto linear = planned.linearised(trial, edits_of(problem, *fits_[0]), directions_);
+  // A derivative of a later rival is a difference to the first so far: less its own difference over the step.
+  transform_ = MatrixXd::Identity(linear.gram.rows(), linear.gram.cols());
+  for (const auto& c : columns_)
+    for (Index k = c.from; k < c.from + c.count && c.difference > 0; ++k)
+      transform_(c.difference, k) = -1.0 / directions_[static_cast<std::size_t>(k - 1)].step;
+  gram_ = transform_.transpose() * linear.gram * transform_;
+}
+
+VectorXd Contest::between(std::size_t i, std::size_t j) const {
+  VectorXd v = VectorXd::Zero(gram_.cols());
+  if (columns_[j].difference > 0) v[columns_[j].difference] += 1.0;
+  if (columns_[i].difference > 0) v[columns_[i].difference] -= 1.0;
+  return v;
+}
+
+// What is left of all columns when j's parameters follow them as far as they may.
+MatrixXd Contest::left(std::size_t j) const {
+  const auto& c = columns_[j];
+  if (c.count == 0) return gram_;
+  const MatrixXd own = fits_[j]->fit.information + gram_.block(c.from, c.from, c.count, c.count);
+  return gram_ - gram_.middleCols(c.from, c.count) * own.ldlt().solve(gram_.middleRows(c.from, c.count));
+}
+
+double Contest::lambda(std::size_t i, std::size_t j) const {
+  const VectorXd v = between(i, j);
+  return std::max(0.0, std::min(v.dot(left(j) * v), v.dot(left(i) * v))) / dispersion_;
+}
+
+double Contest::settles(std::size_t i, std::size_t j, double apart) const {
+  const VectorXd v = between(i, j);
+  const MatrixXd seen = left(j);
+  const double most = lambda(i, j);
+  const auto& c = columns_[i];
+  const Eigen::LLT<MatrixXd> information(fits_[i]->fit.information);
+  Random random(1, trial_);
+  double sum = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    VectorXd normal(layout.first);
+    VectorXd u = v, normal(c.count);
     for (double& value : normal) value = random.normal();
-    VectorXd v = VectorXd::Zero(gram.cols());
-    v[1] = 1.0;
-    if (layout.first > 0) v.segment(2, layout.first) = -information.matrixU().solve(normal);
-    const double lambda = v.dot(by_second * v) / dispersion;
-    out.settles += chance_above(std::min(lambda, out.lambda), apart) / kDraws;
+    if (c.count > 0) u.segment(c.from, c.count) -= information.matrixU().solve(normal);
+    sum += chance_above(std::min(most, u.dot(seen * u) / dispersion_), apart);
   }
-  return out;
+  return sum / kDraws;
 }
 
-Predictions predictions(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
-                        const Rivalry& rivalry) {
-  const Layout layout = layout_of(problem, rivalry);
-  const Point& a = rivalry.first->fit.point;
-  const auto linear =
-      planned.linearised(trial, edits_for(problem, a.hypothesis, a.tolerances), layout.directions, true);
-  const MatrixXd transform = transform_of(layout);
-  const MatrixXd gram = transform.transpose() * linear.gram * transform;
-  const MatrixXd plain = linear.plain * transform;
-  const Index from = 2 + layout.first, count = layout.second;
-  VectorXd difference = plain.col(1);
-  if (count > 0) {
-    const MatrixXd own = rivalry.second->fit.information + gram.block(from, from, count, count);
-    difference -= plain.middleCols(from, count) * own.ldlt().solve(gram.block(from, 1, count, 1)).col(0);
+Contest::Predictions Contest::predictions(const Problem& problem, const PlannedTrials& planned, std::size_t i,
+                                          std::size_t j) const {
+  const auto linear = planned.linearised(trial_, edits_of(problem, *fits_[0]), directions_, true);
+  const MatrixXd plain = linear.plain * transform_;
+  const auto& c = columns_[j];
+  VectorXd first = -linear.residual;
+  if (columns_[i].difference > 0) first += plain.col(columns_[i].difference);
+  VectorXd difference = plain * between(i, j);
+  if (c.count > 0) {
+    const MatrixXd own = fits_[j]->fit.information + gram_.block(c.from, c.from, c.count, c.count);
+    difference -= plain.middleCols(c.from, c.count) *
+                  own.ldlt().solve(gram_.middleRows(c.from, c.count) * between(i, j));
   }
   Predictions out;
   for (Index k = 0; k < difference.size(); ++k) {
-    out.first.push_back(-linear.residual[k]);
-    out.second.push_back(-linear.residual[k] + difference[k]);
+    out.first.push_back(first[k]);
+    out.second.push_back(first[k] + difference[k]);
   }
   return out;
 }

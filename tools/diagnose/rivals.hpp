@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -8,29 +9,49 @@
 
 namespace sandhopper::diagnose {
 
-// Two explanations of the recordings, each with what is known of its parameters.
-struct Rivalry {
-  const SetFit* first = nullptr;
-  const SetFit* second = nullptr;
-  std::string first_name, second_name;  // of the effects in which they differ
-};
+// Explanations that the recordings leave in one effect's place: the best set first, then each set that has
+// the effect exchanged for another that explains as much.
+struct Rivals {
+  std::vector<const SetFit*> fits;
+  std::vector<std::string> names;  // of the effects in which they differ
 
-// The best set against each set that has one effect exchanged for another that explains as much.
-std::vector<Rivalry> rivalries(const Problem& problem, const Search& search, const Posterior& belief);
-
-// What a planned trial would say of two explanations.
-struct Contest {
-  double lambda = 0.0;   // the smaller one of both ways round, over the dispersion
-  double settles = 0.0;  // chance that the difference exceeds `apart`
+  std::size_t size() const { return fits.size(); }
 };
-Contest contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
-                const Rivalry& rivalry, double dispersion, double apart);
+std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, const Posterior& belief);
 
-// Predictions for the rows of a planned trial: by the first, and by the second refitted to look like it.
-struct Predictions {
-  std::vector<double> first, second;
+// What a planned trial would say of rivals: one linearisation at the first of them that holds every other's
+// difference to it and everybody's derivatives, the trial's nuisances integrated out.
+class Contest {
+ public:
+  Contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial, const Rivals& rivals,
+          double dispersion);
+
+  // Rise of the deviance of the wrong one of two, the smaller of both ways round, over the dispersion.
+  double lambda(std::size_t i, std::size_t j) const;
+  // Chance that their deviances differ by more than `apart`, the parameters of i as uncertain as they are.
+  double settles(std::size_t i, std::size_t j, double apart) const;
+
+  // Predictions for the trial's rows: by i, and by j refitted to look like it.
+  struct Predictions {
+    std::vector<double> first, second;
+  };
+  Predictions predictions(const Problem& problem, const PlannedTrials& planned, std::size_t i,
+                          std::size_t j) const;
+
+ private:
+  struct Columns {
+    Eigen::Index difference = 0;  // to the first; 0 for the first itself
+    Eigen::Index from = 0, count = 0;
+  };
+  Eigen::VectorXd between(std::size_t i, std::size_t j) const;
+  Eigen::MatrixXd left(std::size_t j) const;
+
+  std::vector<const SetFit*> fits_;
+  std::vector<Direction> directions_;
+  std::vector<Columns> columns_;
+  Eigen::MatrixXd transform_, gram_;
+  std::size_t trial_;
+  double dispersion_;
 };
-Predictions predictions(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
-                        const Rivalry& rivalry);
 
 }  // namespace sandhopper::diagnose

@@ -51,8 +51,9 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
                           trial.stream("release height").normal(0.0, w.release_height_spread_m);
   const double speed_mps = -setup.number("release_speed_mps", 0.0) +
                            trial.stream("release speed").normal(0.0, w.release_speed_spread_mps);
-  World mine = w;  // a payload the experimenter wrote down is part of the body
-  mine.mass_kg += setup.number("payload_kg", 0.0);
+  World mine = w;
+  // A payload the experimenter weighed is part of the body, but not of what is wrong with its mass.
+  mine.mass_kg += setup.number("payload_kg", 0.0) / (1.0 + w.hidden.mass_share);
   const Fall fall{mine, height_m,
                   w.bed_stiffness_N_per_m * (1.0 + trial.stream("bed").normal(0.0, w.bed_stiffness_spread))};
 

@@ -9,7 +9,7 @@ function showAnswers(study) {
   for (const answer of study.answers) {
     const box = element('section', { className: 'answer' }, element('h2', {}, answer.heading));
     box.style.gridColumn = `span ${answer.columns}`;
-    box.style.setProperty('--label', `${Math.max(0, ...answer.bars.map(bar => bar.label.length)) * 0.56 + 0.6}em`);
+    box.style.setProperty('--label', `${Math.max(0, ...answer.bars.map(bar => bar.label.length)) * 0.6 + 0.8}em`);
     answer.lines.forEach((line, i) => {
       box.append(element('p', { className: line.style }, ...(line.style === 'equation' ? mathOf(line.text) : [line.text])));
       if (i === 0) box.append(...answer.bars.map(barOf));
