@@ -8,3 +8,6 @@ set_tests_properties(report.page_in_browser PROPERTIES LABELS report TIMEOUT 300
 add_test(NAME report.study_in_browser
          COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/study_test.mjs ${CMAKE_BINARY_DIR})
 set_tests_properties(report.study_in_browser PROPERTIES LABELS report TIMEOUT 300)
+add_test(NAME report.diagnosis_in_browser
+         COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/diagnosis_test.mjs ${CMAKE_BINARY_DIR})
+set_tests_properties(report.diagnosis_in_browser PROPERTIES LABELS report TIMEOUT 300)

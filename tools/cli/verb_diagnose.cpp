@@ -66,7 +66,7 @@ Run set_up(CLI::App& app) {
   auto options = std::make_shared<Options>();
   app.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml")->required();
   app.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
-  app.add_flag("--report,!--no-report", options->report, "write diagnosis.html beside it (default)");
+  app.add_flag("!--no-report", options->report, "write no page");
   app.add_flag("--search", options->search, "also print what was tried");
   return [options](Session& session) { return diagnose(session, *options); };
 }

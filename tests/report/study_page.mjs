@@ -1,0 +1,61 @@
+// What holds of every page that tools/report/study.hpp makes: figures drawn, axes with units, legends that hide, nothing
+// wider than a laptop, no complaint, no request.
+import assert from 'node:assert/strict';
+
+// What stands in each figure: marks of every shown series, words of the axes.
+function figures(browser) {
+  return browser.run(() => [...document.querySelectorAll('figure.panel')].map(figure => ({
+    title: figure.querySelector('figcaption b').textContent,
+    folded: figure.closest('details:not([open])') !== null,
+    series: [...figure.querySelectorAll('g.series')].map(group => ({
+      label: group.dataset.label,
+      inked: [...group.querySelectorAll('circle, path, polygon')].filter(mark => {
+        const box = mark.getBBox();
+        return Number.isFinite(box.x + box.y) && (mark.tagName === 'circle' || box.width + box.height > 0);
+      }).length,
+    })),
+    words: [...figure.querySelectorAll('svg text')].map(text => text.textContent),
+    size: [figure.getBoundingClientRect().width, figure.getBoundingClientRect().height],
+    legend: figure.querySelectorAll('.legend button').length,
+  })));
+}
+
+export async function checkStudy(browser, file) {
+  await browser.open(file);
+  const wanted = await browser.run(() => JSON.parse(document.getElementById('data').textContent).sections
+    .flatMap(section => section.items.filter(item => item.kind === 'figure')));
+  await browser.run(() => document.querySelectorAll('details').forEach(details => { details.open = true; }));
+  const drawn = await figures(browser);
+  assert.equal(drawn.length, wanted.length);
+  assert.ok(drawn.length > 0, 'there is no figure');
+  for (const [i, figure] of drawn.entries()) {
+    const shown = wanted[i].series.filter(series => series.shown);
+    assert.deepEqual(figure.series.map(series => series.label), shown.map(series => series.label), figure.title);
+    for (const series of figure.series) assert.ok(series.inked > 0, `${figure.title}: ${series.label} is blank`);
+    for (const label of [wanted[i].x_label, wanted[i].y_label]) assert.ok(figure.words.includes(label), `${figure.title} lacks ${label}`);
+    assert.match(wanted[i].y_label, /, \S+/, `${figure.title}: no unit on the y axis`);
+    assert.ok(figure.words.every(word => !/NaN|undefined|null/.test(word)), `${figure.title}: ${figure.words}`);
+    assert.ok(figure.size[0] > 300 && figure.size[1] > 150, `${figure.title} is ${figure.size} pixels`);
+  }
+  const overflow = await browser.run(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(overflow <= 0, `the page is ${overflow} pixels wider than a laptop's screen`);
+  await checkLegend(browser);
+  assert.deepEqual(await browser.complaints(), []);
+  return drawn;
+}
+
+// A name in a legend hides its series and brings it back.
+async function checkLegend(browser) {
+  const counts = await browser.run(() => {
+    const figure = [...document.querySelectorAll('figure.panel')].find(panel => panel.querySelectorAll('g.series').length > 1);
+    if (!figure) return null;
+    const button = figure.querySelector('.legend button[aria-pressed=true]');
+    const count = () => figure.querySelectorAll('g.series').length;
+    const before = count();
+    button.click();
+    const hidden = count();
+    button.click();
+    return [before, hidden, count()];
+  });
+  if (counts) assert.deepEqual(counts.slice(1), [counts[0] - 1, counts[0]]);
+}

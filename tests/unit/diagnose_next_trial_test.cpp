@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/diagnosis_json.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A tenth more drag than believed: as well a body a tenth lighter.
+Recordings more_drag() {
+  auto r = drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.55 * std::abs(v) * v; });
+  r.belief.numbers["medium.drag_coefficient"] = 0.5;
+  for (auto& belief : r.beliefs) belief.numbers["medium.drag_coefficient"] = 0.5;
+  return r;
+}
+
+TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
+  const auto d = diagnose(more_drag());
+  ASSERT_EQ(d.detail, "one_of_class");
+  EXPECT_EQ(d.next.kind, "drop");
+  EXPECT_TRUE(d.next.setup.contains("payload_kg"));
+  EXPECT_GT(d.next.settles, 0.8);
+  EXPECT_LE(d.next.settles, d.next.splits);
+  EXPECT_THAT(d.next.why, HasSubstr(d.next.channel));
+  ASSERT_GT(d.next.time_s.size(), 20u);
+  ASSERT_EQ(d.next.by_first.size(), d.next.time_s.size());
+  double apart = 0.0;
+  for (std::size_t i = 0; i < d.next.time_s.size(); ++i)
+    apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
+  EXPECT_GT(apart, d.next.floor);
+}
+
+TEST(DiagnoseNextTrial, TightensTheWidestBoundWhereNothingIsMissing) {
+  const auto d = diagnose(drops([](double, double, double) { return 0.0; }));
+  ASSERT_EQ(d.verdict, "consistent");
+  ASSERT_GT(d.absent.front().typicals, 0.5);
+  EXPECT_THAT(d.next.why, HasSubstr(d.absent.front().id));
+}
+
+TEST(DiagnoseNextTrial, NarrowsTheIntervalOfTheOneExplanation) {
+  const auto d = diagnose(drops([](double, double, double v) { return -0.01 * v; }));
+  ASSERT_EQ(d.detail, "known");
+  EXPECT_EQ(d.next.kind, "drop");
+  EXPECT_THAT(d.next.why, HasSubstr("air.linear_drag"));
+}
+
+TEST(DiagnoseNextTrial, PlansAMotionOfAnAxis) {
+  const auto d = diagnose(swings([](double, double velocity, double) { return -0.05 * velocity; }));
+  ASSERT_EQ(d.verdict, "missing_physics");
+  EXPECT_TRUE(d.next.kind == "motion" || d.next.kind == "hold") << d.next.kind;
+  EXPECT_GT(d.next.setup.at("duration_s"), 0.0);
+}
+
+TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {
+  const auto json = to_json(diagnose(more_drag()));
+  const auto& setup = json.at("next_trial").at("setup");
+  EXPECT_EQ(setup.at("kind"), "drop");
+  EXPECT_TRUE(setup.at("release_height_m").is_number());
+  EXPECT_FALSE(json.at("next_trial").at("why").get<std::string>().empty());
+}
+
+// What a page needs: both simulations beside the recording, and errors in every phase that has samples.
+TEST(DiagnoseReport, ShowsTracesWhoseErrorFallsToTheFloorOnHeldOutTrials) {
+  const auto d = diagnose(drops([](double, double, double v) { return -0.01 * v; }));
+  ASSERT_FALSE(d.traces.empty());
+  const auto rms = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+  };
+  for (const auto& trace : d.traces) {
+    EXPECT_LE(trace.time_s.size(), 500u);
+    EXPECT_LT(rms(trace.measured, trace.after), 1.3 * trace.floor);
+  }
+  EXPECT_GT(rms(d.traces.front().measured, d.traces.front().before), 3.0 * d.traces.front().floor);
+  ASSERT_FALSE(d.where.empty());
+  for (const auto& where : d.where) EXPECT_EQ(where.port, "body");
+  for (const auto& error : d.phase_errors) EXPECT_LT(error.after, 1.4 * error.floor) << error.channel;
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
