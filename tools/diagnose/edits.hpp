@@ -43,6 +43,8 @@ struct Edits {
   std::vector<BeliefEdit> belief;
   std::vector<std::pair<std::string, Law>> laws;  // port, force or torque added there
   std::vector<SensorEdit> sensors;
+  // Tells laws apart, which cannot be compared: edits with the same key hold the same laws. 0: not known.
+  std::uint64_t laws_key = 0;
 
   void scale(std::string key, double factor) { belief.push_back({std::move(key), factor, 0.0}); }
   void add(std::string key, double addend) { belief.push_back({std::move(key), 1.0, addend}); }

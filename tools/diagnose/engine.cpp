@@ -70,7 +70,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   options.progress(0.0, "");
   Point point = fit_from(problem, null_point(problem)).point;
   update_noise(problem, point);
-  keep_nuisance_columns(problem, point);
+  keep_columns(problem, point);
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
@@ -81,7 +81,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
     update_noise(problem, search.best().fit.point);
-    keep_nuisance_columns(problem, search.best().fit.point);
+    keep_columns(problem, search.best().fit.point);
     Point again = search.best().fit.point;
     again.hypothesis = {};
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };

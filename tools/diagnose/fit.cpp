@@ -109,9 +109,7 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
     }
   }
   for (std::size_t i = 0; i < point.tolerances.size(); ++i) {
-    auto moved = point.tolerances;
-    moved[i] += 0.1;
-    directions.push_back({edits_for(problem, point.hypothesis, moved), 0.1});
+    directions.push_back({{}, 1.0, static_cast<int>(i)});
   }
   return directions;
 }
@@ -125,10 +123,10 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
   bool bounded = false;
   bool stalled = false;
   double last_drop = 0.0;  // of the deviance, relative
-  bool fresh = problem.nuisance_columns.empty();
+  bool fresh = problem.kept_columns.empty();
   for (fit.iterations = 0; fit.iterations < options.max_iterations && !stalled; ++fit.iterations) {
     const auto directions = parameter_directions(problem, fit.point);
-    const auto linear = linearise_all(problem, fit.point, directions, {.fresh_nuisances = fresh});
+    const auto linear = linearise_all(problem, fit.point, directions, {.fresh_columns = fresh});
     const auto k = static_cast<Index>(directions.size());
     MatrixXd information = MatrixXd::Zero(k, k);
     VectorXd score = VectorXd::Zero(k);

@@ -115,6 +115,7 @@ Edits with_term(Edits base, const FreeTerm& term, double amplitude) {
     base.sensor_law(term.port, scaled);
   else
     base.law(term.port, scaled);
+  base.laws_key = 0;
   return base;
 }
 

@@ -11,6 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
+
 VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
                    const std::vector<double>& nuisances) {
   VectorXd out(static_cast<Index>(trial.rows.size()));
@@ -21,43 +23,84 @@ VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits&
   return out;
 }
 
-// Nuisance derivatives: whole-trial ones as columns, block ones packed (each row belongs to one block).
-using NuisanceColumns = Problem::NuisanceColumns;
+struct Centre {
+  const TrialModel& trial;
+  const std::vector<std::uint8_t>& used;
+  const Edits& edits;
+  const std::vector<double>& nuisances;
+  const VectorXd& prediction;
+};
 
-NuisanceColumns nuisance_columns(const Problem& problem, const TrialModel& trial, const Edits& edits,
-                                 const std::vector<double>& nuisances, const VectorXd& centre) {
+KeptColumns columns_at(const Problem& problem, const Centre& at) {
+  const TrialModel& trial = at.trial;
   const auto rows = static_cast<Index>(trial.rows.size());
-  NuisanceColumns columns{MatrixXd(rows, static_cast<Index>(trial.trial_nuisances.size())),
-                          MatrixXd(rows, static_cast<Index>(trial.block_nuisances.size()))};
-  auto moved = nuisances;
-  for (std::size_t i = 0; i < trial.trial_nuisances.size(); ++i) {
+  const auto tolerances = static_cast<Index>(problem.tolerances.size());
+  KeptColumns kept;
+  kept.shared.resize(rows, tolerances + static_cast<Index>(trial.trial_nuisances.size()));
+  kept.block.resize(rows, static_cast<Index>(trial.block_nuisances.size()));
+  for (Index i = 0; i < tolerances; ++i) {
+    Edits moved = at.edits;
+    const auto& tolerance = problem.tolerances[static_cast<std::size_t>(i)];
+    moved.sensor(tolerance.channel, SensorEdit::Kind::delay_s, kToleranceStep * tolerance.scale);
+    kept.shared.col(i) = (predicted(problem, trial, moved, at.nuisances) - at.prediction) / kToleranceStep;
+  }
+  auto moved = at.nuisances;
+  const std::size_t q = trial.trial_nuisances.size(), width = trial.block_nuisances.size();
+  for (std::size_t i = 0; i < q; ++i) {
     const double step = trial.trial_nuisances[i].step;
     moved[i] += step;
-    columns.trial.col(static_cast<Index>(i)) = (predicted(problem, trial, edits, moved) - centre) / step;
-    moved[i] = nuisances[i];
+    kept.shared.col(tolerances + static_cast<Index>(i)) =
+        (predicted(problem, trial, at.edits, moved) - at.prediction) / step;
+    moved[i] = at.nuisances[i];
   }
-  const std::size_t first = trial.trial_nuisances.size(), width = trial.block_nuisances.size();
   for (std::size_t j = 0; j < width; ++j) {
     const double step = trial.block_nuisances[j].step;
-    for (std::uint32_t b = 0; b < trial.blocks; ++b) moved[first + b * width + j] += step;
-    columns.block.col(static_cast<Index>(j)) = (predicted(problem, trial, edits, moved) - centre) / step;
-    for (std::uint32_t b = 0; b < trial.blocks; ++b) {
-      const auto at = first + b * width + j;
-      moved[at] = nuisances[at];
+    for (std::uint32_t b = 0; b < trial.blocks; ++b) moved[q + b * width + j] += step;
+    kept.block.col(static_cast<Index>(j)) =
+        (predicted(problem, trial, at.edits, moved) - at.prediction) / step;
+    for (std::uint32_t b = 0; b < trial.blocks; ++b)
+      moved[q + b * width + j] = at.nuisances[q + b * width + j];
+  }
+  kept.white_shared = kept.shared;
+  kept.white_block = kept.block;
+  problem.noise.whiten(trial, at.used, kept.white_shared);
+  problem.noise.whiten(trial, at.used, kept.white_block);
+  kept.gram = kept.white_shared.transpose() * kept.white_shared;
+  if (width > 0) {
+    const auto nb = static_cast<Index>(width);
+    kept.block_gram.assign(trial.blocks, MatrixXd::Zero(nb, nb));
+    kept.block_by_shared.assign(trial.blocks, MatrixXd::Zero(nb, kept.shared.cols()));
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      const auto b = trial.rows[k].block;
+      const auto row = static_cast<Index>(k);
+      kept.block_gram[b].noalias() += kept.white_block.row(row).transpose() * kept.white_block.row(row);
+      kept.block_by_shared[b].noalias() += kept.white_block.row(row).transpose() * kept.white_shared.row(row);
     }
   }
-  return columns;
+  return kept;
 }
 
-// Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first.
+// Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first; after
+// its columns come the tolerances `wanted` of the kept ones.
 void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
-               const NuisanceColumns& z, TrialLinear& out) {
-  const Index width = x.cols(), q = z.trial.cols(), nb = z.block.cols();
+               const std::vector<Index>& wanted, const KeptColumns& kept, TrialLinear& out) {
+  const auto q = static_cast<Index>(trial.trial_nuisances.size());
+  const Index nb = kept.block.cols(), own = x.cols();
+  const Index width = own + static_cast<Index>(wanted.size());
   const auto count = static_cast<Index>(trial.nuisance_count());
-  // [X, Z_trial] together are what the blocks' elimination acts on.
-  MatrixXd all(x.rows(), width + q);
-  all << x, z.trial;
-  MatrixXd gram = all.transpose() * all;
+  // Kept columns that take part, in the order of the result: tolerances asked for, then nuisances.
+  std::vector<Index> columns = wanted;
+  for (Index i = 0; i < q; ++i) columns.push_back(kept.shared.cols() - q + i);
+  const MatrixXd cross = x.transpose() * kept.white_shared;
+  MatrixXd gram(width + q, width + q);
+  gram.topLeftCorner(own, own) = x.transpose() * x;
+  for (Index j = 0; j < width + q - own; ++j) {
+    const Index c = columns[static_cast<std::size_t>(j)];
+    gram.block(0, own + j, own, 1) = cross.col(c);
+    gram.block(own + j, 0, 1, own) = cross.col(c).transpose();
+    for (Index i = 0; i < width + q - own; ++i)
+      gram(own + i, own + j) = kept.gram(columns[static_cast<std::size_t>(i)], c);
+  }
   for (Index i = 0; i < q; ++i) {
     const double weight = 1.0 / std::pow(trial.trial_nuisances[static_cast<std::size_t>(i)].sd, 2);
     const double value = zeta[static_cast<std::size_t>(i)];
@@ -68,21 +111,20 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
   }
   std::vector<MatrixXd> block_solution;
   if (nb > 0) {
-    const auto blocks = static_cast<Index>(trial.blocks);
-    std::vector<MatrixXd> h(trial.blocks, MatrixXd::Zero(nb, nb)),
-        c(trial.blocks, MatrixXd::Zero(nb, width + q));
+    std::vector<MatrixXd> c(trial.blocks, MatrixXd::Zero(nb, own));
     for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-      const auto b = trial.rows[k].block;
       const auto row = static_cast<Index>(k);
-      h[b].noalias() += z.block.row(row).transpose() * z.block.row(row);
-      c[b].noalias() += z.block.row(row).transpose() * all.row(row);
+      c[trial.rows[k].block].noalias() += kept.white_block.row(row).transpose() * x.row(row);
     }
-    for (Index b = 0; b < blocks; ++b) {
-      auto& hb = h[static_cast<std::size_t>(b)];
-      auto& cb = c[static_cast<std::size_t>(b)];
+    for (std::size_t b = 0; b < trial.blocks; ++b) {
+      MatrixXd hb = kept.block_gram[b];
+      MatrixXd cb(nb, width + q);
+      cb.leftCols(own) = c[b];
+      for (Index j = 0; j < width + q - own; ++j)
+        cb.col(own + j) = kept.block_by_shared[b].col(columns[static_cast<std::size_t>(j)]);
       for (Index j = 0; j < nb; ++j) {
         const double weight = 1.0 / std::pow(trial.block_nuisances[static_cast<std::size_t>(j)].sd, 2);
-        const double value = zeta[static_cast<std::size_t>(q + b * nb + j)];
+        const double value = zeta[static_cast<std::size_t>(q + static_cast<Index>(b) * nb + j)];
         hb(j, j) += weight;
         cb(j, 0) -= weight * value;
         gram(0, 0) += weight * value * value;
@@ -106,6 +148,13 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
   }
 }
 
+// Columns of `m` in another order.
+MatrixXd in_order(const MatrixXd& m, const std::vector<Index>& order) {
+  MatrixXd out(m.rows(), static_cast<Index>(order.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) out.col(static_cast<Index>(i)) = m.col(order[i]);
+  return out;
+}
+
 }  // namespace
 
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
@@ -115,39 +164,56 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   const auto& used = problem.used[index];
   const auto rows = static_cast<Index>(trial.rows.size());
   const VectorXd centre = predicted(problem, trial, base, nuisances);
+  KeptColumns own_columns;
+  if (options.fresh_columns || problem.kept_columns.empty())
+    own_columns = columns_at(problem, {trial, used, base, nuisances, centre});
+  const KeptColumns& kept = own_columns.shared.size() > 0 || own_columns.block.size() > 0
+                                ? own_columns
+                                : problem.kept_columns[index];
+
+  // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
+  std::vector<const Direction*> simulated;
+  std::vector<Index> wanted;
+  for (const auto& direction : directions)
+    if (direction.tolerance < 0)
+      simulated.push_back(&direction);
+    else
+      wanted.push_back(direction.tolerance);
+  std::vector<Index> order{0};
+  Index next_simulated = 1, next_wanted = 1 + static_cast<Index>(simulated.size());
+  for (const auto& direction : directions)
+    order.push_back(direction.tolerance < 0 ? next_simulated++ : next_wanted++);
+
   TrialLinear out;
   out.residual.resize(rows);
   for (Index k = 0; k < rows; ++k)
     out.residual[k] = trial.rows[static_cast<std::size_t>(k)].measured - centre[k];
-
-  MatrixXd x(rows, 1 + static_cast<Index>(directions.size()));
+  MatrixXd x(rows, 1 + static_cast<Index>(simulated.size()));
   x.col(0) = out.residual;
-  for (std::size_t i = 0; i < directions.size(); ++i)
+  for (std::size_t i = 0; i < simulated.size(); ++i)
     x.col(static_cast<Index>(i) + 1) =
-        (predicted(problem, trial, directions[i].edits, nuisances) - centre) / directions[i].step;
-  NuisanceColumns z = options.fresh_nuisances || problem.nuisance_columns.empty()
-                          ? nuisance_columns(problem, trial, base, nuisances, centre)
-                          : problem.nuisance_columns[index];
-  MatrixXd plain_x, plain_z, plain_b;
+        (predicted(problem, trial, simulated[i]->edits, nuisances) - centre) / simulated[i]->step;
   if (options.keep_plain) {
-    plain_x = x;
-    plain_z = z.trial;
-    plain_b = z.block;
+    out.plain.resize(rows, 1 + static_cast<Index>(directions.size()));
+    out.plain.leftCols(x.cols()) = x;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
-  for (Index i = 0; i < x.cols(); ++i) problem.noise.whiten(trial, used, x.col(i));
-  for (Index i = 0; i < z.trial.cols(); ++i) problem.noise.whiten(trial, used, z.trial.col(i));
-  for (Index i = 0; i < z.block.cols(); ++i) problem.noise.whiten(trial, used, z.block.col(i));
-  eliminate(trial, nuisances, x, z, out);
-  if (options.keep_whitened) out.whitened = x;
+  problem.noise.whiten(trial, used, x);
+  eliminate(trial, nuisances, x, wanted, kept, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.
-    const Index q = plain_z.cols(), nb = plain_b.cols();
-    out.plain = plain_x - plain_z * out.solution.topRows(q);
+    const auto q = static_cast<Index>(trial.trial_nuisances.size());
+    const Index nb = kept.block.cols();
+    out.plain.noalias() -= kept.shared.rightCols(q) * out.solution.topRows(q);
     for (Index k = 0; k < rows && nb > 0; ++k)
-      out.plain.row(k) -= plain_b.row(k) *
+      out.plain.row(k) -= kept.block.row(k) *
                           out.solution.middleRows(
                               q + static_cast<Index>(trial.rows[static_cast<std::size_t>(k)].block) * nb, nb);
+    out.plain = in_order(out.plain, order);
   }
+  out.solution = in_order(out.solution, order);
+  out.gram = in_order(MatrixXd(in_order(out.gram, order).transpose()), order);
   return out;
 }
 
@@ -162,14 +228,14 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
   return out;
 }
 
-void keep_nuisance_columns(Problem& problem, const Point& point) {
+void keep_columns(Problem& problem, const Point& point) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-  std::vector<NuisanceColumns> columns(problem.trials.size());
+  std::vector<KeptColumns> columns(problem.trials.size());
   in_parallel(columns.size(), [&](std::size_t t) {
     const auto centre = predicted(problem, *problem.trials[t], base, point.nuisances[t]);
-    columns[t] = nuisance_columns(problem, *problem.trials[t], base, point.nuisances[t], centre);
+    columns[t] = columns_at(problem, {*problem.trials[t], problem.used[t], base, point.nuisances[t], centre});
   });
-  problem.nuisance_columns = std::move(columns);
+  problem.kept_columns = std::move(columns);
 }
 
 }  // namespace sandhopper::diagnose

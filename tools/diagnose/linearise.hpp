@@ -11,6 +11,7 @@ namespace sandhopper::diagnose {
 struct Direction {
   Edits edits;
   double step = 1.0;
+  int tolerance = -1;  // where it is one of the problem's tolerances: its column may be a kept one
 };
 
 // One trial at one point: whitened residual in column 0 and one whitened derivative per direction after it,
@@ -21,14 +22,12 @@ struct TrialLinear {
   Eigen::MatrixXd gram;
   Eigen::VectorXd residual;  // plain, as recorded minus predicted
   Eigen::MatrixXd solution;  // change of every nuisance per column of X: dz = s_0 - sum_i s_i b_i
-  Eigen::MatrixXd whitened;  // X, whitened, nuisances not removed; empty unless asked for
   Eigen::MatrixXd plain;  // derivatives as they are, and what the nuisances then do; empty unless asked for
 };
 
 struct LineariseOptions {
-  bool keep_whitened = false;
   bool keep_plain = false;
-  bool fresh_nuisances = false;
+  bool fresh_columns = false;  // do not take the kept ones
 };
 
 TrialLinear linearise(const Problem& problem, std::size_t trial, const Edits& base,
@@ -40,7 +39,8 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
                                        const std::vector<Direction>& directions,
                                        const LineariseOptions& options = {});
 
-// Keeps the nuisance derivatives at this point for what follows.
-void keep_nuisance_columns(Problem& problem, const Point& point);
+// Keeps the derivatives by nuisances and tolerances at this point, whitened with the noise model as it is
+// now, for what follows.
+void keep_columns(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

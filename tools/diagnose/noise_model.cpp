@@ -1,6 +1,7 @@
 #include "tools/diagnose/noise_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sandhopper::diagnose {
@@ -55,30 +56,34 @@ double ChannelNoise::sd() const {
 }
 
 void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
-                        Eigen::Ref<Eigen::VectorXd> values) const {
-  std::vector<double> past;  // scaled residuals of the chain, newest last
-  const Row* before = nullptr;
-  for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-    const Row& row = trial.rows[k];
-    const auto index = static_cast<Eigen::Index>(k);
-    const ChannelNoise& noise = channels_[row.channel];
-    if (before == nullptr || before->channel != row.channel || before->block != row.block) past.clear();
-    before = &row;
-    if (!used[k]) {
-      values[index] = 0.0;
-      past.clear();
-      continue;
+                        Eigen::Ref<Eigen::MatrixXd> values) const {
+  const std::size_t rows = trial.rows.size();
+  // How many scaled residuals a row has before it in its chain.
+  std::vector<std::uint8_t> before(rows, 0);
+  for (std::size_t k = 1; k < rows; ++k)
+    if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&
+        trial.rows[k].block == trial.rows[k - 1].block)
+      before[k] = static_cast<std::uint8_t>(std::min<std::size_t>(before[k - 1] + 1u, kOrder));
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    auto column = values.col(c);
+    std::array<double, kOrder> past{};  // scaled residuals, newest first
+    for (std::size_t k = 0; k < rows; ++k) {
+      double& value = column[static_cast<Eigen::Index>(k)];
+      if (!used[k]) {
+        value = 0.0;
+        continue;
+      }
+      const ChannelNoise& noise = channels_[trial.rows[k].channel];
+      const auto& a = noise.autoregression;
+      const double e = value / noise.sd_of_phase[trial.rows[k].phase];
+      value = e;
+      if (before[k] >= a.size()) {
+        for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];
+        value /= noise.innovation_sd;
+      }
+      for (std::size_t j = kOrder - 1; j > 0; --j) past[j] = past[j - 1];
+      past[0] = e;
     }
-    const double e = values[index] / noise.sd_of_phase[row.phase];
-    const auto& a = noise.autoregression;
-    if (past.size() >= a.size()) {
-      double w = e;
-      for (std::size_t j = 0; j < a.size(); ++j) w -= a[j] * past[past.size() - 1 - j];
-      values[index] = w / noise.innovation_sd;
-    } else {
-      values[index] = e;
-    }
-    past.push_back(e);
   }
 }
 

@@ -25,10 +25,10 @@ class NoiseModel {
   NoiseModel() = default;
   explicit NoiseModel(std::vector<ChannelNoise> channels) : channels_(std::move(channels)) {}
 
-  // Whitens a residual or a derivative of it in place. Rows that are not `used` become zero and break the
-  // chain.
+  // Whitens residuals or derivatives of them, one a column, in place. Rows that are not `used` become zero
+  // and break the chain.
   void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
-              Eigen::Ref<Eigen::VectorXd> values) const;
+              Eigen::Ref<Eigen::MatrixXd> values) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
   std::size_t channels() const { return channels_.size(); }
 

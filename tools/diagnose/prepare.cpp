@@ -103,6 +103,7 @@ void update_noise(Problem& problem, const Point& point) {
                                                  : parameters[i].typical);
     Edits edits = base;
     problem.candidates[c].effect->apply(problem.context, problem.candidates[c].channel, values, edits);
+    edits.laws_key = 0;
     directions.push_back({std::move(edits), values[0] / parameters[0].typical});
   }
   for (const auto& family : free_families(problem, point))

@@ -19,6 +19,18 @@ struct Tolerance {
   std::string channel;
 };
 
+// Derivatives of one trial by tolerances and nuisances at one point. They hardly change with the effects, so
+// that fits nearby share them; a fit that gets stuck makes its own.
+struct KeptColumns {
+  Eigen::MatrixXd shared;        // tolerances, then whole-trial nuisances, as they are
+  Eigen::MatrixXd block;         // nuisances of blocks, packed: each row belongs to one block
+  Eigen::MatrixXd white_shared;  // whitened
+  Eigen::MatrixXd white_block;
+  Eigen::MatrixXd gram;                     // of white_shared
+  std::vector<Eigen::MatrixXd> block_gram;  // per block, of its rows of white_block
+  std::vector<Eigen::MatrixXd> block_by_shared;
+};
+
 // Everything a campaign is, ready to be fitted.
 struct Problem {
   std::unique_ptr<PlantModel> plant;
@@ -33,12 +45,7 @@ struct Problem {
   std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
   NoiseModel noise;
   mutable std::uint64_t simulations = 0;
-  // Derivatives of each trial by its nuisances, kept from one point for all fits nearby: they hardly change
-  // with the effects, and a fit that gets stuck makes its own. Empty: made anew each time.
-  struct NuisanceColumns {
-    Eigen::MatrixXd trial, block;
-  };
-  std::vector<NuisanceColumns> nuisance_columns;
+  std::vector<KeptColumns> kept_columns;  // one per trial; empty: made anew each time
 
   std::vector<const TrialModel*> trial_pointers() const {
     std::vector<const TrialModel*> pointers;

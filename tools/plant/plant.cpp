@@ -9,8 +9,6 @@ namespace {
 constexpr double kRailSwitchSpeed_mps = 0.01;
 constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
-constexpr double kEndStopLow_rad = 0.25;
-constexpr double kEndStopHigh_rad = 2.6;
 
 }  // namespace
 
@@ -111,6 +109,46 @@ void Plant::step(double torque_Nm, double step_s) noexcept {
   contact_impulse_Ns_ +=
       h * weighted(k1.contact_force_N, k2.contact_force_N, k3.contact_force_N, k4.contact_force_N);
 
+  finish_step(torque_Nm);
+}
+
+PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
+  const Rates start = rates(state_, torque_Nm);
+  const PlantMotion motion = motion_of(start);
+  const double z = state_.foot_z_m, v = state_.foot_velocity_mps, a = start.foot_accel_mps2;
+  // Where the sole meets the surface within this step: the force has a kink there.
+  const double root = v * v - 2.0 * a * z;
+  const double touch_s = z > 0.0 && root > 0.0 ? 2.0 * z / (std::sqrt(root) - v) : -1.0;
+  if (touch_s > 0.0 && touch_s < step_s) {
+    midpoint(start, torque_Nm, touch_s);
+    midpoint(rates(state_, torque_Nm), torque_Nm, step_s - touch_s);
+  } else if (z <= 0.0) {
+    midpoint(start, torque_Nm, 0.5 * step_s);
+    midpoint(rates(state_, torque_Nm), torque_Nm, 0.5 * step_s);
+  } else {
+    midpoint(start, torque_Nm, step_s);
+  }
+  return motion;
+}
+
+void Plant::midpoint(const Rates& k1, double torque_Nm, double step_s) noexcept {
+  const PlantState s0 = state_;
+  const double half = 0.5 * step_s;
+  const PlantState middle{
+      .foot_z_m = s0.foot_z_m + half * s0.foot_velocity_mps,
+      .foot_velocity_mps = s0.foot_velocity_mps + half * k1.foot_accel_mps2,
+      .angle_rad = s0.angle_rad + half * s0.angular_velocity_radps,
+      .angular_velocity_radps = s0.angular_velocity_radps + half * k1.angular_accel_radps2};
+  const Rates k2 = rates(middle, torque_Nm);
+  state_.foot_z_m += step_s * middle.foot_velocity_mps;
+  state_.foot_velocity_mps += step_s * k2.foot_accel_mps2;
+  state_.angle_rad += step_s * middle.angular_velocity_radps;
+  state_.angular_velocity_radps += step_s * k2.angular_accel_radps2;
+  contact_impulse_Ns_ += step_s * k2.contact_force_N;
+  finish_step(torque_Nm);
+}
+
+void Plant::finish_step(double torque_Nm) noexcept {
   if (rigid_) {
     settle_on_rigid_ground(torque_Nm);
   } else if (!options_.bed_memory && state_.foot_z_m > 0.0) {
@@ -135,8 +173,9 @@ void Plant::settle_on_rigid_ground(double torque_Nm) noexcept {
   }
 }
 
-PlantMotion Plant::motion(double torque_Nm) const noexcept {
-  const Rates r = rates(state_, torque_Nm);
+PlantMotion Plant::motion(double torque_Nm) const noexcept { return motion_of(rates(state_, torque_Nm)); }
+
+PlantMotion Plant::motion_of(const Rates& r) const noexcept {
   const auto& leg = r.dynamics.leg;
   const double spin = state_.angular_velocity_radps;
   return {.foot_accel_mps2 = r.foot_accel_mps2,

@@ -44,6 +44,8 @@ class PlantExtension {
 class Plant {
  public:
   static constexpr double kStep_s = 1e-4;
+  static constexpr double kEndStopLow_rad = 0.25;
+  static constexpr double kEndStopHigh_rad = 2.6;
 
   struct Options {
     double cable_force_N = 0.0;                 // constant, pulls the body down
@@ -62,6 +64,11 @@ class Plant {
   void step(double torque_Nm, double step_s = kStep_s) noexcept;
 
   PlantMotion motion(double torque_Nm) const noexcept;
+
+  // motion() here and a step by the midpoint rule, two evaluations in place of five aloft and four in
+  // contact, ending one at the instant the sole meets the surface: for many simulations of the same hop at
+  // 0.25 ms.
+  PlantMotion advance(double torque_Nm, double step_s) noexcept;
   const PlantState& state() const noexcept { return state_; }
   const Leg& leg() const noexcept { return leg_; }
   const Bed& bed() const noexcept { return bed_; }
@@ -76,6 +83,9 @@ class Plant {
   };
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
+  PlantMotion motion_of(const Rates& rates) const noexcept;
+  void midpoint(const Rates& at_start, double torque_Nm, double step_s) noexcept;
+  void finish_step(double torque_Nm) noexcept;
   void settle_on_rigid_ground(double torque_Nm) noexcept;
 
   WorldRobotConfig robot_;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <numbers>
 
 #include "tools/diagnose/plants/hopper_belief.hpp"
@@ -11,14 +14,16 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kMostKnots = 8;  // of the bed's fluctuation along depth
+constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kTick_s = 1e-3;
 constexpr std::size_t kSmoothing = 6;  // samples to each side
-constexpr double kDeepest_m = 0.06;    // that the knots cover
+constexpr double kDeepest_m = 0.048;   // that the knots cover
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
-constexpr double kAtRest = 0.01;  // share of a later hop's uncertainty that a release at rest has
+constexpr double kNearEndStop_rad = 0.04;
+constexpr double kAloft_s = 0.02;  // a liftoff is over by then
+constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
 
 enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
 
@@ -75,6 +80,65 @@ enum TrialNuisance : std::size_t {
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
 
+// Runs of the plant that were made already: what only a sensor reads otherwise needs no new one. Of one
+// trial, and so of one thread at a time.
+class RunCache {
+ public:
+  // Of everything that changes the run itself; empty: not known.
+  using Key = std::vector<double>;
+  Key key(const Edits& edits, std::span<const double> nuisances) const {
+    if (edits.laws_key == 0) return {};
+    Key key{std::bit_cast<double>(edits.laws_key)};
+    for (const auto& edit : edits.belief) {
+      key.push_back(static_cast<double>(std::hash<std::string>{}(edit.key) >> 12));
+      key.push_back(edit.factor);
+      key.push_back(edit.addend);
+    }
+    for (const auto& edit : edits.sensors)
+      if (acts_on_plant(edit.channel)) {
+        key.push_back(static_cast<double>(edit.kind));
+        key.push_back(edit.value);
+      }
+    for (std::size_t i = 0; i < nuisances.size(); ++i)
+      if (i < kTofBias || i >= kFirstKnot) key.push_back(nuisances[i]);
+    return key;
+  }
+
+  template <class Make>
+  const HopperTraces& traces(const Key& key, std::uint32_t block, Make&& make) {
+    for (auto& run : runs_)
+      if (!key.empty() && run.block == block && same(run.key, key)) {
+        run.used = ++clock_;
+        return run.traces;
+      }
+    auto* oldest = &runs_[0];
+    for (auto& run : runs_)
+      if (run.used < oldest->used) oldest = &run;
+    oldest->traces = make();
+    oldest->key = key;
+    oldest->block = block;
+    oldest->used = ++clock_;
+    return oldest->traces;
+  }
+
+ private:
+  struct Run {
+    Key key{};
+    std::uint32_t block = 0;
+    std::uint64_t used = 0;
+    HopperTraces traces{};
+  };
+  static bool acts_on_plant(const std::string& channel) {
+    return channel == "actuator" || channel.ends_with("position_rad");
+  }
+  static bool same(const Key& a, const Key& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  }
+
+  std::array<Run, 6> runs_{};
+  std::uint64_t clock_ = 0;
+};
+
 class HopperTrial final : public TrialModel {
  public:
   HopperTrial(const Trial& trial, const Belief& belief) : belief_(belief), world_(world_of(belief, {})) {
@@ -83,20 +147,24 @@ class HopperTrial final : public TrialModel {
     compression_stiffness_ = trial.setup_or("compression_stiffness_N_per_m", 375.0);
     course_ = course_of(trial, leg, world_.controller.compression_length_m);
     if (course_.hops.empty()) return;
+    end_before_end_stop(trial);
     if (world_.terrain.rigid || course_.phases.empty())
       take_commands(trial);
     else
       compare_commands(trial, leg);
     blocks = static_cast<std::uint32_t>(course_.hops.size());
     add_nuisances();
+    end_before_next_landing();
     for (std::size_t c = 0; c < kSources.size(); ++c) add_rows(trial, c);
     if (!rows.empty()) label_rows();
   }
 
   void predict(const Edits& edits, std::span<const double> n, std::span<double> out) const override {
     const WorldConfig world = world_of(belief_, edits);
+    const auto key = cache_.key(edits, n);
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      const HopperTraces traces = simulate_hopper(run_of(world, b, n), edits);
+      const HopperTraces& traces =
+          cache_.traces(key, b, [&] { return simulate_hopper(run_of(world, b, n), edits); });
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
         if (span.count > 0) read_channel(world, traces, edits, n, c, span, out);
@@ -298,6 +366,34 @@ class HopperTrial final : public TrialModel {
     return phase;
   }
 
+  // A leg that is thrown against its end stop bounces: when, depends on hundredths of a millisecond.
+  void end_before_end_stop(const Trial& trial) {
+    const auto angle = mean_of_motors(trial, "position_rad");
+    for (std::size_t i = 0; i < angle.value.size(); ++i)
+      if (angle.time_s[i] > course_.hops.front().from_s &&
+          (angle.value[i] < Plant::kEndStopLow_rad + kNearEndStop_rad ||
+           angle.value[i] > Plant::kEndStopHigh_rad - kNearEndStop_rad)) {
+        course_.end_s = std::min(course_.end_s, angle.time_s[i]);
+        return;
+      }
+  }
+
+  // A controller that never sees the next landing records no end of its flight: the simulation knows it.
+  void end_before_next_landing() {
+    if (course_.phases.empty() || course_.phases.back().phase != HopperPhase::flight ||
+        course_.phases.size() < 2 || course_.phases.back().time_s >= course_.end_s)
+      return;
+    const std::vector<double> zero(nuisance_count(), 0.0);
+    const auto run = simulate_hopper(run_of(world_, blocks - 1, zero), {});
+    const double liftoff_s = course_.phases.back().time_s;
+    for (std::size_t i = 0; i < run.force_N.values.size(); ++i) {
+      const double t = run.force_N.start_s + run.force_N.step_s * static_cast<double>(i);
+      if (t < liftoff_s + kAloft_s || run.force_N.values[i] <= 0.0) continue;
+      course_.end_s = std::min(course_.end_s, 0.5 * (liftoff_s + t));
+      return;
+    }
+  }
+
   void label_rows() {
     Coordinate z{"foot_z_m", {}}, v{"foot_velocity_mps", {}}, a{"foot_accel_mps2", {}},
         phi{"motor_position_rad", {}}, time{"t_s", {}};
@@ -316,6 +412,7 @@ class HopperTrial final : public TrialModel {
     coordinates = {std::move(z), std::move(v), std::move(a), std::move(phi), std::move(time)};
   }
 
+  mutable RunCache cache_;
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;
@@ -348,6 +445,10 @@ class Hopper final : public PlantModel {
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
+    if (!trial.kind.empty() && trial.kind != "hop") {
+      why = "a trial of kind '" + trial.kind + "' is not simulated: only hops are";
+      return nullptr;
+    }
     auto model = std::make_unique<HopperTrial>(trial, belief);
     if (model->rows.size() >= 50) return model;
     why = "needs at least one of motor position, accelerometer, height, load cell or motion capture";

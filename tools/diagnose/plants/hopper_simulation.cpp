@@ -226,18 +226,17 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     spring.follow(state.angular_velocity_radps);
     const double current_Nm = actuator.step(command_Nm);
     const double torque_Nm = actuator.torque_Nm(current_Nm, t);
-    const PlantMotion motion = plant.motion(torque_Nm);
     traces.angle_rad.values[i] = state.angle_rad;
     traces.rate_radps.values[i] = state.angular_velocity_radps;
     traces.current_torque_Nm.values[i] = current_Nm;
     traces.command_torque_Nm.values[i] = command_Nm;
+    traces.foot_z_m.values[i] = state.foot_z_m + run.surface_m;
+    traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
+    const PlantMotion motion = plant.advance(torque_Nm, kStep_s);
     traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
     traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
     traces.body_z_m.values[i] = motion.body_z_m + run.surface_m;
-    traces.foot_z_m.values[i] = state.foot_z_m + run.surface_m;
-    traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
     traces.force_N.values[i] = motion.contact_force_N;
-    plant.step(torque_Nm, kStep_s);
   }
   return traces;
 }
