@@ -7,4 +7,4 @@ set_target_properties(conceal_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_
 gtest_discover_tests(conceal_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS conceal TIMEOUT 120)
 add_test(NAME conceal.independence
          COMMAND ${PROJECT_SOURCE_DIR}/tests/conceal/independence ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
-set_tests_properties(conceal.independence PROPERTIES LABELS conceal TIMEOUT 60)
+set_tests_properties(conceal.independence PROPERTIES LABELS conceal TIMEOUT 300)
