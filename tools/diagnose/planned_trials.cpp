@@ -26,7 +26,7 @@ TrialLinear PlannedTrials::linearised(std::size_t i, const Edits& base,
                                       const std::vector<Direction>& directions, bool keep_plain) const {
   const std::vector<double> zero(model(i).nuisance_count(), 0.0);
   return linearise(*problem_, first_ + i, base, zero, directions,
-                   {.keep_plain = keep_plain, .fresh_nuisances = true});
+                   {.keep_plain = keep_plain, .fresh_columns = true});
 }
 
 }  // namespace sandhopper::diagnose
