@@ -11,7 +11,7 @@ namespace sandhopper::diagnose {
 // What a port shows to a law that acts there. Falling body, rail: height or position and velocity, up
 // positive. Axis, joint: angle and angular velocity; `load` the torque of the drive. Ground: depth, downward
 // speed and acceleration; `load` the quasi-static force, `extreme` the deepest point. Sensor: the value as
-// position, its rate as velocity.
+// position, its rate as velocity. Actuator: the current's torque as position, the motors' temperature.
 struct PortState {
   double time_s = 0.0;
   double position = 0.0;
@@ -19,6 +19,7 @@ struct PortState {
   double accel = 0.0;
   double load = 0.0;
   double extreme = 0.0;
+  double temperature_C = 25.0;
 };
 using Law = std::function<double(const PortState&)>;
 

@@ -20,6 +20,10 @@ constexpr double kSmallestShare = 0.004;  // of what all effects explain
 constexpr double kHopeless = 0.15;        // of the largest gain on the screen
 constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
 
+constexpr int kNullRestarts = 3;
+constexpr std::size_t kFitsToFreeNull = 2;
+constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
+
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
   set.push_back(candidate);
   std::sort(set.begin(), set.end());
@@ -279,6 +283,28 @@ void Search::exchange() {
   }
 }
 
+// A null fit may be stuck where one of its effects gets the nuisances out: it starts again from there, or
+// what only freed the nuisances would pass for an effect.
+void Search::restart_null() {
+  for (int round = 0; round < kNullRestarts; ++round) {
+    const double before = null().fit.deviance;
+    expand({}, kFitsToFreeNull);
+    const SetFit* closest = nullptr;
+    for (const auto& [set, fit] : sets_)
+      if (set.size() == 1 && (closest == nullptr || fit.fit.deviance < closest->fit.deviance)) closest = &fit;
+    if (closest == nullptr || closest->fit.deviance > before - kWorthAFit) return;
+    Point start = closest->fit.point;
+    start.hypothesis = {};
+    Fit again = fit_from(*problem_, start);
+    if (again.deviance > before - kFreed * std::max(1.0, before - closest->fit.deviance)) return;
+    SetFit freed = null();
+    freed.fit = std::move(again);
+    sets_.clear();
+    screens_.clear();
+    sets_[{}] = std::move(freed);
+  }
+}
+
 const SetFit& Search::run(const Point& start) {
   sets_.clear();
   screens_.clear();
@@ -286,6 +312,7 @@ const SetFit& Search::run(const Point& start) {
   null.fit = fit_from(*problem_, start);
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
+  restart_null();
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
     for (std::size_t i = 0; i < front.size(); ++i) {

@@ -57,6 +57,7 @@ class Search {
   const SetFit& evaluate(const SetFit& from, const Screened& added);
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
+  void restart_null();
   void exchange();
   void prune();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);

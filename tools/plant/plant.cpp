@@ -54,7 +54,8 @@ Plant::Rates Plant::rates(const PlantState& s, double torque_Nm) const noexcept 
   r.joint_torque_Nm = joint_torque_Nm(s);
   if (options_.extension != nullptr) {
     const double body_z = s.foot_z_m + leg_.parameters().foot_height_m + d.leg.length_m;
-    r.rail_force_N += options_.extension->rail_force_N(body_z, body_velocity);
+    r.rail_force_N +=
+        options_.extension->rail_force_N(body_z, body_velocity, torque_Nm / d.leg.dlength_m_per_rad);
     r.joint_torque_Nm += options_.extension->joint_torque_Nm(s, torque_Nm);
   }
   const double torque = torque_Nm + r.rail_force_N * d.leg.dlength_m_per_rad + r.joint_torque_Nm;

@@ -29,7 +29,8 @@ struct PlantMotion {
 class PlantExtension {
  public:
   virtual ~PlantExtension() = default;
-  virtual double rail_force_N(double body_z_m, double body_velocity_mps) const = 0;  // on the body, up
+  // On the body, up; `leg_force_N` is the motors' torque at the foot.
+  virtual double rail_force_N(double body_z_m, double body_velocity_mps, double leg_force_N) const = 0;
   // On the links, both sides together, in the direction of growing angle.
   virtual double joint_torque_Nm(const PlantState& state, double motor_torque_Nm) const = 0;
 };

@@ -20,13 +20,16 @@ const EffectRegistration kEffect(
      .port = "sensor",
      .statement = "The encoder's disk or magnet is off centre: the angle's error repeats once a turn.",
      .equation = "y = theta + A sin(theta) + B cos(theta)",
-     .plants = {PlantKind::rotary_axis},
+     .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
-     .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+     .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double a = v[0], b = v[1];
-       edits.sensor_law("position_rad", [=](const PortState& s) {
+       const auto error = [=](const PortState& s) {
          return a * std::sin(s.position) + b * std::cos(s.position);
-       });
+       };
+       if (c.plant == PlantKind::rotary_axis) return edits.sensor_law("position_rad", error);
+       for (const char* channel : {"motor_left_position_rad", "motor_right_position_rad"})
+         edits.sensor_law(channel, error);
      }});
 
 }  // namespace

@@ -21,6 +21,7 @@ constexpr double kDeepest_m = 0.048;   // that the knots cover
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
+constexpr double kRoom_C = 25.0;
 constexpr double kNearEndStop_rad = 0.04;
 constexpr double kAloft_s = 0.02;  // a liftoff is over by then
 constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
@@ -148,6 +149,9 @@ class HopperTrial final : public TrialModel {
     course_ = course_of(trial, leg, world_.controller.compression_length_m);
     if (course_.hops.empty()) return;
     end_before_end_stop(trial);
+    const auto temperature = mean_of_motors(trial, "temperature_C");
+    for (const double t : temperature.value)
+      motor_temperature_C_ += (t - kRoom_C) / static_cast<double>(temperature.value.size());
     if (world_.terrain.rigid || course_.phases.empty())
       take_commands(trial);
     else
@@ -243,6 +247,7 @@ class HopperTrial final : public TrialModel {
     run.surface_m = n[kSurface];
     run.cable_force_N = n[kCable];
     run.torque_constant_factor = 1.0 + n[kTorqueConstant];
+    run.motor_temperature_C = motor_temperature_C_;
     if (knots_ > 0) {
       run.fluctuation.relative = 1.0;
       run.fluctuation.spacing_m = knot_spacing_m_;
@@ -416,6 +421,7 @@ class HopperTrial final : public TrialModel {
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;
+  double motor_temperature_C_ = kRoom_C;
   HopperCourse course_;
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
   MeasuredLeg measured_;
@@ -445,8 +451,8 @@ class Hopper final : public PlantModel {
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
-    if (!trial.kind.empty() && trial.kind != "hop") {
-      why = "a trial of kind '" + trial.kind + "' is not simulated: only hops are";
+    if (!trial.kind.empty() && trial.kind != "hop" && trial.kind != "hold") {
+      why = "a trial of kind '" + trial.kind + "' is not simulated: only hops and holds are";
       return nullptr;
     }
     auto model = std::make_unique<HopperTrial>(trial, belief);
@@ -458,6 +464,7 @@ class Hopper final : public PlantModel {
   void describe(const std::vector<Trial>& trials, Context& context) const override {
     const WorldConfig world = world_of(context.belief, {});
     double force = 0.0, duration = 0.0, accel = 0.0, current = 0.0, fastest = 0.0, low = 1e9, high = -1e9;
+    double hottest = kRoom_C;
     for (const auto& trial : trials) {
       force = std::max(force, largest_of(trial, "load_cell_force_N"));
       accel = std::max(accel, largest_of(trial, "imu_foot_accel_z_mps2"));
@@ -468,9 +475,11 @@ class Hopper final : public PlantModel {
         low = std::min(low, phi);
         high = std::max(high, phi);
       }
+      for (const double t : mean_of_motors(trial, "temperature_C").value) hottest = std::max(hottest, t);
       if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back() - trial.time_s.front());
     }
     auto& s = context.scales;
+    s["temperature_K"] = hottest - kRoom_C;
     s["weight_N"] = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
     s["foot_radius_m"] = world.robot.leg.foot_radius_m;
     s["depth_m"] = 0.04;

@@ -19,8 +19,10 @@ class PortLaws final : public PlantExtension {
   bool empty() const { return rail_.empty() && joint_.empty(); }
   void at_time(double time_s) { time_s_ = time_s; }
 
-  double rail_force_N(double z, double v) const override {
-    return rail_.empty() ? 0.0 : sum_of(rail_, {.time_s = time_s_, .position = z, .velocity = v});
+  double rail_force_N(double z, double v, double leg_force_N) const override {
+    return rail_.empty()
+               ? 0.0
+               : sum_of(rail_, {.time_s = time_s_, .position = z, .velocity = v, .load = leg_force_N});
   }
   double joint_torque_Nm(const PlantState& s, double motor_torque_Nm) const override {
     if (joint_.empty()) return 0.0;
@@ -38,8 +40,11 @@ class PortLaws final : public PlantExtension {
 // From the commanded torque to the current, and from the current to the torque on the links.
 class Actuator {
  public:
-  Actuator(const Edits& edits, double time_constant_s, double torque_constant_factor)
-      : factor_(torque_constant_factor) {
+  Actuator(const Edits& edits, const HopperRun& run)
+      : factor_(run.torque_constant_factor),
+        temperature_C_(run.motor_temperature_C),
+        limits_(edits.at("actuator.limit")) {
+    const double time_constant_s = run.world.motor.current_loop_time_constant_s;
     for (const auto& edit : edits.sensors) {
       if (edit.channel != "actuator") continue;
       switch (edit.kind) {
@@ -71,7 +76,11 @@ class Actuator {
 
   // One grid step with `command` in force; returns the current (as torque of the nominal constant), mean over
   // the step.
-  double step(double command_Nm) {
+  double step(double command_Nm, double rate_radps) {
+    if (!limits_.empty()) {
+      const double limit_Nm = std::max(0.0, sum_of(limits_, {.velocity = rate_radps, .load = command_Nm}));
+      command_Nm = std::clamp(command_Nm, -limit_Nm, limit_Nm);
+    }
     newest_ = (newest_ + 1) % history_.size();
     history_[newest_] = command_Nm;
     const double steps = std::min(delay_s_ / kStep_s, static_cast<double>(history_.size() - 2));
@@ -89,7 +98,8 @@ class Actuator {
 
   double torque_Nm(double current_Nm, double time_s) const {
     double torque = factor_ * current_Nm + offset_Nm_;
-    if (!laws_.empty()) torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm});
+    if (!laws_.empty())
+      torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm, .temperature_C = temperature_C_});
     return torque;
   }
 
@@ -99,27 +109,28 @@ class Actuator {
   }
 
   double factor_, offset_Nm_ = 0.0, delay_s_ = 0.0, lag_decay_ = 0.0, loop_decay_ = 0.0, loop_mean_ = 0.0;
-  double lagged_ = 0.0, current_Nm_ = 0.0;
-  std::vector<const Law*> laws_;
+  double lagged_ = 0.0, current_Nm_ = 0.0, temperature_C_;
+  std::vector<const Law*> laws_, limits_;
   std::array<double, 256> history_{};
   std::size_t newest_ = 0;
 };
 
-// The angle as the controller reads it.
+// The angle as the controller reads it: the mean of both motors'.
 class MeasuredAngle {
  public:
   explicit MeasuredAngle(const Edits& edits) {
     for (const auto& edit : edits.sensors) {
-      if (edit.channel != "motor_left_position_rad") continue;
-      if (edit.kind == SensorEdit::Kind::gain) gain_ *= edit.value;
-      if (edit.kind == SensorEdit::Kind::offset) offset_ += edit.value;
+      if (edit.channel != "motor_left_position_rad" && edit.channel != "motor_right_position_rad") continue;
+      if (edit.kind == SensorEdit::Kind::gain) gain_ += 0.5 * (edit.value - 1.0);
+      if (edit.kind == SensorEdit::Kind::offset) offset_ += 0.5 * edit.value;
       if (edit.kind == SensorEdit::Kind::law) laws_.push_back(&edit.law);
     }
   }
   double operator()(const PlantState& s) const {
     const double angle = gain_ * s.angle_rad + offset_;
-    return laws_.empty() ? angle
-                         : angle + sum_of(laws_, {.position = angle, .velocity = s.angular_velocity_radps});
+    return laws_.empty()
+               ? angle
+               : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = s.angular_velocity_radps});
   }
 
  private:
@@ -209,7 +220,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   start.foot_z_m -= run.surface_m;  // the plant's zero is the surface
   plant.place_in_crater(start, run.crater_m);
   SpringLeg spring(run, plant.leg());
-  Actuator actuator(edits, run.world.motor.current_loop_time_constant_s, run.torque_constant_factor);
+  Actuator actuator(edits, run);
   const MeasuredAngle measured(edits);
 
   const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / kStep_s)) + 2;
@@ -224,7 +235,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     const PlantState& state = plant.state();
     if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
     spring.follow(state.angular_velocity_radps);
-    const double current_Nm = actuator.step(command_Nm);
+    const double current_Nm = actuator.step(command_Nm, state.angular_velocity_radps);
     const double torque_Nm = actuator.torque_Nm(current_Nm, t);
     traces.angle_rad.values[i] = state.angle_rad;
     traces.rate_radps.values[i] = state.angular_velocity_radps;

@@ -36,6 +36,7 @@ struct HopperRun {
   double surface_m = 0.0;
   double cable_force_N = 0.0;
   double torque_constant_factor = 1.0;
+  double motor_temperature_C = 25.0;
   PlantState start{};
   double crater_m = 0.0;  // deepest point of earlier strides
   double from_s = 0.0, to_s = 1.0;
@@ -59,6 +60,7 @@ struct HopperTraces {
 // torque, the plant with the laws of `edits` at its ports
 //   rail    position body height, velocity body velocity; N on the body, up
 //   joint   position angle, velocity its rate, load motors' torque; N m on the links, both sides
+//   actuator.limit  velocity the links', load the command; largest torque of both motors
 //   ground.*  as in ground_laws.hpp
 // and the sensor edits of the channel "actuator": delay and lag act on the current, gain, offset and law on
 // the torque it makes. Edits of the motors' position (offset, gain, law) are what the controller sees, too.

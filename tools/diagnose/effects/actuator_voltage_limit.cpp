@@ -1,0 +1,41 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double limit = 2.0 * c.belief.value("motor.torque_limit_Nm", 2.8);
+  return {{.name = "stall_torque_Nm",
+           .typical = 1.0 / limit,
+           .low = 0.0,
+           .high = 4.0 / limit,
+           .reciprocal = true},
+          {.name = "no_load_speed_radps",
+           .typical = 1.0 / 50.0,
+           .low = 1.0 / 500.0,
+           .high = 1.0 / 10.0,
+           .reciprocal = true,
+           .shapes = {1.0 / 200.0, 1.0 / 25.0}}};
+}
+
+// The back-electromotive force takes from what the bus can drive while the motor does work.
+void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+  const double stall_Nm = 1.0 / std::max(v[0], 1e-9), no_load_radps = 1.0 / std::max(v[1], 1e-9);
+  edits.law("actuator.limit", [=](const PortState& s) {
+    const double along = s.load >= 0.0 ? s.velocity : -s.velocity;
+    return stall_Nm * (1.0 - along / no_load_radps);
+  });
+}
+
+const EffectRegistration kEffect(
+    {.id = "actuator.voltage_limit",
+     .port = "actuator",
+     .statement =
+         "The bus voltage, less what the motors' speed takes of it, does not drive the commanded current.",
+     .equation = "|i| <= (V - K_e w) / R",
+     .plants = {PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

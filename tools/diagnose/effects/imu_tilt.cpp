@@ -1,0 +1,24 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "imu.tilt",
+     .port = "sensor",
+     .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
+     .equation = "y = x cos(alpha)",
+     .plants = {PlantKind::falling_body, PlantKind::hopper},
+     .channels =
+         [](const Context& c) {
+           return present(c, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
+         },
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{{.name = "tilt_rad", .typical = 0.1, .low = 0.0, .high = 0.7}};
+         },
+     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
+                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, std::cos(v[0])); }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

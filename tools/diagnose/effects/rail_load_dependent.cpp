@@ -1,0 +1,26 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+const EffectRegistration kEffect(
+    {.id = "rail.load_dependent",
+     .port = "rail",
+     .statement = "The rail's friction grows with the force that the leg carries.",
+     .equation = "F += -mu |F_leg| sign(v)",
+     .plants = {PlantKind::hopper},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "friction_coefficient", .typical = 0.02, .low = 0.0, .high = 0.5}};
+         },
+     .apply =
+         [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+           const double mu = v[0];
+           edits.law("rail", [=](const PortState& s) {
+             return -mu * std::abs(s.load) * sign_smooth(s.velocity, kSwitchSpeed_mps);
+           });
+         }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,29 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kRailFriction = 0.1;
+
+// On a leaning rail less of gravity acts along it, and the rest presses on the rail.
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const double tilt = v[0], pressed_N = kRailFriction * c.scale("weight_N", 20.0) * std::sin(tilt);
+  edits.scale("gravity_mps2", std::cos(tilt));
+  edits.law("rail",
+            [=](const PortState& s) { return -pressed_N * sign_smooth(s.velocity, kSwitchSpeed_mps); });
+}
+
+const EffectRegistration kEffect({.id = "rail.tilt",
+                                  .port = "rail",
+                                  .statement = "The rail is not upright.",
+                                  .equation = "g -> g cos(alpha), F += -mu m g sin(alpha) sign(v)",
+                                  .plants = {PlantKind::hopper},
+                                  .parameters =
+                                      [](const Context&, const std::string&) {
+                                        return std::vector<EffectParameter>{
+                                            {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5}};
+                                      },
+                                  .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose
