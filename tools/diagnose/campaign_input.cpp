@@ -35,12 +35,6 @@ PlantKind kind_of(CampaignPlant plant) {
   return PlantKind::hopper;
 }
 
-// What a payload that the experimenter wrote down adds to.
-std::string body_mass_key(PlantKind plant) {
-  if (plant == PlantKind::hopper) return "robot.body_mass_kg";
-  return plant == PlantKind::falling_body ? "body.mass_kg" : "";
-}
-
 }  // namespace
 
 Belief flattened(const sandhopper::Belief& belief) {
@@ -69,10 +63,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
     for (const double t : recording.t_s) trial.time_s.push_back(t - recording.t_s.front());
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));
-    Belief belief = flattened(described.belief);
-    if (const auto mass = body_mass_key(input.recordings.plant); !mass.empty() && belief.has(mass))
-      belief.numbers[mass] += input.recordings.trials.back().setup_or("payload_kg", 0.0);
-    input.recordings.beliefs.push_back(std::move(belief));
+    input.recordings.beliefs.push_back(flattened(described.belief));
   }
   return input;
 }

@@ -68,7 +68,8 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     const std::size_t length = j - i + 1;
     // At the end of its range a sensor rests on the limit: that is another fault.
     const bool inside = i > 0 && j + 1 < v.size();
-    if (length >= kShortest && inside) {
+    // A drive that reports exactly nothing rests.
+    if (length >= kShortest && inside && v[i] != 0.0) {
       const double chance = repeats_around(v, i, j);
       if (chance < kMostRepeats &&
           (std::pow(chance, static_cast<double>(length - 1)) < kByChance || length >= shortest_by_number) &&

@@ -20,6 +20,7 @@ constexpr double kSmallestShare = 0.004;  // of what all effects explain
 constexpr double kHopeless = 0.15;        // of the largest gain on the screen
 constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
 
+constexpr FitOptions kRough{.max_iterations = 10, .tolerance = 0.5};  // of sets that are only tried
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
@@ -167,16 +168,16 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
   start.hypothesis.values.push_back(added.values);
   SetFit result;
   result.set = set;
-  result.fit = fit_from(*problem_, start);
+  result.fit = fit_from(*problem_, start, kRough);
   // A second start where the first got nowhere near what its linear approximation promised.
-  if (from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
+  if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
     const auto& parameters = problem_->candidates[added.candidate].parameters;
     for (const double factor : {0.3, 1.0, -1.0}) {
       if (factor < 0.0 && !parameters[0].either_sign) continue;
       auto values = added.values;
       values[0] = std::clamp(factor * parameters[0].typical, parameters[0].low, parameters[0].high);
       start.hypothesis.values.back() = values;
-      Fit again = fit_from(*problem_, start);
+      Fit again = fit_from(*problem_, start, kRough);
       if (again.deviance < result.fit.deviance) result.fit = std::move(again);
     }
   }

@@ -32,6 +32,7 @@ struct SearchOptions {
   std::size_t most_effects = 3;
   std::size_t beam = 2;
   std::size_t fits_per_screen = 6;
+  bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
 

@@ -140,9 +140,19 @@ class RunCache {
   std::uint64_t clock_ = 0;
 };
 
+// What the experimenter weighed and put on the body is part of it.
+Belief with_payload(Belief belief, const Trial& trial) {
+  const double payload_kg = trial.setup_or("payload_kg", 0.0);
+  if (payload_kg != 0.0)
+    belief.numbers["robot.body_mass_kg"] =
+        belief.value("robot.body_mass_kg", LegParameters{}.body_mass_kg) + payload_kg;
+  return belief;
+}
+
 class HopperTrial final : public TrialModel {
  public:
-  HopperTrial(const Trial& trial, const Belief& belief) : belief_(belief), world_(world_of(belief, {})) {
+  HopperTrial(const Trial& trial, const Belief& belief)
+      : belief_(with_payload(belief, trial)), world_(world_of(belief_, {})) {
     name = trial.name;
     const Leg leg(world_.robot.leg);
     compression_stiffness_ = trial.setup_or("compression_stiffness_N_per_m", 375.0);
