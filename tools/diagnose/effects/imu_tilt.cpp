@@ -8,10 +8,10 @@ const EffectRegistration kEffect(
      .port = "sensor",
      .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
      .equation = "y = x cos(alpha)",
-     .plants = {PlantKind::falling_body, PlantKind::hopper},
+     .plants = {PlantKind::hopper},
      .channels =
          [](const Context& c) {
-           return present(c, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
+           return present(c, {"imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
          },
      .parameters =
          [](const Context&, const std::string&) {
