@@ -66,8 +66,10 @@ Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size
   // A derivative of a later rival is a difference to the first so far: less its own difference over the step.
   transform_ = MatrixXd::Identity(linear.gram.rows(), linear.gram.cols());
   for (const auto& c : columns_)
-    for (Index k = c.from; k < c.from + c.count && c.difference > 0; ++k)
-      transform_(c.difference, k) = -1.0 / directions_[static_cast<std::size_t>(k - 1)].step;
+    for (Index k = c.from; k < c.from + c.count && c.difference > 0; ++k) {
+      const Direction& direction = directions_[static_cast<std::size_t>(k - 1)];
+      if (direction.tolerance < 0) transform_(c.difference, k) = -1.0 / direction.step;
+    }
   gram_ = transform_.transpose() * linear.gram * transform_;
 }
 
