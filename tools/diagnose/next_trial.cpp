@@ -113,11 +113,17 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, search.dispersion());
     return all;
   };
-  const double enough = kEnough * belief.apart;
+  // The more there is to explain, the more the simulation's own errors count.
+  const auto apart = [&](const Contest& one) {
+    return belief.apart + belief.apart_per_explained * one.explained();
+  };
   const auto choice = best_of(planned, [&](std::size_t trial) {
     const auto all = contests(trial);
+    std::vector<double> needed;
+    for (const auto& one : all) needed.push_back(apart(one));
     double sum = 0.0;
-    for (const auto& p : pairs) sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j), enough));
+    for (const auto& p : pairs)
+      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / needed[p.group], kEnough));
     return sum / static_cast<double>(pairs.size());
   });
   const auto all = contests(choice.trial);
@@ -127,7 +133,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
   double most = -1.0;
   next.settles = 1.0;
   for (const auto& p : pairs) {
-    const double chance = all[p.group].settles(p.i, p.j, belief.apart);
+    const double chance = all[p.group].settles(p.i, p.j, apart(all[p.group]));
     const double lambda = all[p.group].lambda(p.i, p.j);
     next.settles = std::min(next.settles, chance);
     next.splits = std::max(next.splits, chance);
@@ -145,8 +151,8 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
        next);
   next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
   if (next.splits < 0.5)
-    next.why +=
-        fmt::format(" About {:.0f} of them would.", std::ceil(1.5 * belief.apart / std::max(most, 1e-3)));
+    next.why += fmt::format(" About {:.0f} of them would.",
+                            std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3)));
 }
 
 // Doublings of the information on some parameters of a point; `information` so far.

@@ -22,6 +22,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
       std::max(0.0, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
   const double temperature = 1.0 + remainder / kRemainderScale + kShareOfExplained * explained / kSameClass;
   out.apart = kSameClass * temperature;
+  out.apart_per_explained = kShareOfExplained;
   double total = 0.0;
   std::map<std::vector<std::size_t>, double> weight;
   for (const auto& [set, fit] : search.sets()) {

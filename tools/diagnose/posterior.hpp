@@ -10,7 +10,10 @@ namespace sandhopper::diagnose {
 // where the best set itself leaves something unexplained: `remainder` is what free laws would still explain
 // on held-out trials.
 struct Posterior {
-  double apart = 9.0;  // a rival whose deviance is this much larger, over the dispersion, is no alternative
+  // A rival whose deviance is this much larger, over the dispersion, is no alternative; and by how much that
+  // grows with every unit that a further trial gives the answer to explain.
+  double apart = 9.0;
+  double apart_per_explained = 0.0;
   std::map<std::size_t, double> probability;                     // of each effect of the best set
   std::map<std::size_t, std::vector<std::size_t>> alternatives;  // that explain as much in its place
 };

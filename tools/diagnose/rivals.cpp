@@ -33,7 +33,7 @@ std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, cons
   for (const auto candidate : best.set) {
     const auto found = belief.alternatives.find(candidate);
     if (found == belief.alternatives.end()) continue;
-    Rivals rivals{{&best}, {problem.candidates[candidate].label()}};
+    Rivals rivals{{&best}, {problem.candidates[candidate].label()}, &search.null()};
     for (const auto other : found->second) {
       auto set = best.set;
       std::replace(set.begin(), set.end(), candidate, other);
@@ -51,6 +51,7 @@ std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, cons
 Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial,
                  const Rivals& rivals, double dispersion)
     : fits_(rivals.fits), trial_(trial), dispersion_(dispersion) {
+  fits_.push_back(rivals.null);
   for (std::size_t i = 0; i < fits_.size(); ++i) {
     Columns columns;
     if (i > 0) {
@@ -88,10 +89,12 @@ MatrixXd Contest::left(std::size_t j) const {
   return gram_ - gram_.middleCols(c.from, c.count) * own.ldlt().solve(gram_.middleRows(c.from, c.count));
 }
 
-double Contest::lambda(std::size_t i, std::size_t j) const {
+double Contest::rise(std::size_t i, std::size_t j) const {
   const VectorXd v = between(i, j);
-  return std::max(0.0, std::min(v.dot(left(j) * v), v.dot(left(i) * v))) / dispersion_;
+  return std::max(0.0, v.dot(left(j) * v)) / dispersion_;
 }
+
+double Contest::lambda(std::size_t i, std::size_t j) const { return std::min(rise(i, j), rise(j, i)); }
 
 double Contest::settles(std::size_t i, std::size_t j, double apart) const {
   const VectorXd v = between(i, j);

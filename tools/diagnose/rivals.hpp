@@ -14,6 +14,7 @@ namespace sandhopper::diagnose {
 struct Rivals {
   std::vector<const SetFit*> fits;
   std::vector<std::string> names;  // of the effects in which they differ
+  const SetFit* null = nullptr;    // what is believed
 
   std::size_t size() const { return fits.size(); }
 };
@@ -28,6 +29,8 @@ class Contest {
 
   // Rise of the deviance of the wrong one of two, the smaller of both ways round, over the dispersion.
   double lambda(std::size_t i, std::size_t j) const;
+  // Deviance that the first explains in the trial, over the dispersion.
+  double explained() const { return rise(0, fits_.size() - 1); }
   // Chance that their deviances differ by more than `apart`, the parameters of i as uncertain as they are.
   double settles(std::size_t i, std::size_t j, double apart) const;
 
@@ -43,10 +46,11 @@ class Contest {
     Eigen::Index difference = 0;  // to the first; 0 for the first itself
     Eigen::Index from = 0, count = 0;
   };
+  double rise(std::size_t i, std::size_t j) const;  // of j's deviance when i is true
   Eigen::VectorXd between(std::size_t i, std::size_t j) const;
   Eigen::MatrixXd left(std::size_t j) const;
 
-  std::vector<const SetFit*> fits_;
+  std::vector<const SetFit*> fits_;  // the rivals, then what is believed
   std::vector<Direction> directions_;
   std::vector<Columns> columns_;
   Eigen::MatrixXd transform_, gram_;

@@ -24,5 +24,8 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
 std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, const Belief& belief,
                                         const Edits& edits);
 std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief);
+// Hops of the first stride: release heights and leg stiffnesses.
+std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const Belief& belief,
+                                     const Edits& edits);
 
 }  // namespace sandhopper::diagnose

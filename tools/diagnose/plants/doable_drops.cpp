@@ -74,14 +74,14 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
        {0.5 * heights.low, heights.low, std::sqrt(heights.low * heights.high), heights.high,
         2.0 * heights.high, 4.0 * heights.high, 8.0 * heights.high, 16.0 * heights.high})
     for (const double speed_mps : {0.0, 3.0, 8.0})
-      for (const double payload : {0.0, 0.5, 1.0}) {
+      for (const double payload : {0.0, 0.5, 1.0, 3.0}) {
         if (height_m > std::max(kHighest_m, heights.high)) continue;
         DoableTrial one;
         one.belief = belief;
         one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload * mass_kg});
         one.trial.kind = "drop";
-        one.cost = std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) +
-                   (payload > 0.0 ? 0.5 : 0.0);
+        one.cost =
+            std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) + payload;
         if (one.trial.time_s.size() >= 10) trials.push_back(std::move(one));
       }
   return trials;

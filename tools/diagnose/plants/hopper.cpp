@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
 
@@ -500,6 +501,11 @@ class Hopper final : public PlantModel {
     s["angle_rad"] = high > low ? high - low : 1.0;
     s["speed_radps"] = 10.0;
     s["duration_s"] = duration;
+  }
+
+  std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                  const Edits& edits) const override {
+    return doable_hops(recorded, belief, edits);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
