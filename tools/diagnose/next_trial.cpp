@@ -169,7 +169,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
              const Diagnosis& diagnosis, NextTrial& next) {
   const SetFit& best = search.best();
   const Point& point = best.fit.point;
-  const auto directions = parameter_directions(problem, point);
+  const auto directions = plain_directions(problem, point);
   const auto k = static_cast<Index>(directions.size());
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<Index> amplitudes;
@@ -251,7 +251,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
                                                          : candidate.parameters[i].typical);
   with.candidates.push_back(widest->candidate);
   with.values.push_back(values);
-  auto directions = parameter_directions(problem, point);
+  auto directions = plain_directions(problem, point);
   directions.push_back(
       {edits_for(problem, with, point.tolerances), values[0] / candidate.parameters[0].typical});
   const auto k = static_cast<Index>(directions.size());

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "tools/diagnose/fit.hpp"
+
 namespace sandhopper::diagnose {
 
 PlannedTrials::PlannedTrials(Problem& problem, std::vector<DoableTrial> doable)
@@ -27,6 +29,18 @@ TrialLinear PlannedTrials::linearised(std::size_t i, const Edits& base,
   const std::vector<double> zero(model(i).nuisance_count(), 0.0);
   return linearise(*problem_, first_ + i, base, zero, directions,
                    {.keep_plain = keep_plain, .fresh_columns = true});
+}
+
+std::vector<Direction> plain_directions(const Problem& problem, const Point& point) {
+  constexpr double kStep = 0.1;  // of a tolerance's scale
+  auto directions = parameter_directions(problem, point);
+  const std::size_t first = directions.size() - point.tolerances.size();
+  for (std::size_t i = 0; i < point.tolerances.size(); ++i) {
+    auto moved = point.tolerances;
+    moved[i] += kStep;
+    directions[first + i] = {edits_for(problem, point.hypothesis, moved), kStep};
+  }
+  return directions;
 }
 
 }  // namespace sandhopper::diagnose

@@ -29,4 +29,8 @@ class PlannedTrials {
   std::vector<DoableTrial> doable_;
 };
 
+// As parameter_directions(), tolerances simulated like the others: a kept column is the derivative at the
+// point of the linearisation, not a difference to it.
+std::vector<Direction> plain_directions(const Problem& problem, const Point& point);
+
 }  // namespace sandhopper::diagnose

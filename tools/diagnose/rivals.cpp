@@ -59,7 +59,7 @@ Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size
       columns.difference = static_cast<Index>(directions_.size());
     }
     columns.from = static_cast<Index>(directions_.size()) + 1;
-    for (auto& d : parameter_directions(problem, fits_[i]->fit.point)) directions_.push_back(std::move(d));
+    for (auto& d : plain_directions(problem, fits_[i]->fit.point)) directions_.push_back(std::move(d));
     columns.count = static_cast<Index>(directions_.size()) + 1 - columns.from;
     columns_.push_back(columns);
   }
