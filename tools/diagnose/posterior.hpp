@@ -10,8 +10,8 @@ namespace sandhopper::diagnose {
 // where the best set itself leaves something unexplained: `remainder` is what free laws would still explain
 // on held-out trials.
 struct Posterior {
-  double apart = 9.0;  // a rival whose deviance is this much larger, over the dispersion, is no alternative
-  std::map<std::size_t, double> probability;                     // of each effect of the best set
+  double apart = 6.0;  // a rival whose deviance is this much larger, over the dispersion, is no alternative
+  std::map<std::size_t, double> probability;  // of each effect of the best set or one of its alternatives
   std::map<std::size_t, std::vector<std::size_t>> alternatives;  // that explain as much in its place
 };
 Posterior posterior(const Problem& problem, const Search& search, double remainder);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/proposals.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -16,8 +18,8 @@ constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.04;
-constexpr double kSmallestShare = 0.004;  // of what all effects explain
-constexpr double kHopeless = 0.15;        // of the largest gain on the screen
+constexpr double kSmallestShare = 0.002;  // of what all effects explain
+constexpr double kSizeSpread = 1.8;       // of the logarithm of a size in typical ones, believed beforehand
 constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
 
 constexpr FitOptions kRough{.max_iterations = 10, .tolerance = 0.5};  // of sets that are only tried
@@ -36,11 +38,25 @@ std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candi
   return set;
 }
 
+// Minus twice the logarithm of how likely these sizes were beforehand.
+double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
+    const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
+    double typicals = 0.0;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (i == 0 || parameters[i].amplitude)
+        typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
+    sum += std::pow(std::log(std::max(typicals, 1e-3)) / kSizeSpread, 2);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double Search::criterion(const SetFit& fit) const {
   const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
-  return fit.fit.deviance / dispersion_ -
+  return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) -
          2.0 * static_cast<double>(fit.set.size()) * std::log(kPriorOfAnEffect) +
          static_cast<double>(fit.fit.point.hypothesis.parameters()) * std::log(trials);
 }
@@ -200,7 +216,8 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   const auto candidates = screened(from);
   std::size_t done = 0;
   for (const auto& s : candidates) {
-    if (done >= fits || s.gain < kWorthAFit || (done >= 3 && s.gain < kHopeless * candidates.front().gain))
+    if (done >= fits || s.gain < kWorthAFit ||
+        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain))
       break;
     evaluate(parent, s);
     ++done;
@@ -306,6 +323,29 @@ void Search::restart_null() {
   }
 }
 
+// Sets that a linear approximation at the best point puts first. True when one was new.
+bool Search::try_proposals() {
+  const Point from = best().fit.point;
+  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
+  const double cost = -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+  bool tried = false;
+  for (const auto& proposal :
+       propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
+    auto set = proposal.start.candidates;
+    std::sort(set.begin(), set.end());
+    if (sets_.contains(set)) continue;
+    SetFit fit;
+    fit.set = set;
+    Point start = from;
+    start.hypothesis = proposal.start;
+    fit.fit = fit_from(*problem_, start);
+    sets_[set] = std::move(fit);
+    tried = true;
+  }
+  if (tried) choose_best();
+  return tried;
+}
+
 const SetFit& Search::run(const Point& start) {
   sets_.clear();
   screens_.clear();
@@ -344,6 +384,11 @@ const SetFit& Search::run(const Point& start) {
   const auto before = best_;
   prune();
   if (best_ != before) exchange();
+  for (int round = 0; round < 3 && options_.proposals > 0; ++round) {
+    const auto so_far = best_;
+    if (!try_proposals() || best_ == so_far) break;
+    prune();
+  }
   return best();
 }
 

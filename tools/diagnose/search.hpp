@@ -31,8 +31,10 @@ struct SetFit {
 struct SearchOptions {
   std::size_t most_effects = 3;
   std::size_t beam = 2;
+  std::size_t proposals = 0;  // sets from a linear approximation at the best point, tried at the end
   std::size_t fits_per_screen = 6;
   bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
+  double hopeless = 0.15;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
 
@@ -61,6 +63,7 @@ class Search {
   void restart_null();
   void exchange();
   void prune();
+  bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
   void choose_best();
 
