@@ -9,7 +9,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr int kKnots = 9;
-constexpr int kFineKnots = 49;  // of what may ripple, where a simulation costs little
+constexpr int kFineKnots = 41;  // of what may ripple, where a simulation costs little
 
 struct Variable {
   std::string name;
@@ -46,7 +46,7 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
             {"t_s", time_of, one, true}};
   if (port == "axis")
     return {{"velocity_radps", velocity_of, one},
-            {"position_rad", position_of, one, true},
+            {"position_rad", position_of, one},
             {"position_rad, with the sign of velocity", position_of, direction_of},
             {"torque_Nm", load_of, one},
             {"t_s", time_of, one}};

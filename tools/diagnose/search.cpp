@@ -19,8 +19,10 @@ constexpr double kSignificance = 0.01;  // family-wise
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.04;
 constexpr double kSmallestShare = 0.002;  // of what all effects explain
-constexpr double kSizeSpread = 1.8;       // of the logarithm of a size in typical ones, believed beforehand
-constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
+constexpr double kLinearError =
+    0.05;                            // of what is explained: a proposal's estimate may be worse than its fit
+constexpr double kSizeSpread = 1.8;  // of the logarithm of a size in typical ones, believed beforehand
+constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
 
 constexpr FitOptions kRough{.max_iterations = 10, .tolerance = 0.5};  // of sets that are only tried
 constexpr int kNullRestarts = 3;
@@ -328,12 +330,15 @@ bool Search::try_proposals() {
   const Point from = best().fit.point;
   const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
   const double cost = -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+  const double explained = null().fit.deviance - best().fit.deviance;
+  const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
+                       kWorthAFit + kLinearError * explained;
   bool tried = false;
   for (const auto& proposal :
        propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
     auto set = proposal.start.candidates;
     std::sort(set.begin(), set.end());
-    if (sets_.contains(set)) continue;
+    if (sets_.contains(set) || proposal.deviance > limit) continue;
     SetFit fit;
     fit.set = set;
     Point start = from;

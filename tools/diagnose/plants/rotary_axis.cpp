@@ -313,6 +313,16 @@ class RotaryAxis final : public PlantModel {
     context.scales["speed_radps"] = std::max(speed, 0.1);
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;
+    // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
+    constexpr double kMoves = 5.0;  // switch speeds of the friction
+    double swift = 0.0;
+    for (const auto& trial : trials) {
+      const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
+      if (positions.value.size() < 20) swift = speed;
+      for (const double v : smooth(positions, 8).rate) swift = std::max(swift, std::abs(v));
+    }
+    context.scales["moves"] =
+        swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02) ? 1.0 : 0.0;
     const auto orders = ripple_orders(trials, context.belief);
     for (std::size_t i = 0; i < orders.size(); ++i)
       context.scales["ripple_order_" + std::to_string(i + 1)] = orders[i];
