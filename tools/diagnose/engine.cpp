@@ -24,6 +24,7 @@ constexpr double kUnknownSignificance = 0.003;
 constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kDoubtBesideUnknown = 0.6;
+constexpr std::size_t kSeeds = 14;
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 
@@ -93,8 +94,14 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     Point again = search.best().fit.point;
     again.hypothesis = {};
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
+    // Where every candidate was tried, the best of them need no search, but another fit.
+    std::vector<Point> seeds;
+    if (recordings.plant != PlantKind::hopper) {
+      seeds = search.best_points(kSeeds);
+      search_options.fits_per_screen = 3;
+    }
     Search second(problem, search_options);
-    second.run(again);
+    second.run(again, seeds);
     search = std::move(second);
     diagnosis.log.emplace_back("second round");
     log_sets(problem, search, diagnosis);

@@ -351,7 +351,18 @@ bool Search::try_proposals() {
   return tried;
 }
 
-const SetFit& Search::run(const Point& start) {
+std::vector<Point> Search::best_points(std::size_t count) const {
+  std::vector<const SetFit*> order;
+  for (const auto& [set, fit] : sets_)
+    if (!set.empty() && fit.fit.status != FitStatus::failed) order.push_back(&fit);
+  std::sort(order.begin(), order.end(),
+            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < order.size() && i < count; ++i) points.push_back(order[i]->fit.point);
+  return points;
+}
+
+const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   sets_.clear();
   screens_.clear();
   SetFit null;
@@ -359,6 +370,13 @@ const SetFit& Search::run(const Point& start) {
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
+  for (const auto& seed : seeds) {
+    SetFit fit;
+    fit.set = seed.hypothesis.candidates;
+    std::sort(fit.set.begin(), fit.set.end());
+    fit.fit = fit_from(*problem_, seed);
+    sets_[fit.set] = std::move(fit);
+  }
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
     for (std::size_t i = 0; i < front.size(); ++i) {

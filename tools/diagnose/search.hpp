@@ -44,7 +44,11 @@ class Search {
   Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
 
   // From what is already known at `start` (nuisances): the set that explains most with every effect needed.
-  const SetFit& run(const Point& start);
+  // `seeds`: sets to begin with, where their fits may start.
+  const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
+
+  // Where the fits of the sets with the smallest criterion stand.
+  std::vector<Point> best_points(std::size_t count) const;
 
   const SetFit& best() const { return sets_.at(best_); }
   const SetFit& null() const { return sets_.at({}); }
