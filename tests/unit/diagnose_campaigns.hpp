@@ -92,4 +92,57 @@ inline Recordings swings(const AxisTorque& unknown_Nm, std::uint64_t seed = 1, s
   return r;
 }
 
+using BedForce = std::function<double(double depth_m, double speed_mps)>;
+
+// A plate pressed 30 mm into a bed of 1500 N/m and drawn out again at several speeds, recorded at 500 Hz; the
+// set-ups differ in how often the bed was pushed, how long it waited and how deep it is.
+inline Recordings presses(const BedForce& unknown_N, std::uint64_t seed = 1, std::size_t trials = 6) {
+  constexpr double kStiffness_N_per_m = 1500.0, kUnloadingRatio = 30.0, kDeepest_m = 0.03, kAbove_m = 0.005;
+  Recordings r;
+  r.plant = PlantKind::intruder;
+  r.belief.numbers = {{"gravity_mps2", 9.81},
+                      {"foot.radius_m", 0.04},
+                      {"terrain.stiffness_N_per_m", kStiffness_N_per_m},
+                      {"terrain.intercept_depth_m", 0.0},
+                      {"terrain.added_mass_factor", 0.0},
+                      {"terrain.drag_factor", 0.0},
+                      {"terrain.unloading_stiffness_ratio", kUnloadingRatio},
+                      {"sensors.load_cell_noise_N", 0.1},
+                      {"spread.surface_height_m", 1e-4},
+                      {"spread.load_cell_offset_N", 0.02}};
+  for (std::size_t i = 0; i < trials; ++i) {
+    Random random(seed, i);
+    Trial trial;
+    trial.name = std::to_string(i + 1);
+    trial.kind = "intrusion";
+    trial.setup = {{"pushes_since_preparation", static_cast<double>(i % 3)},
+                   {"wait_s", i % 2 == 0 ? 2.0 : 300.0},
+                   {"bed_depth_m", i % 3 == 0 ? 0.06 : 0.045}};
+    const double speed = 0.05 * std::pow(2.0, static_cast<double>(i % 4));
+    const double half = 0.5 * (kDeepest_m + kAbove_m), rate = speed / half;
+    const double zero_N = 0.02 * random.normal(), surface_m = 1e-4 * random.normal();
+    double deepest_m = 0.0, deepest_N = 0.0;
+    for (double t = 0.0; t < 2.0 * M_PI / rate; t += 2e-3) {
+      const double z = half - kAbove_m - half * std::cos(rate * t), v = half * rate * std::sin(rate * t);
+      const double depth_m = z + surface_m;
+      double force_N = 0.0;
+      if (depth_m > deepest_m) {
+        force_N = kStiffness_N_per_m * depth_m + unknown_N(depth_m, v);
+        deepest_m = depth_m;
+        deepest_N = kStiffness_N_per_m * depth_m;
+      } else if (depth_m > 0.0) {
+        force_N = std::max(0.0, deepest_N - kUnloadingRatio * kStiffness_N_per_m * (deepest_m - depth_m));
+      }
+      trial.time_s.push_back(t);
+      trial.channels["foot_z_m"].push_back(-z);
+      trial.channels["foot_velocity_mps"].push_back(-v);
+      trial.channels["foot_accel_mps2"].push_back(-half * rate * rate * std::cos(rate * t));
+      trial.channels["force_N"].push_back(force_N + zero_N + 0.1 * random.normal());
+    }
+    r.trials.push_back(std::move(trial));
+    r.beliefs.push_back(r.belief);
+  }
+  return r;
+}
+
 }  // namespace sandhopper::diagnose

@@ -24,4 +24,17 @@ Diagnosis random_pick(const Truth& truth, const std::vector<std::string>& ids) {
   return d;
 }
 
+std::optional<Diagnosis> plainer(const std::optional<Diagnosis>& diagnosis, const std::string& method) {
+  if (!diagnosis) return std::nullopt;
+  const auto found = diagnosis->baselines.find(method);
+  if (found == diagnosis->baselines.end() || found->second.empty()) return std::nullopt;
+  Diagnosis d;
+  d.verdict = "missing_physics";
+  Claim claim;
+  claim.id = found->second;
+  claim.probability = 1.0;
+  d.claims.push_back(claim);
+  return d;
+}
+
 }  // namespace sandhopper::benchmark

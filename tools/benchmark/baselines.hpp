@@ -10,4 +10,8 @@ Diagnosis null_only();
 // campaign.
 Diagnosis random_pick(const Truth& truth, const std::vector<std::string>& ids_of_plant);
 
+// Says what a plainer method would have named ("largest_correlation", "fit_every_parameter": of `baselines`
+// in the tool's diagnosis.json), without doubt, as such a method does. nullopt: the tool tells no such thing.
+std::optional<Diagnosis> plainer(const std::optional<Diagnosis>& diagnosis, const std::string& method);
+
 }  // namespace sandhopper::benchmark

@@ -113,6 +113,9 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
     for (const auto& effect : json["effects"]) d.claims.push_back(claim_of(effect));
   std::stable_sort(d.claims.begin(), d.claims.end(),
                    [](const Claim& a, const Claim& b) { return a.probability > b.probability; });
+  if (json.contains("baselines") && json["baselines"].is_object())
+    for (const auto& [name, one] : json["baselines"].items())
+      if (one.is_object() && one.contains("id") && one["id"].is_string()) d.baselines[name] = one["id"];
   if (json.contains("fit") && json["fit"].is_object() && json["fit"].contains("heldout")) {
     const auto& heldout = json["fit"]["heldout"];
     if (heldout.is_object()) d.heldout_after = number(heldout, "after"), d.floor = number(heldout, "floor");

@@ -44,6 +44,8 @@ struct Diagnosis {
   std::vector<Claim> claims;
   std::optional<double> heldout_after, floor;
   std::optional<double> seconds;
+  std::map<std::string, std::string>
+      baselines;  // what plainer methods would have named, where the tool tells
   bool says_missing() const { return verdict == "missing_physics" || verdict == "unknown_physics"; }
 };
 

@@ -1,5 +1,6 @@
 #include "tools/benchmark/score_files.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "tools/benchmark/baselines.hpp"
@@ -38,6 +39,13 @@ std::vector<Column> score_all(const std::vector<Truth>& truths, const std::files
   columns.push_back({"random pick", score_tool(truths, [](const Truth& truth) {
                        return std::optional(random_pick(truth, ids_of(truth.plant)));
                      })});
+  for (const char* method : {"largest_correlation", "fit_every_parameter"}) {
+    auto name = std::string(method);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    columns.push_back({name, score_tool(truths, [&](const Truth& truth) {
+                         return plainer(read_diagnosis(diagnoses / (truth.name + ".json")), method);
+                       })});
+  }
   for (const auto& [name, folder] : others) columns.push_back({name, score_folder(truths, folder)});
   return columns;
 }

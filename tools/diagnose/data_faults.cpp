@@ -6,13 +6,16 @@
 #include <map>
 #include <set>
 
+#include "tools/diagnose/data_fault_parts.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kNeighbours = 10;  // samples on each side
 constexpr double kByChance = 1e-6;       // probability of a stretch, given how often neighbours repeat
 constexpr double kMostRepeats = 0.6;     // of the neighbourhood: above, the sensor rests
-constexpr double kLong_s = 0.03;         // a stuck sensor; shorter stretches are lost samples
+constexpr double kLong_s = 0.06;         // a shorter stretch may also be lost samples
 constexpr std::size_t kShortest = 4;
 
 struct Stretch {
@@ -66,7 +69,6 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     std::size_t j = i;
     while (j + 1 < v.size() && v[j + 1] == v[i]) ++j;
     const std::size_t length = j - i + 1;
-    // At the end of its range a sensor rests on the limit: that is another fault.
     const bool inside = i > 0 && j + 1 < v.size();
     // A drive that reports exactly nothing rests.
     if (length >= kShortest && inside && v[i] != 0.0) {
@@ -95,7 +97,94 @@ std::size_t shortest_by_number(const std::map<std::size_t, double>& runs) {
   return std::numeric_limits<std::size_t>::max();
 }
 
+// Values held, in one channel.
+void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
+  const auto samples = sampled(trials, channel);
+  std::map<std::size_t, double> runs;
+  double repeated = 0.0, total = 0.0;
+  double low = 1e300, high = -1e300;
+  DataFault fault;
+  fault.channel = channel;
+  fault.id = "data.stuck";
+  for (const auto& s : samples) {
+    for (std::size_t i = 0; i < s.value.size();) {
+      std::size_t j = i;
+      while (j + 1 < s.value.size() && s.value[j + 1] == s.value[i]) ++j;
+      low = std::min(low, s.value[i]);
+      high = std::max(high, s.value[i]);
+      if (j > i) ++runs[j - i + 1];
+      repeated += static_cast<double>(j - i);
+      i = j + 1;
+    }
+    total += static_cast<double>(s.value.size());
+    if (s.time_s.size() < 2) continue;
+    fault.recorded_s += s.time_s.back() - s.time_s.front();
+    fault.step_s = (s.time_s.back() - s.time_s.front()) / static_cast<double>(s.time_s.size() - 1);
+  }
+  if (total < 20.0 || repeated > 0.5 * total) return;  // a slow sensor, held in the log
+  const std::size_t by_number = shortest_by_number(runs);
+  std::vector<double> durations;
+  std::size_t longest = 0;
+  for (const auto& s : samples) {
+    auto& values = s.trial->channels[channel];
+    bool hit = false;
+    for (const auto& stretch : held_stretches(s.value, s.time_s, by_number)) {
+      // At the end of its range a sensor rests on the limit: that is another fault.
+      if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
+      hit = true;
+      longest = std::max(longest, stretch.last - stretch.first + 1);
+      durations.push_back(stretch.duration_s);
+      for (std::size_t k = stretch.first + 1; k <= stretch.last; ++k)
+        values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (hit) fault.trials.push_back(s.trial->name);
+  }
+  fault.stretches = durations.size();
+  if (fault.stretches < 2 && longest < 8) return;
+  std::sort(durations.begin(), durations.end());
+  fault.duration_s = durations[durations.size() / 2];
+  fault.rate_Hz = fault.recorded_s > 0.0 ? static_cast<double>(fault.stretches) / fault.recorded_s : 0.0;
+  fault.borderline = fault.duration_s < kLong_s;
+  faults.push_back(std::move(fault));
+}
+
 }  // namespace
+
+std::vector<SampledChannel> sampled(std::vector<Trial>& trials, const std::string& channel) {
+  std::vector<SampledChannel> all;
+  for (auto& trial : trials) {
+    const auto* values = trial.find(channel);
+    if (values == nullptr) continue;
+    SampledChannel s{&trial, {}, {}, {}};
+    for (std::size_t i = 0; i < values->size(); ++i)
+      if (std::isfinite((*values)[i])) {
+        s.rows.push_back(i);
+        s.value.push_back((*values)[i]);
+        s.time_s.push_back(trial.time_s[i]);
+      }
+    if (!s.value.empty()) all.push_back(std::move(s));
+  }
+  return all;
+}
+
+double value_grid(const std::vector<SampledChannel>& channel) {
+  double grid = std::numeric_limits<double>::infinity();
+  for (const auto& s : channel)
+    for (std::size_t i = 1; i < s.value.size(); ++i) {
+      const double step = std::abs(s.value[i] - s.value[i - 1]);
+      if (step > 1e-9 * std::abs(s.value[i])) grid = std::min(grid, step);
+    }
+  return std::isfinite(grid) ? grid : 0.0;
+}
+
+double own_noise(const std::vector<SampledChannel>& channel) {
+  std::vector<double> of_trial;
+  for (const auto& s : channel) of_trial.push_back(fluctuation_rms({s.time_s, s.value}));
+  if (of_trial.empty()) return 0.0;
+  const auto middle = of_trial.begin() + static_cast<std::ptrdiff_t>(of_trial.size() / 2);
+  std::nth_element(of_trial.begin(), middle, of_trial.end());
+  return *middle;
+}
 
 std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
   std::set<std::string> channels;
@@ -105,66 +194,11 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
           !name.ends_with("temperature_C"))
         channels.insert(name);
   std::vector<DataFault> faults;
+  find_lost_rows(trials, faults);
   for (const auto& channel : channels) {
-    struct Sampled {
-      Trial* trial;
-      std::vector<std::size_t> rows;
-      std::vector<double> value, time;
-    };
-    std::vector<Sampled> sampled;
-    std::map<std::size_t, double> runs;
-    double repeated = 0.0, total = 0.0, recorded_s = 0.0;
-    double low = 1e300, high = -1e300;
-    for (auto& trial : trials) {
-      const auto* values = trial.find(channel);
-      if (values == nullptr) continue;
-      Sampled s{&trial, {}, {}, {}};
-      for (std::size_t i = 0; i < values->size(); ++i)
-        if (std::isfinite((*values)[i])) {
-          s.rows.push_back(i);
-          s.value.push_back((*values)[i]);
-          s.time.push_back(trial.time_s[i]);
-          low = std::min(low, s.value.back());
-          high = std::max(high, s.value.back());
-        }
-      for (std::size_t i = 0; i < s.value.size();) {
-        std::size_t j = i;
-        while (j + 1 < s.value.size() && s.value[j + 1] == s.value[i]) ++j;
-        if (j > i) ++runs[j - i + 1];
-        repeated += static_cast<double>(j - i);
-        i = j + 1;
-      }
-      total += static_cast<double>(s.value.size());
-      if (!s.time.empty()) recorded_s += s.time.back() - s.time.front();
-      sampled.push_back(std::move(s));
-    }
-    if (total < 20.0 || repeated > 0.5 * total) continue;  // a slow sensor, held in the log
-    const std::size_t by_number = shortest_by_number(runs);
-    DataFault fault{channel, "", 0, 0.0, 0.0, false, {}};
-    std::vector<double> durations;
-    std::size_t longest = 0;
-    for (auto& s : sampled) {
-      const auto stretches = held_stretches(s.value, s.time, by_number);
-      auto& values = s.trial->channels[channel];
-      bool hit = false;
-      for (const auto& stretch : stretches) {
-        if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
-        hit = true;
-        longest = std::max(longest, stretch.last - stretch.first + 1);
-        durations.push_back(stretch.duration_s);
-        for (std::size_t k = stretch.first + 1; k <= stretch.last; ++k)
-          values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
-      }
-      if (hit) fault.trials.push_back(s.trial->name);
-    }
-    fault.stretches = durations.size();
-    if (fault.stretches < 2 && longest < 8) continue;
-    std::sort(durations.begin(), durations.end());
-    fault.duration_s = durations[durations.size() / 2];
-    fault.rate_Hz = recorded_s > 0.0 ? static_cast<double>(fault.stretches) / recorded_s : 0.0;
-    fault.id = fault.duration_s > kLong_s ? "data.stuck" : "data.dropout";
-    fault.borderline = fault.duration_s > 0.5 * kLong_s && fault.duration_s < 2.0 * kLong_s;
-    faults.push_back(std::move(fault));
+    find_dropouts(trials, channel, faults);
+    find_stuck(trials, channel, faults);
+    find_clipping(trials, channel, faults);
   }
   return faults;
 }

@@ -6,19 +6,23 @@
 
 namespace sandhopper::diagnose {
 
-// A channel that held a value, or fell to zero, while the quantity went on.
+// A channel that held a value, fell out, or stopped at a limit while the quantity went on.
 struct DataFault {
   std::string channel;
-  std::string id;  // data.stuck, or data.dropout for stretches of a few samples
+  std::string id;  // data.stuck, data.dropout or sensor.saturation
   std::size_t stretches = 0;
   double duration_s = 0.0;  // median of a stretch
+  double step_s = 0.0;      // between samples: how well a duration is known
   double rate_Hz = 0.0;     // stretches per second of recording
-  bool borderline = false;  // as long as either
+  double recorded_s = 0.0;
+  double limit = 0.0;       // of a saturation
+  bool borderline = false;  // a held value that short may be what a logger puts where samples are lost
   std::vector<std::string> trials;
 };
 
 // Finds them, and empties the cells that hold no measurement. A resting or coarse sensor repeats values, too:
-// a stretch counts where its neighbourhood shows that repeats of that length do not come by chance.
+// a stretch counts where its neighbourhood shows that repeats of that length do not come by chance. A gap
+// now and then is no fault.
 std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials);
 
 }  // namespace sandhopper::diagnose

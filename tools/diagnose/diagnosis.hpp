@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/simple_answers.hpp"
+
 namespace sandhopper::diagnose {
 
 // What diagnosis.json says; see tools/diagnose/README.md.
@@ -115,6 +117,7 @@ struct Diagnosis {
   std::vector<PhaseError> phase_errors;
   std::vector<Trace> traces;
   NextTrial next;
+  SimpleAnswers simple;
   std::string corrected_model_toml;
   std::size_t trials = 0;
   std::uint64_t simulations = 0;

@@ -78,6 +78,9 @@ Json to_json(const Diagnosis& d) {
   for (const auto& b : d.absent)
     json["absent"].push_back(
         {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}});
+  json["baselines"] = {
+      {"largest_correlation", {{"id", d.simple.largest_correlation}, {"correlation", d.simple.correlation}}},
+      {"fit_every_parameter", {{"id", d.simple.fit_every_parameter}, {"typicals", d.simple.typicals}}}};
   json["notes"] = d.notes;
   json["trials"] = d.trials;
   json["simulations"] = d.simulations;

@@ -65,6 +65,12 @@ struct Candidate {
   std::string channel;
   std::vector<EffectParameter> parameters;
 
+  // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
+  // of time or reading by its tangent, or the steep edges of a signal hide it behind its own curvature.
+  double probe() const {
+    return effect->port == "sensor" || effect->port == "clock" || effect->port == "actuator" ? 0.02 : 0.4;
+  }
+
   std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }
 };
 

@@ -20,9 +20,11 @@ namespace {
 
 constexpr std::size_t kTooFewTrials = 3;
 constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
-constexpr double kRestShare = 0.10;
 constexpr double kUnknownSignificance = 0.003;
 constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
+constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
+constexpr double kDoubtBesideUnknown = 0.6;
+constexpr std::size_t kSeeds = 14;
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 
@@ -71,8 +73,15 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Point point = fit_from(problem, null_point(problem)).point;
   update_noise(problem, point);
   keep_columns(problem, point);
+  diagnosis.simple = simple_answers(problem, point);
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
+  // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
+  if (recordings.plant != PlantKind::hopper) {
+    search_options.fits_per_screen = 10;
+    search_options.proposals = 10;
+    search_options.hopeless = 0.03;
+  }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   Search search(problem, search_options);
   search.run(point);
@@ -85,8 +94,14 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     Point again = search.best().fit.point;
     again.hypothesis = {};
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
+    // Where every candidate was tried, the best of them need no search, but another fit.
+    std::vector<Point> seeds;
+    if (recordings.plant != PlantKind::hopper) {
+      seeds = search.best_points(kSeeds);
+      search_options.fits_per_screen = 3;
+    }
     Search second(problem, search_options);
-    second.run(again);
+    second.run(again, seeds);
     search = std::move(second);
     diagnosis.log.emplace_back("second round");
     log_sets(problem, search, diagnosis);
@@ -98,8 +113,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const FreeGain* rest = nullptr;
   double rows = 0.0;
   for (const auto& trial : problem.trials) rows += static_cast<double>(trial->rows.size());
+  const double form = problem.plant->form_error();
   const double least_gain =
-      std::max({kUnknownGain, kUnknownGainPerRow * rows, kUnknownShareOfDeviance * best.fit.deviance});
+      std::max({kUnknownGain, kUnknownGainPerRow * rows,
+                std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
   for (const auto& gain : gains)
     if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
         gain.trials_better >= 0.75)
@@ -110,15 +127,22 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
         gains[i].family.variable, gains[i].held_out, gains[i].p_value, 100.0 * gains[i].trials_better));
   const double remainder = rest ? rest->held_out : 0.0;
   const double share = remainder > 0.0 ? remainder / (remainder + std::max(explained, 0.0)) : 0.0;
-  diagnosis.log.push_back(
-      fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %)", explained, remainder, 100.0 * share));
+  diagnosis.log.push_back(fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %), {} rows", explained,
+                                      remainder, 100.0 * share, rows));
 
   const Posterior belief = posterior(problem, search, remainder);
-  const bool unknown = rest != nullptr && share > kUnknownShare;
+  const bool unknown = rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows);
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = "unknown_at_port";
     report_unknown(problem, *rest, share, diagnosis);
+    // What is on the list and explains most may be there beside it, or be what the unknown looks like.
+    if (share <= kUnknownShare) {
+      report_effects(problem, search, belief, diagnosis);
+      for (auto& effect : diagnosis.effects)
+        if (!effect.id.starts_with("unknown@"))
+          effect.probability = std::min(effect.probability, kDoubtBesideUnknown);
+    }
   } else if (best.set.empty()) {
     diagnosis.verdict = problem.trials.size() < kTooFewTrials ? "insufficient_data" : "consistent";
     diagnosis.detail = problem.trials.size() < kTooFewTrials ? "too_little_data" : "null";
@@ -127,10 +151,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     report_effects(problem, search, belief, diagnosis);
     bool classes = false;
     for (const auto& effect : diagnosis.effects) classes = classes || !effect.indistinguishable_from.empty();
-    diagnosis.detail = classes                                 ? "one_of_class"
-                       : rest != nullptr && share > kRestShare ? "known_and_rest"
-                                                               : "known";
-    if (rest != nullptr && share > kRestShare) report_unknown(problem, *rest, share, diagnosis);
+    diagnosis.detail = classes ? "one_of_class" : rest != nullptr ? "known_and_rest" : "known";
+    if (rest != nullptr) report_unknown(problem, *rest, share, diagnosis);
   }
   report_data_faults(faults, diagnosis);
   const Residuals residuals =

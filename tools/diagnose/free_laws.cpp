@@ -9,31 +9,41 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr int kKnots = 9;
+constexpr int kFineKnots = 41;  // of what may ripple, where a simulation costs little
 
 struct Variable {
   std::string name;
   double (*value)(const PortState&);
   double (*weight)(const PortState&);  // multiplies the law
+  bool ripples = false;
 };
 
 double one(const PortState&) { return 1.0; }
 double time_of(const PortState& s) { return s.time_s; }
 double position_of(const PortState& s) { return s.position; }
 double velocity_of(const PortState& s) { return s.velocity; }
+double fallen_of(const PortState& s) { return s.extreme - s.position; }
 double load_of(const PortState& s) { return s.load; }
 double direction_of(const PortState& s) { return std::tanh(s.velocity / 0.02); }
 double virgin(const PortState& s) { return s.accel; }
 double not_virgin(const PortState& s) { return 1.0 - s.accel; }
+double virgin_load(const PortState& s) { return s.accel * s.load / 20.0; }
 double virgin_speed(const PortState& s) { return s.accel * s.velocity; }
 
 std::vector<Variable> variables_of(const std::string& port, bool sensor) {
   if (sensor) return {{"value", position_of, one}, {"rate", velocity_of, one}, {"t_s", time_of, one}};
   if (port == "ground.force")
-    return {{"depth_m", position_of, virgin},
+    return {{"depth_m", position_of, virgin, true},
             {"speed_mps", velocity_of, virgin},
+            {"speed_mps, times the quasi-static force", velocity_of, virgin_load},
             {"depth_m, times speed", position_of, virgin_speed},
             {"depth_m, unloading", position_of, not_virgin},
-            {"t_s", time_of, one}};
+            {"t_s", time_of, one, true}};
+  if (port == "body")
+    return {{"velocity_mps", velocity_of, one},
+            {"height_m", position_of, one, true},
+            {"distance fallen, m", fallen_of, one, true},
+            {"t_s", time_of, one, true}};
   if (port == "axis")
     return {{"velocity_radps", velocity_of, one},
             {"position_rad", position_of, one},
@@ -74,6 +84,23 @@ std::vector<std::pair<double, double>> visited(const Problem& problem, const Poi
   return ranges;
 }
 
+FreeFamily family_of(const FreePort& port, const Variable& variable, double low, double high, int knots) {
+  FreeFamily family{port.port, port.sensor, variable.name, port.scale, low, high, {}};
+  const double spacing = (high - low) / (knots - 1);
+  for (int k = 0; k < knots; ++k) {
+    const double knot = low + spacing * k, scale = port.scale;
+    const auto value = variable.value;
+    const auto weight = variable.weight;
+    family.terms.push_back({port.port, port.sensor,
+                            [=](const PortState& s) {
+                              const double u = 1.0 - std::abs(value(s) - knot) / spacing;
+                              return u > 0.0 ? scale * u * weight(s) : 0.0;
+                            },
+                            scale});
+  }
+  return family;
+}
+
 }  // namespace
 
 std::vector<FreeFamily> free_families(const Problem& problem, const Point& point) {
@@ -88,21 +115,10 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
     for (std::size_t v = 0; v < variables.size(); ++v) {
       const auto [low, high] = ranges[v];
       if (!(high > low)) continue;
-      FreeFamily family{port.port, port.sensor, variables[v].name, port.scale, low, high, {}};
-      const double spacing = (high - low) / (kKnots - 1);
-      for (int k = 0; k < kKnots; ++k) {
-        const double knot = low + spacing * k;
-        const auto value = variables[v].value;
-        const auto weight = variables[v].weight;
-        const double scale = port.scale;
-        family.terms.push_back({port.port, port.sensor,
-                                [=](const PortState& s) {
-                                  const double u = 1.0 - std::abs(value(s) - knot) / spacing;
-                                  return u > 0.0 ? scale * u * weight(s) : 0.0;
-                                },
-                                scale});
-      }
-      families.push_back(std::move(family));
+      const bool quick = problem.context.plant != PlantKind::hopper;
+      families.push_back(family_of(port, variables[v], low, high, kKnots));
+      if (variables[v].ripples && quick)
+        families.push_back(family_of(port, variables[v], low, high, kFineKnots));
     }
   }
   return families;

@@ -45,6 +45,13 @@ void levinson(const std::vector<double>& correlation, double samples, ChannelNoi
 
 }  // namespace
 
+void NoiseModel::fix(std::size_t channel, double sd) {
+  auto& noise = channels_[channel];
+  noise.sd_of_phase.assign(noise.sd_of_phase.size(), sd);
+  noise.autoregression.clear();
+  noise.innovation_sd = 1.0;
+}
+
 double ChannelNoise::sd() const {
   double sum = 0.0, count = 0.0;
   for (std::size_t p = 0; p < sd_of_phase.size(); ++p) {

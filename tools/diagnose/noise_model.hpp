@@ -30,6 +30,7 @@ class NoiseModel {
   void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
               Eigen::Ref<Eigen::MatrixXd> values) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
+  void fix(std::size_t channel, double sd);  // white, the same in all phases
   std::size_t channels() const { return channels_.size(); }
 
  private:

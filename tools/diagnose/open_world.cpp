@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kProbe = 0.2;
-constexpr double kSensorHandicap = 0.9;  // a law in the plant is preferred to one in a sensor
+constexpr double kSensorHandicap = 0.75;  // a law in the plant is preferred to one in a sensor
 
 // One-sided, trials as units: are the held-out gains more than chance, given their own spread?
 double p_of_gains(const std::vector<double>& gains) {

@@ -75,6 +75,10 @@ class PlantModel {
   virtual ~PlantModel() = default;
   virtual std::vector<std::string> channels() const = 0;
   virtual std::vector<std::string> phases() const = 0;
+  // The share of what is explained that laws of a true form other than the candidates' may leave.
+  virtual double form_error() const { return 0.05; }
+  // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
+  virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
   // Null where the trial has nothing that can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;

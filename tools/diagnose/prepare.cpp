@@ -17,7 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kClockTolerance = 0.15;  // of a sample's period
-constexpr double kOutlier = 8.0;          // standard deviations
+constexpr double kRowTolerance =
+    0.5;                          // of a row's: a slower sensor's sample stands in the first row after it
+constexpr double kOutlier = 8.0;  // standard deviations
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -98,9 +100,10 @@ void update_noise(Problem& problem, const Point& point) {
     const auto& parameters = problem.candidates[c].parameters;
     std::vector<double> values;
     for (std::size_t i = 0; i < parameters.size(); ++i)
-      values.push_back(i == 0                    ? std::min(0.3 * parameters[i].typical, parameters[i].high)
-                       : parameters[i].amplitude ? 0.0
-                                                 : parameters[i].typical);
+      values.push_back(
+          i == 0 ? std::min(problem.candidates[c].probe() * parameters[i].typical, parameters[i].high)
+          : parameters[i].amplitude ? 0.0
+                                    : parameters[i].typical);
     Edits edits = base;
     problem.candidates[c].effect->apply(problem.context, problem.candidates[c].channel, values, edits);
     edits.laws_key = 0;
@@ -124,6 +127,9 @@ void update_noise(Problem& problem, const Point& point) {
   problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
                                  problem.floor_sd);
   mark_outliers(problem, residuals);
+  // A condition is met as closely as it says, whatever the recordings scatter.
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (const double sd = problem.plant->least_sd(problem.channels[c]); sd > 0.0) problem.noise.fix(c, sd);
 }
 
 Prepared prepare(const Recordings& recordings) {
@@ -146,6 +152,10 @@ Prepared prepare(const Recordings& recordings) {
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto& channel = problem.channels[c];
+    if (const double sd = problem.plant->least_sd(channel); sd > 0.0) {
+      problem.floor_sd.push_back(sd);
+      continue;
+    }
     const ChannelScale scale = scale_of(recordings.trials, channel);
     const double span = std::max(scale.high - scale.low, 0.0);
     const double floor =
@@ -159,10 +169,15 @@ Prepared prepare(const Recordings& recordings) {
   problem.plant->describe(recordings.trials, problem.context);
   problem.effects = known_effects();
   problem.candidates = candidates_for(problem.effects, problem.context);
-  for (const auto& [channel, scale] : problem.context.channels)
+  std::vector<double> row_steps;
+  for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
+  const double row_s = median(row_steps);
+  for (const auto& [channel, scale] : problem.context.channels) {
+    const double share = problem.context.scale("clock_tolerance", kClockTolerance);
     problem.tolerances.push_back({"time of " + channel,
-                                  problem.context.scale("clock_tolerance", kClockTolerance) * scale.step_s,
+                                  std::min(share * scale.step_s, std::max(share, kRowTolerance) * row_s),
                                   channel});
+  }
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));

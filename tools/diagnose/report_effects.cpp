@@ -38,6 +38,16 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point) {
   return sandwich.topLeftCorner(own, own);
 }
 
+// "mass_change_kg" of "mass_kg".
+std::string change_of(const std::string& name) {
+  for (const char* unit :
+       {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
+        "_radps", "_mps2", "_mps", "_rad", "_Nm", "_kg", "_N", "_m", "_s"})
+    if (name.ends_with(unit))
+      return name.substr(0, name.size() - std::string(unit).size()) + "_change" + unit;
+  return name + "_change";
+}
+
 std::string filled(std::string text, const std::string& channel) {
   if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
   return text;
@@ -73,7 +83,11 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
         out.high = out.value + 1e-3 * std::abs(out.value);
       }
       if (out.low > out.high) std::swap(out.low, out.high);
-      found.parameters.push_back(std::move(out));
+      found.parameters.push_back(out);
+      // What was added to the belief, where that held something already.
+      if (p.base != 0.0 && p.scale != 0.0 && !p.reciprocal)
+        found.parameters.push_back(
+            {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base});
     }
     found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
     if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())

@@ -42,7 +42,7 @@ void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis
   const Sums before(problem, residuals.before), after(problem, residuals.after),
       held_out(problem, residuals.held_out);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    if (before.by_channel.count[c] == 0.0) continue;
+    if (before.by_channel.count[c] == 0.0 || !problem.context.has(problem.channels[c])) continue;
     const auto& noise = problem.noise.channel(c);
     ChannelFit fit;
     fit.channel = problem.channels[c];

@@ -50,21 +50,44 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   diagnosis.unknown.push_back(std::move(unknown));
 }
 
+namespace {
+
+std::string fault_statement(const DataFault& fault) {
+  if (fault.id == "sensor.saturation")
+    return fmt::format("{} stops at {:.4g} while the quantity goes on.", fault.channel, fault.limit);
+  if (fault.id == "data.stuck")
+    return fmt::format("{} stood still {} times while the quantity went on.", fault.channel, fault.stretches);
+  if (fault.channel == "t_s") return fmt::format("Rows are missing {} times.", fault.stretches);
+  return fmt::format("{} fell out {} times.", fault.channel, fault.stretches);
+}
+
+}  // namespace
+
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
   for (const auto& fault : faults) {
     FoundEffect effect;
     effect.id = fault.id;
     effect.port = fault.channel;
     effect.channel = fault.channel;
-    effect.statement = fault.id == "data.stuck"
-                           ? fmt::format("{} stood still {} times while the quantity went on.", fault.channel,
-                                         fault.stretches)
-                           : fmt::format("{} repeats an old sample {} times where new ones were lost.",
-                                         fault.channel, fault.stretches);
-    effect.equation = "y(t) = y(t_0), t_0 < t < t_0 + T";
-    effect.parameters = {{"duration_s", fault.duration_s, 0.7 * fault.duration_s, 1.3 * fault.duration_s},
-                         {"rate_Hz", fault.rate_Hz, 0.7 * fault.rate_Hz, 1.4 * fault.rate_Hz}};
-    effect.probability = fault.borderline ? 0.6 : 0.97;
+    effect.statement = fault_statement(fault);
+    effect.probability = 0.97;
+    if (fault.id == "sensor.saturation") {
+      const double limit = std::abs(fault.limit);
+      effect.equation = "y = min(x, limit)";
+      effect.parameters = {{"limit", limit, 0.999 * limit, 1.001 * limit}};
+    } else {
+      effect.equation =
+          fault.id == "data.stuck" ? "y(t) = y(t_0), t_0 < t < t_0 + T" : "no y(t), t_0 < t < t_0 + T";
+      // A stretch of n samples lasted between n - 1 and n + 1 steps; one that fell between samples was not
+      // seen. How many there were follows Poisson.
+      const double longer_s = fault.duration_s + fault.step_s;
+      const double count = static_cast<double>(fault.stretches);
+      const double unseen = 1.0 + fault.step_s / std::max(fault.duration_s, fault.step_s);
+      effect.parameters = {
+          {"duration_s", fault.duration_s, std::max(0.0, fault.duration_s - fault.step_s), longer_s},
+          {"rate_Hz", fault.rate_Hz, std::max(0.0, count - 2.0 * std::sqrt(count)) / fault.recorded_s,
+           unseen * (count + 2.0 * std::sqrt(count) + 2.0) / fault.recorded_s}};
+    }
     if (fault.borderline)
       effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};
     if (diagnosis.verdict == "consistent" || diagnosis.verdict == "insufficient_data") {

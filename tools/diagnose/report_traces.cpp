@@ -55,6 +55,7 @@ void report_traces(const Problem& problem, const Recordings& recordings, const R
     for (const auto& trial : recordings.trials)
       if (trial.name == model.name) setup = in_words(trial);
     for (std::uint32_t c = 0; c < problem.channels.size(); ++c) {
+      if (!problem.context.has(problem.channels[c])) continue;
       std::vector<std::size_t> rows;
       for (std::size_t k = 0; k < model.rows.size(); ++k)
         if (model.rows[k].channel == c && problem.used[t][k]) rows.push_back(k);

@@ -91,6 +91,7 @@ void report_where(const Problem& problem, const Search& search, const Residuals&
   std::vector<Where> found;
   for (std::size_t c = 0; c < channels; ++c)
     for (std::size_t p = 0; p < phases; ++p) {
+      if (!problem.context.has(problem.channels[c])) continue;
       Where where;
       where.channel = problem.channels[c];
       where.phase = problem.phases[p];

@@ -13,7 +13,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kProbe = 0.4;              // of the typical size, for a candidate's signature
 constexpr double kPriorInformation = 0.01;  // of a size in typicals: sd 10
 
 struct Alternative {
@@ -25,7 +24,8 @@ struct Alternative {
 
 bool is_amplitude(const EffectParameter& p, std::size_t index) { return index == 0 || p.amplitude; }
 
-// One alternative for every value of the shape that has a list of them.
+}  // namespace
+
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
   std::vector<double> typical;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
@@ -38,8 +38,6 @@ std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
     }
   return choices;
 }
-
-}  // namespace
 
 std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index first, Index count,
                                  const VectorXd& prior_information) {
@@ -130,7 +128,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point) {
         if (!is_amplitude(parameter, i)) continue;
         Hypothesis with = point.hypothesis;
         auto values = choice;
-        const double step = std::min(kProbe, parameter.high / parameter.typical);
+        const double step = std::min(candidate.probe(), parameter.high / parameter.typical);
         values[i] = step * parameter.typical;
         with.candidates.push_back(c);
         with.values.push_back(values);

@@ -31,6 +31,10 @@ struct HeldOut {
 HeldOut held_out_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns,
                       double prior_information);
 
+// Parameters of a candidate with its amplitudes off: shapes as typical, and once more for every value of the
+// shape that has a list of them.
+std::vector<std::vector<double>> shape_choices(const Candidate& candidate);
+
 // A candidate as it looks in a linear approximation at a point that does not contain it.
 struct Screened {
   std::size_t candidate = 0;

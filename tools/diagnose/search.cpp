@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/proposals.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -16,9 +18,11 @@ constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.04;
-constexpr double kSmallestShare = 0.004;  // of what all effects explain
-constexpr double kHopeless = 0.15;        // of the largest gain on the screen
-constexpr double kNearlyAsGood = 0.35;    // of the explained deviance: what an exchange may start from
+constexpr double kSmallestShare = 0.002;  // of what all effects explain
+constexpr double kLinearError =
+    0.05;                            // of what is explained: a proposal's estimate may be worse than its fit
+constexpr double kSizeSpread = 1.8;  // of the logarithm of a size in typical ones, believed beforehand
+constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
 
 constexpr FitOptions kRough{.max_iterations = 10, .tolerance = 0.5};  // of sets that are only tried
 constexpr int kNullRestarts = 3;
@@ -36,11 +40,25 @@ std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candi
   return set;
 }
 
+// Minus twice the logarithm of how likely these sizes were beforehand.
+double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
+    const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
+    double typicals = 0.0;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      if (i == 0 || parameters[i].amplitude)
+        typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
+    sum += std::pow(std::log(std::max(typicals, 1e-3)) / kSizeSpread, 2);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double Search::criterion(const SetFit& fit) const {
   const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
-  return fit.fit.deviance / dispersion_ -
+  return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) -
          2.0 * static_cast<double>(fit.set.size()) * std::log(kPriorOfAnEffect) +
          static_cast<double>(fit.fit.point.hypothesis.parameters()) * std::log(trials);
 }
@@ -200,7 +218,8 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   const auto candidates = screened(from);
   std::size_t done = 0;
   for (const auto& s : candidates) {
-    if (done >= fits || s.gain < kWorthAFit || (done >= 3 && s.gain < kHopeless * candidates.front().gain))
+    if (done >= fits || s.gain < kWorthAFit ||
+        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain))
       break;
     evaluate(parent, s);
     ++done;
@@ -306,7 +325,44 @@ void Search::restart_null() {
   }
 }
 
-const SetFit& Search::run(const Point& start) {
+// Sets that a linear approximation at the best point puts first. True when one was new.
+bool Search::try_proposals() {
+  const Point from = best().fit.point;
+  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
+  const double cost = -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+  const double explained = null().fit.deviance - best().fit.deviance;
+  const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
+                       kWorthAFit + kLinearError * explained;
+  bool tried = false;
+  for (const auto& proposal :
+       propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
+    auto set = proposal.start.candidates;
+    std::sort(set.begin(), set.end());
+    if (sets_.contains(set) || proposal.deviance > limit) continue;
+    SetFit fit;
+    fit.set = set;
+    Point start = from;
+    start.hypothesis = proposal.start;
+    fit.fit = fit_from(*problem_, start);
+    sets_[set] = std::move(fit);
+    tried = true;
+  }
+  if (tried) choose_best();
+  return tried;
+}
+
+std::vector<Point> Search::best_points(std::size_t count) const {
+  std::vector<const SetFit*> order;
+  for (const auto& [set, fit] : sets_)
+    if (!set.empty() && fit.fit.status != FitStatus::failed) order.push_back(&fit);
+  std::sort(order.begin(), order.end(),
+            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < order.size() && i < count; ++i) points.push_back(order[i]->fit.point);
+  return points;
+}
+
+const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   sets_.clear();
   screens_.clear();
   SetFit null;
@@ -314,6 +370,13 @@ const SetFit& Search::run(const Point& start) {
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
+  for (const auto& seed : seeds) {
+    SetFit fit;
+    fit.set = seed.hypothesis.candidates;
+    std::sort(fit.set.begin(), fit.set.end());
+    fit.fit = fit_from(*problem_, seed);
+    sets_[fit.set] = std::move(fit);
+  }
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
     for (std::size_t i = 0; i < front.size(); ++i) {
@@ -344,6 +407,11 @@ const SetFit& Search::run(const Point& start) {
   const auto before = best_;
   prune();
   if (best_ != before) exchange();
+  for (int round = 0; round < 3 && options_.proposals > 0; ++round) {
+    const auto so_far = best_;
+    if (!try_proposals() || best_ == so_far) break;
+    prune();
+  }
   return best();
 }
 

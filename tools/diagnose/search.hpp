@@ -31,8 +31,10 @@ struct SetFit {
 struct SearchOptions {
   std::size_t most_effects = 3;
   std::size_t beam = 2;
+  std::size_t proposals = 0;  // sets from a linear approximation at the best point, tried at the end
   std::size_t fits_per_screen = 6;
   bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
+  double hopeless = 0.15;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
 
@@ -42,7 +44,11 @@ class Search {
   Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
 
   // From what is already known at `start` (nuisances): the set that explains most with every effect needed.
-  const SetFit& run(const Point& start);
+  // `seeds`: sets to begin with, where their fits may start.
+  const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
+
+  // Where the fits of the sets with the smallest criterion stand.
+  std::vector<Point> best_points(std::size_t count) const;
 
   const SetFit& best() const { return sets_.at(best_); }
   const SetFit& null() const { return sets_.at({}); }
@@ -61,6 +67,7 @@ class Search {
   void restart_null();
   void exchange();
   void prune();
+  bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
   void choose_best();
 

@@ -31,7 +31,7 @@ Json coupling(Bed& b, double size, Random&) {
 
 Json power_law(Bed& b, double size, Random& random) {
   b.hidden.exponent_excess = random.chance(0.3) ? -0.15 * std::min(size, 2.5) : 0.2 * size;
-  return {{"exponent_excess", b.hidden.exponent_excess}};
+  return {{"exponent_change", b.hidden.exponent_excess}};
 }
 
 Json floor(Bed& b, double size, Random&) {

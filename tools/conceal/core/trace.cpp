@@ -54,7 +54,7 @@ Trace shifted(const Trace& trace, double later_s) {
 }
 
 Trace stretched(const Trace& trace, double drift) {
-  return resampled(trace, [&](double t_s) { return t_s * (1.0 + drift); });
+  return resampled(trace, [&](double t_s) { return t_s / (1.0 + drift); });
 }
 
 }  // namespace sandhopper::conceal

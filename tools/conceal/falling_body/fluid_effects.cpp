@@ -23,7 +23,7 @@ Json quadratic(World& w, double size, Random&) {
   const double v = top_speed_mps(w);
   w.hidden.quadratic = size * 0.1 * heaviness_kg(w) * w.gravity_mps2 / (v * v);
   return {{"drag_N_s2_per_m2", w.hidden.quadratic},
-          {"drag_coefficient", w.hidden.quadratic / (0.5 * w.density_kg_per_m3 * w.frontal_area_m2)}};
+          {"drag_coefficient_change", w.hidden.quadratic / (0.5 * w.density_kg_per_m3 * w.frontal_area_m2)}};
 }
 
 Json linear(World& w, double size, Random&) {
@@ -34,18 +34,18 @@ Json linear(World& w, double size, Random&) {
 Json buoyancy(World& w, double size, Random&) {
   const double displaced_kg = w.density_kg_per_m3 * w.volume_m3;
   w.hidden.buoyancy = size * 0.04 * w.mass_kg / displaced_kg;
-  return {{"buoyancy_factor", w.hidden.buoyancy}};
+  return {{"buoyancy_factor_change", w.hidden.buoyancy}};
 }
 
 Json added_mass(World& w, double size, Random&) {
   const double displaced_kg = w.density_kg_per_m3 * w.volume_m3;
   w.hidden.added_mass = size * 0.08 * w.mass_kg / displaced_kg;
-  return {{"added_mass_factor", w.hidden.added_mass}, {"added_mass_kg", w.hidden.added_mass * displaced_kg}};
+  return {{"added_mass_factor_change", w.hidden.added_mass}, {"added_mass_kg", w.hidden.added_mass * displaced_kg}};
 }
 
 Json mass(World& w, double size, Random& random) {
   w.hidden.mass_share = std::max(-0.4, random.sign() * size * 0.08);
-  return {{"mass_kg", w.hidden.mass_share * w.mass_kg}};
+  return {{"mass_change_kg", w.hidden.mass_share * w.mass_kg}};
 }
 
 }  // namespace

@@ -6,12 +6,12 @@ namespace {
 
 Json coulomb(World& w, double size, Random&) {
   w.hidden.coulomb_Nm = size * 0.05 * w.gravity_torque_Nm;
-  return {{"coulomb_Nm", w.hidden.coulomb_Nm}};
+  return {{"coulomb_friction_change_Nm", w.hidden.coulomb_Nm}};
 }
 
 Json viscous(World& w, double size, Random&) {
   w.hidden.viscous_Nm_s = size * 0.02 * w.gravity_torque_Nm;
-  return {{"viscous_Nm_s", w.hidden.viscous_Nm_s}};
+  return {{"viscous_friction_change_Nm_s", w.hidden.viscous_Nm_s}};
 }
 
 // More friction at rest than in motion; it fades with a Lorentzian of speed.

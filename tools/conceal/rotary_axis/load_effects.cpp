@@ -6,12 +6,12 @@ namespace {
 
 Json inertia(World& w, double size, Random& random) {
   w.hidden.inertia_share = std::max(-0.5, random.sign() * size * 0.10);
-  return {{"inertia_kg_m2", w.hidden.inertia_share * w.inertia_kg_m2}};
+  return {{"inertia_change_kg_m2", w.hidden.inertia_share * w.inertia_kg_m2}};
 }
 
 Json gravity(World& w, double size, Random& random) {
   w.hidden.gravity_share = std::max(-0.5, random.sign() * size * 0.05);
-  return {{"gravity_torque_Nm", w.hidden.gravity_share * w.gravity_torque_Nm}};
+  return {{"gravity_torque_change_Nm", w.hidden.gravity_share * w.gravity_torque_Nm}};
 }
 
 Json offset(World& w, double size, Random& random) {

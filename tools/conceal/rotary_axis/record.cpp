@@ -58,7 +58,8 @@ double hidden_torque_Nm(const World& w, const State& x, double torque_Nm, double
   const double load_Nm = std::abs(torque_Nm) + std::abs(w.gravity_torque_Nm * std::sin(th));
   const double slow = v / h.stribeck_speed_radps;
   double sum = -side * (h.coulomb_Nm + h.stribeck_Nm / (1.0 + slow * slow) + h.load_dependent * load_Nm);
-  sum -= h.viscous_Nm_s * v + h.fan_Nm_s2 * v * std::abs(v);
+  const double swift = v / h.brake_speed_radps;
+  sum -= h.viscous_Nm_s * v + h.brake_Nm * 2.0 * swift / (1.0 + swift * swift);
   sum += h.cogging_Nm * std::sin(h.cogging_per_rev * th + h.cogging_phase_rad);
   const double off = (th - h.magnet_at_rad) / h.magnet_width_rad;
   sum -= h.magnet_Nm * off * std::exp(0.5 * (1.0 - off * off));

@@ -21,9 +21,11 @@ Json rub(World& w, double size, Random& random) {
       {"friction_Nm", w.hidden.rub_Nm}, {"from_rad", w.hidden.rub_from_rad}, {"to_rad", w.hidden.rub_to_rad}};
 }
 
-Json fan(World& w, double size, Random&) {
-  w.hidden.fan_Nm_s2 = size * 0.012 * w.gravity_torque_Nm;
-  return {{"torque_Nm_s2", w.hidden.fan_Nm_s2}};
+// Eddy currents brake most at one speed and less beyond it.
+Json eddy_brake(World& w, double size, Random& random) {
+  w.hidden.brake_Nm = size * 0.05 * w.gravity_torque_Nm;
+  w.hidden.brake_speed_radps = random.uniform(0.5, 1.5);
+  return {{"peak_Nm", w.hidden.brake_Nm}, {"at_radps", w.hidden.brake_speed_radps}};
 }
 
 Json hysteresis(World& w, double size, Random& random) {
@@ -37,7 +39,7 @@ Json hysteresis(World& w, double size, Random& random) {
 std::vector<Recipe<World>> unlisted_effects() {
   return {{{"magnet_at_an_angle", "axis", "u"}, magnet},
           {{"rub_in_a_sector", "axis", "u"}, rub},
-          {{"fan", "axis", "u"}, fan},
+          {{"eddy_brake", "axis", "u"}, eddy_brake},
           {{"hysteretic_spring", "axis", "u"}, hysteresis}};
 }
 

@@ -44,7 +44,7 @@ struct World {
     double cogging_Nm = 0.0, cogging_per_rev = 84.0, cogging_phase_rad = 0.0;
     double magnet_Nm = 0.0, magnet_at_rad = 0.0, magnet_width_rad = 0.1;
     double rub_Nm = 0.0, rub_from_rad = 0.0, rub_to_rad = 0.0;
-    double fan_Nm_s2 = 0.0;
+    double brake_Nm = 0.0, brake_speed_radps = 1.0;          // an eddy-current brake: most at that speed
     double spring_Nm_per_rad = 0.0, spring_yield_rad = 0.1;  // elastoplastic: a hysteresis loop
   } hidden;
   double eccentricity_rad = 0.0, eccentricity_phase_rad = 0.0;

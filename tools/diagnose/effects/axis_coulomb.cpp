@@ -4,6 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.scale("moves") == 0.0) return {};
   const double believed = c.belief.value("axis.coulomb_friction_Nm", 0.0);
   const double typical = 0.1 * c.scale("torque_Nm");
   return {{.name = "coulomb_friction_Nm",

@@ -10,7 +10,8 @@ const EffectRegistration kEffect(
      .equation = "tau += -mu |torque| sign(w)",
      .plants = {PlantKind::rotary_axis},
      .parameters =
-         [](const Context&, const std::string&) {
+         [](const Context& c, const std::string&) {
+           if (c.scale("moves") == 0.0) return std::vector<EffectParameter>{};
            return std::vector<EffectParameter>{
                {.name = "load_friction_coefficient", .typical = 0.05, .low = 0.0, .high = 0.9}};
          },

@@ -3,26 +3,39 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// A torque that is always there, and where gravity acts an angle between its zero and the encoder's.
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  const double typical = 0.05 * c.scale("torque_Nm");
+  std::vector<EffectParameter> all{{.name = "torque_offset_Nm",
+                                    .typical = typical,
+                                    .low = -100.0 * typical,
+                                    .high = 100.0 * typical,
+                                    .either_sign = true}};
+  if (c.belief.value("axis.gravity_torque_Nm") != 0.0)
+    all.push_back({.name = "offset_rad",
+                   .typical = 0.03,
+                   .low = -0.5,
+                   .high = 0.5,
+                   .either_sign = true,
+                   .amplitude = true});
+  return all;
+}
+
+void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+  const double torque = v[0];
+  edits.law("axis", [torque](const PortState&) { return torque; });
+  if (v.size() > 1) edits.add("axis.bottom_rad", v[1]);
+}
+
 const EffectRegistration kEffect(
     {.id = "axis.offset",
      .port = "axis",
-     .statement = "A constant torque acts on the axis that the recorded torque does not show.",
-     .equation = "tau += tau_0",
+     .statement = "A constant torque acts that the recorded torque does not show, or "
+                  "the arm hangs at another angle than believed.",
+     .equation = "tau += tau_0, G sin(theta) -> G sin(theta - theta_0)",
      .plants = {PlantKind::rotary_axis},
-     .parameters =
-         [](const Context& c, const std::string&) {
-           const double typical = 0.05 * c.scale("torque_Nm");
-           return std::vector<EffectParameter>{{.name = "torque_offset_Nm",
-                                                .typical = typical,
-                                                .low = -100.0 * typical,
-                                                .high = 100.0 * typical,
-                                                .either_sign = true}};
-         },
-     .apply =
-         [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-           const double torque = v[0];
-           edits.law("axis", [torque](const PortState&) { return torque; });
-         }});
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -4,6 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.scale("moves") == 0.0) return {};
   const double torque = 0.1 * c.scale("torque_Nm");
   const double speed = 0.05 * c.scale("speed_radps");
   return {{.name = "stribeck_torque_Nm", .typical = torque, .low = 0.0, .high = 50.0 * torque},

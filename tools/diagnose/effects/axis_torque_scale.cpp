@@ -11,12 +11,8 @@ const EffectRegistration kEffect(
      .plants = {PlantKind::rotary_axis},
      .parameters =
          [](const Context&, const std::string&) {
-           return std::vector<EffectParameter>{{.name = "torque_scale",
-                                                .typical = 0.05,
-                                                .low = -0.9,
-                                                .high = 5.0,
-                                                .either_sign = true,
-                                                .base = 1.0}};
+           return std::vector<EffectParameter>{
+               {.name = "scale_error", .typical = 0.05, .low = -0.9, .high = 5.0, .either_sign = true}};
          },
      .apply = [](const Context&, const std::string&, std::span<const double> v,
                  Edits& edits) { edits.sensor("actuator", SensorEdit::Kind::gain, 1.0 + v[0]); }});

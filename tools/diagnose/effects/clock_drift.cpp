@@ -3,22 +3,42 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Each sensor may have a clock of its own, and one may serve all of them.
+const char* const kAll = "all";
+
+std::vector<std::string> channels(const Context& c) {
+  if (c.plant == PlantKind::hopper)
+    return present(c, {"load_cell_force_N", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2", "tof_height_m",
+                       "mocap_body_z_m"});
+  std::vector<std::string> found;
+  for (const auto& [channel, scale] : c.channels) found.push_back(channel);
+  if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
+  if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
+  if (c.plant == PlantKind::falling_body && found.size() > 1) found.emplace_back(kAll);
+  return found;
+}
+
+void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
+  const double factor = 1.0 / (1.0 + v[0]);
+  if (channel == "torque_Nm") return edits.sensor("actuator", SensorEdit::Kind::time_scale, 1.0 / factor);
+  for (const auto& [each, scale] : c.channels)
+    if (channel == kAll) edits.sensor(each, SensorEdit::Kind::time_scale, factor);
+  if (channel != kAll) edits.sensor(channel, SensorEdit::Kind::time_scale, factor);
+}
+
 const EffectRegistration kEffect(
     {.id = "clock.drift",
      .port = "clock",
-     .statement = "The clock runs fast or slow by a constant ratio.",
+     .statement = "The clock of {channel} runs fast or slow by a constant ratio.",
      .equation = "t' = (1 + d) t",
-     .plants = {PlantKind::falling_body},
+     .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
+     .channels = channels,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
-               {.name = "drift", .typical = 0.01, .low = -0.2, .high = 0.2, .either_sign = true}};
+               {.name = "drift", .typical = 2e-3, .low = -0.2, .high = 0.2, .either_sign = true}};
          },
-     .apply =
-         [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-           for (const auto& [channel, scale] : c.channels)
-             edits.sensor(channel, SensorEdit::Kind::time_scale, 1.0 / (1.0 + v[0]));
-         }});
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -8,18 +8,18 @@ std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::rotary_axis) {
     auto found = present(c, {"velocity_radps"});
     if (c.has("position_rad") && c.has("velocity_radps")) found.emplace_back("position_rad");
-    found.emplace_back("motion");
+    found.emplace_back("torque_Nm");
     return found;
   }
-  if (c.plant == PlantKind::falling_body && c.channels.size() < 2) return {};
-  return present(c, {"height_m", "force_N", "load_cell_force_N", "imu_body_accel_z_mps2",
+  if (c.plant == PlantKind::intruder) return {"force_N", "foot_z_m"};
+  // Against the release, which a set-up tells, one channel's time can be off, too.
+  return present(c, {"height_m", "accel_mps2", "force_N", "load_cell_force_N", "imu_body_accel_z_mps2",
                      "imu_foot_accel_z_mps2", "mocap_body_z_m"});
 }
 
 void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
-  if (channel == "motion") {
-    for (const auto& each : present(c, {"position_rad", "velocity_radps"}))
-      edits.sensor(each, SensorEdit::Kind::delay_s, v[0]);
+  if (channel == "torque_Nm") {
+    edits.sensor("actuator", SensorEdit::Kind::delay_s, -v[0]);
   } else if (channel == "mocap_body_z_m") {
     for (const auto& each : present(c, {"mocap_body_z_m", "mocap_foot_z_m"}))
       edits.sensor(each, SensorEdit::Kind::delay_s, v[0]);

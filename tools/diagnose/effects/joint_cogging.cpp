@@ -6,15 +6,20 @@ namespace {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.scale("angle_rad") < 0.3) return {};
   const double typical = 0.1 * c.scale("torque_Nm");
+  // How many periods a turn has is asked of the recordings; the fit starts there.
   std::vector<double> orders;
-  for (const double n : {1., 2., 3., 4., 6., 8., 12., 18., 24., 36., 48.}) orders.push_back(n);
-  return {{.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
-          {.name = "cogging_cos_Nm",
-           .typical = typical,
-           .low = -50.0 * typical,
-           .high = 50.0 * typical,
-           .amplitude = true},
-          {.name = "cogging_periods_per_rev", .typical = 12.0, .low = 1.0, .high = 300.0, .shapes = orders}};
+  for (const char* key : {"ripple_order_1", "ripple_order_2", "ripple_order_3"})
+    if (const double order = c.scale(key, 0.0); order > 0.0) orders.push_back(order);
+  if (orders.empty()) return {};
+  const double likeliest = orders.front();
+  return {
+      {.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
+      {.name = "cogging_cos_Nm",
+       .typical = typical,
+       .low = -50.0 * typical,
+       .high = 50.0 * typical,
+       .amplitude = true},
+      {.name = "cogging_periods_per_rev", .typical = likeliest, .low = 2.0, .high = 500.0, .shapes = orders}};
 }
 
 const EffectRegistration kEffect({.id = "joint.cogging",

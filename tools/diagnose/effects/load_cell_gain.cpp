@@ -16,7 +16,7 @@ const EffectRegistration kEffect(
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
-               {.name = "gain", .typical = 0.03, .low = -0.5, .high = 1.0, .either_sign = true, .base = 1.0}};
+               {.name = "gain_error", .typical = 0.03, .low = -0.5, .high = 1.0, .either_sign = true}};
          },
      .apply = [](const Context&, const std::string& channel, std::span<const double> v,
                  Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, 1.0 + v[0]); }});

@@ -5,6 +5,16 @@ namespace {
 
 // Half of what the sensor shows over the whole campaign is more than any bias.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
+  if (c.plant == PlantKind::intruder)
+    return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
+  if (channel == "torque_Nm") {
+    const double typical = 0.05 * c.scale("torque_Nm");
+    return {{.name = "bias_Nm",
+             .typical = typical,
+             .low = -100.0 * typical,
+             .high = 100.0 * typical,
+             .either_sign = true}};
+  }
   const double range = range_of(c, channel);
   return {{.name = "bias_" + unit_of(channel),
            .typical = 0.02 * range,
@@ -18,14 +28,20 @@ const EffectRegistration kEffect(
      .port = "sensor",
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
-     .plants = {PlantKind::falling_body, PlantKind::rotary_axis},
+     .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder},
      .channels =
          [](const Context& c) {
-           return present(c, {"height_m", "accel_mps2", "velocity_radps"});
+           auto found = present(c, {"height_m", "accel_mps2", "velocity_radps"});
+           if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
+           if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
+           return found;
          },
      .parameters = parameters,
-     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
-                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::offset, v[0]); }});
+     .apply =
+         [](const Context&, const std::string& channel, std::span<const double> v, Edits& edits) {
+           const bool torque = channel == "torque_Nm";  // an input: what acts is what was read less the bias
+           edits.sensor(torque ? "actuator" : channel, SensorEdit::Kind::offset, torque ? -v[0] : v[0]);
+         }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

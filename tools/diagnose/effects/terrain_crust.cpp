@@ -6,20 +6,24 @@ namespace {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 2.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
   return {{.name = "crust_force_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
-          {.name = "crust_depth_m", .typical = 0.002, .low = 0.0002, .high = 0.02, .shapes = {0.005}}};
+          {.name = "crust_depth_m", .typical = 0.002, .low = 0.0002, .high = 0.02, .shapes = {0.005}},
+          {.name = "left_after_a_push", .typical = 0.5, .low = 0.0, .high = 1.0, .shapes = {0.0, 1.0}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double force = v[0], depth = v[1];
-  edits.law("ground.force",
-            [=](const PortState& s) { return s.accel * force * (1.0 - std::exp(-s.position / depth)); });
+  const double force = v[0], depth = v[1], left = v[2];
+  edits.law("ground.force", [=](const PortState& s) {
+    const double whole = s.pushes > 0.0 ? left : 1.0;
+    return s.accel * whole * force * (1.0 - std::exp(-s.position / depth));
+  });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.crust",
      .port = "ground",
-     .statement = "A cohesive crust resists from the first millimetres on, whatever the depth.",
+     .statement =
+         "A cohesive crust resists from the first millimetres on, whatever the depth, until it is broken.",
      .equation = "F += F_c (1 - exp(-z / z_c))",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,

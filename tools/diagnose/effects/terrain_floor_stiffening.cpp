@@ -7,23 +7,26 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double radius = c.scale("foot_radius_m", 0.04);
   return {{.name = "stiffening_at_deepest", .typical = 0.2, .low = 0.0, .high = 10.0},
           {.name = "stiffening_length_m",
-           .typical = 0.3 * radius,
-           .low = 0.03 * radius,
+           .typical = 0.4 * radius,
+           .low = 0.05 * radius,
            .high = 2.0 * radius,
-           .shapes = {0.12 * radius, 0.7 * radius}}};
+           .shapes = {0.15 * radius, 0.8 * radius}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   const double amount = v[0], length = v[1], deepest = c.scale("depth_m", 0.04);
-  edits.law("ground.factor",
-            [=](const PortState& s) { return amount * std::exp((s.position - deepest) / length); });
+  const double nearest = c.scale("floor_distance_m", 0.0);
+  edits.law("ground.factor", [=](const PortState& s) {
+    const double beyond = s.bed_depth_m > 0.0 ? s.position - s.bed_depth_m + nearest : s.position - deepest;
+    return amount * std::exp(std::min(beyond / length, 20.0));
+  });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.floor_stiffening",
      .port = "ground",
      .statement = "Near the floor of the container the bed stiffens exponentially.",
-     .equation = "F_d -> F_d (1 + A exp((z - z_max) / l))",
+     .equation = "F_d -> F_d (1 + A exp((z - z_nearest) / l))",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

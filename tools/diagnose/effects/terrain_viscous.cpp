@@ -5,19 +5,26 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 3.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
-  return {{.name = "viscous_N_s_per_m", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
+  std::vector<EffectParameter> all{
+      {.name = "viscous_N_s_per_m", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
+  // Over which depth it comes in shows where the motion is prescribed and recorded.
+  if (c.plant == PlantKind::intruder)
+    all.push_back({.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
+  return all;
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double factor = v[0];
-  edits.law("ground.force", [factor](const PortState& s) { return s.accel * factor * s.velocity; });
+  const double factor = v[0], onset = v.size() > 1 ? v[1] : 1e-5;
+  edits.law("ground.force", [=](const PortState& s) {
+    return s.accel * factor * s.velocity * (1.0 - std::exp(-s.position / onset));
+  });
 }
 
 const EffectRegistration kEffect({.id = "terrain.viscous",
                                   .port = "ground",
                                   .statement = "The bed resists in proportion to the intrusion speed.",
-                                  .equation = "F += b v, v > 0",
+                                  .equation = "F += b v (1 - exp(-z / z_0)), v > 0",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},
                                   .parameters = parameters,
                                   .apply = apply});

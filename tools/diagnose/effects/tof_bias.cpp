@@ -3,30 +3,24 @@
 namespace sandhopper::diagnose {
 namespace {
 
-const EffectRegistration kEffect({.id = "tof.bias",
-                                  .port = "sensor",
-                                  .statement = "The height's zero is not the surface.",
-                                  .equation = "z = z_recorded + o",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
-                                  .parameters =
-                                      [](const Context& c, const std::string&) {
-                                        if (c.plant == PlantKind::hopper && !c.has("tof_height_m"))
-                                          return std::vector<EffectParameter>{};
-                                        return std::vector<EffectParameter>{{.name = "bias_m",
-                                                                             .typical = 1e-3,
-                                                                             .low = -0.03,
-                                                                             .high = 0.03,
-                                                                             .either_sign = true,
-                                                                             .scale = -1.0}};
-                                      },
-                                  .apply =
-                                      [](const Context& c, const std::string&, std::span<const double> v,
-                                         Edits& edits) {
-                                        if (c.plant == PlantKind::hopper)
-                                          edits.sensor("tof_height_m", SensorEdit::Kind::offset, -v[0]);
-                                        else
-                                          edits.add("surface_height_m", v[0]);
-                                      }});
+const EffectRegistration kEffect(
+    {.id = "tof.bias",
+     .port = "sensor",
+     .statement = "The height's zero is not the surface.",
+     .equation = "z = z_recorded + o",
+     .plants = {PlantKind::hopper},
+     .parameters =
+         [](const Context& c, const std::string&) {
+           if (!c.has("tof_height_m")) return std::vector<EffectParameter>{};
+           return std::vector<EffectParameter>{{.name = "bias_m",
+                                                .typical = 1e-3,
+                                                .low = -0.03,
+                                                .high = 0.03,
+                                                .either_sign = true,
+                                                .scale = -1.0}};
+         },
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.sensor("tof_height_m", SensorEdit::Kind::offset, -v[0]); }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

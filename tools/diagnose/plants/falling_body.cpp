@@ -13,6 +13,10 @@ constexpr double kSpeedOfAThrow_mps = 3.0;  // release speed where nothing is kn
 constexpr double kKnownHeight_m = 0.01;     // release height as an experimenter reads it off
 constexpr double kKnownSpeed_mps = 0.02;
 constexpr double kReleaseTime_s = 0.03;  // of a release seen in the recording
+constexpr double kTouchdownTime_s = 0.1;
+constexpr double kKink_s = 4e-3;  // around touchdown, where no sampled signal follows the force's kink
+constexpr double kTouchdownAgrees_s =
+    1e-4;  // instant at which the fall ends and that at which the bed begins
 enum Phase : std::uint32_t { kHeld, kSlow, kFast, kBed };
 
 struct Figures {
@@ -39,8 +43,11 @@ struct Figures {
 
 // Body in a medium, perhaps onto a bed:
 //   (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h' + F_bed + laws
+// The instant of touchdown is seen in the recording and fitted on its own; that the fall ends at that instant
+// is one row more. So a fall that is some milliseconds too long does not hide the whole bed from the fit.
 struct Motion {
   Signal height, velocity, accel;
+  double touchdown_s = 0.0;  // when the fall reaches the surface
 };
 
 class FallingTrial final : public TrialModel {
@@ -57,10 +64,11 @@ class FallingTrial final : public TrialModel {
       if (!s->empty()) step_s = std::min(step_s, median_step_s(s->time_s));
     step_s_ = std::clamp(step_s, bed_ ? 2.5e-4 : 5e-4, bed_ ? 5e-4 : 5e-3);
     find_release(heights, accels);
-    if (bed_) find_stop(accels);
     place(trial, heights);
+    if (bed_) find_touchdown(heights, accels);
     add_rows(0, heights);
     add_rows(1, accels);
+    if (touchdown_nuisance_ >= 0) rows.push_back({2, 0, kBed, touchdown_s_, 0.0});
     label_rows();
   }
 
@@ -69,17 +77,19 @@ class FallingTrial final : public TrialModel {
     const Figures f(belief_, edits);
     for (double& a : motion.accel.values) a += f.gravity_mps2;
     observe(motion.height, height_sensor_, edits, "height_m", height_times_, out.first(height_times_.size()));
-    observe(motion.accel, accel_sensor_, edits, "accel_mps2", accel_times_,
-            out.subspan(height_times_.size()));
+    const auto accels = out.subspan(height_times_.size(), accel_times_.size());
+    observe(motion.accel, accel_sensor_, edits, "accel_mps2", accel_times_, accels);
+    if (touchdown_nuisance_ >= 0)
+      out.back() = motion.touchdown_s - touchdown_s_ - nuisances[index(touchdown_nuisance_)];
     if (height_bias_ >= 0)
-      for (double& h : out.first(height_times_.size()))
-        h += nuisances[static_cast<std::size_t>(height_bias_)];
+      for (double& h : out.first(height_times_.size())) h += nuisances[index(height_bias_)];
     if (accel_bias_ >= 0)
-      for (double& a : out.subspan(height_times_.size()))
-        a += nuisances[static_cast<std::size_t>(accel_bias_)];
+      for (double& a : accels) a += nuisances[index(accel_bias_)];
   }
 
  private:
+  static std::size_t index(int nuisance) { return static_cast<std::size_t>(nuisance); }
+
   // The recording may begin while the body is still held.
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = belief_.value("gravity_mps2", 9.81);
@@ -107,17 +117,35 @@ class FallingTrial final : public TrialModel {
     }
   }
 
-  // On the bed the body stops with a jump that a fit cannot follow smoothly: rows end shortly before.
-  void find_stop(const Samples& accels) {
-    constexpr double kShareOfPeak = 0.85;
-    double most = 0.0;
-    for (const double a : accels.value) most = std::max(most, a);
-    if (most < 3.0 * belief_.value("gravity_mps2", 9.81)) return;
-    for (std::size_t i = 0; i < accels.value.size(); ++i)
-      if (accels.value[i] > kShareOfPeak * most) {
-        stop_s_ = accels.time_s[i];
-        return;
-      }
+  // The first steep rise of the force on the body, or the first height below the surface. On the bed the body
+  // stops with a jump that a fit cannot follow smoothly: rows end shortly before.
+  void find_touchdown(const Samples& heights, const Samples& accels) {
+    constexpr double kShareOfRise = 0.3, kWindow_s = 2e-3, kLastPhase_rad = 1.15;
+    const Figures f(belief_, {});
+    const Motion fall = simulate({}, std::vector<double>(nuisance_count(), 0.0));
+    double fastest = 0.1;
+    for (const double v : fall.velocity.values) fastest = std::max(fastest, -v);
+    const double inertia_kg = f.mass_kg + f.added_mass_factor * f.density_kg_per_m3 * f.volume_m3;
+    const double rate_radps = std::sqrt(f.bed_stiffness_N_per_m / inertia_kg);
+    double found_s = -1.0;
+    const double step_s = median_step_s(accels.time_s);
+    const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kWindow_s / step_s)));
+    const double rise =
+        std::max(8.0 * fluctuation_rms(accels),
+                 kShareOfRise * rate_radps * rate_radps * fastest * step_s * static_cast<double>(window));
+    for (std::size_t i = window + 3; i < accels.value.size() && found_s < 0.0; ++i)
+      if (accels.time_s[i] > release_s_ + 0.2 * fall.touchdown_s &&
+          accels.value[i] - accels.value[i - window] > rise)
+        found_s = accels.time_s[i - window];
+    if (found_s >= 0.0)
+      stop_s_ = found_s + kLastPhase_rad / rate_radps;
+    else
+      for (std::size_t i = 0; i < heights.value.size() && found_s < 0.0; ++i)
+        if (heights.value[i] < f.surface_height_m) found_s = heights.time_s[i];
+    if (found_s < 0.0) return;
+    touchdown_s_ = found_s;
+    touchdown_nuisance_ = static_cast<int>(trial_nuisances.size());
+    trial_nuisances.push_back({"touchdown_time_s", kTouchdownTime_s, 2e-5});
   }
 
   void place(const Trial& trial, const Samples& heights) {
@@ -173,6 +201,8 @@ class FallingTrial final : public TrialModel {
     auto& times = channel == 0 ? height_times_ : accel_times_;
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       if (samples.time_s[i] > stop_s_) break;
+      if (channel == 1 && touchdown_nuisance_ >= 0 && std::abs(samples.time_s[i] - touchdown_s_) < kKink_s)
+        continue;
       times.push_back(samples.time_s[i]);
       rows.push_back({channel, 0, kSlow, samples.time_s[i], samples.value[i]});
     }
@@ -201,8 +231,8 @@ class FallingTrial final : public TrialModel {
     Figures f(belief_, edits);
     f.mass_kg += payload_kg_;
     if (bed_nuisance_ >= 0) {
-      f.bed_stiffness_N_per_m *= 1.0 + nuisances[static_cast<std::size_t>(bed_nuisance_)];
-      f.surface_height_m += nuisances[static_cast<std::size_t>(bed_nuisance_) + 1];
+      f.bed_stiffness_N_per_m *= 1.0 + nuisances[index(bed_nuisance_)];
+      f.surface_height_m += nuisances[index(bed_nuisance_) + 1];
     }
     const auto laws = edits.at("body");
     const double inertia_kg = f.mass_kg + f.added_mass_factor * f.density_kg_per_m3 * f.volume_m3;
@@ -210,50 +240,81 @@ class FallingTrial final : public TrialModel {
         (-f.mass_kg + f.buoyancy_factor * f.density_kg_per_m3 * f.volume_m3) * f.gravity_mps2;
     const double quadratic = 0.5 * f.density_kg_per_m3 * f.area_m2 * f.drag_coefficient;
     double release_s = release_s_;
-    if (release_nuisance_ >= 0) release_s += nuisances[static_cast<std::size_t>(release_nuisance_)];
+    if (release_nuisance_ >= 0) release_s += nuisances[index(release_nuisance_)];
+    const bool told = touchdown_nuisance_ >= 0;  // when the bed begins
+    const double told_s = told ? touchdown_s_ + nuisances[index(touchdown_nuisance_)] : 1e300;
+    bool on_bed = false;
     const auto accel = [&](double t, double h, double v) {
       double force_N = constant_N - quadratic * std::abs(v) * v - f.linear_drag_N_s_per_m * v;
-      if (bed_ && v < 0.0) force_N += f.bed_stiffness_N_per_m * std::max(0.0, f.surface_height_m - h);
+      if (bed_ && v < 0.0 && (on_bed || !told))
+        force_N += f.bed_stiffness_N_per_m * std::max(0.0, f.surface_height_m - h);
       if (!laws.empty())
-        force_N += sum_of(
-            laws, {.time_s = t - release_s, .position = h, .velocity = v, .load = f.surface_height_m - h});
+        force_N += sum_of(laws, {.time_s = t - release_s,
+                                 .position = h,
+                                 .velocity = v,
+                                 .load = f.surface_height_m - h,
+                                 .extreme = start_height_m_});
       return force_N / inertia_kg;
     };
     const auto count = static_cast<std::size_t>(std::ceil(end_s_ / step_s_)) + 2;
     Motion m;
     for (Signal* s : {&m.height, &m.velocity, &m.accel}) *s = {0.0, step_s_, std::vector<double>(count, 0.0)};
-    double h = start_height_m_ + nuisances[0], v = start_speed_mps_ + nuisances[1];
-    const double speed = v;
-    double t = 0.0;
-    bool falling = !held_, resting = false;
+    struct {
+      double t, h, v;
+    } s{0.0, start_height_m_ + nuisances[0], start_speed_mps_ + nuisances[1]};
+    bool falling = !held_, resting = false, reached = false;
+    double speed_at_surface_mps = 0.0;
+    const auto advance = [&](double dt) {
+      const double a1 = accel(s.t, s.h, s.v);
+      const double a2 = accel(s.t + 0.5 * dt, s.h + 0.5 * dt * s.v, s.v + 0.5 * dt * a1);
+      const double a3 = accel(s.t + 0.5 * dt, s.h + 0.5 * dt * (s.v + 0.5 * dt * a1), s.v + 0.5 * dt * a2);
+      const double a4 = accel(s.t + dt, s.h + dt * (s.v + 0.5 * dt * a2), s.v + dt * a3);
+      const double before_m = s.h - f.surface_height_m, before_mps = s.v;
+      s.h += dt * (s.v + dt * (a1 + a2 + a3) / 6.0);
+      s.v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
+      s.t += dt;
+      if (!reached && before_m > 0.0 && s.h <= f.surface_height_m) {
+        // Where a parabola through both ends crosses the surface.
+        const double a = (s.v - before_mps) / dt;
+        const double root = std::sqrt(std::max(0.0, before_mps * before_mps - 2.0 * a * before_m));
+        const double part_s = std::clamp(2.0 * before_m / (root - before_mps), 0.0, dt);
+        reached = true;
+        m.touchdown_s = s.t - dt + part_s;
+        speed_at_surface_mps = before_mps + a * part_s;
+      }
+      resting = bed_ && (on_bed || !told) && s.v >= 0.0 && s.h < f.surface_height_m;
+    };
+    const auto advance_to = [&](double t, int parts) {
+      const double dt = (t - s.t) / parts;
+      for (int part = 0; part < parts && !resting; ++part) advance(dt);
+    };
     for (std::size_t i = 0; i < count; ++i) {
       const double grid_s = step_s_ * static_cast<double>(i);
       if (!falling && grid_s > release_s) {
         falling = true;
-        t = std::max(release_s, grid_s - step_s_);
-        v = speed;
+        s.t = std::max(release_s, grid_s - step_s_);
       }
-      if (falling && !resting && grid_s > t) {
+      if (falling && told && !on_bed && grid_s > told_s) {
+        // The fall goes on to the surface, be it too late or too early; the bed begins there when it is told.
+        if (s.t < told_s) advance_to(told_s, 1);
+        for (int more = 0; !reached && more < 4000; ++more) advance(step_s_);
+        if (!reached) m.touchdown_s = s.t;
+        on_bed = true;
+        s = {std::max(told_s, grid_s - step_s_), f.surface_height_m, reached ? speed_at_surface_mps : s.v};
+      }
+      if (falling && !resting && grid_s > s.t) {
         // The bed begins with a kink: short steps near and in it.
-        const bool near_bed = bed_ && h + 2.0 * (grid_s - t) * std::min(v, 0.0) < f.surface_height_m;
-        const int parts = near_bed ? 5 : 1;
-        const double dt = (grid_s - t) / parts;
-        for (int part = 0; part < parts && !resting; ++part) {
-          const double a1 = accel(t, h, v);
-          const double a2 = accel(t + 0.5 * dt, h + 0.5 * dt * v, v + 0.5 * dt * a1);
-          const double a3 = accel(t + 0.5 * dt, h + 0.5 * dt * (v + 0.5 * dt * a1), v + 0.5 * dt * a2);
-          const double a4 = accel(t + dt, h + dt * (v + 0.5 * dt * a2), v + dt * a3);
-          h += dt * (v + dt * (a1 + a2 + a3) / 6.0);
-          v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
-          t += dt;
-          resting = bed_ && v >= 0.0 && h < f.surface_height_m;
-        }
-        t = grid_s;
+        const bool near_bed =
+            bed_ &&
+            (on_bed || (!told && s.h + 2.0 * (grid_s - s.t) * std::min(s.v, 0.0) < f.surface_height_m));
+        advance_to(grid_s, near_bed ? 5 : 1);
+        s.t = grid_s;
       }
-      m.height.values[i] = h;
-      m.velocity.values[i] = falling && !resting ? v : 0.0;
-      m.accel.values[i] = falling && !resting ? accel(grid_s, h, v) : 0.0;
+      m.height.values[i] = s.h;
+      m.velocity.values[i] = falling && !resting ? s.v : 0.0;
+      m.accel.values[i] = falling && !resting ? accel(grid_s, s.h, s.v) : 0.0;
     }
+    if (!reached && m.touchdown_s == 0.0) m.touchdown_s = end_s_;
     return m;
   }
 
@@ -264,6 +325,8 @@ class FallingTrial final : public TrialModel {
   double release_s_ = 0.0;
   double stop_s_ = 1e300;
   int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, accel_bias_ = -1;
+  int touchdown_nuisance_ = -1;
+  double touchdown_s_ = 0.0;
   double start_height_m_ = 0.0, start_speed_mps_ = 0.0;
   double end_s_ = 0.0, step_s_ = 1e-3;
   SensorBelief height_sensor_, accel_sensor_;
@@ -272,7 +335,11 @@ class FallingTrial final : public TrialModel {
 
 class FallingBody final : public PlantModel {
  public:
-  std::vector<std::string> channels() const override { return {"height_m", "accel_mps2"}; }
+  std::vector<std::string> channels() const override { return {"height_m", "accel_mps2", "touchdown_s"}; }
+  double form_error() const override { return 1e-3; }
+  double least_sd(const std::string& channel) const override {
+    return channel == "touchdown_s" ? kTouchdownAgrees_s : 0.0;
+  }
   std::vector<std::string> phases() const override { return {"held", "slow_fall", "fast_fall", "bed"}; }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,

@@ -4,15 +4,26 @@
 
 namespace sandhopper::diagnose {
 
-GroundLaws::GroundLaws(const Edits& edits)
+GroundLaws::GroundLaws(const Edits& edits, const BedHistory& history)
     : factor_(edits.at("ground.factor")),
       force_(edits.at("ground.force")),
       mass_(edits.at("ground.mass")),
-      tension_(edits.at("ground.tension")) {}
+      tension_(edits.at("ground.tension")),
+      surface_(edits.at("ground.surface")),
+      history_(history) {}
+
+double GroundLaws::deeper_m() const {
+  if (surface_.empty()) return 0.0;
+  return sum_of(surface_, {.pushes = history_.pushes, .wait_s = history_.wait_s});
+}
 
 double GroundLaws::static_factor(double depth_m) const {
   if (factor_.empty()) return 1.0;
-  return std::max(0.0, 1.0 + sum_of(factor_, {.time_s = time_s_, .position = depth_m}));
+  return std::max(0.0, 1.0 + sum_of(factor_, {.time_s = time_s_,
+                                              .position = depth_m,
+                                              .pushes = history_.pushes,
+                                              .wait_s = history_.wait_s,
+                                              .bed_depth_m = history_.bed_depth_m}));
 }
 
 BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, bool virgin) const {
@@ -21,7 +32,10 @@ BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, bool v
                         .velocity = c.speed_mps,
                         .accel = virgin ? 1.0 : 0.0,
                         .load = quasi_static_N,
-                        .extreme = c.max_depth_m};
+                        .extreme = c.max_depth_m,
+                        .pushes = history_.pushes,
+                        .wait_s = history_.wait_s,
+                        .bed_depth_m = history_.bed_depth_m};
   return {.force_N = sum_of(force_, state),
           .added_mass_kg = sum_of(mass_, state),
           .least_N = -sum_of(tension_, state)};

@@ -7,6 +7,12 @@
 
 namespace sandhopper::diagnose {
 
+struct BedHistory {
+  double pushes = 0.0;  // since it was prepared
+  double wait_s = 0.0;
+  double bed_depth_m = 0.0;  // 0: not told
+};
+
 // The bed with what effects add to it. Ports:
 //   ground.factor   F_d is multiplied by 1 + law(position = depth)
 //   ground.force    law is added to the force, everywhere below the surface
@@ -14,18 +20,22 @@ namespace sandhopper::diagnose {
 //   ground.tension  how far below zero the force may go
 // `extreme` is the deepest point; `accel` is 1 on the virgin curve (new depth, going down), else 0; `load`
 // the quasi-static force at this depth; `time_s` that of the trial.
+//   ground.surface  law is added to the depth: the surface is lower by so much less
 class GroundLaws final : public BedExtension {
  public:
-  explicit GroundLaws(const Edits& edits);
+  explicit GroundLaws(const Edits& edits, const BedHistory& history = {});
 
   double static_factor(double depth_m) const override;
   BedReaction added(const BedContact& contact, double quasi_static_N, bool virgin) const override;
 
   void at_time(double time_s) { time_s_ = time_s; }
+  void pushed() { history_.pushes += 1.0; }
+  double deeper_m() const;
   bool empty() const { return factor_.empty() && force_.empty() && mass_.empty() && tension_.empty(); }
 
  private:
-  std::vector<const Law*> factor_, force_, mass_, tension_;
+  std::vector<const Law*> factor_, force_, mass_, tension_, surface_;
+  BedHistory history_;
   double time_s_ = 0.0;
 };
 

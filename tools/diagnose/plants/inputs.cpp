@@ -107,12 +107,15 @@ Samples averaged(const Samples& s, double least_step_s) {
 Signal on_grid(const Samples& s, double start_s, double step_s, std::size_t count, bool hold) {
   Signal signal{start_s, step_s, std::vector<double>(count, 0.0)};
   if (s.empty()) return signal;
+  constexpr double kLost = 3.5;  // samples: over so long a gap no value was held
+  const double usual_s = median_step_s(s.time_s);
   std::size_t k = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = start_s + step_s * static_cast<double>(i);
     while (k + 1 < s.time_s.size() && s.time_s[k + 1] <= t) ++k;
     double value = s.value[k];
-    if (!hold && k + 1 < s.time_s.size() && t > s.time_s[k])
+    const bool lost = k + 1 < s.time_s.size() && s.time_s[k + 1] - s.time_s[k] > kLost * usual_s;
+    if ((!hold || lost) && k + 1 < s.time_s.size() && t > s.time_s[k])
       value += (s.value[k + 1] - s.value[k]) * (t - s.time_s[k]) / (s.time_s[k + 1] - s.time_s[k]);
     signal.values[i] = value;
   }

@@ -22,6 +22,8 @@ class IntruderTrial final : public TrialModel {
     name = trial.name;
     constexpr double kMostSteps = 900.0;  // a slow press has no need of the recorder's rate
     const double least_s = trial.time_s.empty() ? 0.0 : trial.time_s.back() / kMostSteps;
+    history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),
+                trial.setup_or("bed_depth_m", 0.0)};
     const auto force = averaged(without_repeats(samples_of(trial, "force_N")), least_s);
     const auto z = averaged(samples_of(trial, "foot_z_m"), least_s);
     if (force.empty() || z.value.size() < 10) return;
@@ -55,24 +57,29 @@ class IntruderTrial final : public TrialModel {
       fluctuation.spacing_m = knot_spacing_m_;
       for (std::size_t i = 0; i < knots_; ++i) fluctuation.knots[i] = nuisances[3 + i];
     }
-    GroundLaws laws(edits);
+    GroundLaws laws(edits, history_);
     Bed bed(parameters, edits.edited("foot.radius_m", radius_m_), fluctuation);
     if (!laws.empty()) bed.extend(&laws);
     double compliance_m_per_N = 0.0;
     if (const double k = belief_.value("rig.stiffness_N_per_m"); k > 0.0) compliance_m_per_N = 1.0 / k;
     compliance_m_per_N = edits.edited("rig.compliance_m_per_N", compliance_m_per_N);
     const double surface_m = edits.edited("surface_height_m", nuisances[0]);
+    const Read read = reading(edits);
     const auto cell = edits.at("load_cell");
 
     Signal force{start_s_, step_s_, std::vector<double>(depth_m_.size())};
     double deepest_m = 0.0, before_N = 0.0;
+    bool touching = false;
     for (std::size_t i = 0; i < depth_m_.size(); ++i) {
       laws.at_time(start_s_ + step_s_ * static_cast<double>(i));
       double force_N = before_N;
       double depth_m = 0.0;
+      const double asked_m = read.depth_m(i) + surface_m + laws.deeper_m();
+      if (touching && asked_m <= 0.0) laws.pushed();
+      touching = asked_m > 0.0;
       for (int pass = 0; pass < (compliance_m_per_N > 0.0 ? 4 : 1); ++pass) {
-        depth_m = depth_m_[i] + surface_m - compliance_m_per_N * force_N;
-        const double speed_mps = speed_mps_[i] - compliance_m_per_N * (force_N - before_N) / step_s_;
+        depth_m = asked_m - compliance_m_per_N * force_N;
+        const double speed_mps = read.speed_mps(i) - compliance_m_per_N * (force_N - before_N) / step_s_;
         // Noise of the depth must not read as unloading while the foot goes down.
         const bool down = speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_noise_m_;
         const double at_m = down ? std::max(depth_m, deepest_m) : depth_m;
@@ -80,18 +87,51 @@ class IntruderTrial final : public TrialModel {
                                             .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
                                             .max_depth_m = deepest_m,
                                             .damping_mass_kg = 0.0});
-        const double next_N = reaction.at_acceleration(-accel_mps2_[i]);
+        const double next_N = reaction.at_acceleration(-read.accel_mps2(i));
         force_N = pass == 0 ? next_N : 0.5 * (force_N + next_N);
       }
       deepest_m = std::max(deepest_m, depth_m);
       before_N = force_N;
-      force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -accel_mps2_[i]});
+      force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = read.accel_mps2(i)});
     }
     observe(force, sensor_, edits, "force_N", times_, out);
     for (double& f : out) f += nuisances[1];
   }
 
  private:
+  // The recorded motion with the faults of its position sensor taken out:
+  //   recorded(t) = true(f t - d) + o  ->  true(u) = recorded((u + d) / f) - o
+  struct Read {
+    const IntruderTrial& trial;
+    double delay_s = 0.0, rate = 1.0, offset_m = 0.0;
+    bool plain = true;
+
+    double at(const std::vector<double>& values, std::size_t i, bool from_position) const {
+      if (plain || !from_position) return values[i];
+      const double t = static_cast<double>(i) * trial.step_s_;
+      const double place =
+          std::clamp((t + delay_s) / rate / trial.step_s_, 0.0, static_cast<double>(values.size() - 1));
+      const auto left = std::min(static_cast<std::size_t>(place), values.size() - 2);
+      const double u = place - static_cast<double>(left);
+      return values[left] + u * (values[left + 1] - values[left]);
+    }
+    double depth_m(std::size_t i) const { return at(trial.depth_m_, i, true) + offset_m; }
+    double speed_mps(std::size_t i) const { return at(trial.speed_mps_, i, trial.speed_from_position_); }
+    double accel_mps2(std::size_t i) const { return at(trial.accel_mps2_, i, trial.accel_from_position_); }
+  };
+
+  Read reading(const Edits& edits) const {
+    Read read{*this};
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "foot_z_m") continue;
+      if (edit.kind == SensorEdit::Kind::delay_s) read.delay_s += edit.value;
+      if (edit.kind == SensorEdit::Kind::time_scale) read.rate *= edit.value;
+      if (edit.kind == SensorEdit::Kind::offset) read.offset_m += edit.value;
+      read.plain = read.plain && edit.kind == SensorEdit::Kind::offset;
+    }
+    return read;
+  }
+
   void add_nuisance(const char* what, double sd, double step) { trial_nuisances.push_back({what, sd, step}); }
 
   void take_motion(const Samples& z, const Samples& v, const Samples& a) {
@@ -110,6 +150,8 @@ class IntruderTrial final : public TrialModel {
     put(accel_mps2_, a.value.size() > 10   ? a
                      : v.value.size() > 10 ? Samples{v.time_s, smooth(v, half).rate}
                                            : Samples{z.time_s, smooth(z, 2 * half).curvature});
+    speed_from_position_ = v.value.size() <= 10;
+    accel_from_position_ = speed_from_position_ && a.value.size() <= 10;
     depth_noise_m_ = 4.0 * noise_m + 1e-6;
     double fastest = 0.0;
     for (const double s : speed_mps_) fastest = std::max(fastest, std::abs(s));
@@ -148,6 +190,8 @@ class IntruderTrial final : public TrialModel {
   double radius_m_ = 0.04, step_s_ = 1e-3, start_s_ = 0.0;
   double depth_noise_m_ = 0.0, rest_speed_mps_ = 0.0;
   std::vector<double> depth_m_, speed_mps_, accel_mps2_;  // down positive
+  bool speed_from_position_ = false, accel_from_position_ = false;
+  BedHistory history_;
   std::size_t knots_ = 0;
   double knot_spacing_m_ = 0.002;
   std::vector<double> times_;
@@ -186,6 +230,28 @@ class Intruder final : public PlantModel {
     context.scales["accel_mps2"] = std::max(hardest, 0.1);
     context.scales["force_N"] = std::max(strongest, 0.1);
     context.scales["duration_s"] = duration;
+    // What the set-ups differ in, and how near the foot came to the floor of the bed.
+    for (const char* key : {"pushes_since_preparation", "wait_s"}) {
+      double least = 1e300, most = -1e300;
+      for (const auto& trial : trials) {
+        least = std::min(least, trial.setup_or(key, 0.0));
+        most = std::max(most, trial.setup_or(key, 0.0));
+      }
+      context.scales[std::string("range of ") + key] = most - least;
+    }
+    for (const auto& trial : trials) {
+      const double bed_m = trial.setup_or("bed_depth_m", 0.0);
+      if (bed_m <= 0.0) continue;
+      double lowest = 0.0;
+      for (const double v : samples_of(trial, "foot_z_m").value) lowest = std::min(lowest, v);
+      const auto it = context.scales.find("floor_distance_m");
+      const double near_m = std::max(1e-3, bed_m + lowest);
+      context.scales["floor_distance_m"] = it == context.scales.end() ? near_m : std::min(it->second, near_m);
+    }
+    // The foot's position is an input, no prediction; its faults are candidates, too.
+    double longest_s = 1e-3;
+    for (const auto& trial : trials) longest_s = std::max(longest_s, median_step_s(trial.time_s));
+    context.scales["input_step_s"] = longest_s;
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

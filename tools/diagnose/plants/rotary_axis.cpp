@@ -1,7 +1,10 @@
 #include "tools/diagnose/plants/rotary_axis.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -14,7 +17,7 @@ constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
 struct Figures {
-  double inertia_kg_m2, gravity_torque_Nm, viscous_Nm_s, coulomb_Nm, switch_speed_radps;
+  double inertia_kg_m2, gravity_torque_Nm, viscous_Nm_s, coulomb_Nm, switch_speed_radps, bottom_rad;
 
   Figures(const Belief& belief, const Edits& edits) {
     const auto read = [&](const char* key, double otherwise) {
@@ -22,6 +25,7 @@ struct Figures {
     };
     inertia_kg_m2 = std::max(1e-9, read("axis.inertia_kg_m2", 1.0));
     gravity_torque_Nm = read("axis.gravity_torque_Nm", 0.0);
+    bottom_rad = read("axis.bottom_rad", 0.0);
     viscous_Nm_s = read("axis.viscous_friction_Nm_s", 0.0);
     coulomb_Nm = read("axis.coulomb_friction_Nm", 0.0);
     switch_speed_radps = std::max(1e-6, read("axis.friction_switch_speed_radps", 0.02));
@@ -178,7 +182,7 @@ class RotaryTrial final : public TrialModel {
     const double stiffness_per_s = f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
     const double slow_steps = std::ceil(step_s_ * stiffness_per_s / 1.5);
     const auto accel = [&](double t, double torque_Nm, double angle, double speed) {
-      double sum = torque_Nm - f.gravity_torque_Nm * std::sin(angle) - f.viscous_Nm_s * speed;
+      double sum = torque_Nm - f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
       if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
       if (!laws.empty())
         sum += sum_of(laws, {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm});
@@ -217,9 +221,68 @@ class RotaryTrial final : public TrialModel {
   std::vector<double> times_;
 };
 
+// Orders of the ripple over the angle that the torque needed for the recorded motion shows besides the
+// believed one, the strongest first: local maxima of |sum r exp(-i n theta)|^2 / count.
+std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
+  constexpr int kFirst = 3, kLast = 250;
+  constexpr std::size_t kMostSamples = 800;  // of a trial
+  const Figures f(belief, {});
+  std::vector<double> angles, torques;
+  for (const auto& trial : trials) {
+    const auto position = samples_of(trial, "position_rad");
+    const auto torque = samples_of(trial, "torque_Nm");
+    if (position.value.size() < 50 || torque.value.size() < 50) continue;
+    const double step_s = median_step_s(position.time_s);
+    const auto half = static_cast<std::size_t>(std::clamp(0.012 / step_s, 2.0, 12.0));
+    const Smoothed at = smooth(position, half);
+    const Signal drive = on_grid(torque, 0.0, step_s, position.value.size() + 1, false);
+    const std::size_t stride = 1 + position.value.size() / kMostSamples;
+    std::vector<Eigen::Vector4d> basis;
+    std::vector<double> rest, angle;
+    for (std::size_t i = half; i + half < position.value.size(); i += stride) {
+      if (std::abs(at.rate[i]) < 2.0 * f.switch_speed_radps) continue;
+      const double needed = f.inertia_kg_m2 * at.curvature[i] + f.gravity_torque_Nm * std::sin(at.value[i]);
+      rest.push_back(needed - drive.at(position.time_s[i]));
+      angle.push_back(at.value[i]);
+      basis.emplace_back(1.0, std::copysign(1.0, at.rate[i]), at.rate[i], std::sin(at.value[i]));
+    }
+    if (rest.size() < 30) continue;
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Identity() * 1e-9;
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      normal += basis[i] * basis[i].transpose();
+      right += basis[i] * rest[i];
+    }
+    const Eigen::Vector4d fit = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      torques.push_back(rest[i] - basis[i].dot(fit));
+      angles.push_back(angle[i]);
+    }
+  }
+  if (torques.size() < 100) return {};
+  std::vector<double> power;
+  for (int n = kFirst; n <= kLast; ++n) {
+    double re = 0.0, im = 0.0;
+    for (std::size_t i = 0; i < torques.size(); ++i) {
+      re += torques[i] * std::cos(n * angles[i]);
+      im += torques[i] * std::sin(n * angles[i]);
+    }
+    power.push_back(re * re + im * im);
+  }
+  std::vector<std::size_t> peaks;
+  for (std::size_t k = 1; k + 1 < power.size(); ++k)
+    if (power[k] >= power[k - 1] && power[k] > power[k + 1]) peaks.push_back(k);
+  std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  std::vector<double> orders;
+  for (std::size_t k = 0; k < peaks.size() && k < 3; ++k)
+    orders.push_back(kFirst + static_cast<double>(peaks[k]));
+  return orders;
+}
+
 class RotaryAxis final : public PlantModel {
  public:
   std::vector<std::string> channels() const override { return {"position_rad", "velocity_radps"}; }
+  double form_error() const override { return 0.01; }
   std::vector<std::string> phases() const override { return {"rest", "slow", "fast"}; }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
@@ -250,6 +313,19 @@ class RotaryAxis final : public PlantModel {
     context.scales["speed_radps"] = std::max(speed, 0.1);
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;
+    // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
+    constexpr double kMoves = 5.0;  // switch speeds of the friction
+    double swift = 0.0;
+    for (const auto& trial : trials) {
+      const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
+      if (positions.value.size() < 20) swift = speed;
+      for (const double v : smooth(positions, 8).rate) swift = std::max(swift, std::abs(v));
+    }
+    context.scales["moves"] =
+        swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02) ? 1.0 : 0.0;
+    const auto orders = ripple_orders(trials, context.belief);
+    for (std::size_t i = 0; i < orders.size(); ++i)
+      context.scales["ripple_order_" + std::to_string(i + 1)] = orders[i];
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

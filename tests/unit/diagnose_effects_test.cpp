@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnose_campaigns.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/screen.hpp"
+
+// What holds for every effect that a plant can have, whichever they are.
+namespace sandhopper::diagnose {
+namespace {
+
+Recordings recordings_of(PlantKind plant) {
+  const auto none = [](double, double, double) { return 0.0; };
+  if (plant == PlantKind::falling_body) {
+    // With the drag that is believed, or the accelerometer of a free fall has nothing to show.
+    auto r = drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }, 3, 5);
+    r.belief.numbers["medium.drag_coefficient"] = 0.5;
+    for (auto& belief : r.beliefs) belief = r.belief;
+    return r;
+  }
+  if (plant == PlantKind::rotary_axis) return swings(none, 3, 4);
+  return presses([](double, double) { return 0.0; }, 3, 6);
+}
+
+std::vector<double> values_of(const Candidate& candidate, double typicals) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
+    const auto& p = candidate.parameters[i];
+    const bool amplitude = i == 0 || p.amplitude;
+    values.push_back(amplitude ? std::clamp(typicals * p.typical, p.low, p.high) : p.typical);
+  }
+  return values;
+}
+
+std::vector<double> predicted(const Problem& problem, std::size_t trial, std::size_t candidate,
+                              double typicals) {
+  const Hypothesis one{{candidate}, {values_of(problem.candidates[candidate], typicals)}};
+  const auto& model = *problem.trials[trial];
+  std::vector<double> out(model.rows.size());
+  model.predict(edits_for(problem, one, {}), std::vector<double>(model.nuisance_count(), 0.0), out);
+  return out;
+}
+
+// Largest change against nothing, in standard deviations of the channel's noise.
+double largest_change(const Problem& problem, std::size_t candidate, double typicals) {
+  double most = 0.0;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const auto& model = *problem.trials[t];
+    std::vector<double> plain(model.rows.size());
+    model.predict({}, std::vector<double>(model.nuisance_count(), 0.0), plain);
+    const auto changed = predicted(problem, t, candidate, typicals);
+    for (std::size_t k = 0; k < plain.size(); ++k)
+      most = std::max(most, std::abs(changed[k] - plain[k]) / problem.floor_sd[model.rows[k].channel]);
+  }
+  return most;
+}
+
+class EveryEffect : public ::testing::TestWithParam<PlantKind> {};
+
+TEST_P(EveryEffect, ChangesNothingWhenOffAndSomethingAtItsTypicalSize) {
+  const auto prepared = prepare(recordings_of(GetParam()));
+  const auto& problem = prepared.problem;
+  ASSERT_GT(problem.candidates.size(), 8u);
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    EXPECT_LT(largest_change(problem, c, 0.0), 1e-3) << problem.candidates[c].label();
+    EXPECT_GT(largest_change(problem, c, 1.0), 0.05) << problem.candidates[c].label();
+  }
+}
+
+TEST_P(EveryEffect, BringsNoEnergyWhereItIsAFriction) {
+  const auto prepared = prepare(recordings_of(GetParam()));
+  const auto& problem = prepared.problem;
+  const std::set<std::string> frictions{"axis.stribeck",   "axis.load_dependent",    "air.quadratic_drag",
+                                        "terrain.viscous", "terrain.quadratic_drag", "terrain.suction"};
+  for (const auto& candidate : problem.candidates) {
+    if (!frictions.contains(candidate.effect->id)) continue;
+    Edits edits;
+    candidate.effect->apply(problem.context, candidate.channel, values_of(candidate, 1.0), edits);
+    for (const auto& [port, law] : edits.laws) {
+      if (port == "ground.tension") continue;  // how far the force may go, no force
+      const bool ground = port.starts_with("ground");
+      for (double v = -2.0; v <= 2.0; v += 0.1) {
+        // On the bed a force upward is positive and speed counts downward.
+        const PortState s{.position = 0.01, .velocity = v, .accel = v > 0.0 ? 1.0 : 0.0, .load = 3.0};
+        const double power = law(s) * (ground ? -v : v);
+        EXPECT_LE(power, 1e-12) << candidate.label() << " at " << v;
+      }
+    }
+  }
+}
+
+TEST_P(EveryEffect, StandsFirstOnTheScreenWhenAlone) {
+  auto prepared = prepare(recordings_of(GetParam()));
+  auto& problem = prepared.problem;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+      const auto with = predicted(problem, t, c, 0.3);
+      for (std::size_t k = 0; k < with.size(); ++k) problem.trials[t]->rows[k].measured = with[k];
+    }
+    const auto found = screen(problem, null_point(problem));
+    const auto own =
+        std::find_if(found.begin(), found.end(), [&](const Screened& s) { return s.candidate == c; });
+    ASSERT_NE(own, found.end());
+    // Others may look the same; none looks much better.
+    EXPECT_GT(own->gain, 0.9 * found.front().gain)
+        << problem.candidates[c].label() << " behind " << problem.candidates[found.front().candidate].label();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAPlant, EveryEffect,
+                         ::testing::Values(PlantKind::falling_body, PlantKind::rotary_axis,
+                                           PlantKind::intruder));
+
+TEST(DiagnoseDataFaults, SamplesThatFallToZeroAreADropoutAndNoPhysics) {
+  auto recordings = drops([](double, double, double) { return -0.3; });
+  for (auto& trial : recordings.trials)
+    for (std::size_t i = 30; i + 3 < trial.channels["accel_mps2"].size(); i += 45)
+      for (std::size_t k = 0; k < 3; ++k) trial.channels["accel_mps2"][i + k] = 0.0;
+  const auto d = diagnose(recordings);
+  const auto is = [](const char* id) { return [id](const FoundEffect& e) { return e.id == id; }; };
+  const auto fault = std::find_if(d.effects.begin(), d.effects.end(), is("data.dropout"));
+  ASSERT_NE(fault, d.effects.end());
+  EXPECT_EQ(fault->channel, "accel_mps2");
+  EXPECT_LE(fault->parameters.front().low, 0.015);
+  EXPECT_GE(fault->parameters.front().high, 0.015);
+}
+
+TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (std::size_t t = 0; t < recordings.trials.size(); t += 2) {
+    auto& trial = recordings.trials[t];
+    trial.time_s.erase(trial.time_s.begin() + 20, trial.time_s.begin() + 24);
+    for (auto& [name, values] : trial.channels) values.erase(values.begin() + 20, values.begin() + 24);
+  }
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+}
+
+TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials)
+    for (std::size_t i = trial.time_s.size() - 8; i > 20; i -= 20) {
+      const auto cut = [i](auto& values) {
+        values.erase(values.begin() + static_cast<std::ptrdiff_t>(i),
+                     values.begin() + static_cast<std::ptrdiff_t>(i + 3));
+      };
+      cut(trial.time_s);
+      for (auto& [name, values] : trial.channels) cut(values);
+    }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.detail, "data_fault");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+}
+
+TEST(DiagnoseDataFaults, SamplesThatPileUpAtALimitAreASaturation) {
+  auto recordings = drops([](double, double, double v) { return -0.02 * std::abs(v) * v; });
+  for (auto& trial : recordings.trials)
+    for (double& a : trial.channels["accel_mps2"]) a = std::min(a, 2.0);
+  const auto d = diagnose(recordings);
+  std::set<std::string> named;
+  for (const auto& e : d.effects) named.insert(e.id);
+  EXPECT_TRUE(named.contains("sensor.saturation"));
+  EXPECT_TRUE(named.contains("air.quadratic_drag"));
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose

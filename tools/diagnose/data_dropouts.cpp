@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tools/diagnose/data_fault_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kFar = 8.0;    // of the neighbours' own changes
+constexpr double kAlike = 0.5;  // of the fall: what lies between the two neighbours
+constexpr std::size_t kNeighbours = 6;
+constexpr double kIsolated = 0.3;  // of the range of all other values
+constexpr double kOften = 3.0;     // lost stretches per trial that are more than a gap now and then
+constexpr double kMostTrials = 0.75;
+constexpr double kShareLost = 0.004;
+constexpr std::size_t kEnough = 3;
+
+// Zero, and an end of the range that stands apart from all other values.
+std::vector<double> codes(const std::vector<SampledChannel>& channel) {
+  std::vector<double> all;
+  for (const auto& s : channel) all.insert(all.end(), s.value.begin(), s.value.end());
+  std::sort(all.begin(), all.end());
+  std::vector<double> found{0.0};
+  const auto after_first = std::upper_bound(all.begin(), all.end(), all.front());
+  const auto before_last = std::lower_bound(all.begin(), all.end(), all.back());
+  if (after_first == all.end() || before_last == all.begin()) return found;
+  const double low_range = all.back() - *after_first, high_range = *(before_last - 1) - all.front();
+  if (*after_first - all.front() > kIsolated * low_range && low_range > 0.0) found.push_back(all.front());
+  if (all.back() - *(before_last - 1) > kIsolated * high_range && high_range > 0.0)
+    found.push_back(all.back());
+  return found;
+}
+
+// Root mean square of the changes on both sides of a stretch.
+double changes_beside(const std::vector<double>& v, std::size_t first, std::size_t last, double code) {
+  double sum = 0.0, count = 0.0;
+  const auto add = [&](std::size_t i) {
+    if (v[i] == code || v[i - 1] == code) return;
+    sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+    ++count;
+  };
+  for (std::size_t i = first > kNeighbours ? first - kNeighbours : 1; i < first; ++i) add(i);
+  for (std::size_t i = last + 2; i < std::min(v.size(), last + 2 + kNeighbours); ++i) add(i);
+  return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
+}
+
+bool falls_out(const std::vector<double>& v, std::size_t first, std::size_t last, double code, double noise) {
+  if (first == 0 || last + 1 >= v.size()) return false;
+  const double before = v[first - 1] - code, after = v[last + 1] - code;
+  if (before * after <= 0.0) return false;
+  const double far = std::min(std::abs(before), std::abs(after));
+  const double change = std::max(noise, changes_beside(v, first, last, code));
+  return far > kFar * change && std::abs(before - after) < kAlike * far;
+}
+
+}  // namespace
+
+void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
+  auto samples = sampled(trials, channel);
+  double total = 0.0;
+  for (const auto& s : samples) total += static_cast<double>(s.value.size());
+  if (total < 20.0) return;
+  const double noise = own_noise(samples);
+  for (const double code : codes(samples)) {
+    DataFault fault;
+    fault.channel = channel;
+    fault.id = "data.dropout";
+    std::vector<double> lengths;
+    for (auto& s : samples) {
+      bool hit = false;
+      auto& values = s.trial->channels[channel];
+      double step_s = 1e-3;
+      if (s.time_s.size() > 1)
+        step_s = (s.time_s.back() - s.time_s.front()) / static_cast<double>(s.time_s.size() - 1);
+      fault.step_s = std::max(fault.step_s, step_s);
+      if (!s.time_s.empty()) fault.recorded_s += s.time_s.back() - s.time_s.front();
+      for (std::size_t i = 0; i < s.value.size();) {
+        if (s.value[i] != code) {
+          ++i;
+          continue;
+        }
+        std::size_t j = i;
+        while (j + 1 < s.value.size() && s.value[j + 1] == code) ++j;
+        if (falls_out(s.value, i, j, code, noise)) {
+          hit = true;
+          lengths.push_back(static_cast<double>(j - i + 1) * step_s);
+          for (std::size_t k = i; k <= j; ++k) values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
+        }
+        i = j + 1;
+      }
+      if (hit) fault.trials.push_back(s.trial->name);
+    }
+    fault.stretches = lengths.size();
+    if (fault.stretches < kEnough) continue;
+    std::sort(lengths.begin(), lengths.end());
+    fault.duration_s = lengths[lengths.size() / 2];
+    fault.rate_Hz = static_cast<double>(fault.stretches) / std::max(fault.recorded_s, 1e-9);
+    faults.push_back(std::move(fault));
+    samples = sampled(trials, channel);
+  }
+}
+
+void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& faults) {
+  DataFault fault;
+  fault.id = "data.dropout";
+  fault.channel = "t_s";
+  std::vector<double> lengths;
+  double rows = 0.0, lost = 0.0;
+  for (const auto& trial : trials) {
+    const auto& t = trial.time_s;
+    if (t.size() < 10) continue;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+    auto sorted = steps;
+    std::sort(sorted.begin(), sorted.end());
+    const double step_s = sorted[sorted.size() / 2];
+    // Rows at uneven times are no rows lost.
+    if (sorted[sorted.size() * 9 / 10] > 1.2 * step_s || sorted[sorted.size() / 10] < 0.8 * step_s) return;
+    bool hit = false;
+    for (const double step : steps)
+      if (step > 1.6 * step_s) {
+        lengths.push_back(step - step_s);
+        lost += step / step_s - 1.0;
+        hit = true;
+      }
+    rows += static_cast<double>(t.size());
+    fault.recorded_s += t.back() - t.front();
+    fault.step_s = step_s;
+    if (hit) fault.trials.push_back(trial.name);
+  }
+  fault.stretches = lengths.size();
+  const auto count = static_cast<double>(trials.size());
+  if (static_cast<double>(fault.stretches) < kOften * count ||
+      static_cast<double>(fault.trials.size()) < kMostTrials * count || lost < kShareLost * rows)
+    return;
+  std::sort(lengths.begin(), lengths.end());
+  fault.duration_s = lengths[lengths.size() / 2];
+  fault.rate_Hz = static_cast<double>(fault.stretches) / std::max(fault.recorded_s, 1e-9);
+  faults.push_back(std::move(fault));
+}
+
+}  // namespace sandhopper::diagnose

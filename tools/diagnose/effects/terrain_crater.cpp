@@ -1,0 +1,25 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.plant != PlantKind::intruder || c.scale("range of pushes_since_preparation", 0.0) <= 0.0) return {};
+  return {{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05}};
+}
+
+void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+  const double drop_m = v[0];
+  edits.law("ground.surface", [drop_m](const PortState& s) { return -drop_m * s.pushes; });
+}
+
+const EffectRegistration kEffect({.id = "terrain.crater",
+                                  .port = "ground",
+                                  .statement = "Each push since the bed was prepared lowers its surface.",
+                                  .equation = "z = z_recorded - c n",
+                                  .plants = {PlantKind::intruder, PlantKind::hopper},
+                                  .parameters = parameters,
+                                  .apply = apply});
+
+}  // namespace
+}  // namespace sandhopper::diagnose
