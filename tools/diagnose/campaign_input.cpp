@@ -45,7 +45,12 @@ std::string body_mass_key(PlantKind plant) {
 
 Belief flattened(const sandhopper::Belief& belief) {
   Belief flat;
-  std::visit([&](const auto& plant) { flatten(plant, "", flat.numbers); }, belief);
+  std::visit(
+      [&](const auto& plant) {
+        flatten(plant, "", flat.numbers);
+        flat.effects = plant.effects;
+      },
+      belief);
   return flat;
 }
 

@@ -157,12 +157,14 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
       if (hit) fault.trials.push_back(s.trial->name);
     }
     fault.stretches = durations.size();
-    if (fault.stretches < 2 && longest < 8) continue;
+    // One stretch may be a pause of what moves the foot.
+    if (fault.stretches < 2 && (longest < 8 || channel == "foot_z_m")) continue;
     std::sort(durations.begin(), durations.end());
     fault.duration_s = durations[durations.size() / 2];
     fault.rate_Hz = recorded_s > 0.0 ? static_cast<double>(fault.stretches) / recorded_s : 0.0;
     fault.id = fault.duration_s > kLong_s ? "data.stuck" : "data.dropout";
-    fault.borderline = fault.duration_s > 0.5 * kLong_s && fault.duration_s < 2.0 * kLong_s;
+    fault.borderline =
+        fault.stretches < 2 || (fault.duration_s > 0.5 * kLong_s && fault.duration_s < 2.0 * kLong_s);
     faults.push_back(std::move(fault));
   }
   return faults;

@@ -10,7 +10,8 @@ namespace sandhopper::diagnose {
 
 // What a port shows to a law that acts there. Falling body, rail: height or position and velocity, up
 // positive. Axis, joint: angle and angular velocity; `load` the torque of the drive. Ground: depth, downward
-// speed and acceleration; `load` the quasi-static force, `extreme` the deepest point. Sensor: the value as
+// speed and acceleration; `load` the quasi-static force, `extreme` the deepest point; "foot.size" the plate's
+// radius as position, its law the logarithm of a factor on the depth law. Sensor: the value as
 // position, its rate as velocity.
 struct PortState {
   double time_s = 0.0;

@@ -30,6 +30,8 @@ class NoiseModel {
   void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
               Eigen::Ref<Eigen::MatrixXd> values) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
+  // All standard deviations times this: what a fit took up belongs to the noise, too.
+  void widen(double factor);
   std::size_t channels() const { return channels_.size(); }
 
  private:

@@ -3,18 +3,24 @@
 namespace sandhopper::diagnose {
 namespace {
 
+constexpr double kFewestPeriods = 3.0;  // slower ripple is gravity's, or the encoder's
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.scale("angle_rad") < 0.3) return {};
   const double typical = 0.1 * c.scale("torque_Nm");
   std::vector<double> orders;
-  for (const double n : {1., 2., 3., 4., 6., 8., 12., 18., 24., 36., 48.}) orders.push_back(n);
+  for (const double n : {4., 6., 8., 12., 18., 24., 36., 48.}) orders.push_back(n);
   return {{.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
           {.name = "cogging_cos_Nm",
            .typical = typical,
            .low = -50.0 * typical,
            .high = 50.0 * typical,
            .amplitude = true},
-          {.name = "cogging_periods_per_rev", .typical = 12.0, .low = 1.0, .high = 300.0, .shapes = orders}};
+          {.name = "cogging_periods_per_rev",
+           .typical = 12.0,
+           .low = kFewestPeriods,
+           .high = 300.0,
+           .shapes = orders}};
 }
 
 const EffectRegistration kEffect({.id = "joint.cogging",

@@ -10,6 +10,7 @@
 
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
+#include "tools/diagnose/plants/standing_leg.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -449,6 +450,7 @@ class Hopper final : public PlantModel {
       why = "a trial of kind '" + trial.kind + "' is not simulated: only hops are";
       return nullptr;
     }
+    if (is_standing_leg(world_of(belief, {}))) return standing_leg(trial, belief, kLoadCell, why);
     auto model = std::make_unique<HopperTrial>(trial, belief);
     if (model->rows.size() >= 50) return model;
     why = "needs at least one of motor position, accelerometer, height, load cell or motion capture";
