@@ -45,7 +45,12 @@ Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Fi
     if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), notes);
     if (table.key == "spread") leave_out_unknown(table, keys_of(base.spread), file.string(), notes);
   }
-  return load_document<Plant>(document, MissingKeys::use_default, std::move(base));
+  std::vector<ConfigProblem> problems;
+  auto effects = take_effects(document, problems);
+  if (!problems.empty()) throw ConfigError(problems);
+  auto belief = load_document<Plant>(document, MissingKeys::use_default, std::move(base));
+  belief.effects = std::move(effects);
+  return belief;
 }
 
 // Reads `value` into the first number of that name, table by table; [spread] is not looked at.

@@ -8,6 +8,7 @@
 
 #include "config/node.hpp"
 #include "config/problem.hpp"
+#include "tools/campaign/belief_effects.hpp"
 #include "tools/campaign/belief_sensors.hpp"
 #include "tools/campaign/finding.hpp"
 #include "tools/campaign/plant_kind.hpp"
@@ -25,6 +26,7 @@ struct HopperBelief {
   BedParameters terrain{};
   BeliefSensors sensors{};
   BeliefSpread spread{};
+  BeliefEffects effects{};
 
   // As tools/plant simulates it.
   WorldConfig world() const;
@@ -65,6 +67,7 @@ struct IntruderBelief {
   Rig rig{};
   BeliefSensors sensors{};
   BeliefSpread spread{};
+  BeliefEffects effects{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -124,6 +127,7 @@ struct FallingBodyBelief {
   Medium medium{};
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
+  BeliefEffects effects{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -160,6 +164,7 @@ struct RotaryAxisBelief {
   Axis axis{};
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
+  BeliefEffects effects{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {

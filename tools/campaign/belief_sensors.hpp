@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "config/fields.hpp"
 #include "tools/plant/world_config.hpp"
 
@@ -108,6 +110,7 @@ struct OtherSpread {
   double accel_bias_mps2 = 0.0;
   double torque_offset_Nm = 0.0;
   double height_bias_m = 0.0;
+  std::optional<double> height_scale_relative;  // none: unknown, not nothing
   double position_bias_m = 0.0;
   double load_cell_torque_offset_Nm = 0.0;
   double pressure_offset_Pa = 0.0;
@@ -119,6 +122,7 @@ struct OtherSpread {
     visit("accel_bias_mps2", self.accel_bias_mps2, kAmount);
     visit("torque_offset_Nm", self.torque_offset_Nm, kAmount);
     visit("height_bias_m", self.height_bias_m, kAmount);
+    visit("height_scale_relative", self.height_scale_relative, kAmount);
     visit("position_bias_m", self.position_bias_m, kAmount);
     visit("load_cell_torque_offset_Nm", self.load_cell_torque_offset_Nm, kAmount);
     visit("pressure_offset_Pa", self.pressure_offset_Pa, kAmount);

@@ -39,7 +39,12 @@ PlantKind kind_of(CampaignPlant plant) {
 
 Belief flattened(const sandhopper::Belief& belief) {
   Belief flat;
-  std::visit([&](const auto& plant) { flatten(plant, "", flat.numbers); }, belief);
+  std::visit(
+      [&](const auto& plant) {
+        flatten(plant, "", flat.numbers);
+        flat.effects = plant.effects;
+      },
+      belief);
   return flat;
 }
 

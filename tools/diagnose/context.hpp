@@ -20,6 +20,8 @@ class Belief {
   bool has(const std::string& key) const { return numbers.contains(key); }
 
   std::map<std::string, double> numbers;
+  // Effects already in place, "port.effect" or "port.effect[channel]" with their parameters (tools/campaign).
+  std::map<std::string, std::map<std::string, double>> effects{};
 };
 
 // What a recorded channel looks like over the whole campaign.

@@ -1,13 +1,14 @@
 #pragma once
-#include "tools/diagnose/context.hpp"
+#include <string>
+
 #include "tools/diagnose/diagnosis.hpp"
-#include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/prepare.hpp"
 
 namespace sandhopper::diagnose {
 
-// nominal.toml with what was found in place, so that a second run starts from it. An effect that no key of
-// nominal.toml expresses stands in it as a comment with its equation and values.
-std::string corrected_model(const Belief& belief, const std::vector<Effect>& effects,
-                            const Diagnosis& diagnosis);
+// nominal.toml with what was found in place, so that a second run starts from it: as keys of nominal.toml
+// where they can say it and no trial's set-up overrides them, else under [effects] (tools/campaign). What was
+// found outside the list of effects stands in it as a comment.
+std::string corrected_model(const Recordings& recordings, const Problem& problem, const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

@@ -140,11 +140,12 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     if (hit) fault.trials.push_back(s.trial->name);
   }
   fault.stretches = durations.size();
-  if (fault.stretches < 2 && longest < 8) return;
+  // One stretch may be a pause of what moves the foot.
+  if (fault.stretches < 2 && (longest < 8 || channel == "foot_z_m")) return;
   std::sort(durations.begin(), durations.end());
   fault.duration_s = durations[durations.size() / 2];
   fault.rate_Hz = fault.recorded_s > 0.0 ? static_cast<double>(fault.stretches) / fault.recorded_s : 0.0;
-  fault.borderline = fault.duration_s < kLong_s;
+  fault.borderline = fault.stretches < 2 || fault.duration_s < kLong_s;
   faults.push_back(std::move(fault));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ struct EffectParameter {
     const double plain = base + scale * value;
     return reciprocal ? 1.0 / plain : plain;
   }
+  // The other way; a limit that is read off the data is in place or not.
+  double value_of(double reported) const {
+    if (scale == 0.0) return typical;
+    return ((reciprocal ? 1.0 / reported : reported) - base) / scale;
+  }
 };
 
 // A piece of physics, or a fault of a sensor, that a simulation may lack.
@@ -49,6 +55,10 @@ struct Effect {
                      Edits& edits)>
       apply{};
   std::string belief_key{};  // of nominal.toml, when the effect is a change of one number there
+  // Puts the effect into the numbers of nominal.toml ("table.key") where it takes several of them; false
+  // where they cannot say it. Null: `belief_key`, or [effects].
+  std::function<bool(const Context&, std::span<const double> values, std::map<std::string, double>& numbers)>
+      as_keys{};
 };
 
 class EffectRegistration {

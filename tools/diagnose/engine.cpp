@@ -118,8 +118,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
       std::max({kUnknownGain, kUnknownGainPerRow * rows,
                 std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
   for (const auto& gain : gains)
-    if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
-        gain.trials_better >= 0.75)
+    if (rest == nullptr && problem.trials.size() >= kTooFewTrials && gain.held_out > least_gain &&
+        gain.p_value < kUnknownSignificance && gain.trials_better >= 0.75)
       rest = &gain;
   for (std::size_t i = 0; i < gains.size() && i < 4; ++i)
     diagnosis.log.push_back(fmt::format(
@@ -163,7 +163,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_traces(problem, clean, residuals, diagnosis);
   propose_next_trial(problem, clean, search, belief, rest, diagnosis);
   if (!diagnosis.effects.empty())
-    diagnosis.corrected_model_toml = corrected_model(recordings.belief, problem.effects, diagnosis);
+    diagnosis.corrected_model_toml = corrected_model(recordings, problem, diagnosis);
   diagnosis.simulations = problem.simulations;
   diagnosis.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   options.progress(1.0, "");

@@ -62,6 +62,11 @@ double ChannelNoise::sd() const {
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
+void NoiseModel::widen(double factor) {
+  for (auto& channel : channels_)
+    for (double& sd : channel.sd_of_phase) sd *= factor;
+}
+
 void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
                         Eigen::Ref<Eigen::MatrixXd> values) const {
   const std::size_t rows = trial.rows.size();
@@ -82,7 +87,8 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
       }
       const ChannelNoise& noise = channels_[trial.rows[k].channel];
       const auto& a = noise.autoregression;
-      const double e = value / noise.sd_of_phase[trial.rows[k].phase];
+      const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[trial.rows[k].channel];
+      const double e = value / (factor * noise.sd_of_phase[trial.rows[k].phase]);
       value = e;
       if (before[k] >= a.size()) {
         for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];

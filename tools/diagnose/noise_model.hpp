@@ -31,6 +31,8 @@ class NoiseModel {
               Eigen::Ref<Eigen::MatrixXd> values) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
   void fix(std::size_t channel, double sd);  // white, the same in all phases
+  // All standard deviations times this: what a fit took up belongs to the noise, too.
+  void widen(double factor);
   std::size_t channels() const { return channels_.size(); }
 
  private:

@@ -51,6 +51,8 @@ class TrialModel {
   std::vector<Nuisance> trial_nuisances;
   std::vector<Nuisance> block_nuisances;
   std::vector<Coordinate> coordinates;
+  // By channel: how much noisier this trial is than the campaign; empty where all are alike.
+  std::vector<double> noise_factor;
 };
 
 // A free-form law at this port: what it is a function of is found out by trying.

@@ -20,6 +20,7 @@ constexpr double kClockTolerance = 0.15;  // of a sample's period
 constexpr double kRowTolerance =
     0.5;                          // of a row's: a slower sensor's sample stands in the first row after it
 constexpr double kOutlier = 8.0;  // standard deviations
+constexpr std::size_t kRowsPerFreeTerm = 10;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -65,6 +66,25 @@ double grid_rms(const std::vector<Trial>& trials, const std::string& channel) {
   return least < 1e299 ? least / std::sqrt(12.0) : 0.0;
 }
 
+// What the trials' simulations believe, set-ups included: the median of each number. Effects take their sizes
+// from it.
+Belief believed_of_trials(const Recordings& recordings) {
+  Belief typical = recordings.belief;
+  std::map<std::string, std::vector<double>> values;
+  for (const auto& belief : recordings.beliefs)
+    for (const auto& [key, value] : belief.numbers) values[key].push_back(value);
+  for (auto& [key, of_trials] : values)
+    if (of_trials.size() == recordings.beliefs.size()) typical.numbers[key] = median(std::move(of_trials));
+  return typical;
+}
+
+bool can_be_simulated(const TrialModel& trial) {
+  const std::vector<double> nothing(trial.nuisance_count(), 0.0);
+  std::vector<double> out(trial.rows.size());
+  trial.predict({}, nothing, out);
+  return std::all_of(out.begin(), out.end(), [](double v) { return std::isfinite(v); });
+}
+
 double believed_noise(const Belief& belief, const std::string& channel) {
   static const std::map<std::string, std::string> kKeys{
       {"height_m", "height_noise_m"},         {"accel_mps2", "accel_noise_mps2"},
@@ -89,6 +109,34 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
   }
 }
 
+// A trial in which something rattles is noisier than the others, and must not set their level nor be weighed
+// like them. `residuals` become those of a trial like the others.
+void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
+  constexpr double kNoisy = 2.0;
+  const std::size_t channels = problem.channels.size();
+  for (auto& trial : problem.trials) trial->noise_factor.assign(channels, 1.0);
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::vector<double> level(problem.trials.size(), 0.0), recorded;
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+      std::vector<double> sizes;
+      const auto& rows = problem.trials[t]->rows;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k].channel == c && problem.used[t][k])
+          sizes.push_back(std::abs(residuals[t][static_cast<Index>(k)]));
+      if (sizes.size() < 30) continue;
+      recorded.push_back(level[t] = std::max(median(std::move(sizes)), 0.5 * problem.floor_sd[c]));
+    }
+    if (recorded.size() < 3) continue;
+    const double usual = median(recorded);
+    for (std::size_t t = 0; t < problem.trials.size(); ++t)
+      if (level[t] > kNoisy * usual) problem.trials[t]->noise_factor[c] = level[t] / usual;
+  }
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    for (std::size_t k = 0; k < problem.trials[t]->rows.size(); ++k)
+      residuals[t][static_cast<Index>(k)] /=
+          problem.trials[t]->noise_factor[problem.trials[t]->rows[k].channel];
+}
+
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
@@ -109,8 +157,15 @@ void update_noise(Problem& problem, const Point& point) {
     edits.laws_key = 0;
     directions.push_back({std::move(edits), values[0] / parameters[0].typical});
   }
-  for (const auto& family : free_families(problem, point))
-    for (const auto& term : family.terms) directions.push_back({with_term(base, term, 0.3), 0.3});
+  std::size_t rows = 0;
+  for (const auto& trial : problem.trials) rows += trial->rows.size();
+  const auto families = free_families(problem, point);
+  std::size_t terms = 0;
+  for (const auto& family : families) terms += family.terms.size();
+  // A short recording gives its noise away to so many columns.
+  if (rows > kRowsPerFreeTerm * terms)
+    for (const auto& family : families)
+      for (const auto& term : family.terms) directions.push_back({with_term(base, term, 0.3), 0.3});
 
   const auto linear = linearise_all(problem, point, directions, {.keep_plain = true});
   const auto k = static_cast<Index>(directions.size());
@@ -120,12 +175,19 @@ void update_noise(Problem& problem, const Point& point) {
     information += trial.gram.bottomRightCorner(k, k);
     score += trial.gram.col(0).tail(k);
   }
-  for (Index i = 0; i < k; ++i) information(i, i) += i < static_cast<Index>(own) ? 0.01 : 0.04;
-  const VectorXd size = information.ldlt().solve(score);
+  MatrixXd held = information;
+  for (Index i = 0; i < k; ++i) held(i, i) += i < static_cast<Index>(own) ? 0.01 : 0.04;
+  const auto solver = held.ldlt();
+  const VectorXd size = solver.solve(score);
+  double taken_up = solver.solve(information).trace();
+  for (const auto& trial : problem.trials) taken_up += static_cast<double>(trial->nuisance_count());
   std::vector<VectorXd> residuals;
   for (const auto& trial : linear) residuals.push_back(trial.plain.col(0) - trial.plain.rightCols(k) * size);
+  find_noisy_trials(problem, residuals);
   problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
                                  problem.floor_sd);
+  const double n = static_cast<double>(rows);
+  problem.noise.widen(std::sqrt(n / std::max(0.25 * n, n - taken_up)));
   mark_outliers(problem, residuals);
   // A condition is met as closely as it says, whatever the recordings scatter.
   for (std::size_t c = 0; c < problem.channels.size(); ++c)
@@ -139,12 +201,23 @@ Prepared prepare(const Recordings& recordings) {
   problem.channels = problem.plant->channels();
   problem.phases = problem.plant->phases();
   problem.context.plant = recordings.plant;
-  problem.context.belief = recordings.belief;
+  problem.context.belief = believed_of_trials(recordings);
+  double smallest_m = 1e300, largest_m = 0.0;
+  for (const auto& belief : recordings.beliefs) {
+    smallest_m = std::min(smallest_m, belief.value("foot.radius_m"));
+    largest_m = std::max(largest_m, belief.value("foot.radius_m"));
+  }
+  problem.context.scales["foot_radius_ratio"] = smallest_m > 0.0 ? largest_m / smallest_m : 1.0;
   for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
     std::string why;
     auto model = problem.plant->trial(recordings.trials[i], recordings.beliefs[i], why);
     if (!model) {
       prepared.left_out.push_back(recordings.trials[i].name + ": " + why);
+      continue;
+    }
+    if (!can_be_simulated(*model)) {
+      prepared.left_out.push_back(recordings.trials[i].name +
+                                  ": what is believed cannot be simulated there (a mass of zero?)");
       continue;
     }
     problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
@@ -169,6 +242,8 @@ Prepared prepare(const Recordings& recordings) {
   problem.plant->describe(recordings.trials, problem.context);
   problem.effects = known_effects();
   problem.candidates = candidates_for(problem.effects, problem.context);
+  for (const auto& label : put_in_place(problem))
+    prepared.left_out.push_back(label + " of [effects]: no effect of that name can be in this campaign");
   std::vector<double> row_steps;
   for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
   const double row_s = median(row_steps);

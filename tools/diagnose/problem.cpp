@@ -1,5 +1,6 @@
 #include "tools/diagnose/problem.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace sandhopper::diagnose {
@@ -19,8 +20,29 @@ Point null_point(const Problem& problem) {
   return point;
 }
 
+std::vector<std::string> put_in_place(Problem& problem) {
+  std::vector<std::string> unknown;
+  for (const auto& [label, given] : problem.context.belief.effects) {
+    const std::string name = label.substr(0, label.find('#'));
+    const auto candidate = std::find_if(problem.candidates.begin(), problem.candidates.end(),
+                                        [&](const Candidate& c) { return c.label() == name; });
+    if (candidate == problem.candidates.end()) {
+      unknown.push_back(label);
+      continue;
+    }
+    std::vector<double> values;
+    for (const auto& parameter : candidate->parameters) {
+      const auto it = given.find(parameter.name);
+      values.push_back(it == given.end() ? (values.empty() ? 0.0 : parameter.typical)
+                                         : parameter.value_of(it->second));
+    }
+    candidate->effect->apply(problem.context, candidate->channel, values, problem.in_place);
+  }
+  return unknown;
+}
+
 Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<const double> tolerances) {
-  Edits edits;
+  Edits edits = problem.in_place;
   edits.laws_key = 1;
   for (std::size_t i = 0; i < hypothesis.candidates.size(); ++i) {
     const Candidate& candidate = problem.candidates[hypothesis.candidates[i]];

@@ -41,6 +41,7 @@ struct Problem {
   std::vector<std::string> phases;
   std::vector<Effect> effects;
   std::vector<Candidate> candidates;
+  Edits in_place;  // effects that the belief holds already
   std::vector<Tolerance> tolerances;
   std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
   NoiseModel noise;
@@ -87,6 +88,9 @@ struct Point {
 };
 
 Point null_point(const Problem& problem);
+
+// Makes the belief's own effects part of every simulation; returns the names that no candidate has.
+std::vector<std::string> put_in_place(Problem& problem);
 
 Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<const double> tolerances);
 

@@ -20,6 +20,11 @@ inline std::vector<std::string> present(const Context& context, std::initializer
   return found;
 }
 
+// Whether this campaign has ground at all: a falling body need not.
+inline bool has_bed(const Context& context) {
+  return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;
+}
+
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);
   return it == context.channels.end() ? 1.0 : std::max(it->second.high - it->second.low, 1e-12);

@@ -3,6 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
+constexpr double kFewestPeriods = 3.0;  // slower ripple is gravity's, or the encoder's
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.scale("angle_rad") < 0.3) return {};
   const double typical = 0.1 * c.scale("torque_Nm");
@@ -12,14 +14,17 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
     if (const double order = c.scale(key, 0.0); order > 0.0) orders.push_back(order);
   if (orders.empty()) return {};
   const double likeliest = orders.front();
-  return {
-      {.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
-      {.name = "cogging_cos_Nm",
-       .typical = typical,
-       .low = -50.0 * typical,
-       .high = 50.0 * typical,
-       .amplitude = true},
-      {.name = "cogging_periods_per_rev", .typical = likeliest, .low = 2.0, .high = 500.0, .shapes = orders}};
+  return {{.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
+          {.name = "cogging_cos_Nm",
+           .typical = typical,
+           .low = -50.0 * typical,
+           .high = 50.0 * typical,
+           .amplitude = true},
+          {.name = "cogging_periods_per_rev",
+           .typical = likeliest,
+           .low = kFewestPeriods,
+           .high = 500.0,
+           .shapes = orders}};
 }
 
 const EffectRegistration kEffect({.id = "joint.cogging",

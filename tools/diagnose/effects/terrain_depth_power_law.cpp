@@ -4,6 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (!has_bed(c)) return {};
   const double depth = c.scale("depth_m", 0.04);
   const double believed = c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0
                               ? c.belief.value("terrain.exponent", 1.0)
@@ -25,13 +26,23 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   });
 }
 
+// K A z (z / 1 cm)^(n-1) (z / z_r)^p is of the same form with another K and n.
+bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, double>& numbers) {
+  constexpr double kReference_m = 0.01;
+  if (!(c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0)) return false;
+  numbers["terrain.exponent"] = c.belief.value("terrain.exponent", 1.0) + v[0];
+  numbers["terrain.stiffness_per_area_N_per_m3"] *= std::pow(kReference_m / v[1], v[0]);
+  return true;
+}
+
 const EffectRegistration kEffect({.id = "terrain.depth_power_law",
                                   .port = "ground",
                                   .statement = "Resistance grows with another power of depth than believed.",
                                   .equation = "F_d -> F_d (z / z_r)^(n - n_0)",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
+                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
                                   .parameters = parameters,
-                                  .apply = apply});
+                                  .apply = apply,
+                                  .as_keys = as_keys});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

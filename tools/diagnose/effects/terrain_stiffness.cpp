@@ -3,11 +3,17 @@
 namespace sandhopper::diagnose {
 namespace {
 
+std::string key_of(const Context& c) {
+  if (c.plant == PlantKind::falling_body) return "bed.stiffness_N_per_m";
+  return c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0 ? "terrain.stiffness_per_area_N_per_m3"
+                                                                     : "terrain.stiffness_N_per_m";
+}
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double k = c.belief.value("terrain.stiffness_N_per_m", 1500.0);
-  const double per_area = c.belief.value("terrain.stiffness_per_area_N_per_m3");
-  const double believed = per_area > 0.0 ? per_area : k;
-  return {{.name = per_area > 0.0 ? "stiffness_per_area_N_per_m3" : "stiffness_N_per_m",
+  if (!has_bed(c)) return {};
+  const std::string key = key_of(c);
+  const double believed = c.belief.value(key, 1500.0);
+  return {{.name = key.substr(key.find('.') + 1),
            .typical = 0.1,
            .low = -0.95,
            .high = 30.0,
@@ -17,18 +23,21 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-  const bool per_area = c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0;
-  edits.scale(per_area ? "terrain.stiffness_per_area_N_per_m3" : "terrain.stiffness_N_per_m", 1.0 + v[0]);
+  edits.scale(key_of(c), 1.0 + v[0]);
 }
 
 const EffectRegistration kEffect({.id = "terrain.stiffness",
                                   .port = "ground",
                                   .statement = "The bed is stiffer or softer than believed.",
                                   .equation = "F_d -> (1 + e) F_d",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
+                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
                                   .parameters = parameters,
                                   .apply = apply,
-                                  .belief_key = "terrain.stiffness_N_per_m"});
+                                  .as_keys = [](const Context& c, std::span<const double> v,
+                                                std::map<std::string, double>& numbers) {
+                                    numbers[key_of(c)] *= 1.0 + v[0];
+                                    return true;
+                                  }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

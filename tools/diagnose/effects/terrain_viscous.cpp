@@ -4,6 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (!has_bed(c)) return {};
   const double typical = 3.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
   std::vector<EffectParameter> all{
       {.name = "viscous_N_s_per_m", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
@@ -25,7 +26,7 @@ const EffectRegistration kEffect({.id = "terrain.viscous",
                                   .port = "ground",
                                   .statement = "The bed resists in proportion to the intrusion speed.",
                                   .equation = "F += b v (1 - exp(-z / z_0)), v > 0",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
+                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
                                   .parameters = parameters,
                                   .apply = apply});
 

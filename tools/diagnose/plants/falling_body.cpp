@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
@@ -16,7 +18,14 @@ constexpr double kReleaseTime_s = 0.03;  // of a release seen in the recording
 constexpr double kTouchdownTime_s = 0.1;
 constexpr double kKink_s = 4e-3;  // around touchdown, where no sampled signal follows the force's kink
 constexpr double kTouchdownAgrees_s =
-    1e-4;  // instant at which the fall ends and that at which the bed begins
+    1e-4;                                  // instant at which the fall ends and that at which the bed begins
+constexpr double kUnknownScale = 0.04;     // of a height recorded nobody says how, its own in each trial
+constexpr double kUnknownImpact_m = 0.05;  // of a stop that is simulated apart from its fall
+constexpr double kUnknownImpact_mps = 0.3;
+constexpr double kUnknownBias_mps2 = 0.08;
+constexpr double kLongestRow_s = 4e-3;
+constexpr double kUnknownBed = 0.3;  // of its stiffness from place to place
+constexpr double kLetGo_s = 0.05;    // after a release that only the fall's growth shows
 enum Phase : std::uint32_t { kHeld, kSlow, kFast, kBed };
 
 struct Figures {
@@ -56,7 +65,10 @@ class FallingTrial final : public TrialModel {
     name = trial.name;
     payload_kg_ = trial.setup_or("payload_kg", 0.0);
     const auto heights = without_repeats(samples_of(trial, "height_m"));
-    const auto accels = without_repeats(samples_of(trial, "accel_mps2"));
+    // Fast rows say the same thing many times; a stop of some tenths of a second needs no more than this.
+    const bool height_known = !heights.empty() || trial.setup.contains("release_height_m");
+    const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
+    const auto accels = height_known ? recorded : averaged(recorded, kLongestRow_s);
     bed_ = belief.value("bed.stiffness_N_per_m") > 0.0;
     end_s_ = trial.time_s.empty() ? 0.0 : trial.time_s.back();
     double step_s = 5e-3;
@@ -64,8 +76,13 @@ class FallingTrial final : public TrialModel {
       if (!s->empty()) step_s = std::min(step_s, median_step_s(s->time_s));
     step_s_ = std::clamp(step_s, bed_ ? 2.5e-4 : 5e-4, bed_ ? 5e-4 : 5e-3);
     find_release(heights, accels);
+    if (!held_ && accels.empty() && !trial.setup.contains("release_height_m")) find_fall(heights);
+    if (bed_ && held_ && !height_known) {
+      find_stop(accels);
+      find_impact(accels, belief.value("gravity_mps2", 9.81));
+    }
     place(trial, heights);
-    if (bed_) find_touchdown(heights, accels);
+    if (bed_ && impact_s_ < 0.0) find_touchdown(heights, accels);
     add_rows(0, heights);
     add_rows(1, accels);
     if (touchdown_nuisance_ >= 0) rows.push_back({2, 0, kBed, touchdown_s_, 0.0});
@@ -79,6 +96,10 @@ class FallingTrial final : public TrialModel {
     observe(motion.height, height_sensor_, edits, "height_m", height_times_, out.first(height_times_.size()));
     const auto accels = out.subspan(height_times_.size(), accel_times_.size());
     observe(motion.accel, accel_sensor_, edits, "accel_mps2", accel_times_, accels);
+    if (impact_s_ >= 0.0) read_stop(edits, nuisances, f, out);
+    if (height_scale_ >= 0)
+      for (double& h : out.first(height_times_.size()))
+        h += nuisances[index(height_scale_)] * (h - start_height_m_);
     if (touchdown_nuisance_ >= 0)
       out.back() = motion.touchdown_s - touchdown_s_ - nuisances[index(touchdown_nuisance_)];
     if (height_bias_ >= 0)
@@ -89,16 +110,22 @@ class FallingTrial final : public TrialModel {
 
  private:
   static std::size_t index(int nuisance) { return static_cast<std::size_t>(nuisance); }
+  void read_stop(const Edits& edits, std::span<const double> nuisances, const Figures& f,
+                 std::span<double> out) const {
+    Motion stop = simulate(edits, nuisances, true);
+    for (double& a : stop.accel.values) a += f.gravity_mps2;
+    const auto first = static_cast<std::size_t>(
+        std::lower_bound(accel_times_.begin(), accel_times_.end(), impact_s_) - accel_times_.begin());
+    observe(stop.accel, accel_sensor_, edits, "accel_mps2", std::span(accel_times_).subspan(first),
+            out.subspan(height_times_.size() + first));
+  }
 
   // The recording may begin while the body is still held.
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = belief_.value("gravity_mps2", 9.81);
-    std::size_t held = 0;
-    while (held < accels.value.size() && std::abs(accels.value[held] - g) < 0.3 * g) ++held;
-    if (held >= 5 && held < accels.value.size()) {
-      release_s_ = accels.time_s[held];
-      held_ = true;
-    }
+    release_s_ = release_before_shock_s(accels, g);
+    held_ = release_s_ >= 0.0;
+    if (!held_) release_s_ = 0.0;
     if (held_ || heights.value.size() < 10) return;
     const double noise = std::max({fluctuation_rms(heights), belief_.value("sensors.height_noise_m"), 1e-6});
     std::size_t still = 0;
@@ -148,12 +175,131 @@ class FallingTrial final : public TrialModel {
     trial_nuisances.push_back({"touchdown_time_s", kTouchdownTime_s, 2e-5});
   }
 
+  // Held, then let go, within some tenths of a second where a rope is paid out: the last loss of weight
+  // before the hardest shock, or -1. A body at its terminal speed feels its whole weight, too, but does not
+  // lose it again.
+  static double release_before_shock_s(const Samples& accels, double g) {
+    constexpr double kSoft_s = 0.25, kWindow_s = 0.1;
+    const auto& a = accels.value;
+    const auto& t = accels.time_s;
+    const auto mean = [&](double from_s, double to_s) {
+      double sum = 0.0, count = 0.0;
+      for (auto i = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), from_s) - t.begin());
+           i < t.size() && t[i] <= to_s; ++i, ++count)
+        sum += a[i];
+      return count >= 3.0 ? sum / count : std::nan("");
+    };
+    const auto hardest = static_cast<std::size_t>(std::max_element(a.begin(), a.end()) - a.begin());
+    double release_s = -1.0;
+    for (std::size_t i = 1; i < hardest; ++i) {
+      if (a[i] >= 0.7 * g || a[i - 1] < 0.7 * g) continue;
+      const double start_s = std::max(t.front(), t[i] - kSoft_s - kWindow_s);
+      const double before = mean(start_s, std::min(start_s + kWindow_s, t[i - 1]));
+      const double after = mean(t[i] + 0.5 * kWindow_s, t[i] + kWindow_s);
+      if (std::abs(before - g) < 0.25 * g && after < 0.6 * g) release_s = t[i];
+    }
+    return release_s;
+  }
+
+  // Neither height nor release written down: how far the body fell is not known well enough to say when it
+  // meets the bed. Fall and stop are simulated apart; the stop starts where the recorded deceleration begins,
+  // with the speed that the accelerometer has summed up.
+  void find_impact(const Samples& accels, double g) {
+    constexpr double kPlateau_s = 0.4, kBegins = 0.03, kSoftRelease_s = 0.15;
+    if (stop_s_ > 1e200) return;
+    std::size_t at = 0;
+    while (at < accels.value.size() && accels.time_s[at] < stop_s_) ++at;
+    if (at == 0 || at >= accels.value.size()) return;
+    const double peak = accels.value[at];
+    std::size_t half = at;
+    while (half > 0 && accels.value[half] > 0.5 * peak) --half;
+    std::vector<double> plateau;
+    for (std::size_t i = 0; i < half; ++i)
+      if (accels.time_s[i] > accels.time_s[half] - 1.5 * kPlateau_s &&
+          accels.time_s[i] < accels.time_s[half] - 0.5 * kPlateau_s)
+        plateau.push_back(accels.value[i]);
+    if (plateau.size() < 5) return;
+    std::nth_element(plateau.begin(), plateau.begin() + static_cast<std::ptrdiff_t>(plateau.size() / 2),
+                     plateau.end());
+    const double level = plateau[plateau.size() / 2];
+    const Smoothed smoothed = smooth(accels, 2);
+    std::size_t onset = half;
+    while (onset > 0 && smoothed.value[onset] > level + kBegins * (peak - level)) --onset;
+    impact_s_ = accels.time_s[onset];
+    const auto speed_mps = [&](double at_s) {
+      double sum = 0.0;
+      for (std::size_t i = 1; i < accels.time_s.size() && accels.time_s[i] <= at_s; ++i)
+        if (accels.time_s[i] > release_s_ - kPlateau_s)
+          sum += (accels.value[i] - g) * (accels.time_s[i] - accels.time_s[i - 1]);
+      return sum;
+    };
+    impact_speed_mps_ = speed_mps(impact_s_);
+    fall_speed_mps_ = speed_mps(release_s_ + kSoftRelease_s);
+    release_s_ += kSoftRelease_s;
+    from_release_ = true;
+  }
+
+  // A slow recording of a body let go by hand: the release at rest that suits its first second best, with any
+  // acceleration. What comes before is the hand's motion and counts for nothing; the fall starts with a state
+  // of its own.
+  void find_fall(const Samples& heights) {
+    constexpr double kLook_s = 1.0, kStep_s = 0.01;
+    constexpr std::size_t kFewest = 8;
+    double best = 1e300, best_s = 0.0;
+    for (double release_s = 0.0; release_s <= 0.5 * kLook_s; release_s += kStep_s) {
+      Samples fall;  // height over the square of the time since release
+      for (std::size_t i = 0; i < heights.value.size() && heights.time_s[i] <= kLook_s; ++i) {
+        fall.time_s.push_back(std::pow(std::max(0.0, heights.time_s[i] - release_s), 2));
+        fall.value.push_back(heights.value[i]);
+      }
+      if (fall.value.size() < kFewest) return;
+      const double misfit = misfit_of_line(fall);
+      if (misfit < best) {
+        best = misfit;
+        best_s = release_s;
+      }
+    }
+    if (best_s < 2.0 * kStep_s) return;
+    release_s_ = best_s + kLetGo_s;
+    held_ = from_release_ = true;
+  }
+
+  static double misfit_of_line(const Samples& s) {
+    const auto n = static_cast<double>(s.value.size());
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+      x += s.time_s[i] / n;
+      y += s.value[i] / n;
+    }
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+      xx += std::pow(s.time_s[i] - x, 2);
+      xy += (s.time_s[i] - x) * (s.value[i] - y);
+      yy += std::pow(s.value[i] - y, 2);
+    }
+    return yy - (xx > 0.0 ? xy * xy / xx : 0.0);
+  }
+
+  // On the bed the body stops with a jump that a fit cannot follow smoothly: rows end shortly before.
+  void find_stop(const Samples& accels) {
+    constexpr double kShareOfPeak = 0.85;
+    double most = 0.0;
+    for (const double a : accels.value) most = std::max(most, a);
+    if (most < 3.0 * belief_.value("gravity_mps2", 9.81)) return;
+    for (std::size_t i = 0; i < accels.value.size(); ++i)
+      if (accels.value[i] > kShareOfPeak * most) {
+        stop_s_ = accels.time_s[i];
+        return;
+      }
+  }
+
   void place(const Trial& trial, const Samples& heights) {
     const double spread_height = belief_.value("spread.release_height_m");
     const double spread_speed = belief_.value("spread.release_speed_mps");
     const bool told = trial.setup.contains("release_height_m");
     double seen = 0.0;
-    if (!heights.empty()) {
+    if (from_release_) {
+      seen = on_grid(heights, release_s_, step_s_, 1, false).values[0];
+    } else if (!heights.empty()) {
       const std::size_t n = std::min<std::size_t>(heights.value.size(), 3);
       for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
     }
@@ -163,6 +309,7 @@ class FallingTrial final : public TrialModel {
         std::abs(trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0)));
     const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
     start_speed_mps_ = rises ? told_mps : -told_mps;
+    if (impact_s_ >= 0.0) start_speed_mps_ = fall_speed_mps_;
     const double noise = std::max(fluctuation_rms(heights), belief_.value("sensors.height_noise_m"));
     double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
     // What is written down refers to another zero, or nothing is written down: the recording decides.
@@ -171,10 +318,11 @@ class FallingTrial final : public TrialModel {
       height_sd = 1.0;
     }
     double speed_sd = spread_speed > 0.0 ? spread_speed : told ? kKnownSpeed_mps : kSpeedOfAThrow_mps;
-    if (held_) speed_sd = std::min(speed_sd, 0.1);
+    if (held_ && !from_release_) speed_sd = std::min(speed_sd, 0.1);
+    if (impact_s_ >= 0.0) speed_sd = kUnknownImpact_mps;
     trial_nuisances.push_back({"release_height_m", height_sd, 1e-4});
     trial_nuisances.push_back({"release_speed_mps", speed_sd, 1e-4});
-    if (held_) {
+    if (held_ && !from_release_) {
       release_nuisance_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"release_time_s", kReleaseTime_s, 1e-4});
     }
@@ -182,16 +330,34 @@ class FallingTrial final : public TrialModel {
       height_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"height_bias_m", sd, 1e-3});
     }
-    if (const double sd = belief_.value("spread.accel_bias_mps2"); sd > 0.0 && trial.find("accel_mps2")) {
+    // A camera's scale hangs on where it stands and where the body falls.
+    const double scale_sd = belief_.value(
+        "spread.height_scale_relative",
+        belief_.value("sensors.height_noise_m") > 0.0 || trial.find("accel_mps2") ? 0.0 : kUnknownScale);
+    if (scale_sd > 0.0 && !heights.empty()) {
+      height_scale_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back({"height_scale_relative", scale_sd, 1e-3});
+    }
+    // Nothing is told of a sensor that stands alone: its zero may be off as those of such sensors are.
+    const bool told_of_accel = belief_.value("sensors.accel_noise_mps2") > 0.0 || impact_s_ < 0.0;
+    const double bias_sd =
+        std::max(belief_.value("spread.accel_bias_mps2"), told_of_accel ? 0.0 : kUnknownBias_mps2);
+    if (const double sd = bias_sd; sd > 0.0 && trial.find("accel_mps2")) {
       accel_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"accel_bias_mps2", sd, 1e-2});
     }
     if (bed_) {
       bed_nuisance_ = static_cast<int>(trial_nuisances.size());
-      trial_nuisances.push_back(
-          {"bed_stiffness_relative", std::max(belief_.value("spread.bed_stiffness_relative"), 1e-3), 1e-3});
+      const double unknown = impact_s_ >= 0.0 ? kUnknownBed : 1e-3;
+      trial_nuisances.push_back({"bed_stiffness_relative",
+                                 std::max(belief_.value("spread.bed_stiffness_relative"), unknown), 1e-3});
       trial_nuisances.push_back(
           {"surface_height_m", std::max(belief_.value("spread.surface_height_m"), 1e-3), 1e-4});
+    }
+    if (impact_s_ >= 0.0) {
+      impact_nuisance_ = static_cast<int>(trial_nuisances.size());
+      trial_nuisances.push_back({"impact_height_m", kUnknownImpact_m, 1e-3});
+      trial_nuisances.push_back({"impact_speed_mps", kUnknownImpact_mps, 1e-2});
     }
     height_sensor_ = sensor_belief(belief_, "height", "m");
     accel_sensor_ = sensor_belief(belief_, "accel", "mps2");
@@ -200,6 +366,7 @@ class FallingTrial final : public TrialModel {
   void add_rows(std::uint32_t channel, const Samples& samples) {
     auto& times = channel == 0 ? height_times_ : accel_times_;
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
+      if (from_release_ && samples.time_s[i] < release_s_) continue;
       if (samples.time_s[i] > stop_s_) break;
       if (channel == 1 && touchdown_nuisance_ >= 0 && std::abs(samples.time_s[i] - touchdown_s_) < kKink_s)
         continue;
@@ -210,7 +377,15 @@ class FallingTrial final : public TrialModel {
 
   void label_rows() {
     const std::vector<double> nothing(nuisance_count(), 0.0);
-    const Motion motion = simulate({}, nothing);
+    Motion motion = simulate({}, nothing);
+    if (impact_s_ >= 0.0) {
+      const Motion stop = simulate({}, nothing, true);
+      const auto first = std::min(motion.height.values.size(), static_cast<std::size_t>(impact_s_ / step_s_));
+      for (std::size_t i = first; i < motion.height.values.size(); ++i) {
+        motion.height.values[i] = stop.height.values[i];
+        motion.velocity.values[i] = stop.velocity.values[i];
+      }
+    }
     double fastest = 0.0;
     for (const double v : motion.velocity.values) fastest = std::max(fastest, std::abs(v));
     Coordinate height{"height_m", {}}, velocity{"velocity_mps", {}}, time{"t_s", {}};
@@ -227,7 +402,18 @@ class FallingTrial final : public TrialModel {
     coordinates = {std::move(velocity), std::move(height), std::move(time)};
   }
 
-  Motion simulate(const Edits& edits, std::span<const double> nuisances) const {
+  // Going down the body is always where the bed is untouched; added mass is not modelled here.
+  static double bed_force_N(const Figures& f, const GroundLaws& ground, double depth_m, double speed_mps) {
+    if (depth_m <= 0.0) return 0.0;
+    const double quasi_static_N = f.bed_stiffness_N_per_m * depth_m;
+    if (ground.empty()) return quasi_static_N;
+    const double static_N = ground.static_factor(depth_m) * quasi_static_N;
+    const BedContact contact{
+        .depth_m = depth_m, .speed_mps = speed_mps, .max_depth_m = depth_m, .damping_mass_kg = 0.0};
+    return std::max(0.0, static_N + ground.added(contact, static_N, true).force_N);
+  }
+
+  Motion simulate(const Edits& edits, std::span<const double> nuisances, bool stop = false) const {
     Figures f(belief_, edits);
     f.mass_kg += payload_kg_;
     if (bed_nuisance_ >= 0) {
@@ -235,19 +421,20 @@ class FallingTrial final : public TrialModel {
       f.surface_height_m += nuisances[index(bed_nuisance_) + 1];
     }
     const auto laws = edits.at("body");
+    const GroundLaws ground(edits);
     const double inertia_kg = f.mass_kg + f.added_mass_factor * f.density_kg_per_m3 * f.volume_m3;
     const double constant_N =
         (-f.mass_kg + f.buoyancy_factor * f.density_kg_per_m3 * f.volume_m3) * f.gravity_mps2;
     const double quadratic = 0.5 * f.density_kg_per_m3 * f.area_m2 * f.drag_coefficient;
     double release_s = release_s_;
+    if (stop) release_s = impact_s_;
     if (release_nuisance_ >= 0) release_s += nuisances[index(release_nuisance_)];
     const bool told = touchdown_nuisance_ >= 0;  // when the bed begins
     const double told_s = told ? touchdown_s_ + nuisances[index(touchdown_nuisance_)] : 1e300;
-    bool on_bed = false;
+    bool on_bed = stop;
     const auto accel = [&](double t, double h, double v) {
       double force_N = constant_N - quadratic * std::abs(v) * v - f.linear_drag_N_s_per_m * v;
-      if (bed_ && v < 0.0 && (on_bed || !told))
-        force_N += f.bed_stiffness_N_per_m * std::max(0.0, f.surface_height_m - h);
+      if (bed_ && v < 0.0 && (on_bed || !told)) force_N += bed_force_N(f, ground, f.surface_height_m - h, -v);
       if (!laws.empty())
         force_N += sum_of(laws, {.time_s = t - release_s,
                                  .position = h,
@@ -259,9 +446,15 @@ class FallingTrial final : public TrialModel {
     const auto count = static_cast<std::size_t>(std::ceil(end_s_ / step_s_)) + 2;
     Motion m;
     for (Signal* s : {&m.height, &m.velocity, &m.accel}) *s = {0.0, step_s_, std::vector<double>(count, 0.0)};
+    constexpr double kFarAbove_m = 1e6;
     struct {
       double t, h, v;
-    } s{0.0, start_height_m_ + nuisances[0], start_speed_mps_ + nuisances[1]};
+    } s{0.0, start_height_m_ + nuisances[0] + (impact_s_ >= 0.0 ? kFarAbove_m : 0.0),
+        start_speed_mps_ + nuisances[1]};
+    if (stop) {
+      s.h = f.surface_height_m + nuisances[index(impact_nuisance_)];
+      s.v = impact_speed_mps_ + nuisances[index(impact_nuisance_) + 1];
+    }
     bool falling = !held_, resting = false, reached = false;
     double speed_at_surface_mps = 0.0;
     const auto advance = [&](double dt) {
@@ -322,11 +515,13 @@ class FallingTrial final : public TrialModel {
   double payload_kg_ = 0.0;  // as the experimenter weighed it
   bool bed_ = false;
   bool held_ = false;
+  bool from_release_ = false;  // rows before it are left out
   double release_s_ = 0.0;
   double stop_s_ = 1e300;
-  int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, accel_bias_ = -1;
-  int touchdown_nuisance_ = -1;
+  int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, height_scale_ = -1, accel_bias_ = -1;
+  int touchdown_nuisance_ = -1, impact_nuisance_ = -1;
   double touchdown_s_ = 0.0;
+  double impact_s_ = -1.0, impact_speed_mps_ = 0.0, fall_speed_mps_ = 0.0;  // where both are simulated apart
   double start_height_m_ = 0.0, start_speed_mps_ = 0.0;
   double end_s_ = 0.0, step_s_ = 1e-3;
   SensorBelief height_sensor_, accel_sensor_;
@@ -363,6 +558,12 @@ class FallingBody final : public PlantModel {
     context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
     context.scales["speed_mps"] = std::max(speed, 0.1);
     context.scales["duration_s"] = longest_s;
+    if (b.value("bed.stiffness_N_per_m") > 0.0) {
+      context.scales["depth_m"] = std::max(
+          0.01, std::abs(speed) * std::sqrt(b.value("body.mass_kg", 1.0) / b.value("bed.stiffness_N_per_m")));
+      context.scales["foot_radius_m"] =
+          std::max(0.01, std::sqrt(b.value("body.frontal_area_m2") / std::numbers::pi));
+    }
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

@@ -11,6 +11,7 @@
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
+#include "tools/diagnose/plants/standing_leg.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -466,6 +467,7 @@ class Hopper final : public PlantModel {
       why = "a trial of kind '" + trial.kind + "' is not simulated: only hops and holds are";
       return nullptr;
     }
+    if (is_standing_leg(world_of(belief, {}))) return standing_leg(trial, belief, kLoadCell, why);
     auto model = std::make_unique<HopperTrial>(trial, belief);
     if (model->rows.size() >= 50) return model;
     why = "needs at least one of motor position, accelerometer, height, load cell or motion capture";

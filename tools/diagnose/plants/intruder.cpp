@@ -51,6 +51,11 @@ class IntruderTrial final : public TrialModel {
     BedParameters parameters = bed_parameters(belief_, edits);
     parameters.stiffness_N_per_m *= 1.0 + nuisances[2];
     parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[2];
+    if (const auto size = edits.at("foot.size"); !size.empty()) {
+      const double factor = std::exp(sum_of(size, {.position = radius_m_}));
+      parameters.stiffness_N_per_m *= factor;
+      parameters.stiffness_per_area_N_per_m3 *= factor;
+    }
     BedFluctuation fluctuation;
     if (knots_ > 0) {
       fluctuation.relative = 1.0;

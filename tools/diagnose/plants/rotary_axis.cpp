@@ -13,6 +13,8 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kBlock_s = 0.5;
+constexpr double kMostRows = 3000.0;    // of a channel
+constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
@@ -37,9 +39,11 @@ class RotaryTrial final : public TrialModel {
  public:
   RotaryTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
     name = trial.name;
-    constexpr double kRow_s = 5e-3;  // faster rows are averaged
-    const auto positions = averaged(samples_of(trial, "position_rad"), kRow_s);
-    const auto velocities = averaged(samples_of(trial, "velocity_radps"), kRow_s);
+    // Faster rows are averaged, over more the longer the recording is.
+    const double least_step_s =
+        std::max(5e-3, (trial.time_s.empty() ? 0.0 : trial.time_s.back()) / kMostRows);
+    const auto positions = averaged(samples_of(trial, "position_rad"), least_step_s);
+    const auto velocities = averaged(samples_of(trial, "velocity_radps"), least_step_s);
     torque_ = samples_of(trial, "torque_Nm");
     if (torque_.empty() || (positions.empty() && velocities.empty())) return;
     const auto& lead = positions.empty() ? velocities : positions;
@@ -93,7 +97,8 @@ class RotaryTrial final : public TrialModel {
   // Torque holds from row to row; a step of the simulation takes its mean.
   void take_torque() {
     const double row_s = median_step_s(torque_.time_s);
-    const auto rows_per_step = static_cast<std::size_t>(std::clamp(std::round(2e-3 / row_s), 1.0, 8.0));
+    const auto rows_per_step = static_cast<std::size_t>(
+        std::clamp(std::round(torque_.time_s.back() > kLong_s ? 4e-3 / row_s : 2e-3 / row_s), 1.0, 8.0));
     step_s_ = std::min(row_s * static_cast<double>(rows_per_step), 5e-3);
     const auto count = static_cast<std::size_t>(std::ceil(torque_.time_s.back() / step_s_)) + 2;
     constexpr std::size_t kParts = 8;

@@ -1,0 +1,26 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// Only plates of more than one size show it.
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.scale("foot_radius_ratio") < 1.05) return {};
+  return {{.name = "size_exponent", .typical = 0.3, .low = -2.0, .high = 3.0, .either_sign = true}};
+}
+
+const EffectRegistration kEffect(
+    {.id = "terrain.plate_size",
+     .port = "ground",
+     .statement =
+         "The pressure at a depth depends on the size of the plate (R_0: the median plate's radius).",
+     .equation = "F_d -> F_d (R / R_0)^p",
+     .plants = {PlantKind::intruder},
+     .parameters = parameters,
+     .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+       const double exponent = v[0], median_m = c.belief.value("foot.radius_m", 0.04);
+       edits.law("foot.size", [=](const PortState& s) { return exponent * std::log(s.position / median_m); });
+     }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose
