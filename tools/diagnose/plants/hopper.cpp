@@ -157,6 +157,8 @@ class HopperTrial final : public TrialModel {
       : belief_(with_payload(belief, trial)), world_(world_of(belief_, {})) {
     name = trial.name;
     const Leg leg(world_.robot.leg);
+    bed_history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),
+                    trial.setup_or("bed_depth_m", 0.0)};
     compression_stiffness_ = trial.setup_or("compression_stiffness_N_per_m", 375.0);
     course_ = course_of(trial, leg, world_.controller.compression_length_m);
     if (course_.hops.empty()) return;
@@ -268,6 +270,7 @@ class HopperTrial final : public TrialModel {
     const HopStart& hop = course_.hops[block];
     run.start = hop.state;
     run.crater_m = hop.crater_m;
+    run.bed_history = bed_history_;
     run.from_s = hop.from_s;
     run.to_s = block + 1 < blocks ? course_.hops[block + 1].from_s : course_.end_s;
     if (hop.at_rest) {
@@ -434,6 +437,7 @@ class HopperTrial final : public TrialModel {
   WorldConfig world_;
   double compression_stiffness_ = 375.0;
   double motor_temperature_C_ = kRoom_C;
+  BedHistory bed_history_;
   HopperCourse course_;
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
   MeasuredLeg measured_;
@@ -492,6 +496,8 @@ class Hopper final : public PlantModel {
       if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back() - trial.time_s.front());
     }
     auto& s = context.scales;
+    for (const char* key : {"pushes_since_preparation", "wait_s"})
+      s[std::string("range of ") + key] = range_of_setup(trials, key);
     s["temperature_K"] = hottest - kRoom_C;
     s["weight_N"] = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
     s["foot_radius_m"] = world.robot.leg.foot_radius_m;

@@ -208,7 +208,7 @@ double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N
 }
 
 HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
-  GroundLaws ground(edits);
+  GroundLaws ground(edits, run.bed_history);
   PortLaws ports(edits);
   Bed bed(run.world.terrain, run.world.robot.leg.foot_radius_m, run.fluctuation);
   if (!ground.empty()) bed.extend(&ground);
@@ -217,7 +217,8 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   if (!ports.empty()) options.extension = &ports;
   Plant plant(run.world, bed, options);
   PlantState start = run.start;
-  start.foot_z_m -= run.surface_m;  // the plant's zero is the surface
+  const double surface_m = run.surface_m + ground.deeper_m();
+  start.foot_z_m -= surface_m;  // the plant's zero is the surface
   plant.place_in_crater(start, run.crater_m);
   SpringLeg spring(run, plant.leg());
   Actuator actuator(edits, run);
@@ -241,12 +242,12 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     traces.rate_radps.values[i] = state.angular_velocity_radps;
     traces.current_torque_Nm.values[i] = current_Nm;
     traces.command_torque_Nm.values[i] = command_Nm;
-    traces.foot_z_m.values[i] = state.foot_z_m + run.surface_m;
+    traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
     traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
     const PlantMotion motion = plant.advance(torque_Nm, kStep_s);
     traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
     traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
-    traces.body_z_m.values[i] = motion.body_z_m + run.surface_m;
+    traces.body_z_m.values[i] = motion.body_z_m + surface_m;
     traces.force_N.values[i] = motion.contact_force_N;
   }
   return traces;

@@ -4,6 +4,7 @@
 
 #include "terrain/bed.hpp"
 #include "tools/diagnose/edits.hpp"
+#include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/signal.hpp"
 #include "tools/plant/plant.hpp"
 #include "tools/plant/world_config.hpp"
@@ -39,6 +40,7 @@ struct HopperRun {
   double motor_temperature_C = 25.0;
   PlantState start{};
   double crater_m = 0.0;  // deepest point of earlier strides
+  BedHistory bed_history{};
   double from_s = 0.0, to_s = 1.0;
   const std::vector<PhaseChange>* phases = nullptr;
   // Both motors: what was commanded, less what the believed controller makes of the recorded leg. Added to

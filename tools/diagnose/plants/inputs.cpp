@@ -136,4 +136,13 @@ SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, cons
   return sensor;
 }
 
+double range_of_setup(const std::vector<Trial>& trials, const std::string& key) {
+  double least = 1e300, most = -1e300;
+  for (const auto& trial : trials) {
+    least = std::min(least, trial.setup_or(key, 0.0));
+    most = std::max(most, trial.setup_or(key, 0.0));
+  }
+  return trials.empty() ? 0.0 : most - least;
+}
+
 }  // namespace sandhopper::diagnose

@@ -42,4 +42,7 @@ Signal on_grid(const Samples& samples, double start_s, double step_s, std::size_
 // What the belief says about the sensor of a channel, from keys like `height_bandwidth_Hz`.
 SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit);
 
+// Largest less smallest value of a set-up's key over the trials; where it is not written down it is 0.
+double range_of_setup(const std::vector<Trial>& trials, const std::string& key);
+
 }  // namespace sandhopper::diagnose

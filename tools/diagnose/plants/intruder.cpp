@@ -236,14 +236,8 @@ class Intruder final : public PlantModel {
     context.scales["force_N"] = std::max(strongest, 0.1);
     context.scales["duration_s"] = duration;
     // What the set-ups differ in, and how near the foot came to the floor of the bed.
-    for (const char* key : {"pushes_since_preparation", "wait_s"}) {
-      double least = 1e300, most = -1e300;
-      for (const auto& trial : trials) {
-        least = std::min(least, trial.setup_or(key, 0.0));
-        most = std::max(most, trial.setup_or(key, 0.0));
-      }
-      context.scales[std::string("range of ") + key] = most - least;
-    }
+    for (const char* key : {"pushes_since_preparation", "wait_s"})
+      context.scales[std::string("range of ") + key] = range_of_setup(trials, key);
     for (const auto& trial : trials) {
       const double bed_m = trial.setup_or("bed_depth_m", 0.0);
       if (bed_m <= 0.0) continue;
