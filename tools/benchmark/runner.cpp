@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <exception>
 #include <fstream>
-#include <mutex>
-#include <thread>
 
 #include "tools/benchmark/records.hpp"
 #include "tools/conceal/follow_up.hpp"
 #include "tools/conceal/write_campaign.hpp"
+#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::benchmark {
 namespace {
@@ -92,29 +89,10 @@ void one_campaign(const RunOptions& options, std::uint64_t index) {
 }  // namespace
 
 void run_benchmark(const RunOptions& options, const std::function<void(std::uint64_t)>& done) {
-  std::atomic<std::uint64_t> next{1};
-  std::atomic<bool> stop{false};
-  std::uint64_t count = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::uint64_t index = next++; index <= options.campaigns && !stop; index = next++) {
-      try {
-        one_campaign(options, index);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        stop = true;
-      }
-      const std::lock_guard lock(mutex);
-      done(++count);
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (unsigned i = 0; i < options.jobs; ++i) workers.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  parallel_for(
+      static_cast<long>(options.campaigns), options.jobs,
+      [&](long i) { one_campaign(options, static_cast<std::uint64_t>(i) + 1); },
+      [&](long count, long) { done(static_cast<std::uint64_t>(count)); });
 }
 
 }  // namespace sandhopper::benchmark

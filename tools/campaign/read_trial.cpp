@@ -15,6 +15,7 @@
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
 namespace {
@@ -23,7 +24,6 @@ namespace fs = std::filesystem;
 using enum FindingSeverity;
 
 constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
-constexpr double kGapSteps = 5.0;
 constexpr std::uint64_t kMostSlips = 3;
 
 struct FaultMeaning {
@@ -75,8 +75,8 @@ class Reader {
     if (!any_unusable(out_.findings)) judge_plant();
     if (!any_unusable(out_.findings)) select_rows();
     if (!any_unusable(out_.findings)) {
-      join_equal_times();
-      note_gaps();
+      join_equal_times(out_, places_);
+      note_gaps(out_, places_);
       check_channels(out_, campaign_.plant, places_);
     }
     return std::move(out_);
@@ -386,60 +386,7 @@ class Reader {
                "correct select in this trial");
       return;
     }
-    if (keep.size() != out_.t_s.size()) gather(keep);
-  }
-
-  void gather(const std::vector<std::size_t>& keep) {
-    const auto pick = [&](auto& values) {
-      for (std::size_t k = 0; k < keep.size(); ++k) values[k] = values[keep[k]];
-      values.resize(keep.size());
-    };
-    pick(out_.t_s);
-    pick(places_.lines);
-    for (auto& channel : out_.channels) pick(channel.values);
-  }
-
-  // Rows of one instant become one: later cells fill what the earlier row left empty. With a selection the
-  // order has not been checked yet; a row that steps back is left out.
-  void join_equal_times() {
-    std::vector<std::size_t> keep;
-    for (std::size_t row = 0; row < out_.t_s.size(); ++row) {
-      const double last_s = keep.empty() ? -INFINITY : out_.t_s[keep.back()];
-      if (out_.t_s[row] > last_s) {
-        keep.push_back(row);
-      } else if (out_.t_s[row] == last_s) {
-        for (auto& channel : out_.channels)
-          if (std::isnan(channel.values[keep.back()])) channel.values[keep.back()] = channel.values[row];
-      } else if (!stepped_back_) {
-        stepped_back_ = true;
-        add(FindingKind::time_backwards, note, places_.lines[row], 1, "t_s",
-            fmt::format("time goes backwards, from {:.9g} to {:.9g} s; row left out", last_s, out_.t_s[row]),
-            "sort the rows, or record with a clock that is not set back");
-      }
-    }
-    if (keep.size() != out_.t_s.size()) gather(keep);
-  }
-
-  void note_gaps() {
-    if (out_.t_s.size() < 3) return;
-    std::vector<double> steps_s(out_.t_s.size() - 1);
-    for (std::size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = out_.t_s[i + 1] - out_.t_s[i];
-    auto sorted = steps_s;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    std::size_t count = 0, largest = 0;
-    for (std::size_t i = 0; i < steps_s.size(); ++i) {
-      if (steps_s[i] <= kGapSteps * *middle) continue;
-      ++count;
-      if (count == 1 || steps_s[i] > steps_s[largest]) largest = i;
-    }
-    if (count == 0) return;
-    const double lost_share = steps_s[largest] / (out_.t_s.back() - out_.t_s.front());
-    add(FindingKind::gap, note, places_.lines[largest + 1], 1, "t_s",
-        fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", steps_s[largest], *middle,
-                    count > 1 ? fmt::format(", the largest of {}", count) : ""),
-        lost_share > 0.2 ? "much of the trial is missing: record it again if it matters"
-                         : "the rows on both sides are used as they are");
+    if (keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
   }
 
   std::uint64_t header_character(std::size_t i) const { return places_.character(1, table_.numbers[i]); }
@@ -471,7 +418,6 @@ class Reader {
   RecordingPlaces places_;
   std::vector<bool> used_;  // columns that became a channel
   std::vector<std::string> unusable_columns_;
-  bool stepped_back_ = false;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "tools/diagnose/parallel.hpp"
+#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -75,7 +75,7 @@ bool move(const Problem& problem, Point& point, const VectorXd& step) {
 std::vector<double> deviances(const Problem& problem, const Point& point) {
   const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<double> out(problem.trials.size());
-  in_parallel(out.size(), [&](std::size_t t) {
+  parallel_for(out.size(), [&](std::size_t t) {
     const TrialModel& trial = *problem.trials[t];
     VectorXd r(static_cast<Index>(trial.rows.size()));
     trial.predict(edits, point.nuisances[t], {r.data(), trial.rows.size()});

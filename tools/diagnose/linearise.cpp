@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "tools/diagnose/parallel.hpp"
+#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -222,7 +222,7 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
                                        const LineariseOptions& options) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<TrialLinear> out(problem.trials.size());
-  in_parallel(out.size(), [&](std::size_t t) {
+  parallel_for(out.size(), [&](std::size_t t) {
     out[t] = linearise(problem, t, base, point.nuisances[t], directions, options);
   });
   return out;
@@ -231,7 +231,7 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
 void keep_columns(Problem& problem, const Point& point) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<KeptColumns> columns(problem.trials.size());
-  in_parallel(columns.size(), [&](std::size_t t) {
+  parallel_for(columns.size(), [&](std::size_t t) {
     const auto centre = predicted(problem, *problem.trials[t], base, point.nuisances[t]);
     columns[t] = columns_at(problem, {*problem.trials[t], problem.used[t], base, point.nuisances[t], centre});
   });

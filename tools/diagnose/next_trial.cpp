@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/parallel.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tools/diagnose/rivals.hpp"
 
 namespace sandhopper::diagnose {
@@ -32,7 +32,7 @@ template <class Worth>
 Choice best_of(const PlannedTrials& planned, const Worth& worth) {
   Choice choice;
   choice.all.resize(planned.size());
-  in_parallel(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
+  parallel_for(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
   double most = -1e300;
   for (std::size_t i = 0; i < planned.size(); ++i)
     if (const double net = choice.all[i] - kPriceOfTrouble * planned[i].cost; net > most) {

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -7,25 +10,43 @@
 
 namespace sandhopper {
 
+inline unsigned processors() { return std::max(1u, std::thread::hardware_concurrency()); }
+
 // work(i) for every i in [0, total), on `threads` threads, each i once; progress(done, total) from one thread
 // at a time. What work(i) leaves behind must depend on i alone, then the answer does not depend on the number
-// of threads.
+// of threads. After a first exception nothing more is begun, and it is thrown again here.
 inline void parallel_for(long total, unsigned threads, const std::function<void(long)>& work,
                          const std::function<void(long, long)>& progress = {}) {
   std::atomic<long> next{0};
+  std::atomic<bool> stop{false};
   std::mutex report;
+  std::exception_ptr failure;
   long done = 0;
   const auto run = [&] {
-    for (long i = next++; i < total; i = next++) {
-      work(i);
-      const std::lock_guard lock(report);
-      ++done;
-      if (progress) progress(done, total);
+    for (long i = next++; i < total && !stop; i = next++) {
+      try {
+        work(i);
+        const std::lock_guard lock(report);
+        ++done;
+        if (progress) progress(done, total);
+      } catch (...) {
+        const std::lock_guard lock(report);
+        if (!failure) failure = std::current_exception();
+        stop = true;
+      }
     }
   };
-  std::vector<std::jthread> pool;
-  for (unsigned t = 1; t < threads; ++t) pool.emplace_back(run);
-  run();
+  {
+    std::vector<std::jthread> pool;
+    for (long t = 1; t < std::min<long>(threads, total); ++t) pool.emplace_back(run);
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+// On every processor.
+inline void parallel_for(std::size_t total, const std::function<void(std::size_t)>& work) {
+  parallel_for(static_cast<long>(total), processors(), [&](long i) { work(static_cast<std::size_t>(i)); });
 }
 
 }  // namespace sandhopper

@@ -36,9 +36,11 @@ class PlantExtension {
 };
 
 // Body, foot, leg and bed, coupled, on a 0.1 ms grid (RK4):
-//   M_f a_f = Q1 - beta (tau + Q2) - C phid^2 - M_f g + F_c,   phidd from the second row of
-//   estimation/leg.hpp Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable Q2 = Q1 L' - n
-//   joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops, n motors
+//   M_f a_f = Q1 - beta (tau + Q2) - C phid^2 - M_f g + F_c
+//   phidd from the second row of estimation/leg.hpp
+//   Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable
+//   Q2 = Q1 L' - n joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops
+// for n motors.
 // F_c is the bed's (terrain/bed.hpp), solved together with a_f; the deepest point grows after each step and
 // stays for later strides, which land in the crater. On rigid ground the foot stops dead (plastic impact) and
 // stands until the force would be negative. Accurate to about 0.03 % of peak force at this step size.

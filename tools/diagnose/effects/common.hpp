@@ -20,6 +20,10 @@ inline std::vector<std::string> present(const Context& context, std::initializer
   return found;
 }
 
+inline std::vector<std::string> load_cells(const Context& context) {
+  return present(context, {"force_N", "load_cell_force_N"});
+}
+
 // Whether this campaign has ground at all: a falling body need not.
 inline bool has_bed(const Context& context) {
   return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "The load cell reads in proportion too much or too little.",
      .equation = "y = (1 + g) F",
      .plants = {PlantKind::intruder, PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"force_N", "load_cell_force_N"});
-         },
+     .channels = load_cells,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "A mass between load cell and contact adds its inertia to what the load cell reads.",
      .equation = "y = F + m a",
      .plants = {PlantKind::intruder, PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"force_N", "load_cell_force_N"});
-         },
+     .channels = load_cells,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "The load cell follows with a first-order lag.",
      .equation = "tau y' + y = F",
      .plants = {PlantKind::intruder, PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"force_N", "load_cell_force_N"});
-         },
+     .channels = load_cells,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{{.name = "lag_s",

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/falling_body_recording.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
@@ -66,7 +67,8 @@ class FallingTrial final : public TrialModel {
     payload_kg_ = trial.setup_or("payload_kg", 0.0);
     const auto heights = without_repeats(samples_of(trial, "height_m"));
     // Fast rows say the same thing many times; a stop of some tenths of a second needs no more than this.
-    const bool height_known = !heights.empty() || trial.setup.contains("release_height_m");
+    height_told_ = trial.setup.contains("release_height_m");
+    const bool height_known = !heights.empty() || height_told_;
     const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
     const auto accels = height_known ? recorded : averaged(recorded, kLongestRow_s);
     bed_ = belief.value("bed.stiffness_N_per_m") > 0.0;
@@ -76,11 +78,7 @@ class FallingTrial final : public TrialModel {
       if (!s->empty()) step_s = std::min(step_s, median_step_s(s->time_s));
     step_s_ = std::clamp(step_s, bed_ ? 2.5e-4 : 5e-4, bed_ ? 5e-4 : 5e-3);
     find_release(heights, accels);
-    if (!held_ && accels.empty() && !trial.setup.contains("release_height_m")) find_fall(heights);
-    if (bed_ && held_ && !height_known) {
-      find_stop(accels);
-      find_impact(accels, belief.value("gravity_mps2", 9.81));
-    }
+    if (bed_ && held_ && !height_known) find_stop(accels);
     place(trial, heights);
     if (bed_ && impact_s_ < 0.0) find_touchdown(heights, accels);
     add_rows(0, heights);
@@ -123,25 +121,29 @@ class FallingTrial final : public TrialModel {
   // The recording may begin while the body is still held.
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = belief_.value("gravity_mps2", 9.81);
-    release_s_ = release_before_shock_s(accels, g);
-    held_ = release_s_ >= 0.0;
-    if (!held_) release_s_ = 0.0;
-    if (held_ || heights.value.size() < 10) return;
-    const double noise = std::max({fluctuation_rms(heights), belief_.value("sensors.height_noise_m"), 1e-6});
-    std::size_t still = 0;
-    double sum = 0.0;
-    while (still < heights.value.size()) {
-      const double mean = still > 0 ? sum / static_cast<double>(still) : heights.value[0];
-      if (std::abs(heights.value[still] - mean) > 4.0 * noise) break;
-      sum += heights.value[still++];
+    auto found_s = release_before_shock_s(accels, g);
+    if (!found_s) found_s = end_of_rest_s(heights, belief_.value("sensors.height_noise_m"), g);
+    held_ = found_s.has_value();
+    release_s_ = found_s.value_or(0.0);
+    if (held_ || !accels.empty() || height_told_) return;
+    if (const auto let_go_s = release_by_hand_s(heights)) {
+      release_s_ = *let_go_s + kLetGo_s;
+      held_ = from_release_ = true;
     }
-    if (still < 5 || still >= heights.value.size()) return;
-    const double fall_s = std::sqrt(2.0 * 5.0 * noise / g);
-    const double still_s = heights.time_s[still] - heights.time_s[0];
-    if (still_s > 2.0 * fall_s + 0.02) {
-      release_s_ = still_s - fall_s;
-      held_ = true;
-    }
+  }
+
+  void find_stop(const Samples& accels) {
+    const double g = belief_.value("gravity_mps2", 9.81);
+    const auto peak_s = hardest_deceleration_s(accels, g);
+    if (!peak_s) return;
+    stop_s_ = *peak_s;
+    const auto impact = find_impact(accels, *peak_s, release_s_, g);
+    if (!impact) return;
+    impact_s_ = impact->time_s;
+    impact_speed_mps_ = impact->speed_mps;
+    fall_speed_mps_ = impact->fall_speed_mps;
+    release_s_ = impact->fall_from_s;
+    from_release_ = true;
   }
 
   // The first steep rise of the force on the body, or the first height below the surface. On the bed the body
@@ -175,127 +177,10 @@ class FallingTrial final : public TrialModel {
     trial_nuisances.push_back({"touchdown_time_s", kTouchdownTime_s, 2e-5});
   }
 
-  // Held, then let go, within some tenths of a second where a rope is paid out: the last loss of weight
-  // before the hardest shock, or -1. A body at its terminal speed feels its whole weight, too, but does not
-  // lose it again.
-  static double release_before_shock_s(const Samples& accels, double g) {
-    constexpr double kSoft_s = 0.25, kWindow_s = 0.1;
-    const auto& a = accels.value;
-    const auto& t = accels.time_s;
-    const auto mean = [&](double from_s, double to_s) {
-      double sum = 0.0, count = 0.0;
-      for (auto i = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), from_s) - t.begin());
-           i < t.size() && t[i] <= to_s; ++i, ++count)
-        sum += a[i];
-      return count >= 3.0 ? sum / count : std::nan("");
-    };
-    const auto hardest = static_cast<std::size_t>(std::max_element(a.begin(), a.end()) - a.begin());
-    double release_s = -1.0;
-    for (std::size_t i = 1; i < hardest; ++i) {
-      if (a[i] >= 0.7 * g || a[i - 1] < 0.7 * g) continue;
-      const double start_s = std::max(t.front(), t[i] - kSoft_s - kWindow_s);
-      const double before = mean(start_s, std::min(start_s + kWindow_s, t[i - 1]));
-      const double after = mean(t[i] + 0.5 * kWindow_s, t[i] + kWindow_s);
-      if (std::abs(before - g) < 0.25 * g && after < 0.6 * g) release_s = t[i];
-    }
-    return release_s;
-  }
-
-  // Neither height nor release written down: how far the body fell is not known well enough to say when it
-  // meets the bed. Fall and stop are simulated apart; the stop starts where the recorded deceleration begins,
-  // with the speed that the accelerometer has summed up.
-  void find_impact(const Samples& accels, double g) {
-    constexpr double kPlateau_s = 0.4, kBegins = 0.03, kSoftRelease_s = 0.15;
-    if (stop_s_ > 1e200) return;
-    std::size_t at = 0;
-    while (at < accels.value.size() && accels.time_s[at] < stop_s_) ++at;
-    if (at == 0 || at >= accels.value.size()) return;
-    const double peak = accels.value[at];
-    std::size_t half = at;
-    while (half > 0 && accels.value[half] > 0.5 * peak) --half;
-    std::vector<double> plateau;
-    for (std::size_t i = 0; i < half; ++i)
-      if (accels.time_s[i] > accels.time_s[half] - 1.5 * kPlateau_s &&
-          accels.time_s[i] < accels.time_s[half] - 0.5 * kPlateau_s)
-        plateau.push_back(accels.value[i]);
-    if (plateau.size() < 5) return;
-    std::nth_element(plateau.begin(), plateau.begin() + static_cast<std::ptrdiff_t>(plateau.size() / 2),
-                     plateau.end());
-    const double level = plateau[plateau.size() / 2];
-    const Smoothed smoothed = smooth(accels, 2);
-    std::size_t onset = half;
-    while (onset > 0 && smoothed.value[onset] > level + kBegins * (peak - level)) --onset;
-    impact_s_ = accels.time_s[onset];
-    const auto speed_mps = [&](double at_s) {
-      double sum = 0.0;
-      for (std::size_t i = 1; i < accels.time_s.size() && accels.time_s[i] <= at_s; ++i)
-        if (accels.time_s[i] > release_s_ - kPlateau_s)
-          sum += (accels.value[i] - g) * (accels.time_s[i] - accels.time_s[i - 1]);
-      return sum;
-    };
-    impact_speed_mps_ = speed_mps(impact_s_);
-    fall_speed_mps_ = speed_mps(release_s_ + kSoftRelease_s);
-    release_s_ += kSoftRelease_s;
-    from_release_ = true;
-  }
-
-  // A slow recording of a body let go by hand: the release at rest that suits its first second best, with any
-  // acceleration. What comes before is the hand's motion and counts for nothing; the fall starts with a state
-  // of its own.
-  void find_fall(const Samples& heights) {
-    constexpr double kLook_s = 1.0, kStep_s = 0.01;
-    constexpr std::size_t kFewest = 8;
-    double best = 1e300, best_s = 0.0;
-    for (double release_s = 0.0; release_s <= 0.5 * kLook_s; release_s += kStep_s) {
-      Samples fall;  // height over the square of the time since release
-      for (std::size_t i = 0; i < heights.value.size() && heights.time_s[i] <= kLook_s; ++i) {
-        fall.time_s.push_back(std::pow(std::max(0.0, heights.time_s[i] - release_s), 2));
-        fall.value.push_back(heights.value[i]);
-      }
-      if (fall.value.size() < kFewest) return;
-      const double misfit = misfit_of_line(fall);
-      if (misfit < best) {
-        best = misfit;
-        best_s = release_s;
-      }
-    }
-    if (best_s < 2.0 * kStep_s) return;
-    release_s_ = best_s + kLetGo_s;
-    held_ = from_release_ = true;
-  }
-
-  static double misfit_of_line(const Samples& s) {
-    const auto n = static_cast<double>(s.value.size());
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-    for (std::size_t i = 0; i < s.value.size(); ++i) {
-      x += s.time_s[i] / n;
-      y += s.value[i] / n;
-    }
-    for (std::size_t i = 0; i < s.value.size(); ++i) {
-      xx += std::pow(s.time_s[i] - x, 2);
-      xy += (s.time_s[i] - x) * (s.value[i] - y);
-      yy += std::pow(s.value[i] - y, 2);
-    }
-    return yy - (xx > 0.0 ? xy * xy / xx : 0.0);
-  }
-
-  // On the bed the body stops with a jump that a fit cannot follow smoothly: rows end shortly before.
-  void find_stop(const Samples& accels) {
-    constexpr double kShareOfPeak = 0.85;
-    double most = 0.0;
-    for (const double a : accels.value) most = std::max(most, a);
-    if (most < 3.0 * belief_.value("gravity_mps2", 9.81)) return;
-    for (std::size_t i = 0; i < accels.value.size(); ++i)
-      if (accels.value[i] > kShareOfPeak * most) {
-        stop_s_ = accels.time_s[i];
-        return;
-      }
-  }
-
   void place(const Trial& trial, const Samples& heights) {
     const double spread_height = belief_.value("spread.release_height_m");
     const double spread_speed = belief_.value("spread.release_speed_mps");
-    const bool told = trial.setup.contains("release_height_m");
+    const bool told = height_told_;
     double seen = 0.0;
     if (from_release_) {
       seen = on_grid(heights, release_s_, step_s_, 1, false).values[0];
@@ -515,6 +400,7 @@ class FallingTrial final : public TrialModel {
   double payload_kg_ = 0.0;  // as the experimenter weighed it
   bool bed_ = false;
   bool held_ = false;
+  bool height_told_ = false;   // in the set-up
   bool from_release_ = false;  // rows before it are left out
   double release_s_ = 0.0;
   double stop_s_ = 1e300;

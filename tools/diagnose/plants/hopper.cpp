@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <numbers>
 
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
+#include "tools/diagnose/plants/hopper_runs.hpp"
 #include "tools/diagnose/plants/standing_leg.hpp"
 
 namespace sandhopper::diagnose {
@@ -83,65 +81,6 @@ enum TrialNuisance : std::size_t {
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
 
-// Runs of the plant that were made already: what only a sensor reads otherwise needs no new one. Of one
-// trial, and so of one thread at a time.
-class RunCache {
- public:
-  // Of everything that changes the run itself; empty: not known.
-  using Key = std::vector<double>;
-  Key key(const Edits& edits, std::span<const double> nuisances) const {
-    if (edits.laws_key == 0) return {};
-    Key key{std::bit_cast<double>(edits.laws_key)};
-    for (const auto& edit : edits.belief) {
-      key.push_back(static_cast<double>(std::hash<std::string>{}(edit.key) >> 12));
-      key.push_back(edit.factor);
-      key.push_back(edit.addend);
-    }
-    for (const auto& edit : edits.sensors)
-      if (acts_on_plant(edit.channel)) {
-        key.push_back(static_cast<double>(edit.kind));
-        key.push_back(edit.value);
-      }
-    for (std::size_t i = 0; i < nuisances.size(); ++i)
-      if (i < kTofBias || i >= kFirstKnot) key.push_back(nuisances[i]);
-    return key;
-  }
-
-  template <class Make>
-  const HopperTraces& traces(const Key& key, std::uint32_t block, Make&& make) {
-    for (auto& run : runs_)
-      if (!key.empty() && run.block == block && same(run.key, key)) {
-        run.used = ++clock_;
-        return run.traces;
-      }
-    auto* oldest = &runs_[0];
-    for (auto& run : runs_)
-      if (run.used < oldest->used) oldest = &run;
-    oldest->traces = make();
-    oldest->key = key;
-    oldest->block = block;
-    oldest->used = ++clock_;
-    return oldest->traces;
-  }
-
- private:
-  struct Run {
-    Key key{};
-    std::uint32_t block = 0;
-    std::uint64_t used = 0;
-    HopperTraces traces{};
-  };
-  static bool acts_on_plant(const std::string& channel) {
-    return channel == "actuator" || channel.ends_with("position_rad");
-  }
-  static bool same(const Key& a, const Key& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-  }
-
-  std::array<Run, 6> runs_{};
-  std::uint64_t clock_ = 0;
-};
-
 // What the experimenter weighed and put on the body is part of it.
 Belief with_payload(Belief belief, const Trial& trial) {
   const double payload_kg = trial.setup_or("payload_kg", 0.0);
@@ -179,10 +118,13 @@ class HopperTrial final : public TrialModel {
 
   void predict(const Edits& edits, std::span<const double> n, std::span<double> out) const override {
     const WorldConfig world = world_of(belief_, edits);
-    const auto key = cache_.key(edits, n);
+    std::vector<double> plant_nuisances;
+    for (std::size_t i = 0; i < n.size(); ++i)
+      if (i < kTofBias || i >= kFirstKnot) plant_nuisances.push_back(n[i]);
+    const auto key = HopperRuns::key(edits, plant_nuisances);
     for (std::uint32_t b = 0; b < blocks; ++b) {
       const HopperTraces& traces =
-          cache_.traces(key, b, [&] { return simulate_hopper(run_of(world, b, n), edits); });
+          runs_.traces(key, b, [&] { return simulate_hopper(run_of(world, b, n), edits); });
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
         if (span.count > 0) read_channel(world, traces, edits, n, c, span, out);
@@ -432,7 +374,7 @@ class HopperTrial final : public TrialModel {
     coordinates = {std::move(z), std::move(v), std::move(a), std::move(phi), std::move(time)};
   }
 
-  mutable RunCache cache_;
+  mutable HopperRuns runs_;
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;

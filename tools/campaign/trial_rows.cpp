@@ -1,0 +1,74 @@
+#include "tools/campaign/trial_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+constexpr double kGapSteps = 5.0;
+
+void add_note(TrialRecording& recording, FindingKind kind, const RecordingPlaces& places, std::size_t row,
+              std::string what, std::string cure) {
+  recording.findings.push_back({kind, FindingSeverity::note, places.file, places.lines[row], 1, "t_s",
+                                std::move(what), std::move(cure)});
+}
+
+}  // namespace
+
+void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep) {
+  const auto pick = [&](auto& values) {
+    for (std::size_t k = 0; k < keep.size(); ++k) values[k] = values[keep[k]];
+    values.resize(keep.size());
+  };
+  pick(recording.t_s);
+  pick(places.lines);
+  for (auto& channel : recording.channels) pick(channel.values);
+}
+
+void join_equal_times(TrialRecording& recording, RecordingPlaces& places) {
+  bool stepped_back = false;
+  std::vector<std::size_t> keep;
+  for (std::size_t row = 0; row < recording.t_s.size(); ++row) {
+    const double last_s = keep.empty() ? -INFINITY : recording.t_s[keep.back()];
+    if (recording.t_s[row] > last_s) {
+      keep.push_back(row);
+    } else if (recording.t_s[row] == last_s) {
+      for (auto& channel : recording.channels)
+        if (std::isnan(channel.values[keep.back()])) channel.values[keep.back()] = channel.values[row];
+    } else if (!stepped_back) {
+      stepped_back = true;
+      add_note(recording, FindingKind::time_backwards, places, row,
+               fmt::format("time goes backwards, from {:.9g} to {:.9g} s; row left out", last_s,
+                           recording.t_s[row]),
+               "sort the rows, or record with a clock that is not set back");
+    }
+  }
+  if (keep.size() != recording.t_s.size()) keep_rows(recording, places, keep);
+}
+
+void note_gaps(TrialRecording& recording, const RecordingPlaces& places) {
+  if (recording.t_s.size() < 3) return;
+  std::vector<double> steps_s(recording.t_s.size() - 1);
+  for (std::size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = recording.t_s[i + 1] - recording.t_s[i];
+  auto sorted = steps_s;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::size_t count = 0, largest = 0;
+  for (std::size_t i = 0; i < steps_s.size(); ++i) {
+    if (steps_s[i] <= kGapSteps * *middle) continue;
+    ++count;
+    if (count == 1 || steps_s[i] > steps_s[largest]) largest = i;
+  }
+  if (count == 0) return;
+  const double lost_share = steps_s[largest] / (recording.t_s.back() - recording.t_s.front());
+  add_note(recording, FindingKind::gap, places, largest + 1,
+           fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", steps_s[largest],
+                       *middle, count > 1 ? fmt::format(", the largest of {}", count) : ""),
+           lost_share > 0.2 ? "much of the trial is missing: record it again if it matters"
+                            : "the rows on both sides are used as they are");
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,130 @@
+#include "tools/diagnose/plants/falling_body_recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+namespace {
+
+// Sum of squares that the best line through the samples leaves.
+double misfit_of_line(const Samples& s) {
+  const auto n = static_cast<double>(s.value.size());
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    x += s.time_s[i] / n;
+    y += s.value[i] / n;
+  }
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    xx += std::pow(s.time_s[i] - x, 2);
+    xy += (s.time_s[i] - x) * (s.value[i] - y);
+    yy += std::pow(s.value[i] - y, 2);
+  }
+  return yy - (xx > 0.0 ? xy * xy / xx : 0.0);
+}
+
+}  // namespace
+
+std::optional<double> release_before_shock_s(const Samples& accels, double g) {
+  constexpr double kSoft_s = 0.25, kWindow_s = 0.1;
+  const auto& a = accels.value;
+  const auto& t = accels.time_s;
+  const auto mean = [&](double from_s, double to_s) {
+    double sum = 0.0, count = 0.0;
+    for (auto i = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), from_s) - t.begin());
+         i < t.size() && t[i] <= to_s; ++i, ++count)
+      sum += a[i];
+    return count >= 3.0 ? sum / count : std::nan("");
+  };
+  const auto hardest = static_cast<std::size_t>(std::max_element(a.begin(), a.end()) - a.begin());
+  std::optional<double> release_s;
+  for (std::size_t i = 1; i < hardest; ++i) {
+    if (a[i] >= 0.7 * g || a[i - 1] < 0.7 * g) continue;
+    const double start_s = std::max(t.front(), t[i] - kSoft_s - kWindow_s);
+    const double before = mean(start_s, std::min(start_s + kWindow_s, t[i - 1]));
+    const double after = mean(t[i] + 0.5 * kWindow_s, t[i] + kWindow_s);
+    if (std::abs(before - g) < 0.25 * g && after < 0.6 * g) release_s = t[i];
+  }
+  return release_s;
+}
+
+std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double g) {
+  if (heights.value.size() < 10) return std::nullopt;
+  const double noise = std::max({fluctuation_rms(heights), believed_noise_m, 1e-6});
+  std::size_t still = 0;
+  double sum = 0.0;
+  while (still < heights.value.size()) {
+    const double mean = still > 0 ? sum / static_cast<double>(still) : heights.value[0];
+    if (std::abs(heights.value[still] - mean) > 4.0 * noise) break;
+    sum += heights.value[still++];
+  }
+  if (still < 5 || still >= heights.value.size()) return std::nullopt;
+  const double fall_s = std::sqrt(2.0 * 5.0 * noise / g);
+  const double still_s = heights.time_s[still] - heights.time_s[0];
+  if (still_s <= 2.0 * fall_s + 0.02) return std::nullopt;
+  return still_s - fall_s;
+}
+
+std::optional<double> release_by_hand_s(const Samples& heights) {
+  constexpr double kLook_s = 1.0, kStep_s = 0.01;
+  constexpr std::size_t kFewest = 8;
+  double best = 1e300, best_s = 0.0;
+  for (double release_s = 0.0; release_s <= 0.5 * kLook_s; release_s += kStep_s) {
+    Samples fall;  // height over the square of the time since release
+    for (std::size_t i = 0; i < heights.value.size() && heights.time_s[i] <= kLook_s; ++i) {
+      fall.time_s.push_back(std::pow(std::max(0.0, heights.time_s[i] - release_s), 2));
+      fall.value.push_back(heights.value[i]);
+    }
+    if (fall.value.size() < kFewest) return std::nullopt;
+    const double misfit = misfit_of_line(fall);
+    if (misfit < best) {
+      best = misfit;
+      best_s = release_s;
+    }
+  }
+  if (best_s < 2.0 * kStep_s) return std::nullopt;
+  return best_s;
+}
+
+std::optional<double> hardest_deceleration_s(const Samples& accels, double g) {
+  constexpr double kShareOfPeak = 0.85;
+  double most = 0.0;
+  for (const double a : accels.value) most = std::max(most, a);
+  if (most < 3.0 * g) return std::nullopt;
+  for (std::size_t i = 0; i < accels.value.size(); ++i)
+    if (accels.value[i] > kShareOfPeak * most) return accels.time_s[i];
+  return std::nullopt;
+}
+
+std::optional<Impact> find_impact(const Samples& accels, double peak_s, double release_s, double g) {
+  constexpr double kPlateau_s = 0.4, kBegins = 0.03, kSoftRelease_s = 0.15;
+  std::size_t at = 0;
+  while (at < accels.value.size() && accels.time_s[at] < peak_s) ++at;
+  if (at == 0 || at >= accels.value.size()) return std::nullopt;
+  const double peak = accels.value[at];
+  std::size_t half = at;
+  while (half > 0 && accels.value[half] > 0.5 * peak) --half;
+  std::vector<double> plateau;
+  for (std::size_t i = 0; i < half; ++i)
+    if (accels.time_s[i] > accels.time_s[half] - 1.5 * kPlateau_s &&
+        accels.time_s[i] < accels.time_s[half] - 0.5 * kPlateau_s)
+      plateau.push_back(accels.value[i]);
+  if (plateau.size() < 5) return std::nullopt;
+  std::nth_element(plateau.begin(), plateau.begin() + static_cast<std::ptrdiff_t>(plateau.size() / 2),
+                   plateau.end());
+  const double level = plateau[plateau.size() / 2];
+  const Smoothed smoothed = smooth(accels, 2);
+  std::size_t onset = half;
+  while (onset > 0 && smoothed.value[onset] > level + kBegins * (peak - level)) --onset;
+  const auto speed_mps = [&](double at_s) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < accels.time_s.size() && accels.time_s[i] <= at_s; ++i)
+      if (accels.time_s[i] > release_s - kPlateau_s)
+        sum += (accels.value[i] - g) * (accels.time_s[i] - accels.time_s[i - 1]);
+    return sum;
+  };
+  const double impact_s = accels.time_s[onset];
+  const double fall_from_s = release_s + kSoftRelease_s;
+  return Impact{impact_s, speed_mps(impact_s), fall_from_s, speed_mps(fall_from_s)};
+}
+
+}  // namespace sandhopper::diagnose
