@@ -10,6 +10,10 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// In their scales. What is further off is no tolerance any more: only an effect may explain it, or a fault of
+// thirty scales would be paid for once and leave no trial in disagreement.
+constexpr double kMostTolerance = 3.0;
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -66,7 +70,8 @@ bool move(const Problem& problem, Point& point, const VectorXd& step) {
       bounded = bounded || (value != wanted && j == 0);
     }
   }
-  for (double& value : point.tolerances) value += step[at++];
+  for (double& value : point.tolerances)
+    value = std::clamp(value + step[at++], -kMostTolerance, kMostTolerance);
   return bounded;
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/experiment/parallel.hpp"
 #include "tools/diagnose/rivals.hpp"
+#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kOrder = 3;
 constexpr double kTooFewSamples = 30.0;
+constexpr double kTooFewForCorrelation = 200.0;
 constexpr double kOutlier = 6.0;  // robust standard deviations
 
 double median_magnitude(std::vector<double> values) {
@@ -20,7 +21,7 @@ double median_magnitude(std::vector<double> values) {
 }
 
 // Autoregression of the best order up to kOrder by Akaike's criterion; a shorter one where data are few.
-void levinson(const std::vector<double>& correlation, double samples, ChannelNoise& noise) {
+Autoregression levinson(const std::vector<double>& correlation, double samples) {
   std::vector<double> a, best;
   double error = 1.0, best_error = 1.0, best_score = 0.0;
   for (std::size_t m = 1; m < correlation.size(); ++m) {
@@ -39,17 +40,33 @@ void levinson(const std::vector<double>& correlation, double samples, ChannelNoi
       best_error = error;
     }
   }
-  noise.autoregression = best;
-  noise.innovation_sd = std::sqrt(std::max(best_error, 1e-4));
+  return {best, std::sqrt(std::max(best_error, 1e-4))};
 }
+
+// Sums of products of scaled residuals, lag by lag.
+struct Products {
+  std::array<double, kOrder + 1> sums{}, counts{};
+
+  void add(std::size_t lag, double product) {
+    sums[lag] += product;
+    ++counts[lag];
+  }
+  Autoregression autoregression() const {
+    const double variance = counts[0] > 0.0 ? sums[0] / counts[0] : 0.0;
+    if (counts[0] < kTooFewSamples || variance <= 0.0) return {};
+    std::vector<double> correlation;
+    for (std::size_t lag = 0; lag <= kOrder; ++lag)
+      correlation.push_back(counts[lag] > 0.0 ? sums[lag] / counts[lag] / variance : 0.0);
+    return levinson(correlation, counts[0]);
+  }
+};
 
 }  // namespace
 
 void NoiseModel::fix(std::size_t channel, double sd) {
   auto& noise = channels_[channel];
   noise.sd_of_phase.assign(noise.sd_of_phase.size(), sd);
-  noise.autoregression.clear();
-  noise.innovation_sd = 1.0;
+  noise.correlation_of_phase.assign(noise.sd_of_phase.size(), {});
 }
 
 double ChannelNoise::sd() const {
@@ -86,13 +103,14 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
         continue;
       }
       const ChannelNoise& noise = channels_[trial.rows[k].channel];
-      const auto& a = noise.autoregression;
-      const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[trial.rows[k].channel];
-      const double e = value / (factor * noise.sd_of_phase[trial.rows[k].phase]);
+      const Row& row = trial.rows[k];
+      const auto& [a, innovation_sd] = noise.correlation_of_phase[row.phase];
+      const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[row.channel];
+      const double e = value / (factor * row.relative_sd * noise.sd_of_phase[row.phase]);
       value = e;
       if (before[k] >= a.size()) {
         for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];
-        value /= noise.innovation_sd;
+        value /= innovation_sd;
       }
       for (std::size_t j = kOrder - 1; j > 0; --j) past[j] = past[j - 1];
       past[0] = e;
@@ -113,7 +131,7 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
       for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
         const Row& row = trials[t]->rows[k];
         if (row.channel != c || !used[t][k]) continue;
-        const double r = residuals[t][static_cast<Eigen::Index>(k)];
+        const double r = residuals[t][static_cast<Eigen::Index>(k)] / row.relative_sd;
         of_phase[row.phase].push_back(r);
         all.push_back(r);
       }
@@ -135,7 +153,8 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
       if (noise.samples_of_phase[p] >= kTooFewSamples) noise.sd_of_phase[p] = spread(of_phase[p]);
     }
     // Autocorrelation of scaled residuals, outliers limited.
-    std::vector<double> sums(kOrder + 1, 0.0), counts(kOrder + 1, 0.0);
+    Products all_phases;
+    std::vector<Products> products(phases);
     for (std::size_t t = 0; t < trials.size(); ++t) {
       std::vector<double> chain;
       const Row* before = nullptr;
@@ -148,22 +167,18 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
           chain.clear();
           continue;
         }
-        const double e =
-            std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / noise.sd_of_phase[row.phase], -4.0, 4.0);
+        const double sd = row.relative_sd * noise.sd_of_phase[row.phase];
+        const double e = std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / sd, -4.0, 4.0);
         chain.push_back(e);
         for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
-          sums[lag] += e * chain[chain.size() - 1 - lag];
-          ++counts[lag];
+          all_phases.add(lag, e * chain[chain.size() - 1 - lag]);
+          products[row.phase].add(lag, e * chain[chain.size() - 1 - lag]);
         }
       }
     }
-    if (counts[0] >= kTooFewSamples) {
-      std::vector<double> correlation(kOrder + 1);
-      const double variance = sums[0] / counts[0];
-      for (std::size_t lag = 0; lag <= kOrder; ++lag)
-        correlation[lag] = counts[lag] > 0.0 && variance > 0.0 ? sums[lag] / counts[lag] / variance : 0.0;
-      levinson(correlation, counts[0], noise);
-    }
+    for (const auto& of_one : products)
+      noise.correlation_of_phase.push_back(
+          (of_one.counts[0] >= kTooFewForCorrelation ? of_one : all_phases).autoregression());
   }
   return NoiseModel(std::move(channels));
 }
@@ -173,6 +188,7 @@ NoiseModel white_noise(std::span<const double> sd, std::size_t phases) {
   for (std::size_t c = 0; c < sd.size(); ++c) {
     channels[c].sd_of_phase.assign(phases, sd[c]);
     channels[c].samples_of_phase.assign(phases, 1.0);
+    channels[c].correlation_of_phase.assign(phases, {});
   }
   return NoiseModel(std::move(channels));
 }

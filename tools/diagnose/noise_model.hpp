@@ -8,13 +8,17 @@
 
 namespace sandhopper::diagnose {
 
-// What is left when nothing is missing: per channel and phase a standard deviation, per channel the
-// coefficients of an autoregression over successive samples,
-//   e_k = r_k / sd,   w_k = (e_k - a_1 e_{k-1} - … - a_p e_{k-p}) / s,   w white of unit variance.
+// Over successive samples: w_k = (e_k - a_1 e_{k-1} - … - a_p e_{k-p}) / s, w white of unit variance.
+struct Autoregression {
+  std::vector<double> coefficients;  // a
+  double innovation_sd = 1.0;        // s
+};
+
+// What is left when nothing is missing: per channel and phase a standard deviation and an autoregression of
+//   e_k = r_k / (relative_sd_k sd).
 struct ChannelNoise {
   std::vector<double> sd_of_phase;
-  std::vector<double> autoregression;
-  double innovation_sd = 1.0;  // s
+  std::vector<Autoregression> correlation_of_phase;
 
   double sd() const;  // of all phases together
   std::vector<double> samples_of_phase;
@@ -39,8 +43,9 @@ class NoiseModel {
   std::vector<ChannelNoise> channels_;
 };
 
-// From residuals of all trials (Levinson's recursion on their autocorrelation within channel and block).
-// `floor_sd` bounds each channel's standard deviation from below.
+// From residuals of all trials (Levinson's recursion on their autocorrelation within channel and block). A
+// phase with few samples has the autoregression of all of them. `floor_sd` bounds each channel's standard
+// deviation from below.
 NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,

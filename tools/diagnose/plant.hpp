@@ -17,6 +17,9 @@ struct Row {
   std::uint32_t phase = 0;    // index into the plant's phases
   double time_s = 0.0;
   double measured = 0.0;
+  // Against one sample's: less for a mean of several, more where what the prediction is made from is itself
+  // uncertain.
+  double relative_sd = 1.0;
 };
 
 // Something that differs from trial to trial and is fitted along, with the spread that is believed.

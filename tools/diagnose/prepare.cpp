@@ -99,7 +99,8 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
     const auto& rows = problem.trials[t]->rows;
     for (std::size_t k = 1; k + 1 < rows.size(); ++k) {
       const auto at = static_cast<Index>(k);
-      const double sd = problem.noise.channel(rows[k].channel).sd_of_phase[rows[k].phase];
+      const double sd =
+          rows[k].relative_sd * problem.noise.channel(rows[k].channel).sd_of_phase[rows[k].phase];
       const auto far = [&](Index i) { return std::abs(residuals[t][i]) > kOutlier * sd; };
       // A spike stands alone; a mismatch has neighbours.
       const bool alone = far(at) && std::abs(residuals[t][at - 1]) < 0.3 * std::abs(residuals[t][at]) &&
@@ -122,7 +123,7 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
       const auto& rows = problem.trials[t]->rows;
       for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].channel == c && problem.used[t][k])
-          sizes.push_back(std::abs(residuals[t][static_cast<Index>(k)]));
+          sizes.push_back(std::abs(residuals[t][static_cast<Index>(k)]) / rows[k].relative_sd);
       if (sizes.size() < 30) continue;
       recorded.push_back(level[t] = std::max(median(std::move(sizes)), 0.5 * problem.floor_sd[c]));
     }

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "tools/diagnose/proposals.hpp"
 
@@ -54,6 +56,18 @@ double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   return sum;
 }
 
+// Channels whose time this effect moves. Their tolerances do the same and would leave the trials nothing to
+// say.
+std::set<std::string> delayed_channels(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
+  Edits edits;
+  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  std::set<std::string> channels;
+  for (const auto& edit : edits.sensors)
+    if (edit.kind == SensorEdit::Kind::delay_s) channels.insert(edit.channel);
+  return channels;
+}
+
 }  // namespace
 
 double Search::criterion(const SetFit& fit) const {
@@ -98,9 +112,15 @@ void Search::judge(SetFit& result) {
         amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
       }
     }
+    const auto delayed = delayed_channels(*problem_, point.hypothesis, e);
     std::vector<Index> others;
-    for (Index i = 1; i <= k; ++i)
-      if (i < first || i >= first + width) others.push_back(i);
+    for (Index i = 1; i <= k; ++i) {
+      const bool own = i >= first && i < first + width;
+      const bool same_as_own =
+          i > parameters &&
+          delayed.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel);
+      if (!own && !same_as_own) others.push_back(i);
+    }
     const auto n_own = static_cast<Index>(amplitude_columns.size());
     const auto n_others = static_cast<Index>(others.size());
     VectorXd others_prior(n_others);

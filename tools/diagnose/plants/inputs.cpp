@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 namespace sandhopper::diagnose {
 
@@ -81,6 +83,41 @@ Samples without_repeats(const Samples& s) {
   return out;
 }
 
+std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz) {
+  constexpr int kPhases = 100;
+  constexpr double kAgree = 0.97, kRowsPerTick = 1.02;
+  const auto* values = trial.find(channel);
+  if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0 ||
+      rate_Hz * median_step_s(trial.time_s) * kRowsPerTick > 1.0)
+    return {};
+  const auto& t = trial.time_s;
+  std::vector<double> agreeing(kPhases, 0.0);
+  for (int i = 0; i < kPhases; ++i) {
+    const double phase = static_cast<double>(i) / kPhases;
+    double before = std::floor(t[0] * rate_Hz - phase);
+    for (std::size_t row = 1; row < t.size(); ++row) {
+      const double tick = std::floor(t[row] * rate_Hz - phase);
+      agreeing[static_cast<std::size_t>(i)] += (tick > before) == !std::isnan((*values)[row]) ? 1.0 : 0.0;
+      before = tick;
+    }
+  }
+  const double most = *std::ranges::max_element(agreeing);
+  if (most < kAgree * static_cast<double>(t.size() - 1)) return {};
+  // The middle of those that suit as well as the best, on a circle.
+  double along = 0.0, across = 0.0;
+  for (int i = 0; i < kPhases; ++i)
+    if (agreeing[static_cast<std::size_t>(i)] >= most - 0.5) {
+      along += std::cos(2.0 * std::numbers::pi * i / kPhases);
+      across += std::sin(2.0 * std::numbers::pi * i / kPhases);
+    }
+  const double phase = std::atan2(across, along) / (2.0 * std::numbers::pi);
+  std::vector<double> ages;
+  for (std::size_t row = 0; row < t.size(); ++row)
+    if (!std::isnan((*values)[row]))
+      ages.push_back(t[row] - (std::floor(t[row] * rate_Hz - phase) + phase) / rate_Hz);
+  return ages;
+}
+
 Samples averaged(const Samples& s, double least_step_s) {
   const double step_s = median_step_s(s.time_s);
   const auto group = static_cast<std::size_t>(std::max(1.0, std::round(least_step_s / step_s)));
@@ -100,6 +137,36 @@ Samples averaged(const Samples& s, double least_step_s) {
       out.value.push_back(value / static_cast<double>(n));
     }
     i += n;
+  }
+  return out;
+}
+
+std::vector<Group> slow_groups(const Samples& samples, std::size_t most, double step) {
+  std::vector<Group> groups;
+  double low = 0.0, high = 0.0;
+  for (std::size_t i = 0; i < samples.value.size(); ++i) {
+    const double value = samples.value[i];
+    low = std::min(low, value);
+    high = std::max(high, value);
+    if (groups.empty() || groups.back().count >= most || high - low > step) {
+      groups.push_back({i, 0});
+      low = high = value;
+    }
+    ++groups.back().count;
+  }
+  return groups;
+}
+
+Samples means(const Samples& samples, const std::vector<Group>& groups) {
+  Samples out;
+  for (const auto& [first, count] : groups) {
+    const auto mean = [&](const std::vector<double>& v) {
+      const auto from = v.begin() + static_cast<std::ptrdiff_t>(first);
+      return std::accumulate(from, from + static_cast<std::ptrdiff_t>(count), 0.0) /
+             static_cast<double>(count);
+    };
+    out.time_s.push_back(mean(samples.time_s));
+    out.value.push_back(mean(samples.value));
   }
   return out;
 }

@@ -32,9 +32,21 @@ double median_step_s(std::span<const double> time_s);
 // Held values of a slow sensor logged again and again count once; the rest is returned.
 Samples without_repeats(const Samples& samples);
 
+// How long each sample of a sensor with a clock of its own, slower than the rows, had waited for its row.
+// Rows with and without a fresh sample tell the phase p of ticks at (k + p) / rate: that which suits most of
+// them. Empty where the rate is not known, not slower, or the pattern is another one.
+std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz);
+
 // Means over successive samples, so that no two are closer than `least_step_s`: what a slow motion shows is
 // kept, the number of rows is not.
 Samples averaged(const Samples& samples, double least_step_s);
+
+// Successive samples, up to `most` together, fewer where the signal moves by more than `step` within them.
+struct Group {
+  std::size_t first, count;
+};
+std::vector<Group> slow_groups(const Samples& samples, std::size_t most, double step);
+Samples means(const Samples& samples, const std::vector<Group>& groups);
 
 // Samples on a uniform grid; before the first and after the last the end values hold.
 Signal on_grid(const Samples& samples, double start_s, double step_s, std::size_t count, bool hold);

@@ -6,6 +6,7 @@
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/intruder_motion.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -13,24 +14,33 @@ namespace {
 constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
 constexpr double kForceZeroUnknown_N = 0.02;
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-enum Phase : std::uint32_t { kAbove, kLoading, kUnloading };
+constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
+constexpr double kHoldSpeed_mps = 1e-3;
+constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
+enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force sensor.
 class IntruderTrial final : public TrialModel {
  public:
   IntruderTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
     name = trial.name;
-    constexpr double kMostSteps = 900.0;  // a slow press has no need of the recorder's rate
+    // A slow press has no need of the recorder's rate.
+    constexpr double kMostSteps = 4000.0, kRows = 600.0, kSlow = 8.0;
     const double least_s = trial.time_s.empty() ? 0.0 : trial.time_s.back() / kMostSteps;
     history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),
                 trial.setup_or("bed_depth_m", 0.0)};
-    const auto force = averaged(without_repeats(samples_of(trial, "force_N")), least_s);
+    const auto recorded = samples_of(trial, "force_N");
+    const auto force = without_repeats(recorded);
+    auto ages = ages_s(trial, "force_N", belief.value("sensors.load_cell_rate_Hz"));
+    if (ages.size() != force.value.size()) ages.clear();
     const auto z = averaged(samples_of(trial, "foot_z_m"), least_s);
     if (force.empty() || z.value.size() < 10) return;
     radius_m_ = belief.value("foot.radius_m", 0.04);
-    step_s_ = std::clamp(median_step_s(z.time_s), 2.5e-4, 0.02);
-    take_motion(z, averaged(samples_of(trial, "foot_velocity_mps"), least_s),
-                averaged(samples_of(trial, "foot_accel_mps2"), least_s));
+    motion_ = intruder_motion(z, averaged(samples_of(trial, "foot_velocity_mps"), least_s),
+                              averaged(samples_of(trial, "foot_accel_mps2"), least_s));
+    double fastest_mps = 0.0;
+    for (const double speed_mps : motion_.speed_mps) fastest_mps = std::max(fastest_mps, std::abs(speed_mps));
+    rest_speed_mps_ = std::min(kNoiseBand * motion_.speed_sd_mps, 0.1 * fastest_mps);
     const double spread_surface = belief.value("spread.surface_height_m");
     const double spread_force = belief.value("spread.load_cell_offset_N");
     add_nuisance("surface_height_m", std::max(spread_surface, kSurfaceUnknown_m), 1e-4);
@@ -38,16 +48,85 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
     add_knots();
-    for (std::size_t i = 0; i < force.value.size(); ++i) {
-      times_.push_back(force.time_s[i]);
-      rows.push_back({0, 0, kAbove, force.time_s[i], force.value[i]});
+    if (!ages.empty()) {
+      age_nuisance_ = trial_nuisances.size();
+      add_nuisance("sample_age_share", kAgeShareUnknown, 0.05);
     }
+    const double noise_N =
+        std::max({belief_.value("sensors.load_cell_noise_N"), fluctuation_rms(force), 1e-6});
+    const auto most = static_cast<std::size_t>(std::ceil(static_cast<double>(force.value.size()) / kRows));
+    const auto groups = slow_groups(force, most, kSlow * noise_N);
+    const auto taken = means(force, groups);
+    times_ = taken.time_s;
+    if (!ages.empty()) ages_s_ = means({force.time_s, std::move(ages)}, groups).value;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      rows.push_back({0, 0, kAbove, taken.time_s[i], taken.value[i],
+                      1.0 / std::sqrt(static_cast<double>(groups[i].count))});
     sensor_ = sensor_belief(belief_, "load_cell", "N");
-    if (sensor_.bandwidth_Hz > 0.0 && sensor_.bandwidth_Hz * step_s_ > 1.0) sensor_.bandwidth_Hz = 0.0;
-    label_rows();
+    if (sensor_.bandwidth_Hz > 0.0 && sensor_.bandwidth_Hz * motion_.step_s > 1.0) sensor_.bandwidth_Hz = 0.0;
+    label_rows(noise_N);
   }
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
+    Run run = simulate(edits, nuisances);
+    observe(run.force, sensor_, edits, "force_N", sampled_s(nuisances), out);
+    for (double& f : out) f += nuisances[1];
+  }
+
+ private:
+  // The recorded motion with the faults of its position sensor taken out:
+  //   recorded(t) = true(f t - d) + o  ->  true(u) = recorded((u + d) / f) - o
+  struct Read {
+    const IntruderTrial& trial;
+    double delay_s = 0.0, rate = 1.0, offset_m = 0.0;
+    bool plain = true;
+
+    double at(const std::vector<double>& values, std::size_t i, bool from_position) const {
+      if (plain || !from_position) return values[i];
+      const double t = static_cast<double>(i) * trial.motion_.step_s;
+      const double place = std::clamp((t + delay_s) / rate / trial.motion_.step_s, 0.0,
+                                      static_cast<double>(values.size() - 1));
+      const auto left = std::min(static_cast<std::size_t>(place), values.size() - 2);
+      const double u = place - static_cast<double>(left);
+      return values[left] + u * (values[left + 1] - values[left]);
+    }
+    double depth_m(std::size_t i) const { return at(trial.motion_.depth_m, i, true) + offset_m; }
+    double speed_mps(std::size_t i) const {
+      return at(trial.motion_.speed_mps, i, trial.motion_.speed_from_position);
+    }
+    double accel_mps2(std::size_t i) const {
+      return at(trial.motion_.accel_mps2, i, trial.motion_.accel_from_position);
+    }
+  };
+
+  Read reading(const Edits& edits) const {
+    Read read{*this};
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "foot_z_m") continue;
+      if (edit.kind == SensorEdit::Kind::delay_s) read.delay_s += edit.value;
+      if (edit.kind == SensorEdit::Kind::time_scale) read.rate *= edit.value;
+      if (edit.kind == SensorEdit::Kind::offset) read.offset_m += edit.value;
+      read.plain = read.plain && edit.kind == SensorEdit::Kind::offset;
+    }
+    return read;
+  }
+
+  // Whether a row's value is of the instant at which the cell sampled or of the row's is not told.
+  std::vector<double> sampled_s(std::span<const double> nuisances) const {
+    std::vector<double> at_s = times_;
+    for (std::size_t i = 0; i < ages_s_.size(); ++i)
+      at_s[i] -= (kAgeShare + nuisances[age_nuisance_]) * ages_s_[i];
+    return at_s;
+  }
+
+  // Force on the cell and the share of its standard deviation that the recorded motion's noise makes; whether
+  // the bed yields, stands or is left.
+  struct Run {
+    Signal force;
+    std::vector<double> input_sd_N;
+    std::vector<Phase> phase;
+  };
+  Run simulate(const Edits& edits, std::span<const double> nuisances, bool explain = false) const {
     BedParameters parameters = bed_parameters(belief_, edits);
     parameters.stiffness_N_per_m *= 1.0 + nuisances[2];
     parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[2];
@@ -71,142 +150,122 @@ class IntruderTrial final : public TrialModel {
     const double surface_m = edits.edited("surface_height_m", nuisances[0]);
     const Read read = reading(edits);
     const auto cell = edits.at("load_cell");
+    const double depth_band_m = kNoiseBand * motion_.depth_sd_m;
 
-    Signal force{start_s_, step_s_, std::vector<double>(depth_m_.size())};
+    const std::size_t count = motion_.depth_m.size();
+    Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
     double deepest_m = 0.0, before_N = 0.0;
     bool touching = false;
-    for (std::size_t i = 0; i < depth_m_.size(); ++i) {
-      laws.at_time(start_s_ + step_s_ * static_cast<double>(i));
+    for (std::size_t i = 0; i < count; ++i) {
+      laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
       double force_N = before_N;
       double depth_m = 0.0;
       const double asked_m = read.depth_m(i) + surface_m + laws.deeper_m();
       if (touching && asked_m <= 0.0) laws.pushed();
       touching = asked_m > 0.0;
+      BedContact contact{};
+      BedReaction reaction;
+      bool down = false;
       for (int pass = 0; pass < (compliance_m_per_N > 0.0 ? 4 : 1); ++pass) {
         depth_m = asked_m - compliance_m_per_N * force_N;
-        const double speed_mps = read.speed_mps(i) - compliance_m_per_N * (force_N - before_N) / step_s_;
-        // Noise of the depth must not read as unloading while the foot goes down.
-        const bool down = speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_noise_m_;
-        const double at_m = down ? std::max(depth_m, deepest_m) : depth_m;
-        const auto reaction = bed.reaction({.depth_m = std::max(0.0, at_m),
-                                            .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
-                                            .max_depth_m = deepest_m,
-                                            .damping_mass_kg = 0.0});
+        const double speed_mps =
+            read.speed_mps(i) - compliance_m_per_N * (force_N - before_N) / motion_.step_s;
+        // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it
+        // stands.
+        down = depth_m > deepest_m + depth_band_m ||
+               (speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_band_m);
+        const double at_m = down ? std::max(depth_m, deepest_m) : std::min(depth_m, deepest_m);
+        contact = {.depth_m = std::max(0.0, at_m),
+                   .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
+                   .max_depth_m = deepest_m,
+                   .damping_mass_kg = 0.0};
+        reaction = bed.reaction(contact);
         const double next_N = reaction.at_acceleration(-read.accel_mps2(i));
         force_N = pass == 0 ? next_N : 0.5 * (force_N + next_N);
       }
-      deepest_m = std::max(deepest_m, depth_m);
+      if (explain) {
+        run.input_sd_N.push_back(touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction) : 0.0);
+        run.phase.push_back(!touching || force_N <= 0.0                                      ? kAbove
+                            : down                                                           ? kLoading
+                            : read.speed_mps(i) > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold
+                                                                                             : kUnloading);
+      }
+      if (down) deepest_m = std::max(deepest_m, depth_m);
       before_N = force_N;
-      force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = read.accel_mps2(i)});
+      run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = read.accel_mps2(i)});
     }
-    observe(force, sensor_, edits, "force_N", times_, out);
-    for (double& f : out) f += nuisances[1];
+    return run;
   }
 
- private:
-  // The recorded motion with the faults of its position sensor taken out:
-  //   recorded(t) = true(f t - d) + o  ->  true(u) = recorded((u + d) / f) - o
-  struct Read {
-    const IntruderTrial& trial;
-    double delay_s = 0.0, rate = 1.0, offset_m = 0.0;
-    bool plain = true;
-
-    double at(const std::vector<double>& values, std::size_t i, bool from_position) const {
-      if (plain || !from_position) return values[i];
-      const double t = static_cast<double>(i) * trial.step_s_;
-      const double place =
-          std::clamp((t + delay_s) / rate / trial.step_s_, 0.0, static_cast<double>(values.size() - 1));
-      const auto left = std::min(static_cast<std::size_t>(place), values.size() - 2);
-      const double u = place - static_cast<double>(left);
-      return values[left] + u * (values[left + 1] - values[left]);
-    }
-    double depth_m(std::size_t i) const { return at(trial.depth_m_, i, true) + offset_m; }
-    double speed_mps(std::size_t i) const { return at(trial.speed_mps_, i, trial.speed_from_position_); }
-    double accel_mps2(std::size_t i) const { return at(trial.accel_mps2_, i, trial.accel_from_position_); }
-  };
-
-  Read reading(const Edits& edits) const {
-    Read read{*this};
-    for (const auto& edit : edits.sensors) {
-      if (edit.channel != "foot_z_m") continue;
-      if (edit.kind == SensorEdit::Kind::delay_s) read.delay_s += edit.value;
-      if (edit.kind == SensorEdit::Kind::time_scale) read.rate *= edit.value;
-      if (edit.kind == SensorEdit::Kind::offset) read.offset_m += edit.value;
-      read.plain = read.plain && edit.kind == SensorEdit::Kind::offset;
-    }
-    return read;
+  // By differences of the bed's law; the grains between the knots add theirs.
+  double input_sd_N(const Bed& bed, const BedContact& at, const BedReaction& reaction) const {
+    constexpr double kShift_m = 1e-5, kShift_mps = 1e-3;
+    BedContact shallower = at, faster = at;
+    shallower.depth_m -= kShift_m;
+    const bool virgin = at.depth_m >= at.max_depth_m && at.speed_mps > 0.0;
+    if (virgin) shallower.max_depth_m = std::min(at.max_depth_m, shallower.depth_m);
+    if (virgin) faster.speed_mps += kShift_mps;
+    const double by_depth = (reaction.force_N - bed.reaction(shallower).force_N) / kShift_m;
+    const double by_speed = (bed.reaction(faster).force_N - reaction.force_N) / kShift_mps;
+    const double grains_N = virgin ? between_knots_ * bed.quasi_static_force_N(at.depth_m) : 0.0;
+    return std::hypot(std::hypot(by_depth * motion_.depth_sd_m, by_speed * motion_.speed_sd_mps),
+                      std::hypot(reaction.added_mass_kg * motion_.accel_sd_mps2, grains_N));
   }
 
   void add_nuisance(const char* what, double sd, double step) { trial_nuisances.push_back({what, sd, step}); }
 
-  void take_motion(const Samples& z, const Samples& v, const Samples& a) {
-    constexpr double kSmoothing_s = 0.004;
-    const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / step_s_, 2.0, 8.0));
-    const double noise_m = fluctuation_rms(z);
-    const Smoothed at = smooth(z, half);
-    const auto count = static_cast<std::size_t>((z.time_s.back() - z.time_s.front()) / step_s_) + 1;
-    start_s_ = z.time_s.front();
-    const auto put = [&](std::vector<double>& into, const Samples& samples) {
-      into = on_grid(samples, start_s_, step_s_, count, false).values;
-      for (double& value : into) value = -value;
-    };
-    put(depth_m_, {z.time_s, noise_m > 2e-6 ? at.value : z.value});
-    put(speed_mps_, v.value.size() > 10 ? v : Samples{z.time_s, at.rate});
-    put(accel_mps2_, a.value.size() > 10   ? a
-                     : v.value.size() > 10 ? Samples{v.time_s, smooth(v, half).rate}
-                                           : Samples{z.time_s, smooth(z, 2 * half).curvature});
-    speed_from_position_ = v.value.size() <= 10;
-    accel_from_position_ = speed_from_position_ && a.value.size() <= 10;
-    depth_noise_m_ = 4.0 * noise_m + 1e-6;
-    double fastest = 0.0;
-    for (const double s : speed_mps_) fastest = std::max(fastest, std::abs(s));
-    const double speed_noise = v.value.size() > 10 ? fluctuation_rms(v) : 2.0 * noise_m / (step_s_ * 6.0);
-    rest_speed_mps_ = std::min(2.0 * speed_noise, 0.1 * fastest);
-  }
-
   void add_knots() {
     double deepest_m = 0.0;
-    for (const double d : depth_m_) deepest_m = std::max(deepest_m, d);
+    for (const double d : motion_.depth_m) deepest_m = std::max(deepest_m, d);
     const double relative = belief_.value("spread.bed_fluctuation_relative");
     const double length_m = belief_.value("spread.bed_fluctuation_length_m", 0.002);
     if (relative <= 0.0 || deepest_m <= 0.0) return;
     knot_spacing_m_ = std::max(length_m, deepest_m / static_cast<double>(kMostKnots - 1));
     knots_ = static_cast<std::size_t>(deepest_m / knot_spacing_m_) + 2;
     const double sd = relative * std::sqrt(length_m / knot_spacing_m_);
+    // Of an exponentially correlated fluctuation, what lines between its values at the knots leave.
+    between_knots_ = relative * std::sqrt(std::min(1.0, knot_spacing_m_ / (3.0 * length_m)));
     for (std::size_t i = 0; i < knots_; ++i) add_nuisance("bed_fluctuation", sd, 0.01);
   }
 
-  void label_rows() {
+  void label_rows(double cell_sd_N) {
     Coordinate depth{"depth_m", {}}, speed{"foot_velocity_mps", {}}, accel{"foot_accel_mps2", {}},
         time{"t_s", {}};
-    const Signal d{start_s_, step_s_, depth_m_}, v{start_s_, step_s_, speed_mps_},
-        a{start_s_, step_s_, accel_mps2_};
+    const Signal d{motion_.start_s, motion_.step_s, motion_.depth_m},
+        v{motion_.start_s, motion_.step_s, motion_.speed_mps},
+        a{motion_.start_s, motion_.step_s, motion_.accel_mps2};
+    const Run run = simulate({}, std::vector<double>(nuisance_count(), 0.0), true);
     for (Row& row : rows) {
       depth.values.push_back(d.at(row.time_s));
       speed.values.push_back(-v.at(row.time_s));
       accel.values.push_back(-a.at(row.time_s));
       time.values.push_back(row.time_s);
-      row.phase = depth.values.back() <= 0.0 ? kAbove : v.at(row.time_s) > 0.0 ? kLoading : kUnloading;
+      const auto i = std::min(
+          static_cast<std::size_t>(std::max(0.0, (row.time_s - motion_.start_s) / motion_.step_s + 0.5)),
+          run.phase.size() - 1);
+      row.phase = run.phase[i];
+      row.relative_sd = std::hypot(row.relative_sd, run.input_sd_N[i] / cell_sd_N);
     }
     coordinates = {std::move(depth), std::move(speed), std::move(accel), std::move(time)};
   }
 
   Belief belief_;
-  double radius_m_ = 0.04, step_s_ = 1e-3, start_s_ = 0.0;
-  double depth_noise_m_ = 0.0, rest_speed_mps_ = 0.0;
-  std::vector<double> depth_m_, speed_mps_, accel_mps2_;  // down positive
-  bool speed_from_position_ = false, accel_from_position_ = false;
+  double radius_m_ = 0.04, rest_speed_mps_ = 0.0;
+  IntruderMotion motion_;
   BedHistory history_;
   std::size_t knots_ = 0;
-  double knot_spacing_m_ = 0.002;
-  std::vector<double> times_;
+  double knot_spacing_m_ = 0.002, between_knots_ = 0.0;
+  std::vector<double> times_, ages_s_;
+  std::size_t age_nuisance_ = 0;
   SensorBelief sensor_;
 };
 
 class Intruder final : public PlantModel {
  public:
   std::vector<std::string> channels() const override { return {"force_N"}; }
-  std::vector<std::string> phases() const override { return {"above_surface", "loading", "unloading"}; }
+  std::vector<std::string> phases() const override {
+    return {"above_surface", "loading", "hold", "unloading"};
+  }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
