@@ -10,10 +10,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// In their scales. What is further off is no tolerance any more: only an effect may explain it, or a fault of
-// thirty scales would be paid for once and leave no trial in disagreement.
-constexpr double kMostTolerance = 3.0;
-
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

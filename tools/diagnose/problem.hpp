@@ -18,6 +18,9 @@ struct Tolerance {
   double scale = 1.0;
   std::string channel;
 };
+// In its scales. What is further off is no tolerance any more: only an effect may explain it, or a fault of
+// thirty scales would be paid for once and leave no trial in disagreement. What is less is no effect.
+inline constexpr double kMostTolerance = 3.0;
 
 // Derivatives of one trial by tolerances and nuisances at one point. They hardly change with the effects, so
 // that fits nearby share them; a fit that gets stuck makes its own.

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
 
 #include "tools/diagnose/proposals.hpp"
@@ -19,8 +19,9 @@ constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
 constexpr double kBeyondDoubt = 1e-8;
-constexpr double kSmallestOfTypical = 0.04;
-constexpr double kSmallestShare = 0.002;  // of what all effects explain
+constexpr double kSmallestOfTypical = 0.08;
+constexpr double kSmallestShare = 0.002;   // of what all effects explain
+constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
 constexpr double kLinearError =
     0.05;                            // of what is explained: a proposal's estimate may be worse than its fit
 constexpr double kSizeSpread = 1.8;  // of the logarithm of a size in typical ones, believed beforehand
@@ -56,16 +57,30 @@ double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   return sum;
 }
 
-// Channels whose time this effect moves. Their tolerances do the same and would leave the trials nothing to
-// say.
-std::set<std::string> delayed_channels(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+// How far this effect moves channels in time. The tolerances of those channels do the same and would leave
+// the trials nothing to say.
+std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
   Edits edits;
   candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
-  std::set<std::string> channels;
+  std::map<std::string, double> delays;
   for (const auto& edit : edits.sensors)
-    if (edit.kind == SensorEdit::Kind::delay_s) channels.insert(edit.channel);
-  return channels;
+    if (edit.kind == SensorEdit::Kind::delay_s) delays[edit.channel] += edit.value;
+  return delays;
+}
+
+// Whether all it does is to move channels by no more than their times are unsure; that of a recorded input is
+// as unsure as that of the channel whose samples come slowest.
+bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
+  if (delays.empty() || problem.tolerances.empty()) return false;
+  double slowest_s = 0.0;
+  for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.scale);
+  return std::ranges::all_of(delays, [&](const auto& delay) {
+    double scale_s = slowest_s;
+    for (const auto& tolerance : problem.tolerances)
+      if (tolerance.channel == delay.first) scale_s = tolerance.scale;
+    return std::abs(delay.second) <= kMostTolerance * scale_s;
+  });
 }
 
 }  // namespace
@@ -112,13 +127,13 @@ void Search::judge(SetFit& result) {
         amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
       }
     }
-    const auto delayed = delayed_channels(*problem_, point.hypothesis, e);
+    const auto delays = delays_s(*problem_, point.hypothesis, e);
     std::vector<Index> others;
     for (Index i = 1; i <= k; ++i) {
       const bool own = i >= first && i < first + width;
       const bool same_as_own =
           i > parameters &&
-          delayed.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel);
+          delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel);
       if (!own && !same_as_own) others.push_back(i);
     }
     const auto n_own = static_cast<Index>(amplitude_columns.size());
@@ -160,6 +175,7 @@ void Search::judge(SetFit& result) {
     const double value = point.hypothesis.values[e][0];
     evidence.at_bound = value >= p.high - 1e-9 * std::abs(p.high) ||
                         (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0);
+    if (within_tolerance(*problem_, delays)) result.needed = false;
     const double model = std::max(1e-300, [&] {
       double s = 0.0;
       for (const double i : group.evidence.information) s += i;
@@ -173,6 +189,7 @@ void Search::judge(SetFit& result) {
   }
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = null().fit.deviance - result.fit.deviance;
+  const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
   for (auto& evidence : result.evidence) {
     // Signs are flipped at the set without this effect, against all candidates there.
     const auto parent = without(result.set, evidence.candidate);
@@ -193,7 +210,7 @@ void Search::judge(SetFit& result) {
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
         evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
-        evidence.gain < kSmallestShare * explained)
+        evidence.gain < least_share * explained)
       result.needed = false;
   }
 }
