@@ -24,6 +24,7 @@ struct EffectParameter {
   double scale = 1.0;
   bool amplitude = false;        // besides the first: zero switches this part off, too
   bool reciprocal = false;       // reported as 1 / (base + scale * value)
+  bool other_law_above = false;  // at its upper bound this is not the effect any more
   std::vector<double> shapes{};  // of a shape: values worth a start of their own
 
   double reported(double value) const {

@@ -175,6 +175,10 @@ void Search::judge(SetFit& result) {
     const double value = point.hypothesis.values[e][0];
     evidence.at_bound = value >= p.high - 1e-9 * std::abs(p.high) ||
                         (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0);
+    for (std::size_t i = 1; i < candidate.parameters.size(); ++i)
+      evidence.at_bound =
+          evidence.at_bound || (candidate.parameters[i].other_law_above &&
+                                point.hypothesis.values[e][i] >= 0.99 * candidate.parameters[i].high);
     if (within_tolerance(*problem_, delays)) result.needed = false;
     const double model = std::max(1e-300, [&] {
       double s = 0.0;

@@ -14,6 +14,7 @@ bool medium_known(const Context& c) {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.plant == PlantKind::rotary_axis) {
+    if (c.scale("moves") == 0.0) return {};
     const double typical = kShareOfWeight * c.scale("torque_Nm") / std::pow(c.scale("speed_radps"), 2);
     return {{.name = "quadratic_drag_Nm_s2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
   }

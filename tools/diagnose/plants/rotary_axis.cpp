@@ -13,9 +13,10 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kBlock_s = 0.5;
-constexpr double kMostRows = 3000.0;    // of a channel
-constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
-constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
+constexpr double kMostRows = 3000.0;      // of a channel
+constexpr double kLong_s = 10.0;          // a recording this long is simulated in longer steps
+constexpr std::size_t kBlockRows = 60;    // at least, where the recording is slow
+constexpr double kClockTolerance = 0.25;  // of a row; see take_torque
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
 struct Figures {
@@ -94,7 +95,8 @@ class RotaryTrial final : public TrialModel {
     std::size_t first = 0, count = 0;
   };
 
-  // Torque holds from row to row; a step of the simulation takes its mean.
+  // From row to row the torque goes over evenly; a step of the simulation takes its mean. A drive that holds
+  // it acts half a row later, which the tolerance of the channels' times allows for.
   void take_torque() {
     const double row_s = median_step_s(torque_.time_s);
     const auto rows_per_step = static_cast<std::size_t>(
@@ -102,7 +104,7 @@ class RotaryTrial final : public TrialModel {
     step_s_ = std::min(row_s * static_cast<double>(rows_per_step), 5e-3);
     const auto count = static_cast<std::size_t>(std::ceil(torque_.time_s.back() / step_s_)) + 2;
     constexpr std::size_t kParts = 8;
-    const Signal fine = on_grid(torque_, 0.0, step_s_ / kParts, count * kParts, true);
+    const Signal fine = on_grid(torque_, 0.0, step_s_ / kParts, count * kParts, false);
     drive_ = {0.0, step_s_, std::vector<double>(count, 0.0)};
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < kParts; ++k) drive_.values[i] += fine.values[i * kParts + k] / kParts;
@@ -173,7 +175,9 @@ class RotaryTrial final : public TrialModel {
     }
     coordinates = {std::move(v), std::move(p), std::move(torque), std::move(time)};
     sensors_[0] = sensor_belief(belief_, "position", "rad");
-    sensors_[1] = sensor_belief(belief_, "velocity", "radps");
+    // Of an encoder's own estimate of speed, or of whatever else measures it.
+    const bool of_encoder = belief_.value("sensors.encoder_velocity_bandwidth_Hz") > 0.0;
+    sensors_[1] = sensor_belief(belief_, of_encoder ? "encoder_velocity" : "velocity", "radps");
   }
 
   void simulate(const Figures& f, const std::vector<const Law*>& laws, const Signal& torque, const Stretch& s,
@@ -316,15 +320,24 @@ class RotaryAxis final : public PlantModel {
     }
     context.scales["torque_Nm"] = samples > 0.0 ? std::max(std::sqrt(torque / samples), 1e-6) : 1.0;
     context.scales["speed_radps"] = std::max(speed, 0.1);
+    context.scales["clock_tolerance"] = kClockTolerance;
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;
     // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
     constexpr double kMoves = 5.0;  // switch speeds of the friction
+    constexpr double kMostOfTheTime = 0.95;
     double swift = 0.0;
     for (const auto& trial : trials) {
       const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
       if (positions.value.size() < 20) swift = speed;
-      for (const double v : smooth(positions, 8).rate) swift = std::max(swift, std::abs(v));
+      // Steps of a coarse encoder look swift now and then.
+      auto rates = smooth(positions, 8).rate;
+      if (rates.empty()) continue;
+      for (double& rate : rates) rate = std::abs(rate);
+      const auto high =
+          rates.begin() + static_cast<std::ptrdiff_t>(kMostOfTheTime * static_cast<double>(rates.size()));
+      std::nth_element(rates.begin(), high, rates.end());
+      swift = std::max(swift, *high);
     }
     context.scales["moves"] =
         swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02) ? 1.0 : 0.0;
