@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using enum FindingSeverity;
 
-constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 constexpr double kGapSteps = 5.0;
 constexpr std::uint64_t kMostSlips = 3;
 
