@@ -10,9 +10,9 @@ namespace sandhopper {
 namespace {
 
 // Of the disk, kept for the last gap record, what is attached at the end, and the summary.
-constexpr std::uint64_t kReserve_bytes = 256 * 1024;
+constexpr std::uint64_t kReserve_bytes = 262'144;
 // After a new file could not be made, so much more is written to the old one before the next try.
-constexpr std::uint64_t kRetry_bytes = 4 << 20;
+constexpr std::uint64_t kRetry_bytes = 4'194'304;
 
 }  // namespace
 

@@ -50,7 +50,7 @@ struct TrialLogOptions {
 //
 // Order of calls: add_topic, add_can_interface, attach, add_metadata; start; push, push_can; stop; attach,
 // close.
-class TrialLogger {
+class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
  public:
   // Throws std::system_error when a file cannot be made.
   explicit TrialLogger(TrialLogOptions options);
