@@ -56,7 +56,7 @@ std::filesystem::path scratch() {
 
 class Recover : public ::testing::Test {
  protected:
-  // The first quarter second of a simulated trial, made once.
+  // The first 0.6 s of a simulated trial, made once.
   static void SetUpTestSuite() {
     folder_ = scratch();
     cut_ = folder_ / "cut.mcap";
@@ -65,7 +65,7 @@ class Recover : public ::testing::Test {
     SimTrialSetup setup;
     setup.robot.limits.strides = 1;
     setup.log = folder_ / "trial.mcap";
-    setup.longest_s = 0.25;
+    setup.longest_s = 0.6;
     run_sim_trial(setup);
     whole_ = bytes_of_file(setup.log);
     all_ = read(setup.log);
