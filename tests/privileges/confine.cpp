@@ -1,6 +1,6 @@
 // confine COMMAND…: runs a command that dies the moment it opens a socket of another family than AF_UNIX and
-// AF_CAN, or changes its user or capabilities. What systemd's RestrictAddressFamilies= does, where there is no
-// systemd.
+// AF_CAN, or changes its user or capabilities. What systemd's RestrictAddressFamilies= does, where there is
+// no systemd.
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
