@@ -56,6 +56,7 @@ SessionResult HopSession::run(const std::atomic<bool>& quit, RequestBox& request
   aftermath_.stop();
   logger_.stop();
   result.lost_records = logger_.lost_records();
+  result.lost_can_frames = logger_.lost_can_frames();
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "config/robot_config.hpp"
 #include "firmware/board.hpp"
@@ -23,6 +24,8 @@ struct SessionResult {
   std::uint64_t cycles = 0;
   std::uint32_t overruns = 0;
   std::uint64_t lost_records = 0;
+  std::uint64_t lost_can_frames = 0;
+  std::string log_error;  // the log's first trouble with its disk; empty: none
   LatencyHistogram latency{};
   State last_state = State::idle;
   Fault last_fault = Fault::none;

@@ -28,6 +28,8 @@ struct Options {
   std::string device_file;
   std::string log_file = "hopperd.mcap";
   std::string board = "linux";
+  std::uint64_t segment_MB = 0;
+  std::uint64_t quota_MB = 0;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -44,12 +46,18 @@ void add_options(CLI::App& app, Options& options) {
                  "linux: this machine's devices; sim: simulated robot in the process")
       ->check(CLI::IsMember({"linux", "sim"}))
       ->capture_default_str();
+  app.add_option("--segment-MB", options.segment_MB,
+                 "begin a new file LOG.part0002.mcap, … when one holds this much; 0: one file")
+      ->capture_default_str();
+  app.add_option("--quota-MB", options.quota_MB,
+                 "remove the oldest files of this log when all together hold more; 0: keep all")
+      ->capture_default_str();
   app.footer(
       "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
       "one JSON\n"
       "object a line. End of input, SIGINT and SIGTERM stop the robot softly and quit.\n"
       "Exit status: 0 ended in order, 1 ended in a fault, 2 configuration or command line, 3 a device is "
-      "missing.");
+      "missing\nor the log's disk failed.");
 }
 
 // The robot's devices, their CAN traffic in the log.
@@ -88,8 +96,11 @@ SessionResult run_session(const RobotConfig& robot, Board& board, TrialLogger& l
   return result;
 }
 
-TrialLogOptions log_options(const Options& options) {
+TrialLogOptions log_options(const Options& options, OperatorChannel& channel) {
+  constexpr std::uint64_t kMegabyte = 1'000'000;
   TrialLogOptions log;
+  log.limits = {.segment_bytes = options.segment_MB * kMegabyte, .quota_bytes = options.quota_MB * kMegabyte};
+  log.say = [&channel](const std::string& text) { channel.tell_text("warning", text); };
   log.mcap_file = options.log_file;
   log.start_ns = monotonic_ns();
   log.realtime_offset_ns = realtime_offset_ns();
@@ -109,7 +120,7 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
       simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, board_file()), robot);
-  TrialLogger logger(log_options(options));
+  TrialLogger logger(log_options(options, channel));
   describe_trial(logger, robot, options.board);
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
@@ -118,12 +129,14 @@ int run(const Options& options, OperatorChannel& channel) {
   else
     real = std::make_unique<RealRobot>(devices, logger);
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  const auto result = run_session(robot, board, logger, channel);
+  auto result = run_session(robot, board, logger, channel);
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
+  result.log_error = logger.error();
   channel.tell(result);
-  return result.last_fault == Fault::none ? 0 : 1;
+  if (result.last_fault != Fault::none) return 1;
+  return result.log_error.empty() ? 0 : 3;
 }
 
 int run_program(int argc, char** argv) {

@@ -21,9 +21,9 @@ std::optional<Request> request_named(std::string_view word) {
   return std::nullopt;
 }
 
+// In one call: the logger's and the stride's thread speak, too.
 void print(const std::string& line) {
-  std::fputs(line.c_str(), stdout);
-  std::fputc('\n', stdout);
+  std::fputs((line + '\n').c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -115,10 +115,12 @@ void OperatorChannel::tell(const StrideResult& r) {
 
 void OperatorChannel::tell(const SessionResult& r) {
   print(fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
+                    R"("lost_can_frames":{},"log_error":{},)"
                     R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{},"histogram":{}}}}}}})",
                     name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
-                    r.latency.quantile_us(0.5), r.latency.quantile_us(0.99), r.latency.quantile_us(0.999),
-                    r.latency.largest_us(), r.latency.as_json()));
+                    r.lost_can_frames, json_string(r.log_error), r.latency.quantile_us(0.5),
+                    r.latency.quantile_us(0.99), r.latency.quantile_us(0.999), r.latency.largest_us(),
+                    r.latency.as_json()));
 }
 
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {

@@ -89,8 +89,9 @@ MitPayload pack_mit_reply(const MitRanges& r, ReplyFlavour flavour, const MitRep
   const auto p = nearest(symmetric(r.position_rad, k16), reply.position_rad);
   const auto v = nearest(symmetric(r.velocity_radps, k12), reply.velocity_radps);
   const auto t = nearest(symmetric(r.torque_Nm, k12), reply.torque_Nm);
+  // 0 for what was not measured (NaN).
   const auto raw_byte = [](double value) {
-    return byte(static_cast<std::uint32_t>(std::clamp(value + 0.5, 0.0, 255.0)));
+    return value > 0.0 ? byte(static_cast<std::uint32_t>(std::min(value + 0.5, 255.0))) : byte(0);
   };
   MitPayload out{reply.drive_id,
                  byte(p >> 8U),

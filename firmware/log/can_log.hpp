@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -17,23 +18,29 @@ namespace sandhopper {
 // threads' nor the logger's timing shows in the file.
 class CanLog {
  public:
-  CanLog(const std::filesystem::path& file, std::int64_t realtime_offset_ns, std::size_t slots);
+  CanLog(const std::filesystem::path& file, std::int64_t realtime_offset_ns, std::size_t slots,
+         FileCalls calls = FileCalls::of_the_system());
 
   // Before the first frame. Returns the number for push().
   std::size_t add_interface(std::string name);
 
   // Wait-free, from one thread per interface; `frame.time_ns` is CLOCK_MONOTONIC. What does not fit is lost,
-  // counted, and noted in the file as a comment.
+  // counted, and noted in the file as a comment; so is what the disk does not take.
   void push(std::size_t interface, const CandumpFrame& frame) noexcept;
 
-  // The logger's thread from here on. Throw std::system_error.
+  // The logger's thread from here on. begin_file and the constructor throw std::system_error.
   void drain();
+  void begin_file(const std::filesystem::path& file);  // what is written from now on goes there
   void close();
+  const std::string& error() const { return error_; }  // the first
 
-  std::uint64_t dropped() const;
+  // Any thread: frames that did not fit, or that the disk did not take.
+  std::uint64_t lost() const;
 
  private:
   static constexpr std::int64_t kHold_ns = 50'000'000;
+  static constexpr std::int64_t kSyncSpan_ns =
+      1'000'000'000;  // of the frames' time, between two fdatasync(2)
 
   struct Interface {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring's own
     Interface(std::string its_name, std::size_t slots) : name(std::move(its_name)), ring(slots) {}
@@ -49,13 +56,21 @@ class CanLog {
   void hold(const CandumpFrame& frame, std::size_t interface);
   void write_until(std::int64_t time_ns);
   void note_drops();
+  void sync();
+  void note_error(const std::string& error);
+  std::unique_ptr<CandumpWriter> make_writer(const std::filesystem::path& file) const;
 
-  CandumpWriter writer_;
+  FileCalls calls_;
+  std::unique_ptr<CandumpWriter> writer_;
   std::int64_t realtime_offset_ns_;
   std::size_t slots_;
   std::vector<std::unique_ptr<Interface>> interfaces_;
   std::vector<Held> held_;  // sorted
   std::int64_t newest_ns_ = INT64_MIN;
+  std::int64_t synced_ns_ = INT64_MIN;
+  std::uint64_t lost_in_older_files_ = 0;
+  std::atomic<std::uint64_t> lost_on_disk_{0};
+  std::string error_;
 };
 
 }  // namespace sandhopper

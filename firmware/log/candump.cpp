@@ -164,14 +164,15 @@ std::optional<CandumpLine> parse_candump(std::string_view line) {
   return result;
 }
 
-CandumpWriter::CandumpWriter(const std::filesystem::path& file, CandumpFormat format)
-    : file_(file), format_(format) {
+CandumpWriter::CandumpWriter(const std::filesystem::path& file, CandumpFormat format, const CandumpDisk& disk)
+    : file_(file, disk.reserve_bytes, disk.calls), format_(format), keep_going_(disk.keep_going) {
   buffer_.reserve(kBufferBytes + 256);
 }
 
 void CandumpWriter::write(const CandumpFrame& frame, std::string_view interface) {
   append_line(buffer_, frame, interface, format_);
   buffer_ += '\n';
+  ++frames_in_buffer_;
   if (buffer_.size() >= kBufferBytes) flush();
 }
 
@@ -181,14 +182,34 @@ void CandumpWriter::comment(std::string_view text) {
   buffer_ += '\n';
 }
 
+void CandumpWriter::comment_lost(std::uint64_t frames, std::string_view why) {
+  comment(std::to_string(frames) + " frames lost: " + std::string(why));
+  said_in_buffer_ += frames;
+}
+
 void CandumpWriter::flush() {
-  if (buffer_.empty()) return;
-  file_.append(std::as_bytes(std::span(buffer_)));
+  if (buffer_.empty() && unsaid_ == 0) return;
+  std::string text;
+  if (unsaid_ > 0) text = "# " + std::to_string(unsaid_) + " frames lost: they could not be written\n";
+  text += buffer_;
+  try {
+    file_.append(std::as_bytes(std::span(text)));
+    unsaid_ = 0;
+    error_.clear();
+  } catch (const std::system_error& error) {
+    if (!keep_going_) throw;
+    lost_ += frames_in_buffer_;
+    unsaid_ += frames_in_buffer_ + said_in_buffer_;
+    error_ = error.what();
+  }
   buffer_.clear();
+  frames_in_buffer_ = said_in_buffer_ = 0;
 }
 
 void CandumpWriter::close() {
   if (!file_.is_open()) return;
+  flush();
+  file_.open_reserve();
   flush();
   file_.close();
 }

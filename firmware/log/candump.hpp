@@ -50,19 +50,40 @@ struct CandumpLine {
 // it.
 std::optional<CandumpLine> parse_candump(std::string_view line);
 
-// Appends to a new file. Throws std::system_error.
+struct CandumpDisk {
+  bool keep_going = false;          // drop what cannot be written
+  std::uint64_t reserve_bytes = 0;  // kept for the last comment
+  FileCalls calls = FileCalls::of_the_system();
+};
+
+// Appends to a new file. Throws std::system_error; with `keep_going`, frames that cannot be written are
+// dropped instead, and a comment with their number stands in their place as soon as there is room again.
 class CandumpWriter {
  public:
-  explicit CandumpWriter(const std::filesystem::path& file, CandumpFormat format = {});
+  explicit CandumpWriter(const std::filesystem::path& file, CandumpFormat format = {},
+                         const CandumpDisk& disk = {});
   void write(const CandumpFrame& frame, std::string_view interface);
   void comment(std::string_view text);  // a line that CAN tools pass over
-  void flush();                         // hands what is buffered to the system
+  // A comment that `frames` are missing here, and why.
+  void comment_lost(std::uint64_t frames, std::string_view why);
+  void flush();                        // hands what is buffered to the system
+  int sync() { return file_.sync(); }  // fdatasync(2), see AppendFile
   void close();
+
+  const std::filesystem::path& path() const { return file_.path(); }
+  std::uint64_t lost() const { return lost_; }         // frames the disk did not take
+  const std::string& error() const { return error_; }  // of the last flush; empty when it succeeded
 
  private:
   AppendFile file_;
   CandumpFormat format_;
+  bool keep_going_;
   std::string buffer_;
+  std::uint64_t frames_in_buffer_ = 0;
+  std::uint64_t said_in_buffer_ = 0;  // lost frames that comments in the buffer speak of
+  std::uint64_t unsaid_ = 0;          // lost, and no comment in the file says so
+  std::uint64_t lost_ = 0;
+  std::string error_;
 };
 
 // Reads a file line by line; errors are "file:line: what".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace sandhopper::mcap {
@@ -19,7 +20,7 @@ struct Group {
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& file, WriterOptions options)
-    : file_(file), options_(std::move(options)) {
+    : file_(file, options.reserve_bytes, options.calls), options_(std::move(options)) {
   chunk_.bytes.reserve(options_.chunk_bytes + options_.chunk_bytes / 4);
   Buffer out;
   out.put(Bytes(kMagic));
@@ -50,7 +51,7 @@ std::uint16_t Writer::add_channel(std::string_view topic, std::string_view schem
   }
   if (channels_.size() >= std::numeric_limits<std::uint16_t>::max())
     throw std::length_error("too many topics");
-  channels_.push_back({std::string(topic), static_cast<std::uint16_t>(number + 1), 0, {}});
+  channels_.push_back({std::string(topic), static_cast<std::uint16_t>(number + 1), 0, 0, {}});
   put_channel(out, channels_.size() - 1);
   append(out.bytes);
   return static_cast<std::uint16_t>(channels_.size() - 1);
@@ -81,9 +82,13 @@ void Writer::write(std::uint16_t channel, Stamp stamp, Bytes data) {
   close_message(stamp);
 }
 
+void Writer::close_chunk_before(std::int64_t log_ns) {
+  if (chunk_messages_ > 0 && log_ns - chunk_first_.log_ns >= options_.chunk_span_ns) close_chunk();
+}
+
 std::byte* Writer::open_message(std::uint16_t number, Stamp stamp, std::size_t bytes) {
   Channel& channel = channels_.at(number);
-  if (chunk_messages_ > 0 && stamp.log_ns - chunk_first_.log_ns >= options_.chunk_span_ns) close_chunk();
+  close_chunk_before(stamp.log_ns);
   if (chunk_messages_ == 0) {
     chunk_.clear();
     chunk_.grow(kRecordHead + kChunkHead);
@@ -94,18 +99,15 @@ std::byte* Writer::open_message(std::uint16_t number, Stamp stamp, std::size_t b
   chunk_.put(Op::message);
   chunk_.put(static_cast<std::uint64_t>(kMessageHead + bytes));
   chunk_.put(number);
-  chunk_.put(static_cast<std::uint32_t>(channel.messages++));
+  chunk_.put(channel.sequence++);
   chunk_.put(stamp.log_ns);
   chunk_.put(stamp.publish_ns);
   return chunk_.grow(bytes);
 }
 
 void Writer::close_message(Stamp stamp) {
-  low_ns_ = messages_ == 0 ? stamp.log_ns : std::min(low_ns_, stamp.log_ns);
-  high_ns_ = messages_ == 0 ? stamp.log_ns : std::max(high_ns_, stamp.log_ns);
   chunk_low_ns_ = std::min(chunk_low_ns_, stamp.log_ns);
   chunk_high_ns_ = std::max(chunk_high_ns_, stamp.log_ns);
-  ++messages_;
   ++chunk_messages_;
   if (chunk_.size() >= options_.chunk_bytes) close_chunk();
 }
@@ -127,6 +129,7 @@ void Writer::close_chunk() {
   const std::uint64_t chunk_start = position_;
   const std::uint64_t chunk_length = chunk_.size();
 
+  const std::size_t indexes_before = chunk_indexes_.size();
   const std::size_t entry = chunk_indexes_.open_record(Op::chunk_index);
   chunk_indexes_.put(chunk_low_ns_);
   chunk_indexes_.put(chunk_high_ns_);
@@ -148,7 +151,6 @@ void Writer::close_chunk() {
     }
     chunk_.close_list(list);
     chunk_.close_record(content);
-    index.clear();
   }
   chunk_indexes_.close_list(offsets);
   chunk_indexes_.put(static_cast<std::uint64_t>(chunk_.size()) - chunk_length);
@@ -157,13 +159,45 @@ void Writer::close_chunk() {
   chunk_indexes_.put(records);
   chunk_indexes_.close_record(entry);
 
-  append(chunk_.bytes);
+  ++chunks_closed_;
+  try {
+    append(chunk_.bytes);
+  } catch (const std::system_error& error) {
+    if (!options_.keep_going) throw;
+    chunk_indexes_.bytes.resize(indexes_before);
+    drop_chunk(error.code().value());
+    return;
+  }
+  count_chunk();
+  if (options_.sync_span_ns > 0 && chunk_high_ns_ - synced_ns_ >= options_.sync_span_ns) sync();
+}
+
+void Writer::count_chunk() {
+  for (Channel& channel : channels_) {
+    channel.messages += channel.index.size();
+    channel.index.clear();
+  }
+  low_ns_ = messages_ == 0 ? chunk_low_ns_ : std::min(low_ns_, chunk_low_ns_);
+  high_ns_ = messages_ == 0 ? chunk_high_ns_ : std::max(high_ns_, chunk_high_ns_);
+  messages_ += chunk_messages_;
   ++chunks_;
   chunk_messages_ = 0;
-  if (options_.sync_span_ns > 0 && chunk_high_ns_ - synced_ns_ >= options_.sync_span_ns) {
-    synced_ns_ = chunk_high_ns_;
-    file_.sync();
-  }
+}
+
+void Writer::drop_chunk(int error) {
+  for (Channel& channel : channels_) channel.index.clear();
+  loss_ =
+      Loss{.messages = chunk_messages_, .first_ns = chunk_low_ns_, .last_ns = chunk_high_ns_, .error = error};
+  chunk_messages_ = 0;
+}
+
+void Writer::sync() {
+  const std::int64_t since_ns = synced_ns_;
+  synced_ns_ = chunk_high_ns_;
+  const int error = file_.sync();
+  if (error == 0 || !options_.keep_going) return;
+  loss_ = Loss{
+      .first_ns = std::max(since_ns, low_ns_), .last_ns = chunk_high_ns_, .synced = false, .error = error};
 }
 
 void Writer::attach(std::string_view name, std::string_view media_type, std::int64_t time_ns, Bytes data) {
@@ -178,9 +212,11 @@ void Writer::attach(std::string_view name, std::string_view media_type, std::int
   out.put(data);
   out.put(crc32(0, Bytes(out.bytes).subspan(content)));
   out.close_record(content);
+  const std::uint64_t start = position_;
+  append(out.bytes);
 
   const std::size_t entry = attachment_indexes_.open_record(Op::attachment_index);
-  attachment_indexes_.put(position_);
+  attachment_indexes_.put(start);
   attachment_indexes_.put(static_cast<std::uint64_t>(out.size()));
   attachment_indexes_.put(time_ns);
   attachment_indexes_.put(time_ns);
@@ -188,7 +224,6 @@ void Writer::attach(std::string_view name, std::string_view media_type, std::int
   attachment_indexes_.put_text(name);
   attachment_indexes_.put_text(media_type);
   attachment_indexes_.close_record(entry);
-  append(out.bytes);
   ++attachments_;
 }
 
@@ -204,13 +239,14 @@ void Writer::add_metadata(std::string_view name, const std::map<std::string, std
   }
   out.close_list(list);
   out.close_record(content);
+  const std::uint64_t start = position_;
+  append(out.bytes);
 
   const std::size_t entry = metadata_indexes_.open_record(Op::metadata_index);
-  metadata_indexes_.put(position_);
+  metadata_indexes_.put(start);
   metadata_indexes_.put(static_cast<std::uint64_t>(out.size()));
   metadata_indexes_.put_text(name);
   metadata_indexes_.close_record(entry);
-  append(out.bytes);
   ++metadata_;
 }
 
@@ -238,19 +274,43 @@ void Writer::flush() { close_chunk(); }
 void Writer::close() {
   if (!file_.is_open()) return;
   flush();
+  file_.open_reserve();
+  try {
+    append(end_of_file(true).bytes);
+  } catch (const std::system_error&) {
+    if (!options_.keep_going) throw;
+    append(end_of_file(false).bytes);
+  }
+  sync();
+  file_.close();
+}
+
+Buffer Writer::end_of_file(bool with_summary) const {
   Buffer out;
   std::size_t content = out.open_record(Op::data_end);
   out.put(data_crc_);
   out.close_record(content);
-  append(out.bytes);
+  if (with_summary) {
+    put_summary(out, position_ + out.size());
+  } else {
+    content = out.open_record(Op::footer);
+    out.put(std::uint64_t{0});  // no summary
+    out.put(std::uint64_t{0});
+    out.put(std::uint32_t{0});
+    out.close_record(content);
+  }
+  out.put(Bytes(kMagic));
+  return out;
+}
 
-  out.clear();
-  const std::uint64_t summary_start = position_;
+// Summary and footer; the summary begins at `start` of the file, where `out` ends now.
+void Writer::put_summary(Buffer& out, std::uint64_t start) const {
+  const std::size_t before = out.size();
   std::vector<Group> groups;
   const auto add_group = [&](Op op, auto&& put_records) {
-    const std::size_t start = out.size();
+    const std::size_t place = out.size();
     put_records();
-    if (out.size() > start) groups.push_back({op, start, out.size() - start});
+    if (out.size() > place) groups.push_back({op, place - before, out.size() - place});
   };
   add_group(Op::schema, [&] {
     for (std::size_t i = 0; i < schemas_.size(); ++i) put_schema(out, i);
@@ -262,30 +322,26 @@ void Writer::close() {
   add_group(Op::chunk_index, [&] { out.put(Bytes(chunk_indexes_.bytes)); });
   add_group(Op::attachment_index, [&] { out.put(Bytes(attachment_indexes_.bytes)); });
   add_group(Op::metadata_index, [&] { out.put(Bytes(metadata_indexes_.bytes)); });
-  const std::uint64_t offsets_start = summary_start + out.size();
+  const std::uint64_t offsets_start = start + (out.size() - before);
   for (const Group& group : groups) {
-    content = out.open_record(Op::summary_offset);
+    const std::size_t content = out.open_record(Op::summary_offset);
     out.put(group.op);
-    out.put(summary_start + group.start);
+    out.put(start + group.start);
     out.put(static_cast<std::uint64_t>(group.length));
     out.close_record(content);
   }
-  content = out.open_record(Op::footer);
-  out.put(summary_start);
+  const std::size_t content = out.open_record(Op::footer);
+  out.put(start);
   out.put(offsets_start);
   out.put_at(content - sizeof(std::uint64_t),
              std::uint64_t{2 * sizeof(std::uint64_t) + sizeof(std::uint32_t)});
-  out.put(crc32(0, out.bytes));
-  out.put(Bytes(kMagic));
-  append(out.bytes);
-  file_.sync();
-  file_.close();
+  out.put(crc32(0, Bytes(out.bytes).subspan(before)));
 }
 
 void Writer::append(Bytes data) {
+  file_.append(data);
   data_crc_ = crc32(data_crc_, data);
   position_ += data.size();
-  file_.append(data);
 }
 
 }  // namespace sandhopper::mcap

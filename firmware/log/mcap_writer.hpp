@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,12 +21,25 @@ struct WriterOptions {
   std::size_t chunk_bytes = 262'144;          // a chunk is closed when it holds this much …
   std::int64_t chunk_span_ns = 100'000'000;   // … or a message is this much younger than its first
   std::int64_t sync_span_ns = 1'000'000'000;  // message time between two fdatasync(2); 0: never
+  bool keep_going = false;                    // a chunk that cannot be written is dropped, see take_loss()
+  std::uint64_t reserve_bytes = 0;            // of the disk, kept for what follows open_reserve()
+  FileCalls calls = FileCalls::of_the_system();
+};
+
+// Messages that did not get into the file, or of which it is not known whether they are on the disk.
+struct Loss {
+  std::uint64_t messages = 0;
+  std::int64_t first_ns = 0;  // log times
+  std::int64_t last_ns = 0;
+  bool synced = true;  // false: written, but fdatasync(2) failed
+  int error = 0;       // errno
 };
 
 // Writes an MCAP file (profile "ros2") front to back and never goes back: after a crash or a power cut
 // everything up to the last closed chunk is in the file, which the reader uses. Chunks are closed by what
 // they hold, not by the clock, and no time is read here: the same calls give the same bytes. Refuses to
-// overwrite a file. Throws std::system_error when the file cannot be made or written. One thread.
+// overwrite a file. Throws std::system_error when the file cannot be made or written; a chunk that could not
+// be written is not in the file, not even in part. One thread.
 class Writer {
  public:
   explicit Writer(const std::filesystem::path& file, WriterOptions options = {});
@@ -52,8 +66,23 @@ class Writer {
   void attach(std::string_view name, std::string_view media_type, std::int64_t time_ns, Bytes data);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
 
+  // Closes the open chunk if a message of this time would.
+  void close_chunk_before(std::int64_t log_ns);
   void flush();  // closes the open chunk and hands it to the system
-  void close();  // flush, summary, footer; nothing may follow
+  // flush, summary, footer; nothing may follow. Where the disk has no room for the summary it is left out.
+  void close();
+
+  // With `keep_going`: the last chunk lost, once; and how many chunks were closed, lost or not.
+  std::optional<Loss> take_loss() { return std::exchange(loss_, std::nullopt); }
+  std::uint64_t chunks_closed() const { return chunks_closed_; }
+  // What follows may use the disk's reserve.
+  void open_reserve() noexcept { file_.open_reserve(); }
+
+  const std::filesystem::path& path() const { return file_.path(); }
+  std::uint64_t bytes() const { return position_; }     // in the file, without the open chunk
+  std::uint64_t messages() const { return messages_; }  // likewise
+  std::int64_t first_ns() const { return low_ns_; }
+  std::int64_t last_ns() const { return high_ns_; }
 
  private:
   struct Schema {
@@ -63,13 +92,19 @@ class Writer {
   struct Channel {
     std::string topic;
     std::uint16_t schema = 0;
-    std::uint64_t messages = 0;
+    std::uint32_t sequence = 0;                                 // goes on over messages that were lost
+    std::uint64_t messages = 0;                                 // in the file
     std::vector<std::pair<std::int64_t, std::uint64_t>> index;  // time and place in the open chunk
   };
 
   std::byte* open_message(std::uint16_t channel, Stamp stamp, std::size_t bytes);
   void close_message(Stamp stamp);
   void close_chunk();
+  void drop_chunk(int error);
+  void count_chunk();
+  void sync();
+  Buffer end_of_file(bool with_summary) const;
+  void put_summary(Buffer& out, std::uint64_t start) const;
   void put_schema(Buffer& out, std::size_t number) const;
   void put_channel(Buffer& out, std::size_t number) const;
   void put_statistics(Buffer& out) const;
@@ -98,6 +133,8 @@ class Writer {
   std::int64_t low_ns_ = 0;
   std::int64_t high_ns_ = 0;
   std::int64_t synced_ns_ = 0;
+  std::uint64_t chunks_closed_ = 0;
+  std::optional<Loss> loss_;
 };
 
 }  // namespace sandhopper::mcap

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -17,13 +19,27 @@ inline constexpr std::string_view kTruth = "/truth";    // PlantTruth, simulated
 inline constexpr std::string_view kGap = "/gap";        // LogGap
 }  // namespace topic
 
-// Records that the logger was too slow to take; stands in the log where they are missing.
+enum class LossCause : std::uint8_t {
+  ring_full,        // the logger was too slow: the disk, or the computer
+  write_failed,     // the disk was full or failed
+  sync_failed,      // written, but whether it reached the disk is not known; lost is 0
+  segment_removed,  // an older file of this log was removed to keep the quota
+  damaged           // hop recover could not read it
+};
+template <>
+struct EnumNames<LossCause> {
+  static constexpr std::array<std::string_view, 5> value{"ring_full", "write_failed", "sync_failed",
+                                                         "segment_removed", "damaged"};
+};
+
+// Records that are missing; stands in the log in their place.
 struct LogGap {
   std::int64_t time_ns = 0;  // of the first record after the gap
   std::int64_t first_lost_ns = 0;
   std::int64_t last_lost_ns = 0;
   std::uint64_t lost = 0;
   std::uint8_t lane = 0;
+  LossCause cause = LossCause::ring_full;
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -32,6 +48,7 @@ struct LogGap {
     visit("last_lost_ns", self.last_lost_ns);
     visit("lost", self.lost);
     visit("lane", self.lane);
+    visit("cause", self.cause);
   }
 };
 

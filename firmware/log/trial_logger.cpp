@@ -30,14 +30,45 @@ void sleep_until_grid_point() {
 
 TrialLogger::TrialLogger(TrialLogOptions options)
     : options_(std::move(options)),
-      writer_(options_.mcap_file, options_.mcap),
+      log_({.file = options_.mcap_file,
+            .offset_ns = options_.realtime_offset_ns,
+            .created_ns = options_.start_ns + options_.realtime_offset_ns,
+            .limits = options_.limits,
+            .mcap = options_.mcap,
+            .say = options_.say}),
       cycle_(options_.slots),
       background_(kBackgroundSlots) {
-  if (!options_.candump_file.empty())
-    can_ = std::make_unique<CanLog>(options_.candump_file, options_.realtime_offset_ns, options_.can_slots);
+  if (!options_.candump_file.empty()) keep_can_beside();
   cycle_.gap.lane = static_cast<std::uint8_t>(Lane::cycle);
   background_.gap.lane = static_cast<std::uint8_t>(Lane::background);
-  gap_topic_ = add_topic<LogGap>(topic::kGap);
+  topics_.push_back({log_.gap_channel(), Lane::cycle, &write_record<LogGap>});
+}
+
+namespace {
+
+std::filesystem::path can_file_beside(const std::filesystem::path& mcap_file) {
+  return std::filesystem::path(mcap_file).replace_extension(".candump");
+}
+
+}  // namespace
+
+// With every file of the log goes one of CAN traffic.
+void TrialLogger::keep_can_beside() {
+  can_ = std::make_unique<CanLog>(options_.candump_file, options_.realtime_offset_ns, options_.can_slots,
+                                  options_.mcap.calls);
+  const auto beside = [this](const std::filesystem::path& file) {
+    return file == options_.mcap_file ? options_.candump_file : can_file_beside(file);
+  };
+  log_.on_begin = [this, beside](const auto& file) { can_->begin_file(beside(file)); };
+  log_.bytes_beside = [beside](const auto& file) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(beside(file), none);
+    return none ? std::uint64_t{0} : std::uint64_t{bytes};
+  };
+  log_.on_remove = [beside](const auto& file) {
+    std::error_code ignored;
+    std::filesystem::remove(beside(file), ignored);
+  };
 }
 
 TrialLogger::~TrialLogger() {
@@ -54,11 +85,11 @@ std::size_t TrialLogger::add_can_interface(std::string name) {
 }
 
 void TrialLogger::attach(std::string_view name, std::string_view media_type, std::string_view text) {
-  writer_.attach(name, media_type, options_.start_ns + options_.realtime_offset_ns, mcap::bytes_of(text));
+  log_.attach(name, media_type, text);
 }
 
 void TrialLogger::add_metadata(std::string_view name, const std::map<std::string, std::string>& entries) {
-  writer_.add_metadata(name, entries);
+  log_.add_metadata(name, entries);
 }
 
 void TrialLogger::start() {
@@ -108,17 +139,13 @@ void TrialLogger::run() {
 }
 
 void TrialLogger::drain() noexcept {
-  try {
-    while (const Slot* slot = cycle_.ring.front()) {
-      write_background_until(slot->time_ns - kBackgroundHold_ns);
-      write_slot(*slot);
-      cycle_.ring.pop();
-    }
-    if (can_) can_->drain();
-  } catch (const std::exception& error) {
-    if (!failed()) error_ = error.what();
-    failed_.store(true, std::memory_order_release);
+  while (const Slot* slot = cycle_.ring.front()) {
+    write_background_until(slot->time_ns - kBackgroundHold_ns);
+    write_slot(*slot);
+    cycle_.ring.pop();
   }
+  if (can_) can_->drain();
+  lost_on_disk_.store(log_.lost(), std::memory_order_relaxed);
 }
 
 void TrialLogger::write_background_until(std::int64_t time_ns) {
@@ -130,17 +157,14 @@ void TrialLogger::write_background_until(std::int64_t time_ns) {
 }
 
 void TrialLogger::write_slot(const Slot& slot) {
-  if (failed_.load(std::memory_order_relaxed)) return;
-  const std::int64_t time_ns = slot.time_ns + options_.realtime_offset_ns;
   const TopicEntry& topic = topics_[slot.topic];
-  topic.write(writer_, topic.channel, {time_ns, time_ns}, slot.record);
+  topic.write(log_, topic.channel, slot.time_ns, slot.record);
 }
 
 void TrialLogger::write_final_gap(LaneState& lane) {
   if (lane.gap.lost == 0) return;
   lane.gap.time_ns = lane.gap.last_lost_ns;
-  const std::int64_t time_ns = lane.gap.time_ns + options_.realtime_offset_ns;
-  writer_.write(topics_[gap_topic_.number].channel, {time_ns, time_ns}, lane.gap);
+  log_.write(log_.gap_channel(), lane.gap.time_ns, lane.gap);
   lane.gap.lost = 0;
 }
 
@@ -148,20 +172,20 @@ void TrialLogger::stop() {
   stopping_.store(true, std::memory_order_release);
   if (thread_.joinable()) thread_.join();
   drain();
-  if (!failed()) {
-    write_background_until(INT64_MAX);
-    write_final_gap(cycle_);
-    write_final_gap(background_);
-    writer_.flush();
-    if (can_) can_->close();
-  }
-  if (failed()) throw std::runtime_error(error_);
+  write_background_until(INT64_MAX);
+  write_final_gap(cycle_);
+  write_final_gap(background_);
+  log_.finish();
+  if (can_) can_->close();
+  lost_on_disk_.store(log_.lost(), std::memory_order_relaxed);
 }
 
-void TrialLogger::close() { writer_.close(); }
+void TrialLogger::close() { log_.close(); }
+
+std::string TrialLogger::error() const { return log_.error().empty() && can_ ? can_->error() : log_.error(); }
 
 std::uint64_t TrialLogger::lost_records() const noexcept {
-  return cycle_.ring.dropped() + background_.ring.dropped();
+  return cycle_.ring.dropped() + background_.ring.dropped() + lost_on_disk_.load(std::memory_order_relaxed);
 }
 
 }  // namespace sandhopper

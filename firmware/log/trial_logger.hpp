@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,7 +13,7 @@
 #include <vector>
 
 #include "firmware/log/can_log.hpp"
-#include "firmware/log/mcap_writer.hpp"
+#include "firmware/log/segmented_log.hpp"
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/topics.hpp"
 
@@ -34,18 +35,22 @@ struct TrialLogOptions {
   std::size_t slots = 8192;             // about 2.7 s of three records a cycle
   std::size_t can_slots = 16384;        // per interface; about 4 s of four frames a cycle
   bool own_thread = true;               // false: push() itself writes when the ring is full (simulation)
+  SegmentLimits limits{};
   mcap::WriterOptions mcap{};
+  // Troubles of the disk, in words, as they begin and end; called from the logger's thread.
+  std::function<void(const std::string&)> say{};
 };
 
 // The logger of a running trial. The cycle pushes records, which costs a copy: no wait, no lock, no
 // allocation. A thread of ordinary priority takes them out every 5 ms, encodes and writes. When it falls
-// behind, records are lost and counted, and a LogGap stands in the log where they are missing. What the files
-// hold depends only on what was pushed, not on when the thread ran: two runs in virtual time, or one with and
-// one without the thread, give the same bytes.
+// behind, or the disk takes no more, records are lost and counted, and a LogGap stands in the log where they
+// are missing; the cycle does not notice (see SegmentedLog for the disk, and for a log in several files).
+// What the files hold depends only on what was pushed, not on when the thread ran: two runs in virtual time,
+// or one with and one without the thread, give the same bytes.
 //
 // Order of calls: add_topic, add_can_interface, attach, add_metadata; start; push, push_can; stop; attach,
 // close.
-class TrialLogger {
+class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
  public:
   // Throws std::system_error when a file cannot be made.
   explicit TrialLogger(TrialLogOptions options);
@@ -55,7 +60,9 @@ class TrialLogger {
   LogTopic<Record> add_topic(std::string_view name, Lane lane = Lane::cycle) {
     static_assert(std::is_trivially_copyable_v<Record>);
     static_assert(sizeof(Record) <= kMaxRecordBytes, "raise kMaxRecordBytes");
-    topics_.push_back({writer_.add_channel<Record>(name), lane, &write_record<Record>});
+    const auto channel = log_.add_topic(
+        name, [](mcap::Writer& writer, std::string_view topic) { return writer.add_channel<Record>(topic); });
+    topics_.push_back({channel, lane, &write_record<Record>});
     return {static_cast<std::uint16_t>(topics_.size() - 1)};
   }
   // Returns the number for push_can().
@@ -73,14 +80,14 @@ class TrialLogger {
   // From one thread per interface.
   void push_can(std::size_t interface, const CandumpFrame& frame) noexcept;
 
-  // Everything pushed so far is in the files' hands. Throws what went wrong while writing.
+  // Everything pushed so far is in the files' hands, or lost, and the files say what.
   void stop();
   void close();
 
-  // Any thread. Writing failed (disk full): nothing more is logged, and stop() will say why.
-  bool failed() const noexcept { return failed_.load(std::memory_order_acquire); }
+  // After stop(): the disk's first trouble, in words; empty when there was none.
+  std::string error() const;
   std::uint64_t lost_records() const noexcept;
-  std::uint64_t lost_can_frames() const noexcept { return can_ ? can_->dropped() : 0; }
+  std::uint64_t lost_can_frames() const noexcept { return can_ ? can_->lost() : 0; }
 
  private:
   static constexpr std::size_t kMaxRecordBytes = 1000;
@@ -96,7 +103,7 @@ class TrialLogger {
   struct TopicEntry {
     std::uint16_t channel;
     Lane lane;
-    void (*write)(mcap::Writer&, std::uint16_t channel, mcap::Stamp, const std::byte* record);
+    void (*write)(SegmentedLog&, std::uint16_t channel, std::int64_t time_ns, const std::byte* record);
   };
   struct LaneState {
     explicit LaneState(std::size_t slots) : ring(slots) {}
@@ -105,11 +112,11 @@ class TrialLogger {
   };
 
   template <class Record>
-  static void write_record(mcap::Writer& writer, std::uint16_t channel, mcap::Stamp stamp,
+  static void write_record(SegmentedLog& log, std::uint16_t channel, std::int64_t time_ns,
                            const std::byte* bytes) {
     Record record;
     std::memcpy(&record, bytes, sizeof record);
-    writer.write(channel, stamp, record);
+    log.write(channel, time_ns, record);
   }
 
   void push_bytes(std::uint16_t topic, std::int64_t time_ns, const void* record, std::size_t bytes) noexcept;
@@ -119,20 +126,20 @@ class TrialLogger {
   void drain() noexcept;
   void write_background_until(std::int64_t time_ns);
   void write_final_gap(LaneState& lane);
+  void keep_can_beside();
   void write_slot(const Slot& slot);
   LaneState& lane_of(Lane lane) { return lane == Lane::cycle ? cycle_ : background_; }
 
   TrialLogOptions options_;
-  mcap::Writer writer_;
+  SegmentedLog log_;
   std::unique_ptr<CanLog> can_;
   std::vector<TopicEntry> topics_;
-  LogTopic<LogGap> gap_topic_;
+  LogTopic<LogGap> gap_topic_{};  // the first
   LaneState cycle_;
   LaneState background_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
-  std::atomic<bool> failed_{false};
-  std::string error_;
+  std::atomic<std::uint64_t> lost_on_disk_{0};
 };
 
 }  // namespace sandhopper

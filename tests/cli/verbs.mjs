@@ -3,7 +3,7 @@
 // --json one object on standard output. Then the keys of the objects of trial and replay that other programs read.
 //   tests/cli/verbs.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -70,6 +70,24 @@ const replay = run('replay', told.log, '--json');
 expect(replay.status === 0 && is_one_object(replay.stdout), 'hop replay --json');
 const { identical, cycles, x_real_time } = JSON.parse(replay.stdout);
 expect(identical === true && cycles > 1000 && x_real_time > 1, 'identical, cycles, x_real_time');
+
+// A log cut in the middle: what can be read of it is a log again, and the cut one stays as it is.
+const cut = told.log.replace('.mcap', '_cut.mcap');
+const half = readFileSync(told.log).subarray(0, Math.floor(statSync(told.log).size / 2));
+writeFileSync(cut, half);
+const recover = run('recover', cut, '--json');
+expect(recover.status === 0 && is_one_object(recover.stdout), 'hop recover --json');
+const recovered = JSON.parse(recover.stdout);
+expect(recovered.whole === false && recovered.cut_at_byte <= half.length && recovered.saved > 100 && recovered.lost === 0,
+  'whole, cut_at_byte, saved, lost');
+expect(readFileSync(cut).equals(half), 'the cut log is left alone');
+const replay_of_half = run('replay', recovered.output, '--json');
+expect(replay_of_half.status === 0 && JSON.parse(replay_of_half.stdout).identical === true, 'the recovered log replays');
+expect(run('recover', cut, '--json').status === 2, 'what was recovered is not overwritten');
+const whole = run('recover', told.log, '--json');
+expect(whole.status === 0 && JSON.parse(whole.stdout).whole === true && JSON.parse(whole.stdout).output === null,
+  'a whole log is said to be whole');
+expect(run('recover', told.report, '--json').status === 1, 'a file that is no log: exit 1');
 rmSync(folder, { recursive: true });
 
 console.log(failed === 0 ? `${lines.length} verbs: all right` : `${failed} wrong`);

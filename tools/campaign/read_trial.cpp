@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using enum FindingSeverity;
 
-constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kMostSlips = 3;
 
 struct FaultMeaning {

@@ -1,5 +1,7 @@
 #include "tools/trial/sim_trial.hpp"
 
+#include <stdexcept>
+
 #include "config/dump.hpp"
 #include "firmware/cycle.hpp"
 #include "firmware/log/trial_description.hpp"
@@ -76,6 +78,7 @@ SimTrialResult run_sim_trial(const SimTrialSetup& setup) {
   }
   logger.stop();
   logger.close();
+  if (!logger.error().empty()) throw std::runtime_error(logger.error());
   return result;
 }
 

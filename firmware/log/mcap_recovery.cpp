@@ -1,0 +1,299 @@
+#include <algorithm>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "firmware/log/log_recovery.hpp"
+#include "firmware/log/mapped_file.hpp"
+#include "firmware/log/mcap_reader.hpp"
+#include "firmware/log/mcap_salvage.hpp"
+#include "firmware/log/mcap_writer.hpp"
+#include "firmware/log/topics.hpp"
+
+namespace sandhopper {
+namespace {
+
+using mcap::Bytes;
+using mcap::Cursor;
+using mcap::Op;
+
+struct SavedChannel {
+  std::string topic;
+  mcap::Schema schema;
+  std::uint16_t number_in_copy = 0;
+  bool has_schema_of_gap = false;
+
+  // Of the last message met.
+  bool met = false;
+  std::uint32_t sequence = 0;
+  std::int64_t log_ns = 0;
+  std::uint64_t damage_before = 0;
+  std::uint64_t gaps_before = 0;
+
+  void forget() { met = false, damage_before = gaps_before = 0; }
+};
+
+// Goes through the file, twice when there is something to write: first only to see what is there.
+class Recovery {
+ public:
+  Recovery(Bytes file, std::string name) : file_(file), name_(std::move(name)) {}
+
+  bool has_channels() const { return !channels_.empty(); }
+
+  LogRecovery look() {
+    learn_channels();
+    walk(nullptr);
+    return result_;
+  }
+
+  LogRecovery copy(const std::filesystem::path& to) {
+    mcap::Writer writer(to);
+    for (auto& [number, channel] : channels_) {
+      channel.number_in_copy = writer.add_channel(channel.topic, channel.schema.name, channel.schema.text);
+      channel.forget();
+    }
+    gap_channel_ = channel_for_gaps(writer);
+    walk(&writer);
+    writer.add_metadata("recovery", {{"file", name_},
+                                     {"saved_records", std::to_string(result_.saved())},
+                                     {"lost_records", std::to_string(result_.lost())},
+                                     {"unreadable_bytes", std::to_string(result_.unreadable_bytes)}});
+    writer.close();
+    return result_;
+  }
+
+ private:
+  // From anywhere: the summary at the end repeats what the front may have lost.
+  void learn_channels() {
+    mcap::Salvage salvage(file_);
+    for (mcap::Salvage::Piece piece; salvage.next(piece);) {
+      if (piece.op == Op::chunk)
+        for_each_record(piece, [&](Op op, Bytes content) { learn(op, content); });
+      else
+        learn(piece.op, piece.content);
+    }
+    for (auto& [number, channel] : channels_) {
+      if (const auto schema = schemas_.find(schema_of_[number]); schema != schemas_.end())
+        channel.schema = schema->second;
+      if (encoding_of_[number] != "cdr" || channel.schema.encoding != "ros2msg")
+        throw mcap::Error(name_ + ": topic " + channel.topic + " is not of this firmware (" +
+                          encoding_of_[number] + " with " + channel.schema.encoding +
+                          "); try: mcap recover FILE -o OTHER");
+      channel.has_schema_of_gap = channel.schema.name == schema::message_name<LogGap>() &&
+                                  channel.schema.text == schema::text_of<LogGap>();
+    }
+  }
+
+  void learn(Op op, Bytes content) {
+    Cursor in(content);
+    const auto number = in.take<std::uint16_t>();
+    if (op == Op::schema) {
+      mcap::Schema schema;
+      schema.name = in.take_text();
+      schema.encoding = in.take_text();
+      schema.text = in.take_text();
+      if (in.ok) schemas_.emplace(number, std::move(schema));
+    } else if (op == Op::channel) {
+      const auto schema = in.take<std::uint16_t>();
+      SavedChannel channel;
+      channel.topic = in.take_text();
+      const std::string encoding(in.take_text());
+      if (!in.ok || !channels_.emplace(number, channel).second) return;
+      schema_of_[number] = schema;
+      encoding_of_[number] = encoding;
+    }
+  }
+
+  template <class Visit>
+  static std::uint64_t for_each_record(const mcap::Salvage::Piece& chunk, Visit&& visit) {
+    Bytes rest = chunk.content;
+    while (rest.size() >= mcap::kRecordHead) {
+      Cursor in(rest);
+      const auto op = in.take<Op>();
+      const Bytes content = in.take(in.take<std::uint64_t>());
+      if (!in.ok) break;
+      visit(op, content);
+      rest = in.rest();
+    }
+    return rest.size();
+  }
+
+  void walk(mcap::Writer* writer) {
+    result_ = {};
+    result_.file_bytes = file_.size();
+    in_summary_ = false;
+    gaps_seen_ = damage_seen_ = 0;
+    bool data_is_right = false;
+    mcap::Salvage salvage(file_);
+    for (mcap::Salvage::Piece piece; salvage.next(piece);) {
+      damage_seen_ = salvage.damage().size();
+      if (piece.op == Op::chunk) {
+        const auto rest = for_each_record(piece, [&](Op op, Bytes content) {
+          if (op == Op::message) save(content, writer);
+        });
+        if (piece.is_cut) result_.unreadable_bytes += rest;
+      } else if (piece.op == Op::message) {
+        save(piece.content, writer);
+      } else if (piece.op == Op::data_end) {
+        const auto crc = Cursor(piece.content).take<std::uint32_t>();
+        data_is_right =
+            crc == 0 || crc == mcap::crc32(0, file_.first(static_cast<std::size_t>(piece.offset)));
+        in_summary_ = true;
+      } else if (writer != nullptr && !in_summary_) {
+        keep(piece, *writer);
+      }
+    }
+    result_.cut_at = salvage.cut_at();
+    for (const auto& damage : salvage.damage()) {
+      result_.damage.push_back({damage.from, damage.to, damage.what});
+      result_.unreadable_bytes += damage.to - damage.from;
+    }
+    if (salvage.cut_at()) result_.unreadable_bytes += file_.size() - *salvage.cut_at();
+    result_.whole = !result_.cut_at && result_.damage.empty() && data_is_right && result_.lost() == 0;
+  }
+
+  // A message's number tells how many of its topic are missing before it. Where a gap record of the log
+  // stands between, those are the gap's.
+  void save(Bytes content, mcap::Writer* writer) {
+    Cursor in(content);
+    const auto number = in.take<std::uint16_t>();
+    const auto sequence = in.take<std::uint32_t>();
+    mcap::Stamp stamp;
+    stamp.log_ns = in.take<std::int64_t>();
+    stamp.publish_ns = in.take<std::int64_t>();
+    if (!in.ok) return;
+    const auto found = channels_.find(number);
+    if (found == channels_.end()) {
+      ++result_.topics["(channel " + std::to_string(number) + ", declared nowhere)"].lost;
+      return;
+    }
+    SavedChannel& channel = found->second;
+    note_gap(channel, in.rest());
+    const std::uint32_t expected = channel.met ? channel.sequence + 1 : 0;
+    const std::uint32_t missing = sequence - expected;
+    const bool is_damage = damage_seen_ > channel.damage_before || gaps_seen_ == channel.gaps_before;
+    auto& topic = result_.topics[channel.topic];
+    if (missing > 0 && missing < 0x8000'0000U && is_damage) {
+      topic.lost += missing;
+      if (writer != nullptr) write_gap(*writer, channel, stamp, missing, in.rest());
+    }
+    channel.met = true;
+    channel.sequence = sequence;
+    channel.log_ns = stamp.log_ns;
+    channel.damage_before = damage_seen_;
+    channel.gaps_before = gaps_seen_;
+    result_.first_ns = result_.saved() == 0 ? stamp.log_ns : std::min(result_.first_ns, stamp.log_ns);
+    result_.last_ns = std::max(result_.last_ns, stamp.log_ns);
+    ++topic.saved;
+    if (writer != nullptr) writer->write(channel.number_in_copy, stamp, in.rest());
+  }
+
+  void note_gap(const SavedChannel& channel, Bytes data) {
+    LogGap gap;
+    if (channel.topic != topic::kGap || !channel.has_schema_of_gap || !cdr::decode(data, gap)) return;
+    ++result_.gaps;
+    result_.lost_in_gaps += gap.lost;
+    if (gap.cause == LossCause::write_failed) ++gaps_seen_;
+  }
+
+  // Each record of this firmware begins with its own time.
+  void write_gap(mcap::Writer& writer, const SavedChannel& channel, mcap::Stamp stamp, std::uint32_t missing,
+                 Bytes data) const {
+    Cursor in(data);
+    in.take<std::uint32_t>();  // CDR's head
+    const auto time_ns = in.take<std::int64_t>();
+    const std::int64_t offset_ns = in.ok ? stamp.log_ns - time_ns : 0;
+    writer.write(gap_channel_, stamp,
+                 LogGap{.time_ns = stamp.log_ns - offset_ns,
+                        .first_lost_ns = (channel.met ? channel.log_ns : stamp.log_ns) - offset_ns,
+                        .last_lost_ns = stamp.log_ns - offset_ns,
+                        .lost = missing,
+                        .cause = LossCause::damaged});
+  }
+
+  // A log of a version whose gap records were others gets a topic beside them.
+  std::uint16_t channel_for_gaps(mcap::Writer& writer) const {
+    bool taken = false;
+    for (const auto& [number, channel] : channels_) {
+      if (channel.topic != topic::kGap) continue;
+      if (channel.has_schema_of_gap) return channel.number_in_copy;
+      taken = true;
+    }
+    return writer.add_channel<LogGap>(taken ? std::string(topic::kGap) + "_recovered"
+                                            : std::string(topic::kGap));
+  }
+
+  void keep(const mcap::Salvage::Piece& piece, mcap::Writer& writer) {
+    Cursor in(piece.content);
+    if (piece.op == Op::attachment) {
+      const auto log_ns = in.take<std::int64_t>();
+      in.take<std::int64_t>();
+      const auto name = in.take_text();
+      const auto media_type = in.take_text();
+      const Bytes data = in.take(in.take<std::uint64_t>());
+      const std::size_t covered = piece.content.size() - in.rest().size();
+      const auto crc = in.take<std::uint32_t>();
+      const bool sound = in.ok && (crc == 0 || mcap::crc32(0, piece.content.first(covered)) == crc);
+      if (sound)
+        writer.attach(name, media_type, log_ns, data);
+      else
+        result_.damage.push_back(
+            {piece.offset, piece.offset + piece.content.size(), "an attachment whose CRC is wrong"});
+    } else if (piece.op == Op::metadata) {
+      const std::string name(in.take_text());
+      std::map<std::string, std::string> entries;
+      for (Cursor list(in.take(in.take<std::uint32_t>())); list.ok && !list.rest().empty();) {
+        std::string key(list.take_text());
+        entries[std::move(key)] = list.take_text();
+      }
+      writer.add_metadata(name, entries);
+    }
+  }
+
+  Bytes file_;
+  std::string name_;
+  LogRecovery result_;
+  std::map<std::uint16_t, mcap::Schema> schemas_;
+  std::map<std::uint16_t, SavedChannel> channels_;
+  std::map<std::uint16_t, std::uint16_t> schema_of_;
+  std::map<std::uint16_t, std::string> encoding_of_;
+  std::uint16_t gap_channel_ = 0;
+  bool in_summary_ = false;
+  std::uint64_t damage_seen_ = 0;
+  std::uint64_t gaps_seen_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t LogRecovery::saved() const {
+  std::uint64_t sum = 0;
+  for (const auto& [name, topic] : topics) sum += topic.saved;
+  return sum;
+}
+
+std::uint64_t LogRecovery::lost() const {
+  std::uint64_t sum = 0;
+  for (const auto& [name, topic] : topics) sum += topic.lost;
+  return sum;
+}
+
+LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const MappedFile file(from);
+  Recovery recovery(file.bytes(), from.filename().string());
+  LogRecovery found = recovery.look();
+  if (found.whole) return found;
+  if (found.topics.empty() && !recovery.has_channels())
+    throw mcap::Error(from.string() +
+                      ": nothing can be read of it; it is no MCAP log, or was cut before its first record");
+  try {
+    return recovery.copy(to);
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::file_exists) {
+      std::error_code ignored;
+      std::filesystem::remove(to, ignored);
+    }
+    throw;
+  }
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,39 @@
+// Runs one target over the files of a folder, once each: how the corpora are tested with any compiler, and
+// how a crash found elsewhere is looked at.  replay_NAME FOLDER_OR_FILE…
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "tests/fuzz/fuzz.hpp"
+
+namespace {
+
+int run_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  // Names the input that ends the program.
+  std::fprintf(stderr, "%s\n", file.filename().c_str());
+  // A copy of just this size, so that AddressSanitizer sees a read behind it.
+  const std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
+  return LLVMFuzzerTestOneInput(input.data(), input.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int files = 0;
+  for (int i = 1; i < argc; ++i) {
+    if (!std::filesystem::is_directory(argv[i])) {
+      run_file(argv[i]);
+      ++files;
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
+      run_file(entry.path());
+      ++files;
+    }
+  }
+  std::printf("%d inputs\n", files);
+  return files > 0 ? 0 : 2;
+}

@@ -1,0 +1,225 @@
+// hop recover: what is saved of a log that was cut or damaged, and what is said of the rest.
+#include "firmware/log/log_recovery.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+
+#include "config/robot_config.hpp"
+#include "firmware/log/candump.hpp"
+#include "firmware/log/mcap_reader.hpp"
+#include "firmware/log/mcap_writer.hpp"
+#include "firmware/log/topics.hpp"
+#include "firmware/records.hpp"
+#include "tools/trial/sim_trial.hpp"
+
+namespace sandhopper {
+namespace {
+
+struct Content {
+  std::vector<std::uint64_t> ends;  // of each message in the file
+  std::vector<std::string> data;
+  std::uint64_t gap_lost = 0;
+  bool closed = false;
+};
+
+std::string bytes_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Content read(const std::filesystem::path& file) {
+  Content content;
+  mcap::Reader log(file);
+  TopicOf<LogGap> gaps(topic::kGap);
+  LogGap gap;
+  for (mcap::Message message; log.next(message);) {
+    if (gaps.take(message, gap)) {
+      content.gap_lost += gap.lost;
+      continue;
+    }
+    content.ends.push_back(message.offset + mcap::kRecordHead + mcap::kMessageHead + message.data.size());
+    content.data.emplace_back(mcap::text_of(message.data));
+  }
+  content.closed = !log.truncated_at();
+  return content;
+}
+
+// In memory where that is to be had: each recovery ends with fdatasync(2).
+std::filesystem::path scratch() {
+  const std::filesystem::path memory = "/dev/shm";
+  const auto parent = ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+  return parent / ("sandhopper_recover_" + std::to_string(::getpid()));
+}
+
+class Recover : public ::testing::Test {
+ protected:
+  // The first 0.6 s of a simulated trial, made once.
+  static void SetUpTestSuite() {
+    folder_ = scratch();
+    cut_ = folder_ / "cut.mcap";
+    saved_ = folder_ / "saved.mcap";
+    std::filesystem::create_directories(folder_);
+    SimTrialSetup setup;
+    setup.robot.limits.strides = 1;
+    setup.log = folder_ / "trial.mcap";
+    setup.longest_s = 0.6;
+    run_sim_trial(setup);
+    whole_ = bytes_of_file(setup.log);
+    all_ = read(setup.log);
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
+
+  static LogRecovery recover(const std::string& bytes) {
+    std::ofstream(cut_, std::ios::binary) << bytes;
+    std::filesystem::remove(saved_);
+    return recover_mcap(cut_, saved_);
+  }
+
+  inline static std::filesystem::path folder_;
+  inline static std::string whole_;
+  inline static Content all_;
+  inline static std::filesystem::path cut_;
+  inline static std::filesystem::path saved_;
+  void TearDown() override {
+    std::filesystem::remove(cut_);
+    std::filesystem::remove(saved_);
+  }
+};
+
+TEST_F(Recover, AWholeLogIsSaidToBeWholeAndNotCopied) {
+  const auto found = recover(whole_);
+  EXPECT_TRUE(found.whole);
+  EXPECT_EQ(found.saved(), all_.data.size());
+  EXPECT_FALSE(std::filesystem::exists(saved_));
+}
+
+// Every message that lies whole before the cut, bit for bit, in a log that is closed; or, where not even the
+// first record is whole, a clear no.
+TEST_F(Recover, AThousandCutLogsGiveEveryWholeMessage) {
+  std::mt19937_64 random(20);
+  std::uniform_int_distribution<std::size_t> anywhere(0, whole_.size() - 1);
+  std::uniform_int_distribution<std::size_t> in_front(0, 20'000);
+  int refused = 0;
+  for (int i = 0; i < 1'000; ++i) {
+    const std::size_t cut = i % 10 == 0 ? in_front(random) : anywhere(random);
+    const std::string part = whole_.substr(0, cut);
+    try {
+      const auto found = recover(part);
+      ASSERT_EQ(bytes_of_file(cut_), part) << "the original is left alone";
+      ASSERT_FALSE(found.whole) << cut;
+      ASSERT_EQ(found.lost(), 0U) << cut;
+      const Content saved = read(saved_);
+      ASSERT_TRUE(saved.closed) << cut;
+      const auto expected = static_cast<std::size_t>(
+          std::count_if(all_.ends.begin(), all_.ends.end(), [&](auto end) { return end <= cut; }));
+      ASSERT_EQ(saved.data.size(), expected) << "cut at " << cut;
+      ASSERT_EQ(found.saved(), expected);
+      ASSERT_TRUE(std::equal(saved.data.begin(), saved.data.end(), all_.data.begin())) << cut;
+    } catch (const mcap::Error&) {
+      ASSERT_LT(cut, all_.ends.front()) << "refused, though there is a message in it";
+      ++refused;
+    }
+  }
+  EXPECT_LT(refused, 20);
+}
+
+// Each damaged or missing stretch costs whole chunks and no more; what they held is counted and a gap record
+// stands for it.
+TEST_F(Recover, DamageAnywhereIsCountedAndTheRestIsSaved) {
+  std::mt19937_64 random(21);
+  std::uniform_int_distribution<std::size_t> anywhere(all_.ends.front() + 1'000,
+                                                      all_.ends[all_.ends.size() / 2]);
+  std::uniform_int_distribution<std::size_t> length(1, 5'000);
+  std::uniform_int_distribution<int> byte(0, 255);
+  for (int i = 0; i < 150; ++i) {
+    std::string bytes = whole_;
+    const std::size_t from = anywhere(random);
+    const std::size_t count = length(random);
+    if (i % 3 == 0)
+      bytes.erase(from, count);
+    else if (i % 3 == 1)
+      std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count, '\0');
+    else
+      std::generate_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count,
+                      [&] { return static_cast<char>(byte(random)); });
+    if (bytes == whole_) continue;  // zeros over zeros
+    const auto found = recover(bytes);
+    ASSERT_FALSE(found.whole) << i;
+    const Content saved = read(saved_);
+    ASSERT_TRUE(saved.closed);
+    ASSERT_EQ(saved.data.size() + found.lost(), all_.data.size()) << "damage " << i << " at " << from;
+    ASSERT_EQ(saved.gap_lost, found.lost()) << i;
+    ASSERT_GT(saved.data.size(), all_.data.size() / 4) << i;
+    ASSERT_EQ(saved.data.back(), all_.data.back()) << i;
+  }
+}
+
+TEST_F(Recover, AFrontThatIsGoneIsLearntFromTheEnd) {
+  std::string bytes = whole_;
+  std::fill_n(bytes.begin(), 3'000, '\x5A');
+  const auto found = recover(bytes);
+  const Content saved = read(saved_);
+  EXPECT_TRUE(saved.closed);
+  EXPECT_EQ(saved.data.size(), all_.data.size()) << "the schemas are in the summary, too";
+  EXPECT_FALSE(found.damage.empty());
+}
+
+TEST_F(Recover, WhatTheLogItselfRecordsAsMissingIsNotCountedTwice) {
+  const auto log = folder_ / "gap.mcap";
+  {
+    mcap::Writer writer(log);
+    const auto gaps = writer.add_channel<LogGap>(topic::kGap);
+    const auto events = writer.add_channel<Event>(topic::kEvent);
+    for (int i = 0; i < 5; ++i) writer.write(events, {}, Event{.time_ns = i});
+    writer.write(gaps, {}, LogGap{.lost = 7, .cause = LossCause::ring_full});
+    for (int i = 12; i < 20; ++i) writer.write(events, {}, Event{.time_ns = i});
+    writer.close();
+  }
+  const std::string bytes = bytes_of_file(log);
+  const auto found = recover(bytes.substr(0, bytes.size() - 10));
+  EXPECT_EQ(found.gaps, 1U);
+  EXPECT_EQ(found.lost_in_gaps, 7U);
+  EXPECT_EQ(found.lost(), 0U);
+  EXPECT_EQ(found.topics.at("/event").saved, 13U);
+}
+
+TEST_F(Recover, AnExistingFileIsNotOverwritten) {
+  recover(whole_.substr(0, whole_.size() / 2));
+  const std::string before = bytes_of_file(saved_);
+  EXPECT_THROW(recover_mcap(cut_, saved_), std::system_error);
+  EXPECT_EQ(bytes_of_file(saved_), before);
+}
+
+TEST_F(Recover, OtherFilesAreRefused) {
+  EXPECT_THROW(recover("t_s,phase\n0,1\n"), mcap::Error);
+  EXPECT_THROW(recover(""), mcap::Error);
+  EXPECT_FALSE(std::filesystem::exists(saved_));
+}
+
+TEST_F(Recover, CanTextLosesItsTornLineAndSaysSo) {
+  const auto log = folder_ / "trial.candump";
+  {
+    CandumpWriter writer(log);
+    for (int i = 0; i < 100; ++i) writer.write({.time_ns = i * 1'000'000, .id = 1, .length = 2}, "can0");
+    writer.comment_lost(12, "of can0, the logger was too slow");
+    writer.close();
+  }
+  const std::string bytes = bytes_of_file(log);
+  EXPECT_TRUE(recover_candump(log, folder_ / "none").whole);
+  const auto cut = folder_ / "cut.candump";
+  std::ofstream(cut, std::ios::binary) << "(0.5) can0 001#00" << '\n'
+                                       << "(0.6) can0 00" << '\n'
+                                       << bytes << "(1.000000) can0 001#11";
+  const auto found = recover_candump(cut, folder_ / "saved.candump");
+  EXPECT_EQ(found.saved(), 101U);
+  EXPECT_EQ(found.damage.size(), 1U);
+  EXPECT_EQ(found.lost_in_gaps, 12U);
+  EXPECT_TRUE(found.cut_at.has_value());
+  EXPECT_EQ(bytes_of_file(folder_ / "saved.candump"), "(0.5) can0 001#00\n" + bytes);
+}
+
+}  // namespace
+}  // namespace sandhopper
