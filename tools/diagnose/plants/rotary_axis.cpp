@@ -329,9 +329,9 @@ class RotaryAxis final : public PlantModel {
     double swift = 0.0;
     for (const auto& trial : trials) {
       const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
-      if (positions.value.size() < 20) swift = speed;
-      // Steps of a coarse encoder look swift now and then.
-      auto rates = smooth(positions, 8).rate;
+      // Steps of a coarse encoder look swift now and then; so does a noisy speed, before it is averaged.
+      auto rates = positions.value.size() < 20 ? averaged(samples_of(trial, "velocity_radps"), 0.1).value
+                                               : smooth(positions, 8).rate;
       if (rates.empty()) continue;
       for (double& rate : rates) rate = std::abs(rate);
       const auto high =
