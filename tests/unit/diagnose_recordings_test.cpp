@@ -104,7 +104,7 @@ TEST_F(DiagnoseRecordings, HeavyBallsAreConsistentAndTheCameraIsNotBlamed) {
 
 // Over these depths a power law and a bed that stiffens towards its floor are nearly one curve.
 TEST_F(DiagnoseRecordings, PlatesMeetABedThatStiffensWithDepth) {
-  if (!run("plates_on_springs", 1)) GTEST_SKIP();
+  if (!run("plates_on_springs", 3)) GTEST_SKIP();
   EXPECT_EQ(answer_.verdict, "missing_physics");
   ASSERT_TRUE(found("terrain.depth_power_law") != nullptr || found("terrain.floor_stiffening") != nullptr);
   if (found("terrain.depth_power_law") != nullptr) {

@@ -16,7 +16,6 @@ constexpr double kBlock_s = 0.5;
 constexpr double kMostRows = 3000.0;      // of a channel
 constexpr double kLong_s = 10.0;          // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;    // at least, where the recording is slow
-constexpr double kClockTolerance = 0.25;  // of a row; see take_torque
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
 struct Figures {
@@ -320,7 +319,6 @@ class RotaryAxis final : public PlantModel {
     }
     context.scales["torque_Nm"] = samples > 0.0 ? std::max(std::sqrt(torque / samples), 1e-6) : 1.0;
     context.scales["speed_radps"] = std::max(speed, 0.1);
-    context.scales["clock_tolerance"] = kClockTolerance;
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;
     // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
