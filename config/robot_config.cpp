@@ -59,6 +59,10 @@ void RobotConfig::check(const Report& report) const {
   expect_below(report, {"limits.leg_angle_min_rad", limits.leg_angle_min_rad},
                {"limits.leg_angle_max_rad", limits.leg_angle_max_rad});
   if (leg && limits.leg_angle_min_rad < limits.leg_angle_max_rad) check_reach(report, *this, *leg);
+  expect_below(report, {"supervision.leg_length_min_m", supervision.leg_length_min_m},
+               {"supervision.leg_length_max_m", supervision.leg_length_max_m});
+  expect_below(report, {"supervision.bus_voltage_min_V", supervision.bus_voltage_min_V},
+               {"supervision.bus_voltage_max_V", supervision.bus_voltage_max_V});
   if (controller.extension_length_m < controller.compression_length_m)
     report(
         "controller.extension_length_m",
@@ -76,13 +80,16 @@ void RobotConfig::check(const Report& report) const {
 CycleConfig cycle_config(const RobotConfig& c) {
   CycleConfig cycle;
   cycle.robot = c.robot;
-  for (std::size_t i = 0; i < kMotorCount; ++i)
+  for (std::size_t i = 0; i < kMotorCount; ++i) {
     cycle.torque_constant_Nm_per_A[i] = c.motor[i].torque_constant_Nm_per_A;
+    cycle.motor_reply_rate_Hz[i] = replies_per_s(c.motor[i]);
+  }
   cycle.estimator = c.estimator;
   cycle.controller = c.controller;
   cycle.arming = c.arming;
   cycle.stiffness = c.stiffness;
   cycle.limits = c.limits;
+  cycle.supervision = c.supervision;
   return cycle;
 }
 

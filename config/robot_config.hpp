@@ -19,6 +19,7 @@ struct RobotConfig {
   ArmingConfig arming{};
   StiffnessConfig stiffness{};
   LimitsConfig limits{};
+  SupervisionConfig supervision{};
   RealTimeConfig real_time{};
 
   template <class Self, class Visitor>
@@ -30,6 +31,7 @@ struct RobotConfig {
     visit("arming", self.arming);
     visit("stiffness", self.stiffness);
     visit("limits", self.limits);
+    visit("supervision", self.supervision);
     visit("real_time", self.real_time);
   }
 

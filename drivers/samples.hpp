@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "config/fields.hpp"
+
 // What the devices deliver, in SI units and in the robot's frame (z up), each with the time at which it was
 // measured: nanoseconds of CLOCK_MONOTONIC. `fresh` is true in the one cycle that first sees the sample.
 namespace sandhopper {
@@ -90,6 +92,36 @@ struct LoadCellSample {
     visit("force_N", self.force_N);
     visit("samples", self.samples);
     visit("fresh", self.fresh);
+  }
+};
+
+// What the CAN controller says of itself (ISO 11898-1 fault confinement).
+enum class BusState : std::uint8_t { active, warning, passive, off };
+template <>
+struct EnumNames<BusState> {
+  static constexpr std::array<std::string_view, 4> value{"active", "warning", "passive", "off"};
+};
+
+// The motors' bus; counts are cumulative since start. `rejected`: frames with a drive's identifier that do
+// not look like its dialect. `unsolicited`: answers with no command outstanding.
+struct BusSample {
+  BusState state = BusState::active;
+  std::uint32_t send_failures = 0;  // commands the kernel did not take, or that had not left after a cycle
+  std::uint32_t receive_overflows = 0;  // dropped by the kernel or the controller
+  std::uint32_t no_acknowledge = 0;
+  std::uint32_t errors = 0;  // other error frames: protocol, transceiver
+  std::array<std::uint32_t, kMotorCount> rejected{};
+  std::array<std::uint32_t, kMotorCount> unsolicited{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("state", self.state);
+    visit("send_failures", self.send_failures);
+    visit("receive_overflows", self.receive_overflows);
+    visit("no_acknowledge", self.no_acknowledge);
+    visit("errors", self.errors);
+    visit("rejected", self.rejected);
+    visit("unsolicited", self.unsolicited);
   }
 };
 

@@ -22,7 +22,7 @@ Controller::Controller(const CycleConfig& config)
       estimator_(config_, leg_),
       arming_(config_, leg_),
       recorder_(config_.stiffness, config_.robot.foot_radius_m),
-      supervisor_(config_) {}
+      supervisor_(config_, leg_) {}
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   event_count_ = 0;
@@ -31,17 +31,21 @@ const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   out_.cycle = frame.cycle;
 
   serve_request(frame);
-  if (ready_ || hopping(out_.state) || out_.state == State::soft_stop) {
+  if (estimating()) {
     estimator_.update(frame, out_.estimate);
     out_.estimate.surface_z_m = recorder_.surface_z_m();
   }
-  if (drives_on(out_.state)) supervise(frame);
+  supervise(frame);
   if (out_.state == State::armed) step_armed(frame);
   if (hopping(out_.state)) step_hop(frame);
   if (out_.state == State::soft_stop) step_soft_stop(frame);
   out_.stride = recorder_.strides_begun();
   write_command(frame);
   return out_;
+}
+
+bool Controller::estimating() const noexcept {
+  return ready_ || hopping(out_.state) || out_.state == State::soft_stop;
 }
 
 double Controller::time_in_state_s(const SensorFrame& frame) const noexcept {
@@ -75,9 +79,10 @@ void Controller::enter(State state, const SensorFrame& frame) noexcept {
 void Controller::serve_request(const SensorFrame& frame) noexcept {
   switch (frame.request) {
     case Request::arm:
+      if (out_.state == State::fault)
+        emit(EventKind::arming_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
       if (out_.state != State::idle) return;
       arming_.begin(frame.time_ns);
-      supervisor_.begin(frame);
       ready_ = stop_requested_ = false;
       free_fall_count_ = 0;
       out_.command.open_catch = false;
@@ -95,35 +100,57 @@ void Controller::serve_request(const SensorFrame& frame) noexcept {
       if (out_.state == State::compression || out_.state == State::extension) enter(State::soft_stop, frame);
       return;
     case Request::disarm:
-      if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return;
-      out_.fault = Fault::none;
-      ready_ = false;
-      enter(State::idle, frame);
-      emit(EventKind::disarmed, Reason::operator_request, {});
+      disarm(frame);
       return;
     case Request::none:
       return;
   }
 }
 
-void Controller::supervise(const SensorFrame& frame) noexcept {
-  // While drives are being switched on they may not answer yet and nothing has been estimated.
-  const bool checking = out_.state == State::armed && !ready_;
-  if (checking) {
-    if (frame.emergency_stop) raise({Fault::emergency_stop, {1.0, 0.0}}, frame);
-    supervisor_.begin(frame);
+void Controller::disarm(const SensorFrame& frame) noexcept {
+  if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return;
+  const Latch latch = entry_of(out_.fault).latch;
+  if (latch == Latch::until_restart || (latch == Latch::until_released && frame.emergency_stop)) {
+    emit(EventKind::disarm_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
     return;
   }
-  const double phase_time_s = hopping(out_.state) ? time_in_state_s(frame) : 0.0;
-  if (const auto found = supervisor_.check(frame, out_.estimate, phase_time_s); found.fault != Fault::none)
-    raise(found, frame);
+  out_.fault = Fault::none;
+  ready_ = false;
+  enter(State::idle, frame);
+  emit(EventKind::disarmed, Reason::operator_request, {});
 }
 
+void Controller::supervise(const SensorFrame& frame) noexcept {
+  const auto found =
+      supervisor_.check(frame, out_.estimate,
+                        {.state = out_.state,
+                         .phase_time_s = hopping(out_.state) ? time_in_state_s(frame) : 0.0,
+                         .estimating = estimating(),
+                         .energised = drives_on(out_.state) && (out_.state != State::armed || ready_),
+                         .touchdowns = recorder_.strides_begun(),
+                         .command = out_.command});
+  if (found.fault != Fault::none) raise(found, frame);
+}
+
+// A harsher fault takes the place of a gentler one; the first of equals stays.
 void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexcept {
+  const Reaction reaction = entry_of(found.fault).reaction;
+  if (out_.fault != Fault::none && reaction <= entry_of(out_.fault).reaction) return;
   out_.fault = found.fault;
+  fault_values_ = found.values;
+  emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
+  const bool standing = out_.state == State::compression || out_.state == State::extension;
+  if (reaction == Reaction::stop && (hopping(out_.state) || out_.state == State::soft_stop)) {
+    stop_requested_ = true;
+    if (standing) enter(State::soft_stop, frame);
+    return;
+  }
+  if (out_.state != State::fault) {
+    fault_energised_ = out_.command.drive == DriveRequest::run;
+    for (std::size_t i = 0; i < kMotorCount; ++i) hold_angle_rad_[i] = frame.motor[i].position_rad;
+  }
   ready_ = false;
   enter(State::fault, frame);
-  emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
 }
 
 void Controller::step_armed(const SensorFrame& frame) noexcept {
@@ -189,7 +216,8 @@ void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
   if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
   emit(EventKind::stopped, Reason::settled,
        {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
-  enter(State::idle, frame);
+  fault_energised_ = false;
+  enter(out_.fault == Fault::none ? State::idle : State::fault, frame);
 }
 
 void Controller::write_command(const SensorFrame& frame) noexcept {
@@ -222,13 +250,22 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
     out_.command.motor[i].torque_Nm = torque;
 }
 
-// Damping is left to the drives' own law: it needs no reply to reach the controller.
+// Left to the drives' own law: it needs no reply to reach the controller. hold -> damp -> limp.
 void Controller::write_fault_command(const SensorFrame& frame) noexcept {
-  const bool damp =
-      entry_of(out_.fault).reaction == Reaction::damp && time_in_state_s(frame) < config_.limits.fault_damp_s;
-  out_.command.drive = damp ? DriveRequest::run : DriveRequest::off;
-  if (!damp) return;
-  for (auto& motor : out_.command.motor) motor.kd_Nm_s_per_rad = config_.limits.fault_damping_Nm_s_per_rad;
+  const auto& limits = config_.limits;
+  const Reaction reaction = entry_of(out_.fault).reaction;
+  const double hold_s = reaction == Reaction::hold ? limits.fault_hold_s : 0.0;
+  const double damp_s = reaction == Reaction::hold || reaction == Reaction::damp ? limits.fault_damp_s : 0.0;
+  const bool acting = fault_energised_ && time_in_state_s(frame) < hold_s + damp_s;
+  out_.command.drive = acting ? DriveRequest::run : DriveRequest::off;
+  if (!acting) return;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i) {
+    auto& motor = out_.command.motor[i];
+    motor.kd_Nm_s_per_rad = limits.fault_damping_Nm_s_per_rad;
+    if (time_in_state_s(frame) >= hold_s) continue;
+    motor.kp_Nm_per_rad = limits.fault_hold_stiffness_Nm_per_rad;
+    motor.position_rad = hold_angle_rad_[i];
+  }
 }
 
 }  // namespace sandhopper

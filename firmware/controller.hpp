@@ -11,7 +11,7 @@
 #include "firmware/robot_estimator.hpp"
 #include "firmware/sensor_frame.hpp"
 #include "firmware/stride_recorder.hpp"
-#include "firmware/supervisor.hpp"
+#include "firmware/supervision/supervisor.hpp"
 
 namespace sandhopper {
 
@@ -19,9 +19,9 @@ namespace sandhopper {
 // and gives the same bits for the same frames.
 //
 //   idle --arm--> armed (zero check) --free fall--> flight --> compression --> extension --> flight --> ...
-//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; any fault:
-//   fault state, which damps the leg or leaves it limp as the fault's entry says, and is left only by
-//   `disarm`.
+//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; any fault, in
+//   any state: fault state, by way of the reaction that the fault's entry names, left only by `disarm` and
+//   only where the entry's latching rule allows it.
 class Controller {
  public:
   // Throws std::invalid_argument where the configuration describes no leg.
@@ -38,6 +38,9 @@ class Controller {
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
   const CycleConfig& config() const noexcept { return config_; }
 
+  // For tests of the tests: without this fault's detector.
+  void switch_off(Fault detector) noexcept { supervisor_.switch_off(detector); }
+
  private:
   void serve_request(const SensorFrame& frame) noexcept;
   void supervise(const SensorFrame& frame) noexcept;
@@ -47,6 +50,8 @@ class Controller {
   void apply(const Transition& transition, const SensorFrame& frame) noexcept;
   void enter(State state, const SensorFrame& frame) noexcept;
   void raise(const FaultFound& found, const SensorFrame& frame) noexcept;
+  void disarm(const SensorFrame& frame) noexcept;
+  bool estimating() const noexcept;
   void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
   void write_command(const SensorFrame& frame) noexcept;
   void write_fault_command(const SensorFrame& frame) noexcept;
@@ -68,6 +73,9 @@ class Controller {
   bool ready_ = false;  // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
+  bool fault_energised_ = false;  // drives were on when the fault came
+  std::array<double, kMotorCount> hold_angle_rad_{};
+  std::array<double, 2> fault_values_{};
 };
 
 }  // namespace sandhopper

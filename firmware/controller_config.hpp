@@ -5,6 +5,7 @@
 #include "drivers/samples.hpp"
 #include "estimation/kalman_filter.hpp"
 #include "estimation/leg.hpp"
+#include "firmware/supervision/supervision_config.hpp"
 #include "terrain/stiffness_fit.hpp"
 
 // What the cycle is told: one struct a role.
@@ -100,6 +101,8 @@ struct LimitsConfig {
   double ramp_down_s = 1.0;
   double fault_damping_Nm_s_per_rad = 0.3;
   double fault_damp_s = 1.0;
+  double fault_hold_stiffness_Nm_per_rad = 15.0;
+  double fault_hold_s = 0.5;  // then damp
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -120,6 +123,8 @@ struct LimitsConfig {
     visit("ramp_down_s", self.ramp_down_s, Range{0.01, 10.0});
     visit("fault_damping_Nm_s_per_rad", self.fault_damping_Nm_s_per_rad, Range{0.0, 5.0});
     visit("fault_damp_s", self.fault_damp_s, Range{0.0, 60.0});
+    visit("fault_hold_stiffness_Nm_per_rad", self.fault_hold_stiffness_Nm_per_rad, Range{0.0, 500.0});
+    visit("fault_hold_s", self.fault_hold_s, Range{0.0, 60.0});
   }
 };
 
@@ -133,6 +138,9 @@ struct CycleConfig {
   ArmingConfig arming{};
   StiffnessConfig stiffness{};
   LimitsConfig limits{};
+  SupervisionConfig supervision{};
+  // Answers a second that a drive owes: one a command, or the rate at which it sends its status by itself.
+  std::array<double, kMotorCount> motor_reply_rate_Hz{1000.0, 1000.0};
 };
 
 }  // namespace sandhopper

@@ -78,6 +78,8 @@ class Cycle {
     Request request = Request::none;
   };
   const StepOutput& run(const Turn& turn) noexcept;
+  // What the last turn consumed.
+  const SensorFrame& frame() const noexcept { return frame_; }
 
  private:
   Parts parts_;

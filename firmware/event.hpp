@@ -18,13 +18,14 @@ enum class EventKind : std::uint8_t {
   stopped,
   fault_raised,
   disarmed,
-  arming_refused
+  arming_refused,
+  disarm_refused
 };
 template <>
 struct EnumNames<EventKind> {
-  static constexpr std::array<std::string_view, 11> value{
-      "armed",          "zero_check", "released",     "touchdown", "stance_switch", "liftoff",
-      "stop_requested", "stopped",    "fault_raised", "disarmed",  "arming_refused"};
+  static constexpr std::array<std::string_view, 12> value{
+      "armed",          "zero_check", "released",     "touchdown", "stance_switch",  "liftoff",
+      "stop_requested", "stopped",    "fault_raised", "disarmed",  "arming_refused", "disarm_refused"};
 };
 
 // Why an event came, i.e. which condition was met.
@@ -68,7 +69,7 @@ struct EnumNames<Reason> {
 //   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest range [rad]
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
-//   fault_raised: the two values the fault's entry names, 0, 0
+//   fault_raised, disarm_refused: the two values the fault's entry names, 0, 0
 struct Event {
   std::int64_t time_ns = 0;
   EventKind kind = EventKind::armed;

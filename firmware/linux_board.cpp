@@ -5,6 +5,7 @@
 
 #include "drivers/adc/load_cell_reader.hpp"
 #include "drivers/can/cubemars_drives.hpp"
+#include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
 #include "drivers/gpio/gpio.hpp"
 #include "drivers/imu/imu_reader.hpp"
@@ -125,20 +126,19 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
   take(a.imu_foot, frame.imu_foot);
   take(a.load_cell, frame.load_cell);
   take(a.tof, frame.tof);
-  const auto& can = d.drives->socket_counters();
-  frame.bus_faults = can.send_failures + can.receive_overflows + can.error_frames;
+  frame.bus = d.drives->bus_sample();
   frame.emergency_stop = d.estop->active();
 }
 
 void LinuxBoard::write(const Command& command) noexcept {
-  devices_->drives->command(command.motor, command.drive);
+  devices_->drives->command(command.motor, command.drive, monotonic_ns());
   if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
 }
 
 LinuxBoardStatus LinuxBoard::status() const noexcept {
   const auto& d = *devices_;
   LinuxBoardStatus out;
-  out.can = d.drives->socket_counters();
+  out.can = d.drives->port_counters();
   for (std::size_t i = 0; i < kMotorCount; ++i) out.motor[i] = d.drives->bus().counters(static_cast<Side>(i));
   out.imu_body = counted(d.imu_body->counters());
   out.imu_foot = counted(d.imu_foot->counters());

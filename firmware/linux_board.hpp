@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/can_socket.hpp"
+#include "drivers/can/can_port.hpp"
 #include "drivers/can/cubemars.hpp"
 #include "firmware/board.hpp"
 #include "firmware/linux_board_config.hpp"
@@ -27,7 +27,7 @@ struct LinuxBoardStatus {
     }
   };
 
-  CanSocketCounters can{};
+  CanCounters can{};
   std::array<CubeMarsCounters, kMotorCount> motor{};
   SlowBus imu_body{};
   SlowBus imu_foot{};

@@ -24,9 +24,10 @@ struct SensorFrame {
   ImuSample imu_foot{};
   TofSample tof{};
   LoadCellSample load_cell{};
-  std::uint32_t overruns = 0;    // cumulative
-  std::uint32_t bus_faults = 0;  // cumulative: send failures, receive overflows, error frames
-  bool emergency_stop = false;   // level of the e-stop line: true stops, a cut wire reads true
+  BusSample bus{};
+  std::uint32_t overruns = 0;     // cumulative
+  bool emergency_stop = false;    // the e-stop's line stops now or did since the last cycle; a cut wire does
+  bool watchdog_tripped = false;  // the watchdog took the torque away since the last cycle
   Request request = Request::none;
 
   template <class Self, class Visitor>
@@ -38,9 +39,10 @@ struct SensorFrame {
     visit("imu_foot", self.imu_foot);
     visit("tof", self.tof);
     visit("load_cell", self.load_cell);
+    visit("bus", self.bus);
     visit("overruns", self.overruns);
-    visit("bus_faults", self.bus_faults);
     visit("emergency_stop", self.emergency_stop);
+    visit("watchdog_tripped", self.watchdog_tripped);
     visit("request", self.request);
   }
 };

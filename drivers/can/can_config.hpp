@@ -10,7 +10,10 @@
 namespace sandhopper {
 
 // Which of the three incompatible CubeMars protocols a drive speaks. Sending the wrong one can damage the
-// board, so it is named per motor. Only `mit` (standard identifiers, board V1/V2 in MIT mode) is implemented.
+// board, so it is named per motor, and a drive whose frames look otherwise is not energised.
+//   mit: board V1/V2 in MIT mode, standard identifiers
+//   servo: board V1/V2 in servo mode, extended identifiers, status sent by itself; torque by current
+//   v3: board V3, MIT as mode 8 of extended identifiers, every command answered by a status frame
 enum class Dialect : std::uint8_t { mit, servo, v3 };
 template <>
 struct EnumNames<Dialect> {
@@ -39,6 +42,10 @@ struct CubeMarsConfig {
   // From the hand-over of a command to the kernel until the drive takes the state it replies with: the
   // command's time on the wire (0.11-0.14 ms at 1 Mbit/s; twice that for the second motor of a bus).
   double state_delay_s = 0.0;
+  // Of a status frame (servo, v3): its speed counts electrical turns of the motor, its position the output's.
+  int pole_pairs = 21;
+  double drive_reduction = 1.0;   // of the drive's own gearbox: motor turns per turn of its output
+  double status_rate_Hz = 500.0;  // servo: as set in the drive (1 to 500)
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -58,18 +65,27 @@ struct CubeMarsConfig {
     visit("torque_constant_Nm_per_A", self.torque_constant_Nm_per_A, Range{1e-3, 100.0});
     visit("drive_torque_constant_Nm_per_A", self.drive_torque_constant_Nm_per_A, Range{1e-3, 100.0});
     visit("state_delay_s", self.state_delay_s, Range{0.0, 0.001});
+    visit("pole_pairs", self.pole_pairs, Range{1, 100});
+    visit("drive_reduction", self.drive_reduction, Range{0.01, 200.0});
+    visit("status_rate_Hz", self.status_rate_Hz, Range{1.0, 500.0});
   }
 
   // Rules the ranges above do not express: problem(key, what is wrong and what to do).
   template <class Problem>
   void check(Problem&& problem) const {
-    if (dialect != Dialect::mit)
-      problem("dialect",
-              "only \"mit\" is implemented: switch the drive to MIT mode with CubeMars' serial tool, "
-              "power-cycle it, and set dialect = \"mit\"");
+    if (dialect == Dialect::servo && status_rate_Hz < 400.0)
+      problem("status_rate_Hz",
+              "a servo-mode drive that sends fewer than 400 status frames a second cannot be supervised in a "
+              "1 ms cycle: "
+              "set its upload rate to 500 Hz with CubeMars' serial tool and status_rate_Hz = 500");
     if (sign == 0) problem("sign", "must be 1 or -1");
   }
 };
+
+// Answers a second that this drive owes to a 1 kHz cycle.
+constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
+  return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
+}
 
 using MotorConfigs = std::array<CubeMarsConfig, kMotorCount>;
 
@@ -85,11 +101,22 @@ void check_motors(const MotorConfigs& motor, Problem&& problem) {
               "one motor's master_id is the other's can_id: replies would collide with commands");
 }
 
+// Worst-case share of a 1 Mbit/s bus at 1 kHz: every frame with all its stuff bits and the intermission, 55 +
+// 10 n bits with a standard identifier and n bytes, 80 + 10 n with an extended one (ISO 11898-1;
+// HARDWARE 2.6).
+struct CanConfig;
+double bus_load(const CanConfig& config) noexcept;
+inline constexpr double kMostBusLoad = 0.8;  // the rest is for repeated frames
+template <class Problem>
+void check_bus_load(const CanConfig& config, Problem&& problem);
+
 struct CanConfig {
   std::string interface = "can0";
-  // While the drives are off they are asked for their state every so many cycles (by a leave frame, which
-  // energises nothing).
+  // While the drives are off every cycle sends a command without gains and torque, which asks for the state
+  // and energises nothing, and every so many cycles a leave frame in its place.
   int idle_query_cycles = 10;
+  // Share of the bus that other nodes take, 0 to 1.
+  double other_load = 0.0;
   // Not keys here: the motors stand in the robot's file and are the same on every bus (config/files.hpp). A
   // leg whose single motor drives both sides has only the first.
   int motor_count = kMotorCount;
@@ -100,12 +127,23 @@ struct CanConfig {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("interface", self.interface);
     visit("idle_query_cycles", self.idle_query_cycles, Range{1, 1000});
+    visit("other_load", self.other_load, Range{0.0, 1.0});
   }
 
   template <class Problem>
   void check(Problem&& problem) const {
     check_motors(motor, problem);
+    check_bus_load(*this, problem);
   }
 };
+
+template <class Problem>
+void check_bus_load(const CanConfig& config, Problem&& problem) {
+  const double load = bus_load(config);
+  if (load > kMostBusLoad)
+    problem("other_load", "the bus would be loaded to " +
+                              std::to_string(static_cast<int>(100.0 * load + 0.5)) +
+                              " %, more than 80 %: put other nodes, or one motor, on a bus of their own");
+}
 
 }  // namespace sandhopper

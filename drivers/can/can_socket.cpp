@@ -3,6 +3,7 @@
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <linux/net_tstamp.h>
+#include <linux/sock_diag.h>
 #include <net/if.h>
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -104,7 +105,18 @@ CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> f
 
 CanSocket::~CanSocket() = default;
 
+// Frames that wait in the queue are charged to the socket until the driver takes them (getsockopt SO_MEMINFO,
+// Linux 4.12): an error here says nothing, so the cycle goes on.
+void CanSocket::begin_cycle() noexcept {
+  std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+  socklen_t size = sizeof memory;
+  holding_ = ::getsockopt(fd_.get(), SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 &&
+             memory[SK_MEMINFO_WMEM_ALLOC] > 0;
+  if (holding_) ++counters_.send_failures;
+}
+
 std::optional<std::int64_t> CanSocket::send(const can_frame& frame) noexcept {
+  if (holding_) return std::nullopt;
   const auto now = monotonic_ns();
   if (::write(fd_.get(), &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame)) {
     ++counters_.send_failures;
@@ -115,11 +127,11 @@ std::optional<std::int64_t> CanSocket::send(const can_frame& frame) noexcept {
   return now;
 }
 
-std::span<const ReceivedFrame> CanSocket::receive_batch() noexcept {
+std::span<const ReceivedFrame> CanSocket::receive(bool& more) noexcept {
   auto& b = *batch_;
   for (auto& header : b.headers) header.msg_hdr.msg_controllen = kControlSize;
   const int count = ::recvmmsg(fd_.get(), b.headers.data(), kBatchSize, MSG_DONTWAIT, nullptr);
-  batch_was_last_ = count < static_cast<int>(kBatchSize);
+  more = count >= static_cast<int>(kBatchSize);
   if (count <= 0) return {};
   const auto offset_ns = realtime_offset_ns();
   std::size_t kept = 0;
@@ -133,14 +145,17 @@ std::span<const ReceivedFrame> CanSocket::receive_batch() noexcept {
         std::memcpy(&software, CMSG_DATA(c), sizeof software);
         if (software.tv_sec != 0) time_ns = to_ns(software) - offset_ns;
       } else if (c->cmsg_type == SO_RXQ_OVFL) {
-        std::memcpy(&counters_.receive_overflows, CMSG_DATA(c), sizeof counters_.receive_overflows);
+        std::uint32_t drops = 0;
+        std::memcpy(&drops, CMSG_DATA(c), sizeof drops);
+        counters_.receive_overflows += drops - kernel_drops_;
+        kernel_drops_ = drops;
       }
     }
     if (time_ns == 0) time_ns = monotonic_ns();
     if (b.headers[i].msg_len != sizeof(can_frame)) continue;
     if (tap_ != nullptr) tap_->on_frame(b.raw[i], time_ns, false);
     if ((b.raw[i].can_id & CAN_ERR_FLAG) != 0) {
-      count_error(b.raw[i]);
+      count_error_frame(b.raw[i], counters_);
       continue;
     }
     ++counters_.received;
@@ -149,12 +164,9 @@ std::span<const ReceivedFrame> CanSocket::receive_batch() noexcept {
   return {b.frames.data(), kept};
 }
 
-void CanSocket::count_error(const can_frame& frame) noexcept {
-  ++counters_.error_frames;
-  if ((frame.can_id & CAN_ERR_BUSOFF) != 0) counters_.bus_off = true;
-}
+void CanSocket::pause(std::int64_t duration_ns) noexcept { sleep_ns(duration_ns); }
 
-bool CanSocket::wait(std::int64_t timeout_ns) const noexcept {
+bool CanSocket::wait(std::int64_t timeout_ns) noexcept {
   pollfd p{fd_.get(), POLLIN, 0};
   const timespec timeout{timeout_ns / kNanosecondsPerSecond, timeout_ns % kNanosecondsPerSecond};
   return ::ppoll(&p, 1, &timeout, nullptr) > 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <stdexcept>
 
@@ -12,10 +13,11 @@ namespace sandhopper {
 
 namespace {
 
-constexpr canid_t kServoStatus = 0x2900;
 constexpr double kNearRangeEnd = 0.88;  // of the position range: 11 rad of 12.5
 // Kernel stamps of vcan and of the clock read before sending may swap within this.
 constexpr std::int64_t kStampSlack_ns = 1000;
+// A reply that has not come after one and a half cycles is lost.
+constexpr std::int64_t kPatience_ns = 1'500'000;
 
 bool finite(const MotorCommand& c) noexcept {
   return std::isfinite(c.position_rad) && std::isfinite(c.velocity_radps) && std::isfinite(c.kp_Nm_per_rad) &&
@@ -106,25 +108,103 @@ can_frame CubeMarsCodec::special_frame(const MitPayload& payload) const noexcept
   return standard_frame(config_.can_id, payload);
 }
 
+MotorSample CubeMarsCodec::to_sample(const ServoStatus& status, std::int64_t time_ns) const noexcept {
+  const double to_link = config_.sign / config_.gear_ratio;
+  MotorSample out;
+  out.time_ns = time_ns;
+  out.position_rad = config_.zero_offset_rad + to_link * status.position_rad;
+  out.velocity_radps = to_link * status.electrical_radps / (config_.pole_pairs * config_.drive_reduction);
+  out.current_A = config_.sign * status.current_A;
+  out.temperature_C = status.temperature_C;
+  out.error_code = status.error_code;
+  out.fresh = true;
+  return out;
+}
+
+std::optional<can_frame> CubeMarsCodec::current_frame(ServoMode mode, double current_A) const noexcept {
+  const auto payload = pack_servo_current(current_A);
+  can_frame frame{};
+  frame.can_id = servo_id(mode, config_.can_id);
+  frame.can_dlc = static_cast<std::uint8_t>(payload.size());
+  std::ranges::copy(payload, frame.data);
+  return frame;
+}
+
+std::optional<can_frame> CubeMarsCodec::frame(DriveAction action, const MotorCommand& command,
+                                              const MotorSample& newest) const noexcept {
+  if (action == DriveAction::none) return std::nullopt;
+  const MotorCommand wanted =
+      action == DriveAction::run ? command : MotorCommand{.position_rad = newest.position_rad};
+  if (config_.dialect == Dialect::mit) {
+    if (action == DriveAction::enter) return special_frame(kMitEnter);
+    if (action == DriveAction::leave) return special_frame(kMitLeave);
+    return command_frame(wanted);
+  }
+  // No frames to enter or leave: zero current frees the motor.
+  if (action == DriveAction::leave && config_.dialect == Dialect::servo)
+    return current_frame(ServoMode::current, 0.0);
+  if (config_.dialect == Dialect::v3) {
+    can_frame out{};
+    out.can_id = servo_id(ServoMode::mit, config_.can_id);
+    out.can_dlc = 8;
+    std::ranges::copy(pack_v3_command(ranges_, to_drive(wanted)), out.data);
+    return out;
+  }
+  if (!finite(wanted)) return current_frame(ServoMode::current, 0.0);
+  double torque_Nm = wanted.torque_Nm;
+  if (newest.time_ns != 0)  // without a state there is no law
+    torque_Nm += wanted.kp_Nm_per_rad * (wanted.position_rad - newest.position_rad) +
+                 wanted.kd_Nm_s_per_rad * (wanted.velocity_radps - newest.velocity_radps);
+  const double current_A = config_.sign * torque_Nm / (config_.gear_ratio * config_.torque_constant_Nm_per_A);
+  return current_frame(ServoMode::current, current_A);
+}
+
+void CubeMarsCodec::add_filters(std::vector<can_filter>& filters) const {
+  const auto id = static_cast<canid_t>(config_.can_id);
+  for (const canid_t standard : {canid_t{0}, id, static_cast<canid_t>(config_.master_id)})
+    filters.push_back(exact_standard_id(standard));
+  filters.push_back(exact_extended_id(kServoStatus | id));
+}
+
+CubeMarsCodec::Match CubeMarsCodec::match(const can_frame& frame) const noexcept {
+  const auto id = static_cast<canid_t>(config_.can_id);
+  const bool extended = (frame.can_id & CAN_EFF_FLAG) != 0;
+  if (extended && (frame.can_id & CAN_EFF_MASK) != (kServoStatus | id)) return Match::other;
+  const bool addressed =
+      frame.can_id == 0 || frame.can_id == id || frame.can_id == static_cast<canid_t>(config_.master_id);
+  if (!extended && (!addressed || frame.can_dlc == 0 || frame.data[0] != id)) return Match::other;
+  if (extended != (config_.dialect != Dialect::mit)) return Match::foreign;
+  const auto length = frame.can_dlc;
+  const bool right = extended ? length == 8 : length >= 6 && length <= 8;
+  return right ? Match::reply : Match::malformed;
+}
+
+MotorSample CubeMarsCodec::sample_of(const can_frame& frame, std::int64_t time_ns) const noexcept {
+  if (config_.dialect != Dialect::mit)
+    return to_sample(unpack_servo_status(payload_of(frame)).value_or(ServoStatus{}), time_ns);
+  return to_sample(unpack_mit_reply(ranges_, config_.reply, payload_of(frame)).value_or(MitReply{}), time_ns);
+}
+
 CubeMarsBus::CubeMarsBus(const CanConfig& config)
     : codecs_(checked(config).motor.begin(), config.motor.begin() + config.motor_count) {}
 
 std::vector<can_filter> CubeMarsBus::filters() const {
-  std::vector<canid_t> ids{0};
-  for (const auto& codec : codecs_)
-    for (const int id : {codec.config().can_id, codec.config().master_id})
-      ids.push_back(static_cast<canid_t>(id));
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<can_filter> out;
-  out.reserve(ids.size() + codecs_.size());
-  for (const auto id : ids) out.push_back(exact_standard_id(id));
-  for (const auto& codec : codecs_)
-    out.push_back(exact_extended_id(kServoStatus | static_cast<canid_t>(codec.config().can_id)));
+  for (const auto& codec : codecs_) codec.add_filters(out);
+  const auto key = [](const can_filter& f) { return f.can_id; };
+  std::ranges::sort(out, {}, key);
+  const auto same = std::ranges::unique(out, {}, key);
+  out.erase(same.begin(), same.end());
   return out;
 }
 
+bool CubeMarsBus::outstanding(Side side, std::int64_t now_ns) const noexcept {
+  const auto& o = outstanding_[index(side)];
+  return codecs_[index(side)].answers_commands() && o.waiting && now_ns - o.sent_ns < kPatience_ns;
+}
+
 void CubeMarsBus::command_sent(Side side, std::int64_t time_ns) noexcept {
+  if (!codecs_[index(side)].answers_commands()) return;
   auto& o = outstanding_[index(side)];
   if (o.waiting) ++counters_[index(side)].missed;
   o = {true, o.waiting, time_ns, o.sent_ns};
@@ -133,6 +213,7 @@ void CubeMarsBus::command_sent(Side side, std::int64_t time_ns) noexcept {
 // A reply stamped by the kernel before the newest command left answers the one before it: this process was
 // late, not the drive.
 std::int64_t CubeMarsBus::state_time(std::size_t i, std::int64_t time_ns) noexcept {
+  if (!codecs_[i].answers_commands()) return time_ns;
   auto& o = outstanding_[i];
   const auto delay_ns = to_ns(codecs_[i].config().state_delay_s);
   if (o.waiting && time_ns + kStampSlack_ns >= o.sent_ns) {
@@ -150,25 +231,21 @@ std::int64_t CubeMarsBus::state_time(std::size_t i, std::int64_t time_ns) noexce
 }
 
 std::optional<MotorReading> CubeMarsBus::receive(const can_frame& frame, std::int64_t time_ns) noexcept {
+  using Match = CubeMarsCodec::Match;
   for (std::size_t i = 0; i < codecs_.size(); ++i) {
-    const auto& c = codecs_[i].config();
-    const auto can_id = static_cast<canid_t>(c.can_id);
-    if ((frame.can_id & CAN_EFF_FLAG) != 0) {
-      if ((frame.can_id & CAN_EFF_MASK) != (kServoStatus | can_id)) continue;
-      ++counters_[i].foreign;
-      ++counters_[i].rejected;
-      return std::nullopt;
-    }
-    const bool addressed =
-        frame.can_id == 0 || frame.can_id == can_id || frame.can_id == static_cast<canid_t>(c.master_id);
-    if (!addressed || frame.can_dlc == 0 || frame.data[0] != can_id) continue;
-    const auto reply = unpack_mit_reply(codecs_[i].ranges(), c.reply, payload_of(frame));
-    if (!reply) {
+    const auto match = codecs_[i].match(frame);
+    if (match == Match::other) continue;
+    if (match != Match::reply) {
+      counters_[i].foreign += match == Match::foreign;
       ++counters_[i].rejected;
       return std::nullopt;
     }
     ++counters_[i].replies;
-    return MotorReading{static_cast<Side>(i), codecs_[i].to_sample(*reply, state_time(i, time_ns))};
+    auto sample = codecs_[i].sample_of(frame, state_time(i, time_ns));
+    const auto& c = codecs_[i].config();
+    if (c.dialect == Dialect::mit)
+      sample.position_rad = unwrap_[i].unwrap(sample.position_rad, c.position_range_rad / c.gear_ratio);
+    return MotorReading{static_cast<Side>(i), sample};
   }
   ++strangers_;
   return std::nullopt;

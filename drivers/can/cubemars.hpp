@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "drivers/can/can_config.hpp"
+#include "drivers/can/drive_sequence.hpp"
+#include "drivers/can/position_unwrap.hpp"
+#include "drivers/can/servo_protocol.hpp"
 #include "drivers/motor_command.hpp"
 #include "drivers/samples.hpp"
 
@@ -19,7 +22,8 @@ inline constexpr std::uint8_t kErrorPositionNearRangeEnd = 100;
 // One motor's conversion between link side (MotorSample, MotorCommand) and drive side (MIT fields):
 //   position_link = zero_offset + sign p / gear,  torque_drive = sign torque_link / gear . K_drive / K,
 // gains likewise by 1 / gear^2; current = sign torque_drive / K_drive with K_drive the drive's own torque
-// constant. Throws std::invalid_argument for a dialect that is not implemented.
+// constant. Status frames of servo and v3 carry the current itself. Throws std::invalid_argument for a
+// configuration that is not right.
 class CubeMarsCodec {
  public:
   explicit CubeMarsCodec(const CubeMarsConfig& config);
@@ -30,14 +34,37 @@ class CubeMarsCodec {
   MotorSample to_sample(const MitReply& reply, std::int64_t time_ns) const noexcept;
   MitReply to_reply(const MotorSample& sample) const noexcept;
 
+  MotorSample to_sample(const ServoStatus& status, std::int64_t time_ns) const noexcept;
+
+  // MIT dialect.
   can_frame command_frame(const MotorCommand& command) const noexcept;
   can_frame special_frame(const MitPayload& payload) const noexcept;
+
+  // What an action is in this drive's dialect; nothing for DriveAction::none. Servo mode knows no gains: the
+  // law is then worked out here on the newest sample, and without one only the feed-forward torque is sent.
+  std::optional<can_frame> frame(DriveAction action, const MotorCommand& command,
+                                 const MotorSample& newest) const noexcept;
+
+  // Which frames of the bus this drive may send.
+  void add_filters(std::vector<can_filter>& filters) const;
+
+  // foreign: of this drive, in another dialect; malformed: in its own, but not as it should be.
+  enum class Match : std::uint8_t { other, reply, malformed, foreign };
+  Match match(const can_frame& frame) const noexcept;
+
+  // Of a frame that is a reply.
+  MotorSample sample_of(const can_frame& frame, std::int64_t time_ns) const noexcept;
+
+  // Each command is answered by one frame; else the drive sends its status by itself.
+  bool answers_commands() const noexcept { return config_.dialect != Dialect::servo; }
 
   const CubeMarsConfig& config() const noexcept { return config_; }
   const MitRanges& ranges() const noexcept { return ranges_; }
 
  private:
   CubeMarsConfig config_;
+  std::optional<can_frame> current_frame(ServoMode mode, double current_A) const noexcept;
+
   MitRanges ranges_;
   double torque_to_drive_;
 };
@@ -47,7 +74,7 @@ struct CubeMarsCounters {
   std::uint32_t missed = 0;       // commands that were not answered before the next one
   std::uint32_t unsolicited = 0;  // replies with no command outstanding: two drives with one id, or a trace
   std::uint32_t rejected = 0;     // frames that do not look like the dialect
-  std::uint32_t foreign = 0;      // of those, servo-style status frames: the drive is in another mode
+  std::uint32_t foreign = 0;      // of those, frames of another dialect: the drive is in another mode
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -83,6 +110,9 @@ class CubeMarsBus {
   // A frame that arrived at `time_ns`. Nothing when it is no reply of these drives.
   std::optional<MotorReading> receive(const can_frame& frame, std::int64_t time_ns) noexcept;
 
+  // The last command has not been answered, and may still be: none should follow it yet.
+  bool outstanding(Side side, std::int64_t now_ns) const noexcept;
+
   const CubeMarsCounters& counters(Side side) const noexcept { return counters_[index(side)]; }
 
   // Frames that belong to no motor.
@@ -102,6 +132,7 @@ class CubeMarsBus {
   std::vector<CubeMarsCodec> codecs_;
   std::array<CubeMarsCounters, kMotorCount> counters_{};
   std::array<Outstanding, kMotorCount> outstanding_{};
+  std::array<PositionUnwrap, kMotorCount> unwrap_{};
   std::uint32_t strangers_ = 0;
 };
 

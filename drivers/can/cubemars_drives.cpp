@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "drivers/can/can_socket.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
 
@@ -11,83 +12,121 @@ namespace sandhopper {
 namespace {
 constexpr int kProbeTries = 10;
 constexpr std::int64_t kProbeWait_ns = 10'000'000;
+constexpr std::int64_t kListen_ns = 100'000'000;
+constexpr double kRateShare = 0.7;  // of the configured status rate, at least
+
+constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
 }  // namespace
 
 CubeMarsDrives::CubeMarsDrives(const CanConfig& config)
-    : config_(config),
-      bus_(config),
-      socket_(config.interface, bus_.filters()),
-      sequence_(config.idle_query_cycles) {
+    : CubeMarsDrives(config, std::make_unique<CanSocket>(config.interface, CubeMarsBus(config).filters())) {}
+
+CubeMarsDrives::CubeMarsDrives(const CanConfig& config, std::unique_ptr<CanPort> port)
+    : config_(config), bus_(config), port_(std::move(port)), sequence_(config.idle_query_cycles) {
   for (std::size_t i = 0; i < bus_.motor_count(); ++i) sides_.push_back(static_cast<Side>(i));
 }
 
 void CubeMarsDrives::probe() {
+  // Silent first: a drive that speaks unasked is in servo mode, whatever it answers later.
+  port_->pause(kListen_ns);
+  drain([](const MotorReading&) {});
+  std::array<std::uint32_t, kMotorCount> unasked{};
+  for (const Side side : sides_) unasked[index(side)] = bus_.counters(side).replies;
   const auto all_answered = [&] {
-    return std::ranges::all_of(sides_, [&](Side side) { return bus_.counters(side).replies > 0; });
+    return std::ranges::all_of(sides_,
+                               [&](Side side) { return bus_.counters(side).replies > unasked[index(side)]; });
   };
   for (int i = 0; i < kProbeTries && !all_answered(); ++i) {
-    for (const Side side : sides_) send(side, bus_.codec(side).special_frame(kMitLeave));
-    sleep_ns(kProbeWait_ns);
+    port_->begin_cycle();
+    for (const Side side : sides_) send(side, bus_.codec(side).frame(DriveAction::leave, {}, {}));
+    port_->pause(kProbeWait_ns);
     drain([](const MotorReading&) {});
   }
-  for (const Side side : sides_) require_single_answer(side);
+  for (const Side side : sides_) require_dialect(side, unasked[index(side)]);
+  for (const Side side : sides_) rejected_at_probe_[index(side)] = bus_.counters(side).rejected;
 }
 
-void CubeMarsDrives::require_single_answer(Side side) const {
-  const auto& motor = bus_.codec(side).config();
+void CubeMarsDrives::require_dialect(Side side, std::uint32_t unasked) const {
+  const auto& codec = bus_.codec(side);
+  const auto& motor = codec.config();
   const auto& seen = bus_.counters(side);
+  const std::string dialect(name_of(motor.dialect));
   const std::string device =
       "motor " + motor.name + " (can_id " + std::to_string(motor.can_id) + " on " + config_.interface + ")";
+  const std::string mode_cure =
+      "Set motor.dialect to what the drive speaks, or switch the drive's mode with CubeMars' serial tool and "
+      "power-cycle it";
   if (seen.foreign > 0)
-    throw DeviceError(device, "sends servo-mode status frames but its dialect is \"mit\"",
-                      "Switch the drive to MIT mode with CubeMars' serial tool and power-cycle it");
+    throw DeviceError(device, "sends frames of another dialect than \"" + dialect + "\"", mode_cure);
   if (seen.rejected > 0)
-    throw DeviceError(device, "answers with frames that are not MIT replies (6 to 8 bytes)",
-                      "Check the drive's board version and mode against can.motor.dialect");
+    throw DeviceError(device, "sends frames of a length that the dialect \"" + dialect + "\" does not have",
+                      "Check the drive's board version and mode against motor.dialect");
+  if (codec.answers_commands() && unasked > 0)
+    throw DeviceError(device,
+                      "sends its status unasked, as servo mode does, but its dialect is \"" + dialect + "\"",
+                      mode_cure);
+  if (!codec.answers_commands() && unasked < kListen_ns * 1e-9 * motor.status_rate_Hz * kRateShare)
+    throw DeviceError(
+        device,
+        "sent " + std::to_string(unasked) + " status frames in " + std::to_string(kListen_ns / 1'000'000) +
+            " ms; status_rate_Hz says more",
+        "Switch the status on and set its rate with CubeMars' serial tool (some drives come with it "
+        "off), or, where there was none, " +
+            mode_cure);
   if (seen.replies == 0)
     throw DeviceError(
         device, "no answer within " + std::to_string(kProbeTries * kProbeWait_ns / 1'000'000) + " ms",
-        "Check motor power, the CAN cable and its two 120 ohm terminators, the drive's can_id and "
-        "master_id, and that the bus runs at 1 Mbit/s (ip -details link show " +
+        "Check motor power, the CAN cable and its two 120 ohm terminators, the drive's can_id, master_id and "
+        "dialect, and that the bus runs at 1 Mbit/s (ip -details link show " +
             config_.interface + ")");
   if (seen.unsolicited > 0)
     throw DeviceError(device, "more than one answer to one command: two drives have this id",
                       "Give each drive its own id, with only one connected at a time");
 }
 
-void CubeMarsDrives::send(Side side, const can_frame& frame) noexcept {
-  if (const auto sent_ns = socket_.send(frame)) bus_.command_sent(side, *sent_ns);
+void CubeMarsDrives::send(Side side, const std::optional<can_frame>& frame) noexcept {
+  if (!frame) return;
+  if (const auto sent_ns = port_->send(*frame)) bus_.command_sent(side, *sent_ns);
 }
 
-void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& command,
-                             DriveRequest request) noexcept {
-  const auto action = sequence_.next(socket_.counters().bus_off ? DriveRequest::off : request);
+// Once a drive spoke another dialect it gets no torque: what it would make of a command is not known.
+bool CubeMarsDrives::right_dialect() const noexcept {
+  return std::ranges::all_of(
+      sides_, [&](Side side) { return bus_.counters(side).rejected == rejected_at_probe_[index(side)]; });
+}
+
+void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& command, DriveRequest request,
+                             std::int64_t now_ns) noexcept {
+  port_->begin_cycle();
+  const bool may_run = port_->counters().state != BusState::off && right_dialect();
+  const auto action = sequence_.next(may_run ? request : DriveRequest::off);
   for (const Side side : sides_) {
-    const auto i = static_cast<std::size_t>(side);
-    const auto& codec = bus_.codec(side);
-    switch (action) {
-      case DriveAction::none:
-        break;
-      case DriveAction::zero:
-        send(side, codec.command_frame({.position_rad = last_position_rad_[i]}));
-        break;
-      case DriveAction::enter:
-        send(side, codec.special_frame(kMitEnter));
-        break;
-      case DriveAction::leave:
-        send(side, codec.special_frame(kMitLeave));
-        break;
-      case DriveAction::run:
-        send(side, codec.command_frame(command[i]));
-        break;
-    }
+    // One command outstanding: a drive that answers late would otherwise be taken for one that answers in
+    // time. What takes torque away goes out regardless.
+    const bool waits = bus_.outstanding(side, now_ns);
+    if (waits && (action == DriveAction::run || !sequence_.energised())) continue;
+    send(side, bus_.codec(side).frame(action, command[index(side)], newest_[index(side)]));
   }
+}
+
+BusSample CubeMarsDrives::bus_sample() const noexcept {
+  const auto& can = port_->counters();
+  BusSample out{.state = can.state,
+                .send_failures = can.send_failures,
+                .receive_overflows = can.receive_overflows,
+                .no_acknowledge = can.no_acknowledge,
+                .errors = can.errors};
+  for (const Side side : sides_) {
+    out.rejected[index(side)] = bus_.counters(side).rejected;
+    out.unsolicited[index(side)] = bus_.counters(side).unsolicited;
+  }
+  return out;
 }
 
 void CubeMarsDrives::shut_down() noexcept {
   while (sequence_.energised()) {
-    command({}, DriveRequest::off);
-    sleep_ns(1'000'000);
+    command({}, DriveRequest::off, monotonic_ns());
+    port_->pause(1'000'000);
     drain([](const MotorReading&) {});
   }
 }

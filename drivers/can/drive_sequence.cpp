@@ -10,7 +10,7 @@ DriveAction DriveSequence::next(DriveRequest request) noexcept {
   switch (state_) {
     case State::off:
       if (request != DriveRequest::off) return begin(State::switching_on);
-      return step_++ % idle_query_cycles_ == 0 ? DriveAction::leave : DriveAction::none;
+      return step_++ % idle_query_cycles_ == 0 ? DriveAction::leave : DriveAction::zero;
     case State::switching_on:
       if (request == DriveRequest::off) return begin(State::switching_off);
       return next_of_switching_on();

@@ -5,12 +5,12 @@
 
 namespace sandhopper {
 
-// What is sent to a drive in one cycle.
+// What is sent to a drive in one cycle; zero: a command without gains and torque.
 enum class DriveAction : std::uint8_t { none, zero, enter, leave, run };
 
 // From what the cycle asks of the drives to one frame a cycle:
 //   switching on:  zero x3 (a drive remembers its last command), leave, enter once, zero; then run if asked
-//   to switching off: zero x3, leave; then leave every `idle_query_cycles`, which asks for the state
+//   switching off: zero x3, leave; then zero, which asks for the state, with leave every `idle_query_cycles`
 // Enter is never repeated: sent to a moving motor it makes the drive jump.
 class DriveSequence {
  public:

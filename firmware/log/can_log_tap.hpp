@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "drivers/can/can_socket.hpp"
+#include "drivers/can/can_port.hpp"
 #include "firmware/log/trial_logger.hpp"
 
 namespace sandhopper {

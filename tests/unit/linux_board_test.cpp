@@ -46,18 +46,6 @@ TEST(LinuxBoard, ExaminationReportsDeviceByDevice) {
   EXPECT_EQ(std::ranges::count(reports, "catch", &DeviceReport::device), 0) << "a catch that is not fitted";
 }
 
-TEST(LinuxBoard, ADialectThatIsNotImplementedIsRefused) {
-  auto config = nowhere();
-  config.can.motor[1].dialect = Dialect::v3;
-  try {
-    const LinuxBoard board(config);
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_THAT(error.what(),
-                ::testing::AllOf(HasSubstr("\"right\""), HasSubstr("only \"mit\" is implemented")));
-  }
-}
-
 TEST(AcquisitionThread, StepsUntilDestroyed) {
   std::atomic<int> steps = 0;
   {

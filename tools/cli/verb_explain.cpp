@@ -21,6 +21,8 @@ nlohmann::ordered_json as_json(const FaultEntry& entry) {
   return {{"code", static_cast<int>(entry.fault)},
           {"name", std::string(name_of(entry.fault))},
           {"reaction", std::string(name_of(entry.reaction))},
+          {"latch", std::string(name_of(entry.latch))},
+          {"seen_within_cycles", entry.cycles},
           {"meaning", std::string(entry.meaning)},
           {"cure", std::string(entry.cure)}};
 }
@@ -28,8 +30,10 @@ nlohmann::ordered_json as_json(const FaultEntry& entry) {
 ExitCode explain(Session& session, const std::string& code) {
   if (!code.empty()) {
     const auto& entry = find_fault(code);
-    session.say("fault {} {}\n  means:    {}\n  reaction: {}\n  cure:     {}", static_cast<int>(entry.fault),
-                name_of(entry.fault), entry.meaning, name_of(entry.reaction), entry.cure);
+    session.say(
+        "fault {} {}\n  means:    {}\n  reaction: {}, lasting {}, seen within {} cycles\n  cure:     {}",
+        static_cast<int>(entry.fault), name_of(entry.fault), entry.meaning, name_of(entry.reaction),
+        name_of(entry.latch), entry.cycles, entry.cure);
     session.result = as_json(entry);
     return ExitCode::ok;
   }

@@ -20,6 +20,7 @@ std::string values_of(const Event& event) {
       return fmt::format("leg {:.1f} mm changing by {:.3f} m/s, foot at {:.1f} mm moving at {:.3f} m/s",
                          1e3 * v[0], v[1], 1e3 * v[2], v[3]);
     case EventKind::fault_raised:
+    case EventKind::disarm_refused:
       return fmt::format("{}: {:.4g}, {:.4g}", entry_of(event.fault).meaning, v[0], v[1]);
     case EventKind::armed:
     case EventKind::stop_requested:

@@ -4,6 +4,7 @@
 #include <bit>
 #include <memory>
 
+#include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/device_error.hpp"
 #include "firmware/log/candump.hpp"
@@ -44,7 +45,7 @@ class Stage {
     while (readings.size() == before && drives_.wait(kPatience_ns))
       drives_.drain([&](const MotorReading& reading) { readings.push_back(reading); });
   }
-  std::uint32_t overflows() const { return drives_.socket_counters().receive_overflows; }
+  std::uint32_t overflows() const { return drives_.port_counters().receive_overflows; }
 
  private:
   CanSocket player_;

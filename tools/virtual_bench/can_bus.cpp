@@ -10,13 +10,12 @@ namespace sandhopper::bench {
 
 CanBus::CanBus(EventLoop& loop, const std::string& interface)
     : loop_(loop), socket_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
-  const can_filter standard_frames{.can_id = 0, .can_mask = CAN_EFF_FLAG | CAN_RTR_FLAG};
+  const can_filter data_frames{.can_id = 0, .can_mask = CAN_RTR_FLAG};
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
   if (!socket_ || address.can_ifindex == 0 ||
-      ::setsockopt(socket_.get(), SOL_CAN_RAW, CAN_RAW_FILTER, &standard_frames, sizeof standard_frames) !=
-          0 ||
+      ::setsockopt(socket_.get(), SOL_CAN_RAW, CAN_RAW_FILTER, &data_frames, sizeof data_frames) != 0 ||
       ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     throw std::runtime_error("no CAN interface " + interface +
                              ": the bench has vcan0; set can.interface to it");

@@ -10,7 +10,7 @@
 
 namespace sandhopper::bench {
 
-// The emulated nodes' place on a CAN interface: every standard data frame goes to every node.
+// The emulated nodes' place on a CAN interface: every data frame goes to every node.
 class CanBus {
  public:
   using Receive = std::function<void(const can_frame&)>;

@@ -94,9 +94,8 @@ void Devices::connect_drives() {
   // Before the drives: what one cycle does to catch and drives is seen in one go.
   can_.connect([this](const can_frame&) { look_at_catch(); });
   for (std::size_t i = 0; i < static_cast<std::size_t>(board_.can.motor_count); ++i) {
-    const auto send = [this](const can_frame& frame) { can_.send(frame); };
-    drives_.push_back(std::make_unique<MitDrive>(MitDrive::Wiring{loop_, world_, send}, static_cast<Side>(i),
-                                                 board_.can.motor[i]));
+    drives_.push_back(std::make_unique<DriveNode>(DriveNode::Place{loop_, world_, can_}, static_cast<Side>(i),
+                                                  board_.can.motor[i]));
     can_.connect([drive = drives_.back().get()](const can_frame& frame) { drive->receive(frame); });
   }
 }

@@ -9,10 +9,10 @@
 #include "tools/virtual_bench/bench_world.hpp"
 #include "tools/virtual_bench/can_bus.hpp"
 #include "tools/virtual_bench/control_socket.hpp"
+#include "tools/virtual_bench/drive_node.hpp"
 #include "tools/virtual_bench/event_loop.hpp"
 #include "tools/virtual_bench/i2c_node.hpp"
 #include "tools/virtual_bench/ism330dhcx.hpp"
-#include "tools/virtual_bench/mit_drive.hpp"
 #include "tools/virtual_bench/simulated_gpio.hpp"
 #include "tools/virtual_bench/spi_node.hpp"
 
@@ -43,7 +43,7 @@ class Devices {
   SpiNode imu_foot_node_;
   I2cNode load_cell_node_;
   CanBus can_;
-  std::vector<std::unique_ptr<MitDrive>> drives_;
+  std::vector<std::unique_ptr<DriveNode>> drives_;
   ControlSocket control_;
   bool catch_holds_ = false;  // seen to hold since the last reset; only then can it let go
 };

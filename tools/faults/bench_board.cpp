@@ -1,0 +1,76 @@
+#include "tools/faults/bench_board.hpp"
+
+namespace sandhopper::faults {
+
+CanConfig can_of(const RobotConfig& robot) {
+  CanConfig can;
+  can.motor = robot.motor;
+  can.motor_count = robot.robot.motor_count;
+  return can;
+}
+
+BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed)
+    : world_(world), imu_body_(seed + 1), imu_foot_(seed + 2), tof_(seed + 3), load_cell_(seed + 4) {
+  const auto can = can_of(robot);
+  auto bus = std::make_unique<EmulatedBus>(world, can, seed);
+  bus_ = bus.get();
+  drives_ = std::make_unique<CubeMarsDrives>(can, std::move(bus));
+}
+
+void BenchBoard::read(SensorFrame& frame) noexcept {
+  world_.advance_to(frame.time_ns);
+  bus_->advance();
+  for (auto& motor : frame.motor) motor.fresh = false;
+  drives_->drain([&](const MotorReading& reading) {
+    frame.motor[static_cast<std::size_t>(reading.side)] = reading.sample;
+  });
+  imu_body_.pass(world_.imu_body(), frame.time_ns, frame.imu_body);
+  imu_foot_.pass(world_.imu_foot(), frame.time_ns, frame.imu_foot);
+  tof_.pass(world_.tof(), frame.time_ns, frame.tof);
+  load_cell_.pass(world_.load_cell(), frame.time_ns, frame.load_cell);
+  frame.bus = drives_->bus_sample();
+  frame.emergency_stop = stop_level_ || stop_edge_;
+  frame.watchdog_tripped = watchdog_tripped_;
+  stop_edge_ = watchdog_tripped_ = false;
+}
+
+void BenchBoard::write(const Command& command) noexcept {
+  drives_->command(command.motor, command.drive, world_.now_ns());
+  if (command.open_catch) world_.open_catch();
+}
+
+void BenchBoard::set(Device device, std::optional<Kind> kind) {
+  const auto now_ns = world_.now_ns();
+  switch (device) {
+    case Device::motor_left:
+    case Device::motor_right:
+    case Device::bus:
+      bus_->set(device, kind);
+      return;
+    case Device::imu_body:
+      imu_body_.set(kind, now_ns);
+      return;
+    case Device::imu_foot:
+      imu_foot_.set(kind, now_ns);
+      return;
+    case Device::tof:
+      tof_.set(kind, now_ns);
+      return;
+    case Device::load_cell:
+      load_cell_.set(kind, now_ns);
+      return;
+    case Device::estop:
+      stop_level_ = kind == Kind::pressed || kind == Kind::wire_cut;
+      stop_edge_ = kind == Kind::tapped;
+      return;
+    case Device::computer:
+      watchdog_tripped_ = kind == Kind::watchdog;
+      return;
+    case Device::robot:
+      if (!kind || kind == Kind::tilting || kind == Kind::lifted) imu_body_.set(kind, now_ns);
+      if (!kind || kind == Kind::lifted) imu_foot_.set(kind, now_ns);
+      return;
+  }
+}
+
+}  // namespace sandhopper::faults

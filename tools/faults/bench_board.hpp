@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+
+#include "config/robot_config.hpp"
+#include "drivers/can/cubemars_drives.hpp"
+#include "firmware/board.hpp"
+#include "tools/faults/emulated_bus.hpp"
+#include "tools/faults/sensor_faults.hpp"
+#include "tools/plant/world.hpp"
+
+namespace sandhopper::faults {
+
+// The world behind the cycle's seam with the robot's own motor driver on an emulated bus, and a place for a
+// fault in every device. All in the world's time.
+class BenchBoard : public Board {
+ public:
+  BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed);
+
+  void read(SensorFrame& frame) noexcept override;
+  void write(const Command& command) noexcept override;
+
+  // Breaks a device; no kind repairs it.
+  void set(Device device, std::optional<Kind> kind);
+
+  EmulatedBus& bus() { return *bus_; }
+  CubeMarsDrives& drives() { return *drives_; }
+
+ private:
+  World& world_;
+  EmulatedBus* bus_;  // the drives own it
+  std::unique_ptr<CubeMarsDrives> drives_;
+  SensorFault<ImuSample> imu_body_;
+  SensorFault<ImuSample> imu_foot_;
+  SensorFault<TofSample> tof_;
+  SensorFault<LoadCellSample> load_cell_;
+  bool stop_level_ = false;
+  bool stop_edge_ = false;
+  bool watchdog_tripped_ = false;
+};
+
+CanConfig can_of(const RobotConfig& robot);
+
+}  // namespace sandhopper::faults

@@ -1,0 +1,87 @@
+#pragma once
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "drivers/can/can_config.hpp"
+#include "drivers/can/can_port.hpp"
+#include "tools/faults/injection.hpp"
+#include "tools/plant/world.hpp"
+#include "tools/virtual_bench/drives/emulated_drive.hpp"
+
+namespace sandhopper::faults {
+
+// A CAN bus in the world's time with the emulated drives on it: what the driver of the robot is put on when
+// there is no kernel. Frames arrive at once, answers 0.22 ms later; error frames are those of
+// linux/can/error.h. Every fault of the bus and of the drives' frames is made here.
+class EmulatedBus : public CanPort {
+ public:
+  // `drives` may differ from what the driver believes. The world must outlive the bus.
+  EmulatedBus(World& world, const CanConfig& drives, std::uint64_t seed);
+
+  void set(Device device, std::optional<Kind> kind);
+
+  // Lets drives act and answer until the world's time.
+  void advance();
+
+  // What each drive was last told, on the link's side, and the largest torque it was told since
+  // reset_torque().
+  const MotorCommand& told(Side side) const { return motor_[static_cast<std::size_t>(side)].told; }
+  bool enabled(Side side) const { return motor_[static_cast<std::size_t>(side)].enabled; }
+  void reset_torque() { most_torque_Nm_ = 0.0; }
+  double most_torque_Nm() const { return most_torque_Nm_; }
+  // Commands with torque that reached a drive later than a cycle after they were sent.
+  int stale_torques() const { return stale_torques_; }
+  bool any_enabled() const { return most_enabled_; }
+
+  void begin_cycle() noexcept override;
+  std::optional<std::int64_t> send(const can_frame& frame) noexcept override;
+  std::span<const ReceivedFrame> receive(bool& more) noexcept override;
+  void pause(std::int64_t duration_ns) noexcept override;
+  bool wait(std::int64_t timeout_ns) noexcept override;
+  const CanCounters& counters() const noexcept override { return counters_; }
+  void set_tap(CanTap* tap) noexcept override { tap_ = tap; }
+
+ private:
+  struct Motor {
+    std::unique_ptr<bench::EmulatedDrive> drive;
+    std::optional<Kind> fault;
+    std::int64_t since_ns = 0;
+    MotorSample frozen{};
+    int asked = 0;  // since the fault came
+    MotorCommand told{};
+    bool enabled = false;
+  };
+  struct Queued {
+    can_frame frame;
+    std::int64_t sent_ns;
+  };
+
+  MotorSample felt(std::size_t i) const;
+  void deliver(const Queued& queued);
+  void ask(std::size_t i, const Queued& queued);
+  void answer(std::size_t i, can_frame frame, std::int64_t at_ns);
+  void put(const can_frame& frame, std::int64_t at_ns);
+  void put_error(canid_t error_class, std::uint8_t controller);
+  bool motor_lost(Motor& motor);
+
+  World& world_;
+  CanConfig config_;
+  Random random_;
+  std::vector<Motor> motor_;
+  std::optional<Kind> fault_;
+  std::deque<Queued> queue_;              // taken and not yet on the wire
+  std::deque<ReceivedFrame> on_the_way_;  // in the order of their times
+  std::array<ReceivedFrame, 32> batch_{};
+  CanCounters counters_{};
+  CanTap* tap_ = nullptr;
+  bool holding_ = false;
+  bool most_enabled_ = false;
+  double most_torque_Nm_ = 0.0;
+  int stale_torques_ = 0;
+  std::int64_t delivering_sent_ns_ = 0;
+};
+
+}  // namespace sandhopper::faults
