@@ -177,6 +177,19 @@ TEST(LinuxBoardOnBench, TheEmergencyStopIsSeenInTheNextCycle) {
   EXPECT_FALSE(cycle.frame().emergency_stop);
 }
 
+TEST(LinuxBoardOnBench, AnEmergencyStopTappedBetweenTwoCyclesIsSeenOnce) {
+  LinuxBoard board(board_config());
+  Cycle cycle(board);
+  cycle.run(2);
+  EXPECT_FALSE(cycle.frame().emergency_stop);
+  bench::tell_bench("estop press");
+  bench::tell_bench("estop release");
+  cycle.run(1);
+  EXPECT_TRUE(cycle.frame().emergency_stop);
+  cycle.run(1);
+  EXPECT_FALSE(cycle.frame().emergency_stop);
+}
+
 TEST(LinuxBoardOnBench, WithoutADataReadyLineTheImuIsPolled) {
   auto config = board_config().imu_body;
   config.data_ready = {};
