@@ -16,7 +16,7 @@
 namespace sandhopper {
 
 struct LinuxBoardDevices {
-  std::unique_ptr<GpioInput> estop;
+  std::unique_ptr<GpioEdges> estop;
   std::unique_ptr<GpioOutput> body_catch;
   std::unique_ptr<ImuReader> imu_body;
   std::unique_ptr<ImuReader> imu_foot;
@@ -127,7 +127,9 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
   take(a.load_cell, frame.load_cell);
   take(a.tof, frame.tof);
   frame.bus = d.drives->bus_sample();
-  frame.emergency_stop = d.estop->active();
+  // A press that is over before the next cycle leaves an edge; a lost edge leaves the level.
+  const bool pressed = d.estop->wait(0).has_value();
+  frame.emergency_stop = d.estop->active() || pressed;
 }
 
 void LinuxBoard::write(const Command& command) noexcept {

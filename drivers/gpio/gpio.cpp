@@ -92,6 +92,8 @@ GpioInput::~GpioInput() = default;
 GpioInput::GpioInput(GpioInput&&) noexcept = default;
 
 // 0 is the only answer that means "not active": -1 is a line that cannot be read.
+bool GpioEdges::active() noexcept { return ::gpiod_line_get_value(line_->get()) != 0; }
+
 bool GpioInput::active() noexcept { return ::gpiod_line_get_value(line_->get()) != 0; }
 
 GpioOutput::GpioOutput(std::string_view role, const LineConfig& config, bool initially_active)

@@ -55,6 +55,9 @@ class GpioEdges {
   // Waits for an edge, then empties the queue: the kernel keeps 16 and throws away the newest.
   std::optional<Edge> wait(std::int64_t timeout_ns) noexcept;
 
+  // The level now; true when it cannot be read.
+  bool active() noexcept;
+
  private:
   std::unique_ptr<GpioLine> line_;
 };

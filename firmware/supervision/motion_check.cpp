@@ -7,7 +7,9 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
-constexpr int kDisagree_cycles = 10;  // an impact reaches encoders and IMUs some cycles apart
+constexpr int kDisagree_cycles = 10;   // an impact reaches encoders and IMUs some cycles apart
+constexpr double kImpact_mps2 = 40.0;  // from one cycle to the next
+constexpr double kImpactRate_mps = 0.08;
 constexpr double kSpins = 3.0;
 constexpr double kTiltTime_s = 0.5;       // gyro below, gravity above
 constexpr double kTiltAccel_share = 0.3;  // gravity is believed when no more than this off
@@ -61,12 +63,23 @@ void MotionCheck::see_imus(const SensorFrame& frame, const Context& context, Fin
   }
   const bool clipped = std::abs(imu[0]->accel_mps2[kZ]) > 0.9 * s.imu_range_mps2 ||
                        std::abs(imu[1]->accel_mps2[kZ]) > 0.9 * s.imu_range_mps2;
-  const bool usable = imu[0]->fresh && imu[1]->fresh && frame.motor[0].fresh && !clipped;
+  // An impact shorter than a cycle passes between two samples: the integral would miss it.
+  bool impact = false;
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    impact = impact || std::abs(imu[i]->accel_mps2[kZ] - last_accel_mps2_[i]) > kImpact_mps2;
+    last_accel_mps2_[i] = imu[i]->accel_mps2[kZ];
+  }
+  const double rate_mps = leg_rate_mps(frame);
+  if (cycles_ > 0) {
+    const double last_mps = window_[(cycles_ - 1) % kWindow_cycles].leg_rate_mps;
+    impact = impact || std::abs(rate_mps - last_mps) > kImpactRate_mps;
+  }
+  const bool usable = imu[0]->fresh && imu[1]->fresh && frame.motor[0].fresh && !clipped && !impact;
   blind_ = usable ? std::max(0, blind_ - 1) : static_cast<int>(kWindow_cycles) + kDisagree_cycles;
   const double difference = imu[0]->accel_mps2[kZ] - imu[1]->accel_mps2[kZ];
   if (std::isfinite(difference)) integral_mps_ += difference * context.dt_s;
   auto& slot = window_[cycles_ % kWindow_cycles];
-  const Instant now{integral_mps_, leg_rate_mps(frame)};
+  const Instant now{integral_mps_, rate_mps};
   const double error = (now.integral_mps - slot.integral_mps) - (now.leg_rate_mps - slot.leg_rate_mps);
   slot = now;
   if (++cycles_ <= kWindow_cycles || blind_ > 0) return;

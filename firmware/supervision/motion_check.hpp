@@ -45,7 +45,8 @@ class MotionCheck {
   std::array<Instant, kWindow_cycles> window_{};
   std::size_t cycles_ = 0;
   double integral_mps_ = 0.0;
-  int blind_ = 0;  // cycles until the window holds no clipped sample
+  std::array<double, 2> last_accel_mps2_{};
+  int blind_ = 0;  // cycles until the window holds no clipped sample and no impact
   int disagree_ = 0;
   std::array<LeakyCount, 2> spin_{LeakyCount{1.0}, LeakyCount{1.0}};
   std::array<double, 2> tilt_rad_{};

@@ -10,8 +10,9 @@ constexpr double kCycle_s = 1e-3;
 constexpr double kLate = 3.0;
 constexpr double kErrorTime_s = 0.010;  // low-pass of the velocity's and the current's error
 constexpr int kErrorCycles = 8;
-constexpr int kSettle_cycles = 15;  // after drives come on
-constexpr int kSamples = 3;         // current and voltage: as many in a row
+constexpr double kErrorShare = 0.25;  // of the speed; a scale wrong by two gives a half
+constexpr int kSettle_cycles = 15;    // after drives come on
+constexpr int kSamples = 3;           // current and voltage: as many in a row
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
@@ -63,7 +64,10 @@ void MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings&
   if (!possible) return;
   const double mean_radps = 0.5 * (sample.velocity_radps + last_.velocity_radps);
   velocity_error_radps_ = followed(velocity_error_radps_, mean_radps - moved / dt_s, dt_s);
-  const bool wrong = std::abs(velocity_error_radps_) > config_.supervision.motor_velocity_error_radps;
+  // Fast to and fro, as against an end stop, leaves more of a difference between the two than steady turning.
+  const double speed_radps = std::max(std::abs(mean_radps), std::abs(moved / dt_s));
+  const bool wrong = std::abs(velocity_error_radps_) >
+                     config_.supervision.motor_velocity_error_radps + kErrorShare * speed_radps;
   velocity_wrong_ = wrong ? velocity_wrong_ + 1 : 0;
   findings.add_if(velocity_wrong_ >= kErrorCycles, Fault::motor_velocity_implausible, number(),
                   velocity_error_radps_);

@@ -14,7 +14,7 @@ struct SupervisionConfig {
   double motor_velocity_error_radps = 2.0;
   double motor_torque_error_Nm = 0.5;
   double motor_current_A = 45.0;
-  double torque_limit_s = 0.1;
+  double torque_limit_s = 0.3;      // longer than a stance
   double encoder_stuck_rad = 0.03;  // the other side has moved this far
   double bus_voltage_min_V = 18.0;
   double bus_voltage_max_V = 56.0;
@@ -37,12 +37,12 @@ struct SupervisionConfig {
   double tof_range_m = 2.5;
   double tof_jump_m = 0.06;
   double tof_rate_Hz = 300.0;
-  double load_cell_range_N = 150.0;
-  double load_cell_error_N = 30.0;
+  double load_cell_range_N = 250.0;
+  double load_cell_error_N = 60.0;
   double load_cell_rate_Hz = 600.0;
   // The robot as a whole.
-  double leg_length_min_m = 0.14;
-  double leg_length_max_m = 0.356;
+  double leg_length_min_m = 0.125;
+  double leg_length_max_m = 0.3595;
   double body_speed_mps = 3.5;
   double foot_height_m = 0.25;
   double energy_gain_J = 2.0;  // in one flight

@@ -76,7 +76,7 @@ bool play(const std::filesystem::path& file, const char* interface) {
   std::printf(
       "%s: %zu rows played, %zu read by the driver on %s, %zu bit-exact in order, %u lost in the kernel\n",
       file.stem().c_str(), rows.size(), readings.size(), interface, exact,
-      drives.socket_counters().receive_overflows);
+      drives.port_counters().receive_overflows);
   return readings.size() == rows.size() && exact == rows.size();
 }
 

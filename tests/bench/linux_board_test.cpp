@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "config/files.hpp"
+#include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
@@ -177,6 +178,19 @@ TEST(LinuxBoardOnBench, TheEmergencyStopIsSeenInTheNextCycle) {
   EXPECT_FALSE(cycle.frame().emergency_stop);
 }
 
+TEST(LinuxBoardOnBench, AnEmergencyStopTappedBetweenTwoCyclesIsSeenOnce) {
+  LinuxBoard board(board_config());
+  Cycle cycle(board);
+  cycle.run(2);
+  EXPECT_FALSE(cycle.frame().emergency_stop);
+  bench::tell_bench("estop press");
+  bench::tell_bench("estop release");
+  cycle.run(1);
+  EXPECT_TRUE(cycle.frame().emergency_stop);
+  cycle.run(1);
+  EXPECT_FALSE(cycle.frame().emergency_stop);
+}
+
 TEST(LinuxBoardOnBench, WithoutADataReadyLineTheImuIsPolled) {
   auto config = board_config().imu_body;
   config.data_ready = {};
@@ -275,7 +289,7 @@ TEST(LinuxBoardOnBench, ADriveInServoModeIsNotEnergised) {
   const auto error = start_error(board_config());
   stop = true;
   servo.join();
-  EXPECT_THAT(error, ::testing::HasSubstr("motor left (can_id 1 on vcan0): sends servo-mode status frames"));
+  EXPECT_THAT(error, ::testing::HasSubstr("motor left (can_id 1 on vcan0): sends frames of another dialect"));
 }
 
 TEST(LinuxBoardOnBench, AWrongChipAndATakenLineAreNamed) {

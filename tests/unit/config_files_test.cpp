@@ -175,10 +175,5 @@ TEST(RobotConfigRules, MotorsNeedTheirOwnIds) {
               HasSubstr("'motor[1].can_id' does not fit: both motors"));
 }
 
-TEST(RobotConfigRules, DialectThatIsNotImplementedIsRefused) {
-  EXPECT_THAT(problem_when("\"v3\"", "[motor]", "dialect"),
-              HasSubstr("'motor[0].dialect' does not fit: only \"mit\" is implemented"));
-}
-
 }  // namespace
 }  // namespace sandhopper

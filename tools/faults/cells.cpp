@@ -182,9 +182,13 @@ void add_limits(Cells& cells) {
         return since != 0 && f.time_ns - since > 100'000'000;
       });
   limit(
-      Phase::compression, Fault::motor_torque_limit, [](RobotConfig& r) { r.limits.motor_torque_Nm = 0.3; },
+      Phase::compression, Fault::motor_torque_limit,
+      [](RobotConfig& r) {
+        r.limits.motor_torque_Nm = 0.5;
+        r.supervision.torque_limit_s = 0.05;
+      },
       [](const SensorFrame&, const StepOutput& o, const Injected&) {
-        return std::abs(o.command.motor[0].torque_Nm) > 0.299;
+        return std::abs(o.command.motor[0].torque_Nm) > 0.499;
       });
   limit(
       Phase::compression, Fault::motor_winding_hot,

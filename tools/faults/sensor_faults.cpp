@@ -60,7 +60,7 @@ void spoil(TofSample& s, Kind kind, Random& random) {
 
 void spoil(LoadCellSample& s, Kind kind, Random& random) {
   if (kind == Kind::garbage) s.force_N = anywhere(random, kLoadCellRange_N);
-  if (kind == Kind::wrong) s.force_N += 70.0;
+  if (kind == Kind::wrong) s.force_N += 120.0;
   if (kind == Kind::saturated) s.force_N = kLoadCellRange_N;
   if (kind == Kind::not_a_number) s.force_N = kNotMeasured;
 }
