@@ -1,5 +1,7 @@
 #include "drivers/can/can_config.hpp"
 
+#include <cmath>
+
 namespace sandhopper {
 namespace {
 
@@ -33,5 +35,7 @@ double bus_load(const CanConfig& config) noexcept {
     bits += bits_per_cycle(config.motor[i]);
   return config.other_load + bits / kBitsPerCycle;
 }
+
+int in_percent(double share) noexcept { return static_cast<int>(std::lround(100.0 * share)); }
 
 }  // namespace sandhopper

@@ -106,6 +106,7 @@ void check_motors(const MotorConfigs& motor, Problem&& problem) {
 // HARDWARE 2.6).
 struct CanConfig;
 double bus_load(const CanConfig& config) noexcept;
+int in_percent(double share) noexcept;
 inline constexpr double kMostBusLoad = 0.8;  // the rest is for repeated frames
 template <class Problem>
 void check_bus_load(const CanConfig& config, Problem&& problem);
@@ -141,8 +142,7 @@ template <class Problem>
 void check_bus_load(const CanConfig& config, Problem&& problem) {
   const double load = bus_load(config);
   if (load > kMostBusLoad)
-    problem("other_load", "the bus would be loaded to " +
-                              std::to_string(static_cast<int>(100.0 * load + 0.5)) +
+    problem("other_load", "the bus would be loaded to " + std::to_string(in_percent(load)) +
                               " %, more than 80 %: put other nodes, or one motor, on a bus of their own");
 }
 

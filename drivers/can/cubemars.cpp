@@ -193,8 +193,8 @@ std::vector<can_filter> CubeMarsBus::filters() const {
   for (const auto& codec : codecs_) codec.add_filters(out);
   const auto key = [](const can_filter& f) { return f.can_id; };
   std::ranges::sort(out, {}, key);
-  const auto same = std::ranges::unique(out, {}, key);
-  out.erase(same.begin(), same.end());
+  const auto same = [](const can_filter& a, const can_filter& b) { return a.can_id == b.can_id; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
 }
 

@@ -28,7 +28,6 @@ std::uint64_t cycles_into(Phase phase) {
     case Phase::idle:
       return 250;
     case Phase::armed:
-      return 20;
     case Phase::flight:
       return 20;
     default:

@@ -91,7 +91,7 @@ class SensorFault {
         return;
       case Kind::backward:
         deliver(newest, out);
-        out.time_ns = since_ns_ - samples_ * 100'000;
+        out.time_ns = since_ns_ - std::int64_t{samples_} * 100'000;
         return;
       default:
         deliver(newest, out);
