@@ -135,8 +135,9 @@ int run(const Options& options, OperatorChannel& channel) {
   logger.close();
   result.log_error = logger.error();
   channel.tell(result);
-  if (result.last_fault != Fault::none) return 1;
-  return result.log_error.empty() ? 0 : 3;
+  // A log that is not whole comes first: what it says of a fault may be what is missing.
+  if (!result.log_error.empty()) return 3;
+  return result.last_fault != Fault::none ? 1 : 0;
 }
 
 int run_program(int argc, char** argv) {
