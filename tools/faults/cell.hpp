@@ -28,7 +28,6 @@ struct Cell {
   // The first cycle that could show it, where that is not the cycle of the injection.
   std::function<bool(const SensorFrame& frame, const StepOutput& output, const Injected& injected)> visible{};
   std::function<void(RobotConfig& robot)> change{};  // of the robot's file for this cell
-  std::optional<Fault> without{};                    // first line of defence switched off to see the second
   std::string note{};
 
   std::string name() const;

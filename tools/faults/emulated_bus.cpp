@@ -28,7 +28,6 @@ EmulatedBus::EmulatedBus(World& world, const CanConfig& drives, std::uint64_t se
                                 auto& m = motor_[i];
                                 m.told = command;
                                 m.enabled = enabled;
-                                most_enabled_ = most_enabled_ || enabled;
                                 const double torque = enabled ? std::abs(command.torque_Nm) : 0.0;
                                 most_torque_Nm_ = std::max(most_torque_Nm_, torque);
                                 const bool stale = world_.now_ns() - delivering_sent_ns_ > kMs;

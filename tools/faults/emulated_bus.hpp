@@ -34,7 +34,6 @@ class EmulatedBus : public CanPort {
   double most_torque_Nm() const { return most_torque_Nm_; }
   // Commands with torque that reached a drive later than a cycle after they were sent.
   int stale_torques() const { return stale_torques_; }
-  bool any_enabled() const { return most_enabled_; }
 
   void begin_cycle() noexcept override;
   std::optional<std::int64_t> send(const can_frame& frame) noexcept override;
@@ -78,7 +77,6 @@ class EmulatedBus : public CanPort {
   CanCounters counters_{};
   CanTap* tap_ = nullptr;
   bool holding_ = false;
-  bool most_enabled_ = false;
   double most_torque_Nm_ = 0.0;
   int stale_torques_ = 0;
   std::int64_t delivering_sent_ns_ = 0;

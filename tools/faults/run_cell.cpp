@@ -71,7 +71,6 @@ class CellTrial {
         aftermath_(robot.stiffness, logger_, topics_, {}),
         cycle_({board_, controller_, logger_, topics_, aftermath_}) {
     if (setup.without) controller_.switch_off(*setup.without);
-    if (cell.without) controller_.switch_off(*cell.without);
   }
 
   CellResult run() {
