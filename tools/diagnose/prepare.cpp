@@ -249,10 +249,8 @@ Prepared prepare(const Recordings& recordings) {
   for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
   const double row_s = median(row_steps);
   for (const auto& [channel, scale] : problem.context.channels) {
-    const double share = problem.context.scale("clock_tolerance", kClockTolerance);
-    problem.tolerances.push_back({"time of " + channel,
-                                  std::min(share * scale.step_s, std::max(share, kRowTolerance) * row_s),
-                                  channel});
+    problem.tolerances.push_back(
+        {"time of " + channel, std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s), channel});
   }
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)

@@ -24,6 +24,10 @@ inline std::vector<std::string> load_cells(const Context& context) {
   return present(context, {"force_N", "load_cell_force_N"});
 }
 
+inline std::vector<std::string> accelerometers(const Context& context) {
+  return present(context, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
+}
+
 // Whether this campaign has ground at all: a falling body need not.
 inline bool has_bed(const Context& context) {
   return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
      .plants = {PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
-         },
+     .channels = accelerometers,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "{channel} follows with a first-order lag.",
      .equation = "tau y' + y = x",
      .plants = {PlantKind::falling_body, PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
-         },
+     .channels = accelerometers,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{{.name = "lag_s", .typical = 3e-3, .low = 0.0, .high = 0.1}};

@@ -9,10 +9,7 @@ const EffectRegistration kEffect(
      .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
      .equation = "y = x cos(alpha)",
      .plants = {PlantKind::hopper},
-     .channels =
-         [](const Context& c) {
-           return present(c, {"imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
-         },
+     .channels = accelerometers,
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{{.name = "tilt_rad", .typical = 0.1, .low = 0.0, .high = 0.7}};

@@ -5,8 +5,8 @@ namespace sandhopper::bench {
 
 // A drive of board V1/V2 in MIT mode, as its manual and Katz' firmware describe it:
 //   - answers every frame for its id, once, with the state at the instant of the frame
-//   - FF..FC enters motor mode, FF..FD leaves it, FF..FE makes the present position zero and is silent for a
-//   second
+//   - FF..FC enters motor mode, FF..FD leaves it, FF..FE makes the present position zero and is silent for
+//     a second
 //   - makes torque in motor mode only; without a frame for 25 ms it drops the command but stays in motor mode
 class MitDrive : public EmulatedDrive {
  public:

@@ -7,8 +7,7 @@ namespace sandhopper::bench {
 // mode 8 (manuals V1.0.18 section 4.4 and V3.0.0 section 4):
 //   - extended identifiers, mode << 8 | id; it obeys duty (as off), current, current brake and, on V3, mode 8
 //   - sends its status, identifier 0x2900 | id, `status_rate_Hz` times a second; V3 in query mode answers
-//   every
-//     command with it instead
+//     every command with it instead
 //   - no frames to enter or leave: the last command holds, for a second without frames, then no torque
 // V3's mode 8 has another order of fields than MIT mode of V1/V2: gains first.
 class ServoDrive : public EmulatedDrive {
