@@ -63,6 +63,12 @@ void RobotConfig::check(const Report& report) const {
                {"supervision.leg_length_max_m", supervision.leg_length_max_m});
   expect_below(report, {"supervision.bus_voltage_min_V", supervision.bus_voltage_min_V},
                {"supervision.bus_voltage_max_V", supervision.bus_voltage_max_V});
+  if (real_time.priority > 0 && watchdog.priority <= real_time.priority)
+    report("watchdog.priority",
+           fmt::format(
+               "expected more than real_time.priority ({}), or a cycle that runs away stops its watchdog, "
+               "too, got {}",
+               real_time.priority, watchdog.priority));
   if (controller.extension_length_m < controller.compression_length_m)
     report(
         "controller.extension_length_m",

@@ -6,6 +6,7 @@
 #include "drivers/can/can_config.hpp"
 #include "firmware/controller_config.hpp"
 #include "firmware/realtime.hpp"
+#include "firmware/watchdog/watchdog_config.hpp"
 
 namespace sandhopper {
 
@@ -21,6 +22,7 @@ struct RobotConfig {
   LimitsConfig limits{};
   SupervisionConfig supervision{};
   RealTimeConfig real_time{};
+  WatchdogConfig watchdog{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -33,6 +35,7 @@ struct RobotConfig {
     visit("limits", self.limits);
     visit("supervision", self.supervision);
     visit("real_time", self.real_time);
+    visit("watchdog", self.watchdog);
   }
 
   // Rules that span keys and roles; called by the loader (config/load.hpp).

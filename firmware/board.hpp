@@ -12,8 +12,7 @@ class Board {
 
   // Fills `frame` with the newest sample of every device. Never waits for a slow bus. `frame` keeps the
   // previous cycle's samples where nothing new came (fresh = false then). `frame.time_ns`, `.cycle`,
-  // `.overruns` and
-  // `.request` belong to the caller.
+  // `.overruns`, `.watchdog_stall_ns`, `.wall_clock_step_ns` and `.request` belong to the caller.
   virtual void read(SensorFrame& frame) noexcept = 0;
 
   // Sends the cycle's command. A drive's reply to it is in a later read().

@@ -30,6 +30,8 @@ const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   out_.time_ns = frame.time_ns;
   out_.cycle = frame.cycle;
 
+  if (frame.wall_clock_step_ns != 0)
+    emit(EventKind::clock_stepped, Reason::date_changed, {seconds(frame.wall_clock_step_ns), 0.0, 0.0, 0.0});
   serve_request(frame);
   if (estimating()) {
     estimator_.update(frame, out_.estimate);

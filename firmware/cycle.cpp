@@ -9,6 +9,8 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
   frame_.time_ns = turn.time_ns;
   frame_.cycle = turn.cycle;
   frame_.overruns = turn.overruns;
+  frame_.watchdog_stall_ns = turn.watchdog_stall_ns;
+  frame_.wall_clock_step_ns = turn.wall_clock_step_ns;
   frame_.request = turn.request;
   parts_.board.read(frame_);
   const StepOutput& output = parts_.controller.step(frame_);

@@ -75,6 +75,8 @@ class Cycle {
     std::int64_t time_ns;
     std::uint64_t cycle;
     std::uint32_t overruns = 0;
+    std::int64_t watchdog_stall_ns = 0;
+    std::int64_t wall_clock_step_ns = 0;
     Request request = Request::none;
   };
   const StepOutput& run(const Turn& turn) noexcept;

@@ -19,13 +19,15 @@ enum class EventKind : std::uint8_t {
   fault_raised,
   disarmed,
   arming_refused,
-  disarm_refused
+  disarm_refused,
+  clock_stepped
 };
 template <>
 struct EnumNames<EventKind> {
-  static constexpr std::array<std::string_view, 12> value{
-      "armed",          "zero_check", "released",     "touchdown", "stance_switch",  "liftoff",
-      "stop_requested", "stopped",    "fault_raised", "disarmed",  "arming_refused", "disarm_refused"};
+  static constexpr std::array<std::string_view, 13> value{
+      "armed",          "zero_check",     "released",     "touchdown",    "stance_switch",
+      "liftoff",        "stop_requested", "stopped",      "fault_raised", "disarmed",
+      "arming_refused", "disarm_refused", "clock_stepped"};
 };
 
 // Why an event came, i.e. which condition was met.
@@ -44,11 +46,12 @@ enum class Reason : std::uint8_t {
   sensor_missing,
   fault,
   zero_confirmed,
-  catch_opened
+  catch_opened,
+  date_changed
 };
 template <>
 struct EnumNames<Reason> {
-  static constexpr std::array<std::string_view, 15> value{"operator_request",
+  static constexpr std::array<std::string_view, 16> value{"operator_request",
                                                           "free_fall",
                                                           "leg_deflection",
                                                           "leg_rate",
@@ -62,7 +65,8 @@ struct EnumNames<Reason> {
                                                           "sensor_missing",
                                                           "fault",
                                                           "zero_confirmed",
-                                                          "catch_opened"};
+                                                          "catch_opened",
+                                                          "date_changed"};
 };
 
 // Something that happened, with the values that triggered it. Their meaning by kind:
@@ -70,6 +74,7 @@ struct EnumNames<Reason> {
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
 //   fault_raised, disarm_refused: the two values the fault's entry names, 0, 0
+//   clock_stepped: by how much CLOCK_REALTIME jumped [s], 0, 0, 0
 struct Event {
   std::int64_t time_ns = 0;
   EventKind kind = EventKind::armed;

@@ -259,7 +259,9 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "give the cycle its own CPU and priority; see firmware/README.md and `hop doctor`"},
     {Fault::watchdog_tripped, "watchdog_tripped", Reaction::limp, Latch::until_disarmed, 1,
      "the watchdog took the torque away because the cycle stood still",
-     "find out what stopped the cycle; see the log's gap and the kernel's messages"},
+     "find out what stopped the cycle: the log entry has for how many seconds; see the kernel's "
+     "messages, "
+     "`hop doctor`, and watchdog.cycle_stall_s"},
 }};
 
 template <>

@@ -1,5 +1,6 @@
 #include "firmware/hop_session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sandhopper {
@@ -21,34 +22,17 @@ HopSession::HopSession(const RobotConfig& robot, Board& board, TrialLogger& logg
       controller_(cycle_config(robot)),
       aftermath_(robot.stiffness, logger, topics_, std::move(listener)) {}
 
-SessionResult HopSession::run(const std::atomic<bool>& quit, RequestBox& requests,
-                              const std::function<void(const std::string&)>& say) {
+SessionResult HopSession::run(World world) {
   SessionResult result;
   logger_.start();
   aftermath_.start();
   Cycle cycle({board_, controller_, logger_, topics_, aftermath_});
   {
     const RealTimeThread real_time(robot_.real_time);
-    for (const auto& warning : real_time.warnings()) say(warning);
-    CycleClock clock(kCyclePeriod_ns);
-    std::uint64_t asked_to_quit = 0;
-    std::uint64_t off_since = 0;
-    while (true) {
-      const std::int64_t now_ns = clock.wait();
-      Request request = requests.take();
-      if (quit.load(std::memory_order_acquire) && asked_to_quit == 0) {
-        asked_to_quit = clock.cycle();
-        request = Request::stop;
-      }
-      const auto& output = cycle.run({now_ns, clock.cycle(), clock.overruns(), request});
-      const bool off = output.command.drive == DriveRequest::off;
-      if (!off) off_since = clock.cycle();
-      result.last_state = output.state;
-      result.last_fault = output.fault;
-      if (asked_to_quit == 0) continue;
-      if (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) break;
-      if (clock.cycle() > asked_to_quit + kPatience_cycles) break;
-    }
+    for (const auto& warning : real_time.warnings()) world.say(warning);
+    CycleClock clock(kCyclePeriod_ns, world.time);
+    turn_until_quit(world, cycle, clock, result);
+    world.heart.end();
     result.cycles = clock.cycle();
     result.overruns = clock.overruns();
     result.latency = clock.latency();
@@ -58,6 +42,37 @@ SessionResult HopSession::run(const std::atomic<bool>& quit, RequestBox& request
   result.lost_records = logger_.lost_records();
   result.lost_can_frames = logger_.lost_can_frames();
   return result;
+}
+
+void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, SessionResult& result) {
+  std::uint64_t asked_to_quit = 0;
+  std::uint64_t off_since = 0;
+  while (true) {
+    const std::int64_t now_ns = clock.wait();
+    Request request = world.requests.take();
+    const Quit quit = world.quit.load(std::memory_order_acquire);
+    if (quit != Quit::no && asked_to_quit == 0) {
+      asked_to_quit = clock.cycle();
+      request = Request::stop;
+    }
+    const auto step_ns = world.wall_clock.step_ns();
+    if (step_ns != 0) ++result.clock_steps;
+    const auto& output = cycle.run({.time_ns = now_ns,
+                                    .cycle = clock.cycle(),
+                                    .overruns = clock.overruns(),
+                                    .watchdog_stall_ns = world.heart.take_trip(),
+                                    .wall_clock_step_ns = step_ns,
+                                    .request = request});
+    world.heart.beat(output.state, output.fault);
+    const bool off = output.command.drive == DriveRequest::off;
+    if (!off) off_since = clock.cycle();
+    result.last_state = output.state;
+    result.last_fault = output.fault;
+    if (asked_to_quit == 0) continue;
+    if (quit == Quit::at_once) return;
+    if (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) return;
+    if (clock.cycle() > asked_to_quit + kPatience_cycles) return;
+  }
 }
 
 }  // namespace sandhopper

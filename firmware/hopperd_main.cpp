@@ -3,18 +3,24 @@
 #include <CLI/App.hpp>
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "config/directory.hpp"
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/problem.hpp"
+#include "drivers/can/torque_cut.hpp"
 #include "drivers/clock.hpp"
 #include "firmware/hop_session.hpp"
+#include "firmware/instance_lock.hpp"
 #include "firmware/linux_board.hpp"
 #include "firmware/log/can_log_tap.hpp"
 #include "firmware/log/trial_description.hpp"
 #include "firmware/operator_channel.hpp"
 #include "firmware/version.hpp"
+#include "firmware/watchdog/guard_process.hpp"
+#include "firmware/watchdog/keepalive.hpp"
+#include "firmware/watchdog/torque_watchdog.hpp"
 #include "tools/plant/load_world.hpp"
 #include "tools/plant/sim_board.hpp"
 
@@ -55,16 +61,25 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(
       "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
       "one JSON\n"
-      "object a line. End of input, SIGINT and SIGTERM stop the robot softly and quit.\n"
+      "object a line. End of input, SIGINT, SIGTERM and SIGHUP stop the robot softly, close the log and "
+      "quit; a second "
+      "one\nswitches the drives off at once.\n"
       "Exit status: 0 ended in order, 1 ended in a fault, 2 configuration or command line, 3 a device is "
-      "missing\nor the log's disk failed.");
+      "missing,\nanother hopperd runs these motors, or the log's disk failed.");
 }
 
 // The robot's devices, their CAN traffic in the log.
 struct RealRobot {
   RealRobot(const LinuxBoardConfig& config, TrialLogger& logger)
-      : tap(logger, config.can.interface), board(config, &tap) {}
+      : tap(logger, config.can.interface), board(config, &tap) {
+    cut.emplace(config.can);
+    guard.emplace(*cut);
+  }
   CanLogTap tap;
+  // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
+  // down.
+  std::optional<TorqueCut> cut;
+  std::optional<GuardProcess> guard;
   LinuxBoard board;
 };
 
@@ -76,23 +91,40 @@ struct SimulatedRobot {
   SimBoard board;
 };
 
-SessionResult run_session(const RobotConfig& robot, Board& board, TrialLogger& logger,
-                          OperatorChannel& channel) {
-  HopSession session(robot, board, logger,
-                     {.event = [&](const Event& event) { channel.tell(event); },
-                      .stride = [&](const StrideResult& result) { channel.tell(result); }});
+// What runs beside the cycle, and ends before the devices are closed.
+struct Session {
+  const RobotConfig& robot;
+  Board& board;
+  TrialLogger& logger;
+  OperatorChannel& channel;
+  Heartbeat& heart;
+  std::function<void()> cut;
+};
+
+SessionResult run_session(const Session& s) {
+  const auto warn = [&](const std::string& text) {
+    if (!text.empty()) s.channel.tell_text("warning", text);
+  };
+  HopSession session(s.robot, s.board, s.logger,
+                     {.event = [&](const Event& event) { s.channel.tell(event); },
+                      .stride = [&](const StrideResult& result) { s.channel.tell(result); }});
   RequestBox requests;
-  std::atomic<bool> quit{false};
+  std::atomic<Quit> quit{Quit::no};
   std::atomic<bool> ended{false};
   SessionResult result;
+  const TorqueWatchdog watchdog(s.robot.watchdog, s.heart, s.cut);
+  const Keepalive keepalive(s.robot.watchdog, s.heart);
+  warn(watchdog.warning());
+  warn(keepalive.warning());
   std::thread cycle([&] {
-    result =
-        session.run(quit, requests, [&](const std::string& text) { channel.tell_text("warning", text); });
+    result = session.run({.quit = quit, .requests = requests, .heart = s.heart, .say = warn});
     ended.store(true);
   });
-  channel.tell_text("ready", "arm");
-  channel.listen(requests, quit, ended);
+  s.channel.tell_text("ready", "arm");
+  s.channel.listen(requests, quit, ended);
   cycle.join();
+  result.watchdog_trips = watchdog.trips();
+  result.longest_stall_s = watchdog.longest_stall_s();
   return result;
 }
 
@@ -116,10 +148,12 @@ int run(const Options& options, OperatorChannel& channel) {
   };
   // All of the configuration before the first file or device.
   const bool simulate = options.board == "sim";
-  const auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
       simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, board_file()), robot);
+  // Before the log: another hopperd may be writing it.
+  const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
   TrialLogger logger(log_options(options, channel));
   describe_trial(logger, robot, options.board);
   std::unique_ptr<SimulatedRobot> simulated;
@@ -128,8 +162,16 @@ int run(const Options& options, OperatorChannel& channel) {
     simulated = std::make_unique<SimulatedRobot>(world, monotonic_ns());
   else
     real = std::make_unique<RealRobot>(devices, logger);
+  Heartbeat heart;
+  std::function<void()> cut = [] {};
+  if (real) {
+    real->board.heed(heart);
+    cut = [&real] { real->cut->cut(); };
+  } else {
+    robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
+  }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session(robot, board, logger, channel);
+  auto result = run_session({robot, board, logger, channel, heart, cut});
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();

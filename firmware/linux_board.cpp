@@ -133,7 +133,8 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
 }
 
 void LinuxBoard::write(const Command& command) noexcept {
-  devices_->drives->command(command.motor, command.drive, monotonic_ns());
+  const bool tripped = heart_ != nullptr && heart_->tripped();
+  devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, monotonic_ns());
   if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
 }
 

@@ -9,6 +9,7 @@
 #include "drivers/can/cubemars.hpp"
 #include "firmware/board.hpp"
 #include "firmware/linux_board_config.hpp"
+#include "firmware/watchdog/heartbeat.hpp"
 
 namespace sandhopper {
 
@@ -64,6 +65,10 @@ class LinuxBoard : public Board {
   void read(SensorFrame& frame) noexcept override;
   void write(const Command& command) noexcept override;
 
+  // From now on what was worked out before a trip of the cycle's watchdog is not sent. `heart` must outlive
+  // the board.
+  void heed(const Heartbeat& heart) noexcept { heart_ = &heart; }
+
   LinuxBoardStatus status() const noexcept;
 
  private:
@@ -71,6 +76,7 @@ class LinuxBoard : public Board {
 
   std::unique_ptr<LinuxBoardDevices> devices_;
   std::unique_ptr<Acquisition> acquisition_;
+  const Heartbeat* heart_ = nullptr;
 };
 
 // One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <system_error>
 
@@ -19,6 +20,15 @@ std::optional<Request> request_named(std::string_view word) {
   for (std::size_t i = 1; i < EnumNames<Request>::value.size(); ++i)
     if (EnumNames<Request>::value[i] == word) return static_cast<Request>(i);
   return std::nullopt;
+}
+
+// Never gentler than it was asked before.
+void ask_to(Quit how, std::atomic<Quit>& quit) {
+  if (quit.load() < how) quit.store(how);
+}
+
+void ask_again(std::atomic<Quit>& quit) {
+  ask_to(quit.load() == Quit::no ? Quit::softly : Quit::at_once, quit);
 }
 
 // In one call: the logger's and the stride's thread speak, too.
@@ -54,27 +64,38 @@ OperatorChannel::OperatorChannel() {
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGHUP, SIG_IGN);  // a lost terminal ends standard input, which quits in order
-  signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC);
+  std::signal(SIGHUP, SIG_DFL);  // also under nohup: a robot is not left to itself
+  signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
 }
 
 OperatorChannel::~OperatorChannel() { close(signal_fd_); }
 
-void OperatorChannel::listen(RequestBox& requests, std::atomic<bool>& quit, const std::atomic<bool>& ended) {
+void OperatorChannel::listen(RequestBox& requests, std::atomic<Quit>& quit, const std::atomic<bool>& ended) {
   constexpr int kLook_ms = 100;
   std::array<pollfd, 2> fds{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{signal_fd_, POLLIN, 0}};
-  while (!quit.load() && !ended.load()) {
-    if (poll(fds.data(), fds.size(), kLook_ms) < 0 && errno != EINTR) break;
-    if ((fds[1].revents & POLLIN) != 0) quit.store(true);
-    if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit))
-      quit.store(true);
+  while (!ended.load()) {
+    if (poll(fds.data(), fds.size(), kLook_ms) < 0 && errno != EINTR) ask_to(Quit::at_once, quit);
+    if ((fds[1].revents & POLLIN) != 0) take_signal(quit);
+    if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit)) {
+      fds[0].fd = -1;
+      ask_to(Quit::softly, quit);
+    }
   }
 }
 
-bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<bool>& quit) {
+void OperatorChannel::take_signal(std::atomic<Quit>& quit) {
+  signalfd_siginfo info{};
+  while (read(signal_fd_, &info, sizeof info) == sizeof info) {
+    tell_text("signal", strsignal(static_cast<int>(info.ssi_signo)));
+    ask_again(quit);
+  }
+}
+
+bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<Quit>& quit) {
   std::array<char, 256> buffer{};
   const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
   if (got <= 0) return false;
@@ -87,9 +108,9 @@ bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<bool>& quit) 
   return true;
 }
 
-void OperatorChannel::take_line(const std::string& line, RequestBox& requests, std::atomic<bool>& quit) {
+void OperatorChannel::take_line(const std::string& line, RequestBox& requests, std::atomic<Quit>& quit) {
   if (line == "quit") {
-    quit.store(true);
+    ask_again(quit);
     return;
   }
   if (const auto request = request_named(line))
@@ -115,12 +136,13 @@ void OperatorChannel::tell(const StrideResult& r) {
 
 void OperatorChannel::tell(const SessionResult& r) {
   print(fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
-                    R"("lost_can_frames":{},"log_error":{},)"
+                    R"("lost_can_frames":{},"log_error":{},"clock_steps":{},"watchdog_trips":{},)"
+                    R"("longest_stall_ms":{:.1f},)"
                     R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{},"histogram":{}}}}}}})",
                     name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
-                    r.lost_can_frames, json_string(r.log_error), r.latency.quantile_us(0.5),
-                    r.latency.quantile_us(0.99), r.latency.quantile_us(0.999), r.latency.largest_us(),
-                    r.latency.as_json()));
+                    r.lost_can_frames, json_string(r.log_error), r.clock_steps, r.watchdog_trips,
+                    1e3 * r.longest_stall_s, r.latency.quantile_us(0.5), r.latency.quantile_us(0.99),
+                    r.latency.quantile_us(0.999), r.latency.largest_us(), r.latency.as_json()));
 }
 
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {

@@ -29,6 +29,7 @@ __attribute__((noinline)) void touch_stack(std::size_t bytes) {
 }  // namespace
 
 RealTimeThread::RealTimeThread(const RealTimeConfig& config) {
+  pthread_setname_np(pthread_self(), "cycle");
   if (config.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     warnings_.push_back(
         fmt::format("memory is not locked ({}): raise `ulimit -l` or give CAP_IPC_LOCK", why(errno)));
@@ -92,22 +93,39 @@ std::string LatencyHistogram::as_json() const {
   return text.empty() ? "[]" : text + "]";
 }
 
-CycleClock::CycleClock(std::int64_t period_ns)
-    : period_ns_(period_ns), next_ns_((monotonic_ns() / period_ns + 2) * period_ns) {}
+namespace {
+
+class Monotonic : public TimeSource {
+ public:
+  std::int64_t now_ns() noexcept override { return monotonic_ns(); }
+  void sleep_until(std::int64_t time_ns) noexcept override {
+    const timespec until{time_ns / kNanosecondsPerSecond, time_ns % kNanosecondsPerSecond};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+  }
+};
+
+}  // namespace
+
+TimeSource& monotonic_time() noexcept {
+  static Monotonic time;
+  return time;
+}
+
+CycleClock::CycleClock(std::int64_t period_ns, TimeSource& time)
+    : time_(time), period_ns_(period_ns), next_ns_((time.now_ns() / period_ns + 2) * period_ns) {}
 
 std::int64_t CycleClock::wait() noexcept {
-  const std::int64_t before_ns = monotonic_ns();
+  const std::int64_t before_ns = time_.now_ns();
   if (before_ns >= next_ns_) {
     const std::int64_t missed = (before_ns - next_ns_) / period_ns_ + 1;
     next_ns_ += missed * period_ns_;
     cycle_ += static_cast<std::uint64_t>(missed);
     overruns_ += static_cast<std::uint32_t>(missed);
   }
-  const timespec until{next_ns_ / 1'000'000'000, next_ns_ % 1'000'000'000};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
+  time_.sleep_until(next_ns_);
   const std::int64_t grid_ns = next_ns_;
-  latency_.add(monotonic_ns() - grid_ns);
+  latency_.add(time_.now_ns() - grid_ns);
   next_ns_ += period_ns_;
   ++cycle_;
   return grid_ns;

@@ -60,11 +60,20 @@ class LatencyHistogram {
   std::int64_t largest_ns_ = 0;
 };
 
+// What the cycle's grid stands on: CLOCK_MONOTONIC, or a test's time.
+class TimeSource {
+ public:
+  virtual ~TimeSource() = default;
+  virtual std::int64_t now_ns() noexcept = 0;
+  virtual void sleep_until(std::int64_t time_ns) noexcept = 0;
+};
+TimeSource& monotonic_time() noexcept;
+
 // The cycle's grid on CLOCK_MONOTONIC: whole multiples of the period. A grid point that has passed when the
 // cycle ends is counted as an overrun and skipped, never caught up by a burst.
 class CycleClock {
  public:
-  explicit CycleClock(std::int64_t period_ns);
+  explicit CycleClock(std::int64_t period_ns, TimeSource& time = monotonic_time());
 
   // Sleeps until the next grid point and returns it.
   std::int64_t wait() noexcept;
@@ -73,6 +82,7 @@ class CycleClock {
   const LatencyHistogram& latency() const noexcept { return latency_; }
 
  private:
+  TimeSource& time_;
   std::int64_t period_ns_;
   std::int64_t next_ns_;
   std::uint64_t cycle_ = 0;

@@ -25,9 +25,12 @@ struct SensorFrame {
   TofSample tof{};
   LoadCellSample load_cell{};
   BusSample bus{};
-  std::uint32_t overruns = 0;     // cumulative
-  bool emergency_stop = false;    // the e-stop's line stops now or did since the last cycle; a cut wire does
-  bool watchdog_tripped = false;  // the watchdog took the torque away since the last cycle
+  std::uint32_t overruns = 0;   // cumulative
+  bool emergency_stop = false;  // the e-stop's line stops now or did since the last cycle; a cut wire does
+  // The cycle stood still for this long and the watchdog took the torque away; 0: it did not.
+  std::int64_t watchdog_stall_ns = 0;
+  std::int64_t wall_clock_step_ns =
+      0;  // CLOCK_REALTIME jumped by this since the last cycle; nothing depends on it
   Request request = Request::none;
 
   template <class Self, class Visitor>
@@ -42,7 +45,8 @@ struct SensorFrame {
     visit("bus", self.bus);
     visit("overruns", self.overruns);
     visit("emergency_stop", self.emergency_stop);
-    visit("watchdog_tripped", self.watchdog_tripped);
+    visit("watchdog_stall_ns", self.watchdog_stall_ns);
+    visit("wall_clock_step_ns", self.wall_clock_step_ns);
     visit("request", self.request);
   }
 };

@@ -9,6 +9,7 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -21,6 +22,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kBatchSize = 16;
+constexpr std::int64_t kStampSlack_ns = 200'000;
 constexpr std::size_t kControlSize = CMSG_SPACE(3 * sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
 
 template <class T>
@@ -80,6 +82,7 @@ struct CanSocket::Batch {
 
 CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> filters)
     : fd_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)),
+      emptied_ns_(monotonic_ns()),
       batch_(std::make_unique<Batch>()) {
   if (!fd_)
     throw DeviceError(interface, errno_cause("cannot open a CAN socket"),
@@ -132,6 +135,9 @@ std::span<const ReceivedFrame> CanSocket::receive(bool& more) noexcept {
   for (auto& header : b.headers) header.msg_hdr.msg_controllen = kControlSize;
   const int count = ::recvmmsg(fd_.get(), b.headers.data(), kBatchSize, MSG_DONTWAIT, nullptr);
   more = count >= static_cast<int>(kBatchSize);
+  const auto now_ns = monotonic_ns();
+  const auto earliest_ns = emptied_ns_ - kStampSlack_ns;
+  if (!more) emptied_ns_ = now_ns;
   if (count <= 0) return {};
   const auto offset_ns = realtime_offset_ns();
   std::size_t kept = 0;
@@ -151,7 +157,9 @@ std::span<const ReceivedFrame> CanSocket::receive(bool& more) noexcept {
         kernel_drops_ = drops;
       }
     }
-    if (time_ns == 0) time_ns = monotonic_ns();
+    // The kernel stamps in CLOCK_REALTIME: one that was set since gives times at which nothing can have come.
+    if (time_ns == 0) time_ns = now_ns;
+    time_ns = std::clamp(time_ns, earliest_ns, now_ns + kStampSlack_ns);
     if (b.headers[i].msg_len != sizeof(can_frame)) continue;
     if (tap_ != nullptr) tap_->on_frame(b.raw[i], time_ns, false);
     if ((b.raw[i].can_id & CAN_ERR_FLAG) != 0) {

@@ -32,6 +32,7 @@ class CanSocket : public CanPort {
   bool wait(std::int64_t timeout_ns) noexcept override;
   const CanCounters& counters() const noexcept override { return counters_; }
   void set_tap(CanTap* tap) noexcept override { tap_ = tap; }
+  int descriptor() const noexcept { return fd_.get(); }
 
  private:
   struct Batch;
@@ -40,6 +41,7 @@ class CanSocket : public CanPort {
   CanTap* tap_ = nullptr;
   CanCounters counters_{};
   std::uint32_t kernel_drops_ = 0;  // as the kernel counts them
+  std::int64_t emptied_ns_;         // when it was last seen that nothing waits
   std::unique_ptr<Batch> batch_;
   bool holding_ = false;  // frames of the cycle before have not left
 };

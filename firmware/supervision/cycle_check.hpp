@@ -22,7 +22,8 @@ class CycleCheck {
     findings.add_if(gap > config_.cycle_gap, Fault::cycle_gap, static_cast<double>(gap), config_.cycle_gap);
     findings.add_if(overruns > config_.overruns_per_s, Fault::cycle_overruns, overruns,
                     config_.overruns_per_s);
-    findings.add_if(frame.watchdog_tripped, Fault::watchdog_tripped, 1.0, 0.0);
+    findings.add_if(frame.watchdog_stall_ns != 0, Fault::watchdog_tripped,
+                    1e-9 * static_cast<double>(frame.watchdog_stall_ns), 0.0);
     last_cycle_ = frame.cycle;
     started_ = true;
   }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drivers/can/torque_cut.hpp"
 #include "drivers/device_error.hpp"
 #include "firmware/controller.hpp"
 #include "tests/faults/setup.hpp"
@@ -91,6 +92,24 @@ TEST(Dialects, ADriveThatChangesItsDialectLaterGetsNoMoreTorque) {
   bench.bus->set(Device::bus, Kind::foreign);
   for (int i = 0; i < 3; ++i) bench.cycle(DriveRequest::run, 0.7);
   EXPECT_LT(std::abs(bench.bus->told(Side::left).torque_Nm), 0.02);
+}
+
+TEST(Dialects, TheWatchdogsFramesTakeTheTorqueFromEach) {
+  for (const auto dialect : kDialects) {
+    Bench bench(dialect, dialect);
+    bench.driver.probe();
+    for (int i = 0; i < 100; ++i) bench.cycle(DriveRequest::run, 0.7);
+    ASSERT_NEAR(bench.bus->told(Side::right).torque_Nm, 0.7, 0.02) << name_of(dialect);
+    const auto frames = torque_cut_frames(can_with(dialect));
+    EXPECT_EQ(frames.size(), dialect == Dialect::mit ? 4U : 2U) << name_of(dialect);
+    for (const auto& frame : frames) bench.bus->send(frame);
+    for (const auto side : {Side::left, Side::right}) {
+      EXPECT_LT(std::abs(bench.bus->told(side).torque_Nm), 0.02) << name_of(dialect);
+      EXPECT_LT(bench.bus->told(side).kp_Nm_per_rad + bench.bus->told(side).kd_Nm_s_per_rad, 0.01)
+          << name_of(dialect);
+      EXPECT_EQ(bench.bus->enabled(side), dialect != Dialect::mit) << name_of(dialect);
+    }
+  }
 }
 
 // A drive error in each dialect while hopping: seen, and the drives off.

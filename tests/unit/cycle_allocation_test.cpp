@@ -59,7 +59,8 @@ Run run_trial(std::uint64_t plant_at) {
     for (std::uint64_t k = 1; k < 4000; ++k) {
       {
         const AllocationGuard guard;
-        cycle.run({static_cast<std::int64_t>(k) * kCyclePeriod_ns, k, 0, request});
+        cycle.run(
+            {.time_ns = static_cast<std::int64_t>(k) * kCyclePeriod_ns, .cycle = k, .request = request});
         run.allocations += guard.count();
       }
       request = Request::none;

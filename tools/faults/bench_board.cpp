@@ -30,8 +30,7 @@ void BenchBoard::read(SensorFrame& frame) noexcept {
   load_cell_.pass(world_.load_cell(), frame.time_ns, frame.load_cell);
   frame.bus = drives_->bus_sample();
   frame.emergency_stop = stop_level_ || stop_edge_;
-  frame.watchdog_tripped = watchdog_tripped_;
-  stop_edge_ = watchdog_tripped_ = false;
+  stop_edge_ = false;
 }
 
 void BenchBoard::write(const Command& command) noexcept {
@@ -64,8 +63,7 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
       stop_edge_ = kind == Kind::tapped;
       return;
     case Device::computer:
-      watchdog_tripped_ = kind == Kind::watchdog;
-      return;
+      return;  // whoever turns the cycle
     case Device::robot:
       if (!kind || kind == Kind::tilting || kind == Kind::lifted) imu_body_.set(kind, now_ns);
       if (!kind || kind == Kind::lifted) imu_foot_.set(kind, now_ns);

@@ -35,7 +35,6 @@ class BenchBoard : public Board {
   SensorFault<LoadCellSample> load_cell_;
   bool stop_level_ = false;
   bool stop_edge_ = false;
-  bool watchdog_tripped_ = false;
 };
 
 CanConfig can_of(const RobotConfig& robot);

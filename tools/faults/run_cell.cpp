@@ -100,7 +100,12 @@ class CellTrial {
   void turn() {
     cycle_number_ += skipped();
     const auto now_ns = static_cast<std::int64_t>(cycle_number_) * kCyclePeriod_ns;
-    output_ = &cycle_.run({now_ns, cycle_number_, overruns_, request()});
+    const bool tripped = cell_.kind == Kind::watchdog && injected_at_ != 0 && cycle_number_ == injected_at_;
+    output_ = &cycle_.run({.time_ns = now_ns,
+                           .cycle = cycle_number_,
+                           .overruns = overruns_,
+                           .watchdog_stall_ns = tripped ? 25 * kCyclePeriod_ns : 0,
+                           .request = request()});
     aftermath_.serve();
     for (const auto& event : controller_.events()) see(event);
     see_reaction();

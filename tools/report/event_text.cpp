@@ -22,6 +22,9 @@ std::string values_of(const Event& event) {
     case EventKind::fault_raised:
     case EventKind::disarm_refused:
       return fmt::format("{}: {:.4g}, {:.4g}", entry_of(event.fault).meaning, v[0], v[1]);
+    case EventKind::clock_stepped:
+      return fmt::format("the date was set {} by {:.3f} s, or the computer slept",
+                         v[0] < 0.0 ? "back" : "forward", v[0] < 0.0 ? -v[0] : v[0]);
     case EventKind::armed:
     case EventKind::stop_requested:
     case EventKind::stopped:

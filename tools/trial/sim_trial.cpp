@@ -68,7 +68,7 @@ SimTrialResult run_sim_trial(const SimTrialSetup& setup) {
   const auto longest = static_cast<std::uint64_t>(setup.longest_s * 1e9 / kCyclePeriod_ns);
   for (std::uint64_t k = 1; k <= longest; ++k) {
     const std::int64_t now_ns = static_cast<std::int64_t>(k) * kCyclePeriod_ns;
-    const auto& output = cycle.run({now_ns, k, 0, script.next(k)});
+    const auto& output = cycle.run({.time_ns = now_ns, .cycle = k, .request = script.next(k)});
     logger.push(truth, now_ns, world.truth());
     for (const auto& event : controller.events()) script.see(event, k);
     aftermath.serve();

@@ -1,0 +1,42 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/watchdog/heartbeat.hpp"
+#include "firmware/watchdog/kernel_watchdog.hpp"
+#include "firmware/watchdog/watchdog_config.hpp"
+
+namespace sandhopper {
+
+// Tells those outside the process that the cycle beats: the kernel's watchdog and, under systemd, the service
+// manager (sd_notify(3): READY=1, STATUS=, WATCHDOG=1 twice in WATCHDOG_USEC, STOPPING=1). Of ordinary
+// priority on purpose: a computer on which it does not get to run has come to a standstill, too. A cycle that
+// stands still, or has not begun, is not spoken for; systemd then ends the program, the kernel resets the
+// computer.
+class Keepalive {
+ public:
+  Keepalive(const WatchdogConfig& config, const Heartbeat& heart);
+  // Says that the service stops and disarms the kernel's watchdog.
+  ~Keepalive();
+  Keepalive(const Keepalive&) = delete;
+  Keepalive& operator=(const Keepalive&) = delete;
+
+  const std::string& warning() const noexcept { return kernel_.warning(); }
+
+ private:
+  void run();
+  void tell_state();
+
+  const Heartbeat& heart_;
+  KernelWatchdog kernel_;
+  std::uint64_t service_period_us_ = 0;  // 0: no service manager asks for it
+  std::int64_t period_ns_;
+  std::string told_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace sandhopper
