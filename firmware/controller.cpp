@@ -12,6 +12,10 @@ bool hopping(State state) noexcept {
   return state == State::flight || state == State::compression || state == State::extension;
 }
 
+// A body that accelerates less than this is carried by its leg. Its estimated speed would not do: an impact
+// beyond the accelerometers' range leaves it wrong by half a metre a second.
+constexpr double kSupported_mps2 = 3.0;
+
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
@@ -52,6 +56,13 @@ bool Controller::estimating() const noexcept {
 
 double Controller::time_in_state_s(const SensorFrame& frame) const noexcept {
   return seconds(frame.time_ns - state_since_ns_);
+}
+
+// A soft stop takes as long as settling and the ramp do, besides.
+double Controller::phase_time_s(const SensorFrame& frame) const noexcept {
+  if (hopping(out_.state)) return time_in_state_s(frame);
+  if (out_.state != State::soft_stop) return 0.0;
+  return time_in_state_s(frame) - config_.limits.settle_s - config_.limits.ramp_down_s;
 }
 
 LegObservation Controller::observation() const noexcept {
@@ -126,7 +137,7 @@ void Controller::supervise(const SensorFrame& frame) noexcept {
   const auto found =
       supervisor_.check(frame, out_.estimate,
                         {.state = out_.state,
-                         .phase_time_s = hopping(out_.state) ? time_in_state_s(frame) : 0.0,
+                         .phase_time_s = phase_time_s(frame),
                          .estimating = estimating(),
                          .energised = drives_on(out_.state) && (out_.state != State::armed || ready_),
                          .touchdowns = recorder_.strides_begun(),
@@ -185,8 +196,23 @@ void Controller::step_armed(const SensorFrame& frame) noexcept {
 
 void Controller::step_hop(const SensorFrame& frame) noexcept {
   recorder_.update(out_.estimate, out_.state);
-  if (const auto transition = next_phase(out_.state, observation(), config_.controller))
+  if (const auto transition = next_phase(out_.state, observation(), config_.controller)) {
     apply(*transition, frame);
+    return;
+  }
+  // Too little energy to lift off again: on the ground and at rest. Nothing is broken; the hop is over.
+  if (out_.state == State::flight || !still()) still_since_ns_ = frame.time_ns;
+  if (seconds(frame.time_ns - still_since_ns_) <= config_.limits.settle_s) return;
+  const auto& e = out_.estimate;
+  emit(EventKind::stop_requested, Reason::settled,
+       {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
+  enter(State::soft_stop, frame);
+}
+
+bool Controller::still() const noexcept {
+  const auto& e = out_.estimate;
+  return std::abs(e.leg_rate_mps) < config_.limits.settled_speed_mps &&
+         std::abs(e.body_accel_mps2) < kSupported_mps2;
 }
 
 void Controller::apply(const Transition& transition, const SensorFrame& frame) noexcept {
@@ -210,11 +236,9 @@ void Controller::apply(const Transition& transition, const SensorFrame& frame) n
 
 void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
   const auto& e = out_.estimate;
-  const bool still = std::abs(e.leg_rate_mps) < config_.limits.settled_speed_mps &&
-                     std::abs(e.body_velocity_mps) < config_.limits.settled_speed_mps;
   const double still_s = seconds(frame.time_ns - still_since_ns_);
   const bool ramping = still_s > config_.limits.settle_s;
-  if (!still && !ramping) still_since_ns_ = frame.time_ns;
+  if (!still() && !ramping) still_since_ns_ = frame.time_ns;
   if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
   emit(EventKind::stopped, Reason::settled,
        {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});

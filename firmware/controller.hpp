@@ -19,7 +19,8 @@ namespace sandhopper {
 // and gives the same bits for the same frames.
 //
 //   idle --arm--> armed (zero check) --free fall--> flight --> compression --> extension --> flight --> ...
-//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; any fault, in
+//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; a stance that
+//   comes to rest, too; any fault, in
 //   any state: fault state, by way of the reaction that the fault's entry names, left only by `disarm` and
 //   only where the entry's latching rule allows it.
 class Controller {
@@ -52,11 +53,13 @@ class Controller {
   void raise(const FaultFound& found, const SensorFrame& frame) noexcept;
   void disarm(const SensorFrame& frame) noexcept;
   bool estimating() const noexcept;
+  bool still() const noexcept;
   void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
   void write_command(const SensorFrame& frame) noexcept;
   void write_fault_command(const SensorFrame& frame) noexcept;
   LegObservation observation() const noexcept;
   double time_in_state_s(const SensorFrame& frame) const noexcept;
+  double phase_time_s(const SensorFrame& frame) const noexcept;
 
   const CycleConfig config_;
   const Leg leg_;

@@ -141,8 +141,8 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "some drives send the temperature without the offset of 40"},
     {Fault::phase_timeout, "phase_timeout", Reaction::damp, Latch::until_disarmed, 2,
      "flight or stance lasted longer than limits.phase_time_s",
-     "check that the robot was released over the bed, that the ToF sensor sees it and that the leg can reach "
-     "its extension length"},
+     "a robot that comes to rest in stance is stopped softly instead, so it hangs, or moves on without a "
+     "touchdown or liftoff: check that it was released over the bed and that the ToF sensor sees it"},
     {Fault::bus_off, "bus_off", Reaction::limp, Latch::until_restart, 1,
      "the CAN controller has switched itself off the bus",
      "remove the short or the node at the wrong bit rate, then `ip link set can0 down`, up, and restart "
@@ -225,7 +225,8 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "the load cell repeats the same value although its noise was seen before",
      "check the amplifier's supply and the ADC's input"},
     {Fault::load_cell_out_of_range, "load_cell_out_of_range", Reaction::damp, Latch::until_disarmed, 80,
-     "the load cell reads beyond supervision.load_cell_range_N, or no number",
+     "the load cell reads beyond supervision.load_cell_range_N while the body's IMU feels no blow, or no "
+     "number",
      "check the bridge's wires and the amplifier; an open wire drives it to the end of its range"},
     {Fault::load_cell_implausible, "load_cell_implausible", Reaction::damp, Latch::until_disarmed, 60,
      "the load cell and the momentum observer do not agree",

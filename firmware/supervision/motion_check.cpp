@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/supervision/end_stop.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -36,7 +38,7 @@ void MotionCheck::see(const SensorFrame& frame, const Estimate& estimate, const 
     load_cell_error_N_ = 0.0;
     return;
   }
-  see_load_cell(estimate, context, findings);
+  if (!strikes_end_stop(frame.imu_body, config_)) see_load_cell(estimate, context, findings);
   see_estimate(estimate, context, findings);
   see_energy(estimate, context, findings);
 }

@@ -11,6 +11,7 @@ constexpr double kLate = 3.0;
 constexpr double kErrorTime_s = 0.010;  // low-pass of the velocity's and the current's error
 constexpr int kErrorCycles = 8;
 constexpr double kErrorShare = 0.25;  // of the speed; a scale wrong by two gives a half
+constexpr double kForget_s = 0.3;     // of the other side's travel
 constexpr int kSettle_cycles = 15;    // after drives come on
 constexpr int kSamples = 3;           // current and voltage: as many in a row
 
@@ -126,6 +127,9 @@ void MotorPairCheck::see(const std::array<MotorSample, kMotorCount>& motor, bool
     const double own = motor[i].position_rad;
     // By its velocity: a position that runs away alone is not a leg that moves.
     const double dt_s = started_ ? seconds(motor[1 - i].time_ns - last_ns_[1 - i]) : 0.0;
+    // It is forgotten again: a drive whose velocity cannot be zero (half a count of the MIT protocol) would
+    // otherwise travel while it stands.
+    anchor.other_travel_rad -= anchor.other_travel_rad * std::clamp(dt_s / kForget_s, 0.0, 1.0);
     anchor.other_travel_rad += motor[1 - i].velocity_radps * dt_s;
     if (!started_ || std::abs(own - anchor.own_rad) > kStill_rad) anchor = {own, 0.0};
     const double moved = std::abs(anchor.other_travel_rad);

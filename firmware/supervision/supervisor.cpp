@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "firmware/supervision/end_stop.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -104,9 +106,10 @@ void Supervisor::check_sensors(const SensorFrame& frame, const Context& context,
       seen(frame.imu_foot, !same(frame.imu_foot, last_.imu_foot), within(frame.imu_foot, s.imu_range_mps2)),
       findings);
   const double height = frame.tof.height_m, force = frame.load_cell.force_N;
+  const bool blow = std::isfinite(force) && strikes_end_stop(frame.imu_body, config_);
   sensor_[2].see(seen(frame.tof, height != last_.tof.height_m, std::abs(height) < s.tof_range_m), findings);
   sensor_[3].see(
-      seen(frame.load_cell, force != last_.load_cell.force_N, std::abs(force) < s.load_cell_range_N),
+      seen(frame.load_cell, force != last_.load_cell.force_N, blow || std::abs(force) < s.load_cell_range_N),
       findings);
 }
 

@@ -23,9 +23,9 @@ class Supervisor {
 
   struct Context {
     State state;
-    double phase_time_s;       // in flight, compression or extension, else 0
-    bool estimating;           // the estimate belongs to this frame
-    bool energised;            // drives are on and checked
+    double phase_time_s;  // in flight, compression or extension; of a soft stop what is beyond its own time
+    bool estimating;      // the estimate belongs to this frame
+    bool energised;       // drives are on and checked
     std::uint32_t touchdowns;  // since start
     const Command& command;    // of the last cycle
   };

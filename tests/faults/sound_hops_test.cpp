@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "firmware/controller.hpp"
+#include "tests/faults/setup.hpp"
+#include "tools/faults/bench_board.hpp"
+
+// No fault where nothing is broken: hops on beds from very soft to rigid, with each spring of the paper's,
+// from low to high drops, one without noise and five whose noise, offsets and bed differ. A soft spring and a
+// high drop drive the leg past the angle it is allowed; the simulated robot's true angle says where that
+// alarm is right.
+namespace sandhopper::faults {
+namespace {
+
+struct Hop {
+  double bed_N_per_m;  // 0: rigid
+  double spring_N_per_m;
+  double drop_m;
+  bool noise;
+  std::uint64_t seed;
+};
+
+struct Outcome {
+  Event fault{};  // kind fault_raised, or none
+  State before = State::idle;
+  State state = State::idle;
+  EventKind last = EventKind::armed;
+  int strides = 0;
+  double largest_angle_rad = 0.0;  // in truth
+  double smallest_angle_rad = 3.0;
+};
+
+Outcome run(const Hop& hop, const RobotConfig& shipped) {
+  auto robot = shipped;
+  robot.controller.compression_stiffness_N_per_m = hop.spring_N_per_m;
+  WorldConfig world_config;
+  if (hop.bed_N_per_m > 0.0) world_config.terrain.stiffness_N_per_m = hop.bed_N_per_m;
+  world_config.terrain.rigid = hop.bed_N_per_m == 0.0;
+  World world(world_config, {.release_height_m = hop.drop_m, .seed = hop.seed, .noise = hop.noise}, 0);
+  BenchBoard board(world, robot, hop.seed);
+  Controller controller(cycle_config(robot));
+  SensorFrame frame;
+  Outcome out;
+  Request request = Request::none;
+  for (std::uint64_t k = 1; k < 12000; ++k) {
+    frame.time_ns = static_cast<std::int64_t>(k) * 1'000'000;
+    frame.cycle = k;
+    frame.request = k == 300 ? Request::arm : request;
+    request = Request::none;
+    board.read(frame);
+    out.largest_angle_rad = std::max(out.largest_angle_rad, world.truth().leg_angle_rad);
+    out.smallest_angle_rad = std::min(out.smallest_angle_rad, world.truth().leg_angle_rad);
+    const auto before = out.state;
+    const auto& output = controller.step(frame);
+    board.write(output.command);
+    out.state = output.state;
+    for (const auto& event : controller.events()) {
+      if (event.kind == EventKind::armed) request = Request::release;
+      out.strides += event.kind == EventKind::liftoff;
+      out.last = event.kind;
+      if (event.kind == EventKind::fault_raised) {
+        out.fault = event;
+        out.before = before;
+        return out;
+      }
+      if (event.kind == EventKind::stopped) return out;
+    }
+  }
+  return out;
+}
+
+// What a hop must come to: rest, or, where the leg was bent too far, the fault that says so.
+bool right(const Outcome& out, const RobotConfig& robot) {
+  constexpr double kReading_rad = 0.02;  // of an encoder, a millisecond old
+  const double over_rad = std::max(out.largest_angle_rad - robot.limits.leg_angle_max_rad,
+                                   robot.limits.leg_angle_min_rad - out.smallest_angle_rad);
+  if (out.fault.fault == Fault::leg_angle_limit) return over_rad > -kReading_rad;
+  return out.fault.fault == Fault::none && out.last == EventKind::stopped && over_rad < kReading_rad;
+}
+
+void print(const Hop& hop, const Outcome& out) {
+  std::printf(
+      "  bed %4.0f N/m, spring %3.0f N/m, drop %.2f m, seed %d: %s (%.4g, %.4g) in %s after %d strides\n",
+      hop.bed_N_per_m, hop.spring_N_per_m, hop.drop_m, static_cast<int>(hop.seed),
+      std::string(name_of(out.fault.fault)).c_str(), out.fault.values[0], out.fault.values[1],
+      std::string(name_of(out.before)).c_str(), out.strides);
+}
+
+TEST(SoundHops, ComeToRestWithoutAFault) {
+  const auto robot = shipped_setup().robot;
+  int hops = 0, wrong = 0, bent_too_far = 0, without_liftoff = 0;
+  for (const double bed : {600.0, 1200.0, 2400.0, 3600.0, 0.0})
+    for (const double spring : {250.0, 375.0, 500.0})
+      for (const double drop : {0.02, 0.05, 0.10, 0.15, 0.22})
+        for (const std::uint64_t seed : {0, 1, 2, 3, 4, 5}) {
+          const Hop hop{bed, spring, drop, seed != 0, seed};
+          const auto out = run(hop, robot);
+          ++hops;
+          bent_too_far += out.fault.fault == Fault::leg_angle_limit;
+          without_liftoff += out.strides == 0;
+          if (right(out, robot)) continue;
+          ++wrong;
+          print(hop, out);
+        }
+  std::printf(
+      "%d hops: %d wrong; %d bent the leg past its limit and say so; %d came to rest without a liftoff\n",
+      hops, wrong, bent_too_far, without_liftoff);
+  EXPECT_EQ(wrong, 0);
+  // Both ends of the sweep are beyond what the robot can hop: were they not, it would prove less than it
+  // says.
+  EXPECT_GE(bent_too_far, 3);
+  EXPECT_LE(bent_too_far, 20);
+  EXPECT_GE(without_liftoff, 5);
+}
+
+// A drive of the MIT dialect cannot say zero velocity: half a count remains, a minute of it is 0.7 rad.
+TEST(SoundHops, ARobotThatHangsForAMinuteIsLeftAlone) {
+  for (const auto dialect : {Dialect::mit, Dialect::servo, Dialect::v3}) {
+    auto robot = shipped_setup().robot;
+    for (auto& motor : robot.motor) motor.dialect = dialect;
+    World world(WorldConfig{}, {}, 0);
+    BenchBoard board(world, robot, 1);
+    Controller controller(cycle_config(robot));
+    SensorFrame frame;
+    Fault fault = Fault::none;
+    for (std::uint64_t k = 1; k < 60'000 && fault == Fault::none; ++k) {
+      frame.time_ns = static_cast<std::int64_t>(k) * 1'000'000;
+      frame.cycle = k;
+      frame.request = k == 30'000 ? Request::arm : Request::none;
+      board.read(frame);
+      const auto& output = controller.step(frame);
+      board.write(output.command);
+      fault = output.fault;
+    }
+    EXPECT_EQ(fault, Fault::none) << name_of(dialect) << ": " << name_of(fault) << " after " << frame.cycle
+                                  << " ms";
+  }
+}
+
+}  // namespace
+}  // namespace sandhopper::faults
