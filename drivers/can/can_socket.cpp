@@ -83,7 +83,8 @@ struct CanSocket::Batch {
 CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> filters)
     : fd_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)),
       emptied_ns_(monotonic_ns()),
-      batch_(std::make_unique<Batch>()) {
+      batch_(std::make_unique<Batch>()),
+      echoes_(!filters.empty()) {
   if (!fd_)
     throw DeviceError(interface, errno_cause("cannot open a CAN socket"),
                       "Load SocketCAN (modprobe can_raw), or run on the virtual bench: tools/bench COMMAND");
@@ -94,7 +95,7 @@ CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> f
     throw DeviceError(interface, errno_cause("cannot set the receive filter"),
                       "Use a kernel with CAN_RAW filters");
   set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kErrorClasses, interface, "cannot receive error frames");
-  set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 0, interface, "cannot switch own frames off");
+  set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, echoes_ ? 1 : 0, interface, "no echoes of own frames");
   set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, 1, interface, "cannot count dropped frames");
   const int stamps = SOF_TIMESTAMPING_SOFTWARE | SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_RAW_HARDWARE;
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPING, stamps, interface, "cannot ask for receive time stamps");
@@ -109,12 +110,13 @@ CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> f
 CanSocket::~CanSocket() = default;
 
 // Frames that wait in the queue are charged to the socket until the driver takes them (getsockopt SO_MEMINFO,
-// Linux 4.12): an error here says nothing, so the cycle goes on.
+// Linux 4.12): an error here says nothing, so the cycle goes on. What the driver has taken, the ledger knows.
 void CanSocket::begin_cycle() noexcept {
   std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
   socklen_t size = sizeof memory;
   holding_ = ::getsockopt(fd_.get(), SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 &&
              memory[SK_MEMINFO_WMEM_ALLOC] > 0;
+  holding_ = holding_ || ledger_.holds(monotonic_ns());
   if (holding_) ++counters_.send_failures;
 }
 
@@ -126,6 +128,7 @@ std::optional<std::int64_t> CanSocket::send(const can_frame& frame) noexcept {
     return std::nullopt;
   }
   ++counters_.sent;
+  if (echoes_) ledger_.sent(frame.can_id, now);
   if (tap_ != nullptr) tap_->on_frame(frame, now, true);
   return now;
 }
@@ -142,6 +145,10 @@ std::span<const ReceivedFrame> CanSocket::receive(bool& more) noexcept {
   const auto offset_ns = realtime_offset_ns();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    if ((b.headers[i].msg_hdr.msg_flags & MSG_CONFIRM) != 0) {
+      ledger_.departed(b.raw[i].can_id);
+      continue;
+    }
     std::int64_t time_ns = 0;
     for (auto* c = CMSG_FIRSTHDR(&b.headers[i].msg_hdr); c != nullptr;
          c = CMSG_NXTHDR(&b.headers[i].msg_hdr, c)) {

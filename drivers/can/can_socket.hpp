@@ -9,6 +9,7 @@
 #include <string>
 
 #include "drivers/can/can_port.hpp"
+#include "drivers/can/departure_ledger.hpp"
 #include "drivers/unique_fd.hpp"
 
 namespace sandhopper {
@@ -17,8 +18,9 @@ namespace sandhopper {
 can_filter exact_standard_id(canid_t id) noexcept;
 can_filter exact_extended_id(canid_t id) noexcept;
 
-// A raw SocketCAN socket: non-blocking, own frames not received, loopback on so that candump on the same host
-// sees them, error frames of the controller received and counted.
+// A raw SocketCAN socket: non-blocking, own frames received as echoes only, which say that they have left
+// (pass their identifiers, too; with no filters at all there are none), loopback on so that candump sees
+// them, error frames of the controller received and counted.
 class CanSocket : public CanPort {
  public:
   // Throws DeviceError when the interface is missing or down.
@@ -43,7 +45,9 @@ class CanSocket : public CanPort {
   std::uint32_t kernel_drops_ = 0;  // as the kernel counts them
   std::int64_t emptied_ns_;         // when it was last seen that nothing waits
   std::unique_ptr<Batch> batch_;
+  bool echoes_;           // of own frames are received
   bool holding_ = false;  // frames of the cycle before have not left
+  DepartureLedger ledger_;
 };
 
 }  // namespace sandhopper

@@ -164,6 +164,11 @@ void CubeMarsCodec::add_filters(std::vector<can_filter>& filters) const {
   for (const canid_t standard : {canid_t{0}, id, static_cast<canid_t>(config_.master_id)})
     filters.push_back(exact_standard_id(standard));
   filters.push_back(exact_extended_id(kServoStatus | id));
+  // The echo of a command says that it has left; those of the MIT dialect are among the above.
+  if (config_.dialect != Dialect::mit) {
+    const auto mode = config_.dialect == Dialect::servo ? ServoMode::current : ServoMode::mit;
+    filters.push_back(exact_extended_id(servo_id(mode, config_.can_id) & CAN_EFF_MASK));
+  }
 }
 
 CubeMarsCodec::Match CubeMarsCodec::match(const can_frame& frame) const noexcept {
