@@ -115,7 +115,7 @@ TEST_F(DiagnoseRecordings, PlatesMeetABedThatStiffensWithDepth) {
 }
 
 TEST_F(DiagnoseRecordings, PenetrometerFallsAgainstTheWater) {
-  if (!run("penetrometer_on_spring", 1)) GTEST_SKIP();
+  if (!run("penetrometer_on_spring", 3)) GTEST_SKIP();
   EXPECT_EQ(answer_.verdict, "missing_physics");
   EXPECT_GT(value("air.quadratic_drag"), 0.3);
   EXPECT_LT(value("air.quadratic_drag"), 1.1);

@@ -172,6 +172,49 @@ bed_stiffness_relative = 0.05
                ConfigError);
 }
 
+// Dropped, pressed down and pushed off again: the foot, yields, unloads, yields once more and leaves.
+template <class Step>
+PlantState pushed_off(double release_height_m, double step_s, Step&& step) {
+  const WorldConfig config;
+  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+  plant.place({.foot_z_m = release_height_m, .angle_rad = plant.leg().angle_at_length(0.30)});
+  const auto count = std::lround(0.3 / step_s);
+  for (long i = 0; i < count; ++i) {
+    const double time_s = step_s * (static_cast<double>(i) + 0.5);
+    step(plant, time_s < 0.18 ? -0.8 : -2.0);
+  }
+  return plant.state();
+}
+
+TEST(Plant, CoarseStepsEndWhereFineOnesDo) {
+  const auto fine =
+      pushed_off(0.02, Plant::kStep_s, [](Plant& plant, double torque_Nm) { plant.step(torque_Nm); });
+  const auto coarse =
+      pushed_off(0.02, 2.5e-4, [](Plant& plant, double torque_Nm) { plant.advance(torque_Nm, 2.5e-4); });
+  std::printf("foot %.4f mm and %.4f mm, %.4f m/s and %.4f m/s\n", 1e3 * fine.foot_z_m, 1e3 * coarse.foot_z_m,
+              fine.foot_velocity_mps, coarse.foot_velocity_mps);
+  EXPECT_NEAR(coarse.foot_z_m, fine.foot_z_m, 5e-5);
+  EXPECT_NEAR(coarse.foot_velocity_mps, fine.foot_velocity_mps, 2e-3);
+}
+
+// A fit needs derivatives: the end must not jump when the instants at which the bed yields pass a grid point.
+TEST(Plant, TheEndOfCoarseStepsIsSmoothInTheStart) {
+  const auto end = [](double height_m) {
+    return pushed_off(height_m, 2.5e-4,
+                      [](Plant& plant, double torque_Nm) { plant.advance(torque_Nm, 2.5e-4); })
+        .foot_z_m;
+  };
+  constexpr double kShift_m = 2e-5;
+  double roughest_m = 0.0, slope = 0.0;
+  for (int i = 1; i < 60; ++i) {
+    const double at = 0.02 + kShift_m * i;
+    slope = std::max(slope, std::abs(end(at + kShift_m) - end(at - kShift_m)));
+    roughest_m = std::max(roughest_m, std::abs(end(at + kShift_m) - 2.0 * end(at) + end(at - kShift_m)));
+  }
+  std::printf("moves by %.2e m, second difference %.2e m at the most\n", slope, roughest_m);
+  EXPECT_LT(roughest_m, 0.05 * slope);
+}
+
 TEST(WorldConfig, ALegThatLocksOrCannotReachIsRefused) {
   EXPECT_THROW(load_text<WorldConfig>("nominal.toml", "[robot]\nlower_link_length_m = 0.1\n",
                                       MissingKeys::use_default),

@@ -17,6 +17,8 @@ constexpr double kByChance = 1e-6;       // probability of a stretch, given how 
 constexpr double kMostRepeats = 0.6;     // of the neighbourhood: above, the sensor rests
 constexpr double kLong_s = 0.06;         // a shorter stretch may also be lost samples
 constexpr std::size_t kShortest = 4;
+// A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
+constexpr std::size_t kShortestOfSpeed = 10;
 
 struct Stretch {
   std::size_t first, last;  // of `rows`
@@ -60,7 +62,7 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
 }
 
 std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
-                                    std::size_t shortest_by_number) {
+                                    std::size_t shortest, std::size_t shortest_by_number) {
   std::vector<Stretch> found;
   double grid = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < v.size(); ++i)
@@ -71,7 +73,7 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     const std::size_t length = j - i + 1;
     const bool inside = i > 0 && j + 1 < v.size();
     // A drive that reports exactly nothing rests.
-    if (length >= kShortest && inside && v[i] != 0.0) {
+    if (length >= shortest && inside && v[i] != 0.0) {
       const double chance = repeats_around(v, i, j);
       if (chance < kMostRepeats &&
           (std::pow(chance, static_cast<double>(length - 1)) < kByChance || length >= shortest_by_number) &&
@@ -123,12 +125,13 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   }
   if (total < 20.0 || repeated > 0.5 * total) return;  // a slow sensor, held in the log
   const std::size_t by_number = shortest_by_number(runs);
+  const std::size_t shortest = channel.ends_with("velocity_radps") ? kShortestOfSpeed : kShortest;
   std::vector<double> durations;
   std::size_t longest = 0;
   for (const auto& s : samples) {
     auto& values = s.trial->channels[channel];
     bool hit = false;
-    for (const auto& stretch : held_stretches(s.value, s.time_s, by_number)) {
+    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       hit = true;

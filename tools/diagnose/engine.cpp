@@ -73,6 +73,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Point point = fit_from(problem, null_point(problem)).point;
   update_noise(problem, point);
   keep_columns(problem, point);
+  point = fit_from(problem, point).point;
+  keep_columns(problem, point);
   diagnosis.simple = simple_answers(problem, point);
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
 
 #include "tools/experiment/parallel.hpp"
 
@@ -15,6 +15,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSettled = 0.01;
+constexpr int kNuisanceSteps = 3;       // of a trial at each point that is tried
+constexpr double kNuisanceGain = 0.03;  // of the deviance: less is not worth a simulation
+constexpr int kAttempts = 3;
+constexpr double kWorse = 1.0;  // of a trial's deviance
 constexpr double kPriorTypicals = 10.0;
 constexpr double kDerivativeStep = 0.005;  // of a parameter's typical size
 
@@ -51,8 +55,6 @@ void add_priors(const Problem& problem, const Point& point, MatrixXd& informatio
   }
 }
 
-double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 // Moves by `step` (typical sizes, then tolerances), inside the bounds. True when a bound was met.
 bool move(const Problem& problem, Point& point, const VectorXd& step) {
   bool bounded = false;
@@ -71,31 +73,167 @@ bool move(const Problem& problem, Point& point, const VectorXd& step) {
   return bounded;
 }
 
-}  // namespace
+// One trial at a point: its nuisances, what they predict and how far off that is.
+struct TrialState {
+  std::vector<double> nuisances;
+  VectorXd prediction;
+  double deviance = 0.0;
+};
 
-std::vector<double> deviances(const Problem& problem, const Point& point) {
-  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
-  std::vector<double> out(problem.trials.size());
-  parallel_for(out.size(), [&](std::size_t t) {
-    const TrialModel& trial = *problem.trials[t];
-    VectorXd r(static_cast<Index>(trial.rows.size()));
-    trial.predict(edits, point.nuisances[t], {r.data(), trial.rows.size()});
-    for (Index k = 0; k < r.size(); ++k) {
-      r[k] = trial.rows[static_cast<std::size_t>(k)].measured - r[k];
-      if (!std::isfinite(r[k])) r[k] = 1e6;
-    }
-    problem.noise.whiten(trial, problem.used[t], r);
-    double sum = r.squaredNorm();
-    const std::size_t q = trial.trial_nuisances.size(), nb = trial.block_nuisances.size();
-    for (std::size_t i = 0; i < point.nuisances[t].size(); ++i) {
-      const double sd = i < q ? trial.trial_nuisances[i].sd : trial.block_nuisances[(i - q) % nb].sd;
-      sum += std::pow(point.nuisances[t][i] / sd, 2);
-    }
-    out[t] = sum;
-    __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);
-  });
-  return out;
+void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialState& state) {
+  const TrialModel& trial = *problem.trials[t];
+  state.prediction = predicted(problem, trial, edits, state.nuisances);
+  VectorXd r(state.prediction.size());
+  for (Index k = 0; k < r.size(); ++k)
+    r[k] = trial.rows[static_cast<std::size_t>(k)].measured - state.prediction[k];
+  problem.noise.whiten(trial, problem.used[t], r);
+  state.deviance = r.squaredNorm();
+  const std::size_t q = trial.trial_nuisances.size(), nb = trial.block_nuisances.size();
+  for (std::size_t i = 0; i < state.nuisances.size(); ++i) {
+    const double sd = i < q ? trial.trial_nuisances[i].sd : trial.block_nuisances[(i - q) % nb].sd;
+    state.deviance += std::pow(state.nuisances[i] / sd, 2);
+  }
 }
+
+// The nuisances of one trial follow by themselves (Levenberg-Marquardt): each trial at its own pace.
+void settle(const Problem& problem, std::size_t t, const Edits& edits, const KeptColumns& columns,
+            TrialState& state) {
+  double damping = 0.0;
+  for (int step = 0; step < kNuisanceSteps; ++step) {
+    const auto linear = linearise(problem, t, edits, state.nuisances, {},
+                                  {.columns = &columns, .prediction = &state.prediction, .damping = damping});
+    if (state.deviance - linear.gram(0, 0) < kNuisanceGain) return;
+    TrialState next = state;
+    for (std::size_t i = 0; i < next.nuisances.size(); ++i)
+      next.nuisances[i] += linear.solution(static_cast<Index>(i), 0);
+    evaluate(problem, t, edits, next);
+    if (next.deviance < state.deviance)
+      state = std::move(next);
+    else
+      damping = damping == 0.0 ? 1.0 : 10.0 * damping;
+  }
+}
+
+// Everything that a fit moves.
+class Fitter {
+ public:
+  Fitter(const Problem& problem, const Point& start) : problem_(problem) {
+    at_.point = start;
+    at_.trials.resize(problem.trials.size());
+    const Edits edits = edits_for(problem, start.hypothesis, start.tolerances);
+    each_trial([&](std::size_t t) {
+      at_.trials[t].nuisances = start.nuisances[t];
+      evaluate(problem_, t, edits, at_.trials[t]);
+      if (!problem_.kept_columns.empty()) settle(problem_, t, edits, columns(t), at_.trials[t]);
+    });
+    finish(at_);
+    if (problem.kept_columns.empty()) refresh();
+  }
+
+  // One step of all parameters; the drop of the deviance, 0 where none was found or promised.
+  double step(double least_gain) {
+    const auto directions = parameter_directions(problem_, at_.point);
+    const Edits edits = edits_for(problem_, at_.point.hypothesis, at_.point.tolerances);
+    std::vector<TrialLinear> linear(at_.trials.size());
+    each_trial([&](std::size_t t) {
+      linear[t] = linearise(problem_, t, edits, at_.trials[t].nuisances, directions,
+                            {.columns = &columns(t), .prediction = &at_.trials[t].prediction});
+    });
+    const auto k = static_cast<Index>(directions.size());
+    information = MatrixXd::Zero(k, k);
+    VectorXd score = VectorXd::Zero(k);
+    for (const auto& trial : linear) {
+      information += trial.gram.bottomRightCorner(k, k);
+      score += trial.gram.col(0).tail(k);
+    }
+    add_priors(problem_, at_.point, information, score);
+    // What the step promises; priors are quadratic and exact.
+    double promised = k > 0 ? score.dot(information.ldlt().solve(score)) : 0.0;
+    for (std::size_t t = 0; t < linear.size(); ++t)
+      promised += std::max(0.0, at_.trials[t].deviance - linear[t].gram(0, 0));
+    if (promised < least_gain) return 0.0;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      MatrixXd damped = information;
+      damped.diagonal() *= 1.0 + damping_;
+      const VectorXd change = k > 0 ? VectorXd(damped.ldlt().solve(score)) : VectorXd();
+      At next = at_;
+      const bool met = move(problem_, next.point, change);
+      const Edits moved = edits_for(problem_, next.point.hypothesis, next.point.tolerances);
+      each_trial([&](std::size_t t) {
+        TrialState& trial = next.trials[t];
+        VectorXd follow = linear[t].solution.col(0);
+        if (k > 0) follow -= linear[t].solution.rightCols(k) * change;
+        for (std::size_t i = 0; i < trial.nuisances.size(); ++i)
+          trial.nuisances[i] += follow[static_cast<Index>(i)];
+        evaluate(problem_, t, moved, trial);
+        settle(problem_, t, moved, columns(t), trial);
+        if (trial.deviance < at_.trials[t].deviance + kWorse) return;
+        // This one was led astray: from where it was.
+        TrialState other{at_.trials[t].nuisances, {}, 0.0};
+        evaluate(problem_, t, moved, other);
+        settle(problem_, t, moved, columns(t), other);
+        if (other.deviance < trial.deviance) trial = std::move(other);
+      });
+      finish(next);
+      const double drop = at_.deviance - next.deviance;
+      if (drop > 0.0) {
+        at_ = std::move(next);
+        bounded = met;
+        damping_ = std::max(0.2 * damping_, 1e-6);
+        return drop;
+      }
+      damping_ = damping_ < 1e-2 ? 1e-1 : damping_ * 10.0;
+    }
+    return 0.0;
+  }
+
+  // Derivatives by nuisances and tolerances as they are here.
+  void refresh() {
+    own_columns_ = columns_at(problem_, point());
+    damping_ = 1e-3;
+  }
+  bool refreshed() const { return !own_columns_.empty(); }
+
+  Point point() const {
+    Point point = at_.point;
+    for (std::size_t t = 0; t < at_.trials.size(); ++t) point.nuisances[t] = at_.trials[t].nuisances;
+    return point;
+  }
+  double deviance() const { return at_.deviance; }
+  std::vector<double> trial_deviance() const {
+    std::vector<double> out;
+    for (const auto& trial : at_.trials) out.push_back(trial.deviance);
+    return out;
+  }
+
+  MatrixXd information;
+  bool bounded = false;
+
+ private:
+  struct At {
+    Point point;  // but for the nuisances
+    std::vector<TrialState> trials;
+    double deviance = 0.0;
+  };
+
+  void each_trial(const std::function<void(std::size_t)>& work) const {
+    parallel_for(problem_.trials.size(), work);
+  }
+  const KeptColumns& columns(std::size_t t) const {
+    return own_columns_.empty() ? problem_.kept_columns[t] : own_columns_[t];
+  }
+  void finish(At& at) const {
+    at.deviance = prior_deviance(problem_, at.point);
+    for (const auto& trial : at.trials) at.deviance += trial.deviance;
+  }
+
+  const Problem& problem_;
+  At at_;
+  std::vector<KeptColumns> own_columns_;
+  double damping_ = 1e-3;
+};
+
+}  // namespace
 
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point) {
   std::vector<Direction> directions;
@@ -116,66 +254,29 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
 }
 
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
+  Fitter fitter(problem, start);
   Fit fit;
-  fit.point = start;
-  fit.trial_deviance = deviances(problem, start);
-  fit.deviance = total(fit.trial_deviance) + prior_deviance(problem, start);
-  double damping = 1e-3;
-  bool bounded = false;
-  bool stalled = false;
+  const bool far = problem.kept_columns.empty();  // from where anything was known
+  bool done = false;
   double last_drop = 0.0;  // of the deviance, relative
-  bool fresh = problem.kept_columns.empty();
-  for (fit.iterations = 0; fit.iterations < options.max_iterations && !stalled; ++fit.iterations) {
-    const auto directions = parameter_directions(problem, fit.point);
-    const auto linear = linearise_all(problem, fit.point, directions, {.fresh_columns = fresh});
-    const auto k = static_cast<Index>(directions.size());
-    MatrixXd information = MatrixXd::Zero(k, k);
-    VectorXd score = VectorXd::Zero(k);
-    for (const auto& trial : linear) {
-      information += trial.gram.bottomRightCorner(k, k);
-      score += trial.gram.col(0).tail(k);
+  for (fit.iterations = 0; fit.iterations < options.max_iterations && !done; ++fit.iterations) {
+    const double drop = fitter.step(0.5 * options.tolerance);
+    if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
+    if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
+      if (far) fitter.refresh();
+      continue;
     }
-    add_priors(problem, fit.point, information, score);
-    fit.information = information;
-    bool accepted = false;
-    for (int attempt = 0; attempt < 5; ++attempt) {
-      MatrixXd damped = information;
-      damped.diagonal() *= 1.0 + damping;
-      const VectorXd step = k > 0 ? VectorXd(damped.ldlt().solve(score)) : VectorXd();
-      // A short cut where the whole step overshoots: the nuisances follow the shortened one.
-      const double shortening = std::pow(0.5, std::max(0, attempt - 2));
-      Point trial_point = fit.point;
-      bounded = move(problem, trial_point, shortening * step);
-      for (std::size_t t = 0; t < linear.size(); ++t) {
-        VectorXd change = linear[t].solution.col(0);
-        if (k > 0) change -= linear[t].solution.rightCols(k) * step;
-        for (std::size_t i = 0; i < trial_point.nuisances[t].size(); ++i)
-          trial_point.nuisances[t][i] += shortening * change[static_cast<Index>(i)];
-      }
-      const auto trial_deviance = deviances(problem, trial_point);
-      const double deviance = total(trial_deviance) + prior_deviance(problem, trial_point);
-      if (deviance < fit.deviance) {
-        last_drop = (fit.deviance - deviance) / std::max(fit.deviance, 1e-300);
-        stalled = fit.deviance - deviance < options.tolerance + 1e-7 * fit.deviance;
-        fit.point = std::move(trial_point);
-        fit.deviance = deviance;
-        fit.trial_deviance = trial_deviance;
-        damping = std::max(damping * 0.2, 1e-6);
-        accepted = true;
-        break;
-      }
-      damping = damping < 1e-2 ? 1e-1 : damping * 10.0;
-    }
-    if (!accepted || stalled) {
-      // Perhaps only the kept derivatives are stale.
-      const bool again = !accepted && !fresh;
-      fresh = true;
-      stalled = !again;
-    }
+    // Perhaps only the kept derivatives are stale.
+    done = far || fitter.refreshed() || !options.refresh;
+    if (!done) fitter.refresh();
   }
+  fit.point = fitter.point();
+  fit.deviance = fitter.deviance();
+  fit.trial_deviance = fitter.trial_deviance();
+  fit.information = fitter.information;
   // Out of iterations is a failure only where the last one still gained much.
-  const bool settled = stalled || last_drop < kSettled;
-  fit.status = !settled ? FitStatus::failed : bounded ? FitStatus::at_bound : FitStatus::converged;
+  const bool settled = done || last_drop < kSettled;
+  fit.status = !settled ? FitStatus::failed : fitter.bounded ? FitStatus::at_bound : FitStatus::converged;
   if (!std::isfinite(fit.deviance)) fit.status = FitStatus::failed;
   return fit;
 }

@@ -26,13 +26,11 @@ struct Fit {
 struct FitOptions {
   int max_iterations = 14;
   double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
+  bool refresh = true;     // once it ends, go on with derivatives by the nuisances made there
 };
 
 // From `start`; its nuisances and tolerances are kept as starting values.
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options = {});
-
-// Deviances of the trials at a point as it stands.
-std::vector<double> deviances(const Problem& problem, const Point& point);
 
 // Directions of the free parameters of a point, each scaled by its typical size, then tolerances.
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);

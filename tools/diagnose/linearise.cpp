@@ -13,16 +13,6 @@ using Eigen::VectorXd;
 
 constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
 
-VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
-                   const std::vector<double>& nuisances) {
-  VectorXd out(static_cast<Index>(trial.rows.size()));
-  trial.predict(edits, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
-  for (Index i = 0; i < out.size(); ++i)
-    if (!std::isfinite(out[i])) out[i] = 1e6;
-  __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);
-  return out;
-}
-
 struct Centre {
   const TrialModel& trial;
   const std::vector<std::uint8_t>& used;
@@ -83,7 +73,7 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
 // Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first; after
 // its columns come the tolerances `wanted` of the kept ones.
 void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
-               const std::vector<Index>& wanted, const KeptColumns& kept, TrialLinear& out) {
+               const std::vector<Index>& wanted, const KeptColumns& kept, double damping, TrialLinear& out) {
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
   const Index nb = kept.block.cols(), own = x.cols();
   const Index width = own + static_cast<Index>(wanted.size());
@@ -104,7 +94,7 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
   for (Index i = 0; i < q; ++i) {
     const double weight = 1.0 / std::pow(trial.trial_nuisances[static_cast<std::size_t>(i)].sd, 2);
     const double value = zeta[static_cast<std::size_t>(i)];
-    gram(width + i, width + i) += weight;
+    gram(width + i, width + i) = (1.0 + damping) * (gram(width + i, width + i) + weight);
     gram(width + i, 0) -= weight * value;
     gram(0, width + i) -= weight * value;
     gram(0, 0) += weight * value * value;
@@ -125,7 +115,7 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
       for (Index j = 0; j < nb; ++j) {
         const double weight = 1.0 / std::pow(trial.block_nuisances[static_cast<std::size_t>(j)].sd, 2);
         const double value = zeta[static_cast<std::size_t>(q + static_cast<Index>(b) * nb + j)];
-        hb(j, j) += weight;
+        hb(j, j) = (1.0 + damping) * (hb(j, j) + weight);
         cb(j, 0) -= weight * value;
         gram(0, 0) += weight * value * value;
       }
@@ -157,19 +147,31 @@ MatrixXd in_order(const MatrixXd& m, const std::vector<Index>& order) {
 
 }  // namespace
 
+VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
+                   const std::vector<double>& nuisances) {
+  VectorXd out(static_cast<Index>(trial.rows.size()));
+  trial.predict(edits, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
+  for (Index i = 0; i < out.size(); ++i)
+    if (!std::isfinite(out[i])) out[i] = 1e6;
+  __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);
+  return out;
+}
+
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options) {
   const TrialModel& trial = *problem.trials[index];
   const auto& used = problem.used[index];
   const auto rows = static_cast<Index>(trial.rows.size());
-  const VectorXd centre = predicted(problem, trial, base, nuisances);
+  const VectorXd centre =
+      options.prediction != nullptr ? *options.prediction : predicted(problem, trial, base, nuisances);
   KeptColumns own_columns;
-  if (options.fresh_columns || problem.kept_columns.empty())
+  const KeptColumns* columns = options.columns;
+  if (columns == nullptr && (options.fresh_columns || problem.kept_columns.empty())) {
     own_columns = columns_at(problem, {trial, used, base, nuisances, centre});
-  const KeptColumns& kept = own_columns.shared.size() > 0 || own_columns.block.size() > 0
-                                ? own_columns
-                                : problem.kept_columns[index];
+    columns = &own_columns;
+  }
+  const KeptColumns& kept = columns != nullptr ? *columns : problem.kept_columns[index];
 
   // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
   std::vector<const Direction*> simulated;
@@ -200,7 +202,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
       out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
   problem.noise.whiten(trial, used, x);
-  eliminate(trial, nuisances, x, wanted, kept, out);
+  eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.
     const auto q = static_cast<Index>(trial.trial_nuisances.size());
@@ -228,14 +230,16 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
   return out;
 }
 
-void keep_columns(Problem& problem, const Point& point) {
+std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<KeptColumns> columns(problem.trials.size());
   parallel_for(columns.size(), [&](std::size_t t) {
     const auto centre = predicted(problem, *problem.trials[t], base, point.nuisances[t]);
     columns[t] = columns_at(problem, {*problem.trials[t], problem.used[t], base, point.nuisances[t], centre});
   });
-  problem.kept_columns = std::move(columns);
+  return columns;
 }
+
+void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }
 
 }  // namespace sandhopper::diagnose

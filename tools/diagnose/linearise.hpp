@@ -27,7 +27,10 @@ struct TrialLinear {
 
 struct LineariseOptions {
   bool keep_plain = false;
-  bool fresh_columns = false;  // do not take the kept ones
+  bool fresh_columns = false;                   // do not take the kept ones
+  const KeptColumns* columns = nullptr;         // take these
+  const Eigen::VectorXd* prediction = nullptr;  // known already
+  double damping = 0.0;  // of the nuisances: their diagonal grows by this share (Marquardt)
 };
 
 TrialLinear linearise(const Problem& problem, std::size_t trial, const Edits& base,
@@ -39,8 +42,14 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
                                        const std::vector<Direction>& directions,
                                        const LineariseOptions& options = {});
 
-// Keeps the derivatives by nuisances and tolerances at this point, whitened with the noise model as it is
-// now, for what follows.
+// One trial's prediction; where it is not finite, a number that is far from everything.
+Eigen::VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
+                          const std::vector<double>& nuisances);
+
+// The derivatives by nuisances and tolerances at this point, whitened with the noise model as it is now.
+std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point);
+
+// Keeps them for what follows.
 void keep_columns(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -27,7 +27,9 @@ constexpr double kLinearError =
 constexpr double kSizeSpread = 1.8;  // of the logarithm of a size in typical ones, believed beforehand
 constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
 
-constexpr FitOptions kRough{.max_iterations = 10, .tolerance = 0.5};  // of sets that are only tried
+constexpr FitOptions kRough{
+    .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
+constexpr double kRival = 20.0;                                // of the criterion
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
@@ -227,6 +229,7 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
   start.hypothesis.values.push_back(added.values);
   SetFit result;
   result.set = set;
+  result.rough = true;
   result.fit = fit_from(*problem_, start, kRough);
   // A second start where the first got nowhere near what its linear approximation promised.
   if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
@@ -267,16 +270,29 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   }
 }
 
+void Search::finish(SetFit& fit) const {
+  if (fit.rough) fit.fit = fit_from(*problem_, Point(fit.fit.point));
+  fit.rough = false;
+}
+
+// What competes with the best must not lose only because it was fitted roughly.
+void Search::finish_rivals() {
+  const double limit = criterion(best()) + kRival;
+  for (auto& [set, fit] : sets_)
+    if (set.size() <= best_.size() && criterion(fit) < limit) finish(fit);
+}
+
 void Search::choose_best() {
   // The closest fit first; only sets that can still win are judged.
   std::vector<SetFit*> order;
   for (auto& [set, fit] : sets_)
-    if (fit.fit.status != FitStatus::failed || set.empty()) order.push_back(&fit);
+    if (fit.fit.status != FitStatus::failed || fit.rough || set.empty()) order.push_back(&fit);
   std::sort(order.begin(), order.end(),
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
   const auto needed = [&](SetFit& fit) {
+    finish(fit);
     if (!fit.judged) judge(fit);
-    return fit.needed;
+    return fit.needed && (fit.fit.status != FitStatus::failed || fit.set.empty());
   };
   for (auto* fit : order)
     if (needed(*fit)) {
@@ -453,6 +469,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     if (!try_proposals() || best_ == so_far) break;
     prune();
   }
+  finish_rivals();
   return best();
 }
 

@@ -24,6 +24,7 @@ struct SetFit {
   Fit fit;
   std::vector<EffectEvidence> evidence;
   double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
+  bool rough = false;       // only tried: finished before it is judged
   bool judged = false;
   bool needed = false;  // every effect stands on its own; known once judged
 };
@@ -69,6 +70,8 @@ class Search {
   void prune();
   bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
+  void finish(SetFit& fit) const;
+  void finish_rivals();
   void choose_best();
 
   const Problem* problem_;

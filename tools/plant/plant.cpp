@@ -9,6 +9,7 @@ namespace {
 constexpr double kRailSwitchSpeed_mps = 0.01;
 constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
+constexpr double kNever_s = 1e9;
 
 }  // namespace
 
@@ -34,10 +35,12 @@ void Plant::place_in_crater(const PlantState& state, double max_depth_m) noexcep
 }
 
 double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
-  const double friction =
-      -motors_ * robot_.joint_coulomb_Nm * std::tanh(s.angular_velocity_radps / kJointSwitchSpeed_radps);
-  const double cogging =
-      motors_ * robot_.cogging_amplitude_Nm * std::sin(robot_.cogging_periods_per_rev * s.angle_rad);
+  double friction = 0.0, cogging = 0.0;
+  if (robot_.joint_coulomb_Nm != 0.0)
+    friction =
+        -motors_ * robot_.joint_coulomb_Nm * std::tanh(s.angular_velocity_radps / kJointSwitchSpeed_radps);
+  if (robot_.cogging_amplitude_Nm != 0.0)
+    cogging = motors_ * robot_.cogging_amplitude_Nm * std::sin(robot_.cogging_periods_per_rev * s.angle_rad);
   const double stops = kEndStopStiffness_Nm_per_rad * (std::max(0.0, kEndStopLow_rad - s.angle_rad) -
                                                        std::max(0.0, s.angle_rad - kEndStopHigh_rad));
   return friction + cogging + stops;
@@ -45,12 +48,14 @@ double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
 
 Plant::Rates Plant::rates(const PlantState& s, double torque_Nm) const noexcept {
   Rates r{};
-  r.dynamics = leg_.dynamics(s.angle_rad);
+  r.dynamics =
+      options_.leg_table != nullptr ? options_.leg_table->dynamics(s.angle_rad) : leg_.dynamics(s.angle_rad);
   const auto& d = r.dynamics;
   const double spin2 = s.angular_velocity_radps * s.angular_velocity_radps;
   const double body_velocity = s.foot_velocity_mps + d.leg.dlength_m_per_rad * s.angular_velocity_radps;
-  r.rail_force_N = -robot_.rail_coulomb_N * std::tanh(body_velocity / kRailSwitchSpeed_mps) -
-                   robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
+  r.rail_force_N = -robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
+  if (robot_.rail_coulomb_N != 0.0)
+    r.rail_force_N -= robot_.rail_coulomb_N * std::tanh(body_velocity / kRailSwitchSpeed_mps);
   r.joint_torque_Nm = joint_torque_Nm(s);
   if (options_.extension != nullptr) {
     const double body_z = s.foot_z_m + leg_.parameters().foot_height_m + d.leg.length_m;
@@ -113,23 +118,34 @@ void Plant::step(double torque_Nm, double step_s) noexcept {
   finish_step(torque_Nm);
 }
 
+// How long until the force has a kink or a jump, if the acceleration stays: the sole meets the surface, comes
+// to rest in the bed (which yields no further) or is back where it was deepest (where it yields again).
+double Plant::next_event_s(double accel_mps2) const noexcept {
+  const double z = state_.foot_z_m, v = state_.foot_velocity_mps;
+  const double level_m = z > 0.0 ? 0.0 : -max_depth_m_;
+  if (z <= level_m) return v < 0.0 && accel_mps2 > 0.0 ? -v / accel_mps2 : kNever_s;
+  const double root = v * v - 2.0 * accel_mps2 * (z - level_m);
+  if (root <= 0.0) return kNever_s;
+  const double event_s = 2.0 * (z - level_m) / (std::sqrt(root) - v);
+  return event_s > 0.0 ? event_s : kNever_s;
+}
+
 PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
-  const Rates start = rates(state_, torque_Nm);
-  const PlantMotion motion = motion_of(start);
-  const double z = state_.foot_z_m, v = state_.foot_velocity_mps, a = start.foot_accel_mps2;
-  // Where the sole meets the surface within this step: the force has a kink there.
-  const double root = v * v - 2.0 * a * z;
-  const double touch_s = z > 0.0 && root > 0.0 ? 2.0 * z / (std::sqrt(root) - v) : -1.0;
-  if (touch_s > 0.0 && touch_s < step_s) {
-    midpoint(start, torque_Nm, touch_s);
-    midpoint(rates(state_, torque_Nm), torque_Nm, step_s - touch_s);
-  } else if (z <= 0.0) {
-    midpoint(start, torque_Nm, 0.5 * step_s);
-    midpoint(rates(state_, torque_Nm), torque_Nm, 0.5 * step_s);
-  } else {
-    midpoint(start, torque_Nm, step_s);
+  constexpr int kMostPieces = 6;
+  constexpr double kLeastPiece_s = 1e-8;
+  Rates now = rates(state_, torque_Nm);
+  const PlantMotion motion = motion_of(now);
+  double left_s = step_s;
+  for (int piece = 1;; ++piece) {
+    const bool stiff = state_.foot_z_m <= 0.0 && state_.foot_z_m > -max_depth_m_;
+    double piece_s = stiff ? std::min(left_s, 0.5 * step_s) : left_s;
+    if (!rigid_) piece_s = std::min(piece_s, std::max(kLeastPiece_s, next_event_s(now.foot_accel_mps2)));
+    if (piece == kMostPieces || left_s - piece_s < kLeastPiece_s) piece_s = left_s;
+    midpoint(now, torque_Nm, piece_s);
+    left_s -= piece_s;
+    if (left_s <= 0.0) return motion;
+    now = rates(state_, torque_Nm);
   }
-  return motion;
 }
 
 void Plant::midpoint(const Rates& k1, double torque_Nm, double step_s) noexcept {

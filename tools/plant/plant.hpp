@@ -1,6 +1,7 @@
 #pragma once
 #include "estimation/leg.hpp"
 #include "terrain/bed.hpp"
+#include "tools/plant/leg_table.hpp"
 #include "tools/plant/world_config.hpp"
 
 namespace sandhopper {
@@ -54,6 +55,7 @@ class Plant {
     double cable_force_N = 0.0;                 // constant, pulls the body down
     bool bed_memory = true;                     // false: the surface closes as soon as the foot is above it
     const PlantExtension* extension = nullptr;  // must outlive the plant
+    const LegTable* leg_table = nullptr;        // of the same leg, in its place; must outlive the plant
   };
 
   // Throws std::invalid_argument where the leg is impossible.
@@ -69,8 +71,8 @@ class Plant {
   PlantMotion motion(double torque_Nm) const noexcept;
 
   // motion() here and a step by the midpoint rule, two evaluations in place of five aloft and four in
-  // contact, ending one at the instant the sole meets the surface: for many simulations of the same hop at
-  // 0.25 ms.
+  // contact; it is divided where the bed's force has a kink or a jump. For many simulations of the same hop at
+  // 0.25 ms, smooth in what they start from.
   PlantMotion advance(double torque_Nm, double step_s) noexcept;
   const PlantState& state() const noexcept { return state_; }
   const Leg& leg() const noexcept { return leg_; }
@@ -87,6 +89,7 @@ class Plant {
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
   PlantMotion motion_of(const Rates& rates) const noexcept;
+  double next_event_s(double accel_mps2) const noexcept;
   void midpoint(const Rates& at_start, double torque_Nm, double step_s) noexcept;
   void finish_step(double torque_Nm) noexcept;
   void settle_on_rigid_ground(double torque_Nm) noexcept;

@@ -166,12 +166,12 @@ class HopperTrial final : public TrialModel {
     const auto add = [&](const char* what, double sd, double step) {
       trial_nuisances.push_back({what, sd, step});
     };
-    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-2);
-    add("release_height_m", std::max(s.release_height_m, kReleaseUnknown_m), 2e-4);
-    add("release_speed_mps", std::max(s.release_speed_mps, kReleaseSpeedUnknown_mps), 1e-3);
-    add("surface_height_m", std::max(s.surface_height_m, kSurfaceUnknown_m), 2e-4);
-    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.1);
-    add("torque_constant_relative", std::max(s.torque_constant_relative, 1e-3), 1e-2);
+    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-3);
+    add("release_height_m", std::max(s.release_height_m, kReleaseUnknown_m), 1e-5);
+    add("release_speed_mps", std::max(s.release_speed_mps, kReleaseSpeedUnknown_mps), 1e-4);
+    add("surface_height_m", std::max(s.surface_height_m, kSurfaceUnknown_m), 1e-5);
+    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.01);
+    add("torque_constant_relative", std::max(s.torque_constant_relative, 1e-3), 1e-3);
     add("tof_bias_m", std::max(s.tof_bias_m, 1e-4), 1e-3);
     add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
     add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
@@ -184,14 +184,14 @@ class HopperTrial final : public TrialModel {
       knot_spacing_m_ =
           std::max(s.bed_fluctuation_length_m, kDeepest_m / static_cast<double>(kMostKnots - 1));
       const double sd = s.bed_fluctuation_relative * std::sqrt(s.bed_fluctuation_length_m / knot_spacing_m_);
-      for (knots_ = 0; knots_ < kMostKnots; ++knots_) add("bed_fluctuation", sd, 0.01);
+      for (knots_ = 0; knots_ < kMostKnots; ++knots_) add("bed_fluctuation", sd, 1e-3);
     }
     if (blocks > 1 || !course_.hops.front().at_rest)
-      block_nuisances = {{"foot_z_m", 0.010, 2e-4},
-                         {"foot_velocity_mps", 0.15, 1e-3},
-                         {"angle_rad", 0.02, 1e-3},
-                         {"rate_radps", 1.0, 1e-2},
-                         {"crater_depth_m", 0.005, 2e-4}};
+      block_nuisances = {{"foot_z_m", 0.010, 1e-5},
+                         {"foot_velocity_mps", 0.15, 1e-4},
+                         {"angle_rad", 0.02, 1e-4},
+                         {"rate_radps", 1.0, 1e-3},
+                         {"crater_depth_m", 0.005, 1e-5}};
   }
 
   HopperRun run_of(const WorldConfig& world, std::uint32_t block, std::span<const double> n) const {

@@ -215,6 +215,8 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   Plant::Options options;
   options.cable_force_N = run.cable_force_N;
   if (!ports.empty()) options.extension = &ports;
+  const auto table = leg_table(Leg(run.world.robot.leg));
+  options.leg_table = table.get();
   Plant plant(run.world, bed, options);
   PlantState start = run.start;
   const double surface_m = run.surface_m + ground.deeper_m();
@@ -228,7 +230,14 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   const double tick_s = 1.0 / run.world.controller.rate_Hz;
   const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / kStep_s)));
   HopperTraces traces = empty_traces(run.from_s, count);
-  double command_Nm = 0.0;
+  // Force and accelerations jump where the bed begins to yield again: their means over a step do not jump
+  // from one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse,
+  // which is no acceleration.
+  const bool means = !run.world.terrain.rigid;
+  if (means)
+    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
+      signal->start_s += 0.5 * kStep_s;
+  double command_Nm = 0.0, body_velocity_mps = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = run.from_s + kStep_s * static_cast<double>(i);
     ground.at_time(t);
@@ -244,12 +253,22 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     traces.command_torque_Nm.values[i] = command_Nm;
     traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
     traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
+    const double foot_velocity_mps = state.foot_velocity_mps, impulse_Ns = plant.contact_impulse_Ns();
     const PlantMotion motion = plant.advance(torque_Nm, kStep_s);
-    traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
-    traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
     traces.body_z_m.values[i] = motion.body_z_m + surface_m;
-    traces.force_N.values[i] = motion.contact_force_N;
+    if (means) {
+      if (i > 0)
+        traces.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps) / kStep_s;
+      body_velocity_mps = motion.body_velocity_mps;
+      traces.foot_accel_mps2.values[i] = (plant.state().foot_velocity_mps - foot_velocity_mps) / kStep_s;
+      traces.force_N.values[i] = (plant.contact_impulse_Ns() - impulse_Ns) / kStep_s;
+    } else {
+      traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
+      traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
+      traces.force_N.values[i] = motion.contact_force_N;
+    }
   }
+  if (means) traces.body_accel_mps2.values[count - 1] = traces.body_accel_mps2.values[count - 2];
   return traces;
 }
 
