@@ -30,7 +30,7 @@ struct TrialTopics {
 // What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
 // results. Fed by the cycle through rings; `serve` runs on a thread of ordinary priority (start) or wherever
 // it is called (simulation).
-class Aftermath {
+class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
  public:
   struct Listener {
     std::function<void(const Event&)> event{};

@@ -43,7 +43,8 @@ ExitCode replay(Session& session, const Options& options) {
                 result.mismatch->time_ns, result.mismatch->field);
   session.result = {
       {"identical", identical},  {"cycles", result.cycles},   {"x_real_time", result.x_real_time},
-      {"events", result.events}, {"strides", result.strides}, {"gaps", result.gaps}};
+      {"events", result.events}, {"strides", result.strides}, {"gaps", result.gaps},
+      {"files", result.files}};
   if (!identical)
     session.result["mismatch"] = {{"topic", result.mismatch->topic},
                                   {"record", result.mismatch->record},

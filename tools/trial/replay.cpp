@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <deque>
+#include <memory>
 
 #include "config/load.hpp"
 #include "config/robot_config.hpp"
@@ -28,11 +29,27 @@ RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file)
                     ", so the cycle's configuration is not known; was it made by hopperd or `hop trial`?");
 }
 
+// trial.mcap, trial.part0002.mcap, trial.part0003.mcap, ... (firmware/log/segmented_log.hpp)
+std::filesystem::path next_segment(const std::filesystem::path& file) {
+  constexpr std::size_t kDigits = 4;
+  const auto stem = file.stem().string();
+  const auto part = stem.rfind(".part");
+  int number = 1;
+  if (part != std::string::npos && part + 5 + kDigits == stem.size())
+    number = std::stoi(stem.substr(part + 5));
+  const auto name = fmt::format("{}.part{:04}{}", number == 1 ? stem : stem.substr(0, part), number + 1,
+                                file.extension().string());
+  return file.parent_path() / name;
+}
+
 // One topic of the log against what the cycle gives now, in order.
 template <class Record>
 class Comparison {
  public:
   explicit Comparison(std::string_view name) : name_(name), topic_(name) {}
+
+  // A topic's channel belongs to its file.
+  void begin_file() { topic_ = TopicOf<Record>(name_); }
 
   // What the cycle gave; compared as soon as the logged record is met.
   void expect(const Record& record) { expected_.push_back(record); }
@@ -74,18 +91,25 @@ class Comparison {
 class Replay {
  public:
   Replay(const std::filesystem::path& file, const std::function<void(double)>& progress)
-      : log_(file), robot_(robot_of(log_, file)), controller_(cycle_config(robot_)), progress_(progress) {}
+      : file_(file),
+        log_(std::make_unique<mcap::Reader>(file)),
+        robot_(robot_of(*log_, file)),
+        controller_(cycle_config(robot_)),
+        progress_(progress) {}
 
   ReplayResult run() {
     const auto start = std::chrono::steady_clock::now();
-    mcap::Message message;
-    while (log_.next(message)) take(message);
+    do {
+      mcap::Message message;
+      while (log_->next(message)) take(message);
+      result_.truncated_at = log_->truncated_at();
+      ++result_.files;
+    } while (!result_.truncated_at && open_next());
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double logged_s = static_cast<double>(last_ns_ - first_ns_) * 1e-9;
     result_.x_real_time = result_.seconds > 0.0 ? logged_s / result_.seconds : 0.0;
     result_.events = events_.count();
     result_.strides = strides_.count();
-    result_.truncated_at = log_.truncated_at();
     // A cut log may lack the last records of what the cycle gave; a closed one must have them all.
     if (!result_.truncated_at && result_.gaps == 0) {
       report_missing(outputs_);
@@ -96,11 +120,23 @@ class Replay {
   }
 
  private:
+  bool open_next() {
+    file_ = next_segment(file_);
+    if (!std::filesystem::exists(file_)) return false;
+    log_ = std::make_unique<mcap::Reader>(file_);
+    frames_ = TopicOf<SensorFrame>(topic::kFrame);
+    gaps_ = TopicOf<LogGap>(topic::kGap);
+    outputs_.begin_file();
+    events_.begin_file();
+    strides_.begin_file();
+    return true;
+  }
+
   void take(const mcap::Message& message) {
     if (frames_.take(message, frame_)) {
       step();
       if (progress_ && result_.cycles % 4096 == 0)
-        progress_(static_cast<double>(message.offset) / static_cast<double>(log_.file_bytes()));
+        progress_(static_cast<double>(message.offset) / static_cast<double>(log_->file_bytes()));
       return;
     }
     if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
@@ -126,7 +162,8 @@ class Replay {
           ReplayMismatch{topic.name(), topic.count(), last_ns_, "given by the replay, but not logged"};
   }
 
-  mcap::Reader log_;
+  std::filesystem::path file_;
+  std::unique_ptr<mcap::Reader> log_;
   RobotConfig robot_;
   Controller controller_;
   std::function<void(double)> progress_;

@@ -15,6 +15,7 @@ struct ReplayMismatch {
 };
 
 struct ReplayResult {
+  std::uint64_t files = 0;  // of a log in several
   std::uint64_t cycles = 0;
   std::uint64_t events = 0;
   std::uint64_t strides = 0;
@@ -27,7 +28,7 @@ struct ReplayResult {
 
 // Runs the cycle again on the frames of a log, with the configuration in the log, and compares every output,
 // event and stride result byte for byte with what was logged. Throws mcap::Error for a file that is no
-// trial's log.
+// trial's log. Of a log in several files, name the first: the others follow in their order.
 ReplayResult replay_log(const std::filesystem::path& log,
                         const std::function<void(double share)>& progress = {});
 

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "firmware/cycle.hpp"
+#include "firmware/log/trial_description.hpp"
+#include "tools/plant/sim_board.hpp"
+#include "tools/trial/replay.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::uint64_t kCycles = 4000;
+
+// A trial whose log begins a new file whenever one holds 600 kB.
+void record(const std::filesystem::path& file) {
+  const RobotConfig robot;
+  TrialLogOptions options;
+  options.mcap_file = file;
+  options.own_thread = false;
+  options.limits = {.segment_bytes = 600'000, .quota_bytes = 0};
+  TrialLogger logger(options);
+  const TrialTopics topics(logger);
+  describe_trial(logger, robot, "sim");
+  logger.start();
+  World world(WorldConfig{}, {}, 0);
+  SimBoard board(world);
+  Controller controller(cycle_config(robot));
+  Aftermath aftermath(robot.stiffness, logger, topics, {});
+  Cycle cycle({board, controller, logger, topics, aftermath});
+  Request request = Request::arm;
+  for (std::uint64_t k = 1; k <= kCycles; ++k) {
+    cycle.run({.time_ns = static_cast<std::int64_t>(k) * kCyclePeriod_ns, .cycle = k, .request = request});
+    aftermath.serve();
+    request = Request::none;
+    for (const auto& event : controller.events())
+      if (event.kind == EventKind::armed) request = Request::release;
+  }
+  logger.stop();
+  logger.close();
+}
+
+TEST(Replay, ALogInSeveralFilesIsReplayedWhole) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("replay_segments." + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  record(folder / "trial.mcap");
+  const auto result = replay_log(folder / "trial.mcap");
+  EXPECT_GE(result.files, 3U);
+  EXPECT_EQ(result.cycles, kCycles);
+  EXPECT_EQ(result.strides, 3U);
+  EXPECT_FALSE(result.mismatch) << result.mismatch->topic << " " << result.mismatch->record << " "
+                                << result.mismatch->field;
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace sandhopper
