@@ -25,6 +25,7 @@ constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfi
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kDoubtBesideUnknown = 0.6;
 constexpr std::size_t kSeeds = 14;
+constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 
@@ -70,7 +71,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     return diagnosis;
   }
   options.progress(0.0, "");
-  Point point = fit_from(problem, null_point(problem)).point;
+  Point point = fit_from(problem, null_point(problem), kFirst).point;
   update_noise(problem, point);
   keep_columns(problem, point);
   point = fit_from(problem, point).point;
@@ -96,12 +97,9 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     Point again = search.best().fit.point;
     again.hypothesis = {};
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
-    // Where every candidate was tried, the best of them need no search, but another fit.
-    std::vector<Point> seeds;
-    if (recordings.plant != PlantKind::hopper) {
-      seeds = search.best_points(kSeeds);
-      search_options.fits_per_screen = 3;
-    }
+    // What came near already needs no search, but another fit.
+    const auto seeds = search.best_points(kSeeds);
+    search_options.fits_per_screen = 3;
     Search second(problem, search_options);
     second.run(again, seeds);
     search = std::move(second);

@@ -45,18 +45,29 @@ std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candi
   return set;
 }
 
+// The largest amplitude of one effect, in typical sizes.
+double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
+  double typicals = 0.0;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (i == 0 || parameters[i].amplitude)
+      typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
+  return typicals;
+}
+
 // Minus twice the logarithm of how likely these sizes were beforehand.
 double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
-  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
-    const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
-    double typicals = 0.0;
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      if (i == 0 || parameters[i].amplitude)
-        typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
-    sum += std::pow(std::log(std::max(typicals, 1e-3)) / kSizeSpread, 2);
-  }
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
+    sum += std::pow(std::log(std::max(typicals_of(problem, hypothesis, e), 1e-3)) / kSizeSpread, 2);
   return sum;
+}
+
+// Whether every effect is large enough to be worth another beside it.
+bool worth_growing(const Problem& problem, const Hypothesis& hypothesis) {
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
+    if (typicals_of(problem, hypothesis, e) < 0.5 * kSmallestOfTypical) return false;
+  return true;
 }
 
 // How far this effect moves channels in time. The tolerances of those channels do the same and would leave
@@ -455,10 +466,10 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     front.clear();
     const double explained = this->null().fit.deviance - grown.front()->fit.deviance;
     for (const auto* fit : grown)
-      if (front.size() < options_.beam &&
+      if (front.size() < options_.beam && worth_growing(*problem_, fit->fit.point.hypothesis) &&
           fit->fit.deviance - grown.front()->fit.deviance <= kNearlyAsGood * explained)
         front.push_back(fit->set);
-    if (criterion(*grown.front()) >= smaller && best_ == before) break;
+    if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
   }
   exchange();
   const auto before = best_;

@@ -18,6 +18,7 @@ constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kTick_s = 1e-3;
 constexpr std::size_t kSmoothing = 6;  // samples to each side
 constexpr double kDeepest_m = 0.048;   // that the knots cover
+constexpr double kMargin = 1.5;        // of the depth that the belief says the foot reaches
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
@@ -77,6 +78,7 @@ enum TrialNuisance : std::size_t {
   kLeftOffset,
   kRightOffset,
   kCellOffset,
+  kSampleAge,
   kFirstKnot
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
@@ -180,11 +182,14 @@ class HopperTrial final : public TrialModel {
     add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
     add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
     add("load_cell_offset_N", std::max(s.load_cell_offset_N, 0.02), 0.05);
+    add("sample_age_share", kAgeShareUnknown, 0.05);
     if (s.bed_fluctuation_relative > 0.0 && !world_.terrain.rigid) {
       knot_spacing_m_ =
           std::max(s.bed_fluctuation_length_m, kDeepest_m / static_cast<double>(kMostKnots - 1));
       const double sd = s.bed_fluctuation_relative * std::sqrt(s.bed_fluctuation_length_m / knot_spacing_m_);
-      for (knots_ = 0; knots_ < kMostKnots; ++knots_) add("bed_fluctuation", sd, 1e-3);
+      const double deepest_m = std::min(kDeepest_m, kMargin * deepest_believed_m());
+      const auto needed = static_cast<std::size_t>(deepest_m / knot_spacing_m_) + 2;
+      for (knots_ = 0; knots_ < std::min(kMostKnots, needed); ++knots_) add("bed_fluctuation", sd, 1e-3);
     }
     if (blocks > 1 || !course_.hops.front().at_rest)
       block_nuisances = {{"foot_z_m", 0.010, 1e-5},
@@ -192,6 +197,17 @@ class HopperTrial final : public TrialModel {
                          {"angle_rad", 0.02, 1e-4},
                          {"rate_radps", 1.0, 1e-3},
                          {"crater_depth_m", 0.005, 1e-5}};
+  }
+
+  double deepest_believed_m() const {
+    double lowest_m = 0.0;
+    for (std::uint32_t b = 0; b < blocks; ++b)
+      for (const double z :
+           simulate_hopper(run_of(world_, b, std::vector<double>(kFirstKnot + blocks * kHopNuisances, 0.0)),
+                           {})
+               .foot_z_m.values)
+        lowest_m = std::min(lowest_m, z);
+    return -lowest_m;
   }
 
   HopperRun run_of(const WorldConfig& world, std::uint32_t block, std::span<const double> n) const {
@@ -272,9 +288,17 @@ class HopperTrial final : public TrialModel {
         break;
     }
     const auto at = out.subspan(span.first, span.count);
-    observe(signal, sensors_[c], edits, kSources[c].channel,
-            std::span(times_).subspan(span.first, span.count), at);
+    const auto sampled_s = sampled(span, kAgeShare + n[kSampleAge]);
+    observe(signal, sensors_[c], edits, kSources[c].channel, sampled_s, at);
     for (double& v : at) v += offset;
+  }
+
+  // Whether a row's value is of the instant at which a slow sensor sampled or of the row's is not told.
+  std::vector<double> sampled(const Span& span, double age_share) const {
+    std::vector<double> at_s(span.count);
+    for (std::size_t i = 0; i < span.count; ++i)
+      at_s[i] = times_[span.first + i] - age_share * ages_s_[span.first + i];
+    return at_s;
   }
 
   // A command is what the controller makes of what it measured: nothing of the plant is in between.
@@ -291,11 +315,22 @@ class HopperTrial final : public TrialModel {
     return true;
   }
 
+  // Of the sensors with a clock of their own.
+  double rate_Hz(std::size_t c) const {
+    const auto& sensors = world_.sensors;
+    return c == kTof        ? sensors.tof_rate_Hz
+           : c == kLoadCell ? sensors.load_cell_rate_Hz
+           : c > kLoadCell  ? sensors.mocap_rate_Hz
+                            : 0.0;
+  }
+
   void add_rows(const Trial& trial, std::size_t c) {
     sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
     spans_[c].assign(blocks, {});
     const auto samples = samples_of(trial, kSources[c].channel);
     if (samples.value.size() < 10) return;
+    auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));
+    if (ages.size() != samples.value.size()) ages.assign(samples.value.size(), 0.0);
     const bool fast = median_step_s(samples.time_s) < 1.5e-3;
     const std::size_t every = fast ? kSources[c].every : 1;
     for (std::size_t i = 0; i < samples.value.size(); i += every) {
@@ -306,6 +341,7 @@ class HopperTrial final : public TrialModel {
       auto& span = spans_[c][block];
       if (span.count++ == 0) span.first = rows.size();
       times_.push_back(t);
+      ages_s_.push_back(ages[i]);
       rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i]});
     }
   }
@@ -387,7 +423,7 @@ class HopperTrial final : public TrialModel {
   double knot_spacing_m_ = 0.008;
   std::array<std::vector<Span>, kSources.size()> spans_;
   std::array<SensorBelief, kSources.size()> sensors_{};
-  std::vector<double> times_;
+  std::vector<double> times_, ages_s_;
 };
 
 double largest_of(const Trial& trial, const std::string& channel) {

@@ -14,7 +14,6 @@ namespace {
 constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
 constexpr double kForceZeroUnknown_N = 0.02;
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
 enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
