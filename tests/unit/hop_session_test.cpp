@@ -96,7 +96,9 @@ void read_log(const std::filesystem::path& file, Recorded& out) {
 }
 
 Recorded run(const Plan& plan) {
-  const auto file = std::filesystem::temp_directory_path() / "sandhopper_hop_session_test.mcap";
+  const auto file = std::filesystem::temp_directory_path() /
+                    (std::string("hop_session_") +
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap");
   std::filesystem::remove(file);
   Recorded out;
   {

@@ -18,7 +18,8 @@ constexpr double kSettled = 0.01;
 constexpr int kNuisanceSteps = 3;       // of a trial at each point that is tried
 constexpr double kNuisanceGain = 0.03;  // of the deviance: less is not worth a simulation
 constexpr int kAttempts = 3;
-constexpr double kWorse = 1.0;  // of a trial's deviance
+constexpr double kWorse = 1.0;     // of a trial's deviance
+constexpr double kPromise = 10.0;  // of the deviance: worth derivatives of its own
 constexpr double kPriorTypicals = 10.0;
 constexpr double kDerivativeStep = 0.005;  // of a parameter's typical size
 
@@ -96,8 +97,8 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
 }
 
 // The nuisances of one trial follow by themselves (Levenberg-Marquardt): each trial at its own pace.
-void settle(const Problem& problem, std::size_t t, const Edits& edits, const KeptColumns& columns,
-            TrialState& state) {
+void settle(const Problem& problem, std::size_t t, const Edits& edits,
+            const std::vector<KeptColumns>& columns, TrialState& state) {
   double damping = 0.0;
   for (int step = 0; step < kNuisanceSteps; ++step) {
     const auto linear = linearise(problem, t, edits, state.nuisances, {},
@@ -117,17 +118,18 @@ void settle(const Problem& problem, std::size_t t, const Edits& edits, const Kep
 // Everything that a fit moves.
 class Fitter {
  public:
-  Fitter(const Problem& problem, const Point& start) : problem_(problem) {
+  Fitter(const Problem& problem, const Point& start, const std::vector<KeptColumns>* given)
+      : problem_(problem), given_(given != nullptr ? given : &problem.kept_columns) {
     at_.point = start;
     at_.trials.resize(problem.trials.size());
     const Edits edits = edits_for(problem, start.hypothesis, start.tolerances);
     each_trial([&](std::size_t t) {
       at_.trials[t].nuisances = start.nuisances[t];
       evaluate(problem_, t, edits, at_.trials[t]);
-      if (!problem_.kept_columns.empty()) settle(problem_, t, edits, columns(t), at_.trials[t]);
+      if (!given_->empty()) settle(problem_, t, edits, columns(), at_.trials[t]);
     });
     finish(at_);
-    if (problem.kept_columns.empty()) refresh();
+    if (given_->empty()) refresh();
   }
 
   // One step of all parameters; the drop of the deviance, 0 where none was found or promised.
@@ -137,7 +139,7 @@ class Fitter {
     std::vector<TrialLinear> linear(at_.trials.size());
     each_trial([&](std::size_t t) {
       linear[t] = linearise(problem_, t, edits, at_.trials[t].nuisances, directions,
-                            {.columns = &columns(t), .prediction = &at_.trials[t].prediction});
+                            {.columns = &columns(), .prediction = &at_.trials[t].prediction});
     });
     const auto k = static_cast<Index>(directions.size());
     information = MatrixXd::Zero(k, k);
@@ -148,7 +150,7 @@ class Fitter {
     }
     add_priors(problem_, at_.point, information, score);
     // What the step promises; priors are quadratic and exact.
-    double promised = k > 0 ? score.dot(information.ldlt().solve(score)) : 0.0;
+    promised = k > 0 ? score.dot(information.ldlt().solve(score)) : 0.0;
     for (std::size_t t = 0; t < linear.size(); ++t)
       promised += std::max(0.0, at_.trials[t].deviance - linear[t].gram(0, 0));
     if (promised < least_gain) return 0.0;
@@ -166,12 +168,12 @@ class Fitter {
         for (std::size_t i = 0; i < trial.nuisances.size(); ++i)
           trial.nuisances[i] += follow[static_cast<Index>(i)];
         evaluate(problem_, t, moved, trial);
-        settle(problem_, t, moved, columns(t), trial);
+        settle(problem_, t, moved, columns(), trial);
         if (trial.deviance < at_.trials[t].deviance + kWorse) return;
         // This one was led astray: from where it was.
         TrialState other{at_.trials[t].nuisances, {}, 0.0};
         evaluate(problem_, t, moved, other);
-        settle(problem_, t, moved, columns(t), other);
+        settle(problem_, t, moved, columns(), other);
         if (other.deviance < trial.deviance) trial = std::move(other);
       });
       finish(next);
@@ -207,6 +209,7 @@ class Fitter {
   }
 
   MatrixXd information;
+  double promised = 0.0;  // drop of the last step, had everything been linear
   bool bounded = false;
 
  private:
@@ -219,15 +222,14 @@ class Fitter {
   void each_trial(const std::function<void(std::size_t)>& work) const {
     parallel_for(problem_.trials.size(), work);
   }
-  const KeptColumns& columns(std::size_t t) const {
-    return own_columns_.empty() ? problem_.kept_columns[t] : own_columns_[t];
-  }
+  const std::vector<KeptColumns>& columns() const { return own_columns_.empty() ? *given_ : own_columns_; }
   void finish(At& at) const {
     at.deviance = prior_deviance(problem_, at.point);
     for (const auto& trial : at.trials) at.deviance += trial.deviance;
   }
 
   const Problem& problem_;
+  const std::vector<KeptColumns>* given_;
   At at_;
   std::vector<KeptColumns> own_columns_;
   double damping_ = 1e-3;
@@ -254,20 +256,22 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
 }
 
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
-  Fitter fitter(problem, start);
+  Fitter fitter(problem, start, options.columns);
   Fit fit;
   const bool far = problem.kept_columns.empty();  // from where anything was known
+  const auto may_refresh = [&] { return options.refresh && !far && !fitter.refreshed(); };
   bool done = false;
   double last_drop = 0.0;  // of the deviance, relative
   for (fit.iterations = 0; fit.iterations < options.max_iterations && !done; ++fit.iterations) {
     const double drop = fitter.step(0.5 * options.tolerance);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
-      if (far) fitter.refresh();
+      const bool short_of = fitter.promised > kPromise && drop < 0.5 * fitter.promised;
+      if (far || (short_of && may_refresh())) fitter.refresh();
       continue;
     }
     // Perhaps only the kept derivatives are stale.
-    done = far || fitter.refreshed() || !options.refresh;
+    done = !may_refresh();
     if (!done) fitter.refresh();
   }
   fit.point = fitter.point();

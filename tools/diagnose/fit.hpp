@@ -26,7 +26,8 @@ struct Fit {
 struct FitOptions {
   int max_iterations = 14;
   double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
-  bool refresh = true;     // once it ends, go on with derivatives by the nuisances made there
+  bool refresh = true;     // once steps fall short, go on with derivatives by the nuisances made there
+  const std::vector<KeptColumns>* columns = nullptr;  // until then; the problem's own where not given
 };
 
 // From `start`; its nuisances and tolerances are kept as starting values.

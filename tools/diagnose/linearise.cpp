@@ -166,12 +166,10 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   const VectorXd centre =
       options.prediction != nullptr ? *options.prediction : predicted(problem, trial, base, nuisances);
   KeptColumns own_columns;
-  const KeptColumns* columns = options.columns;
-  if (columns == nullptr && (options.fresh_columns || problem.kept_columns.empty())) {
-    own_columns = columns_at(problem, {trial, used, base, nuisances, centre});
-    columns = &own_columns;
-  }
-  const KeptColumns& kept = columns != nullptr ? *columns : problem.kept_columns[index];
+  const auto& known = options.columns != nullptr ? *options.columns : problem.kept_columns;
+  const bool fresh = options.fresh_columns || known.empty();
+  if (fresh) own_columns = columns_at(problem, {trial, used, base, nuisances, centre});
+  const KeptColumns& kept = fresh ? own_columns : known[index];
 
   // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
   std::vector<const Direction*> simulated;

@@ -27,9 +27,9 @@ struct TrialLinear {
 
 struct LineariseOptions {
   bool keep_plain = false;
-  bool fresh_columns = false;                   // do not take the kept ones
-  const KeptColumns* columns = nullptr;         // take these
-  const Eigen::VectorXd* prediction = nullptr;  // known already
+  bool fresh_columns = false;                         // do not take the kept ones
+  const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial
+  const Eigen::VectorXd* prediction = nullptr;        // known already
   double damping = 0.0;  // of the nuisances: their diagonal grows by this share (Marquardt)
 };
 

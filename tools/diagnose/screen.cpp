@@ -114,7 +114,8 @@ HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Inde
   return out;
 }
 
-std::vector<Screened> screen(const Problem& problem, const Point& point) {
+std::vector<Screened> screen(const Problem& problem, const Point& point,
+                             const std::vector<KeptColumns>* columns) {
   auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
   std::vector<Alternative> alternatives;
@@ -139,7 +140,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point) {
       alternatives.push_back(std::move(alternative));
     }
   }
-  const auto linear = linearise_all(problem, point, directions);
+  const auto linear = linearise_all(problem, point, directions, {.columns = columns});
   VectorXd prior = VectorXd::Constant(own, kPriorInformation);
   prior.tail(static_cast<Index>(point.tolerances.size())).setOnes();
   const auto grams = eliminated(linear, 1, own, prior);

@@ -45,6 +45,8 @@ struct Screened {
 };
 
 // All candidates that the point does not hold, the largest gain first.
-std::vector<Screened> screen(const Problem& problem, const Point& point);
+// `columns`: derivatives by the nuisances; the problem's own where not given.
+std::vector<Screened> screen(const Problem& problem, const Point& point,
+                             const std::vector<KeptColumns>* columns = nullptr);
 
 }  // namespace sandhopper::diagnose

@@ -108,13 +108,13 @@ double Search::criterion(const SetFit& fit) const {
 const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {
   const auto it = screens_.find(set);
   if (it != screens_.end()) return it->second;
-  return screens_[set] = screen(*problem_, sets_.at(set).fit.point);
+  return screens_[set] = screen(*problem_, sets_.at(set).fit.point, columns_for(set));
 }
 
 void Search::judge(SetFit& result) {
   const Point& point = result.fit.point;
   const auto directions = parameter_directions(*problem_, point);
-  const auto linear = linearise_all(*problem_, point, directions);
+  const auto linear = linearise_all(*problem_, point, directions, {.columns = columns_for(result.set)});
   const auto k = static_cast<Index>(directions.size());
   const auto parameters = static_cast<Index>(point.hypothesis.parameters());
   VectorXd prior = VectorXd::Constant(k, 0.01);
@@ -241,7 +241,7 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
   SetFit result;
   result.set = set;
   result.rough = true;
-  result.fit = fit_from(*problem_, start, kRough);
+  result.fit = fit_at(start, kRough);
   // A second start where the first got nowhere near what its linear approximation promised.
   if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
     const auto& parameters = problem_->candidates[added.candidate].parameters;
@@ -250,7 +250,7 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
       auto values = added.values;
       values[0] = std::clamp(factor * parameters[0].typical, parameters[0].low, parameters[0].high);
       start.hypothesis.values.back() = values;
-      Fit again = fit_from(*problem_, start, kRough);
+      Fit again = fit_at(start, kRough);
       if (again.deviance < result.fit.deviance) result.fit = std::move(again);
     }
   }
@@ -262,7 +262,7 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
         problem_->candidates[added.candidate].parameters[0].low,
         problem_->candidates[added.candidate].parameters[0].high);
     start.hypothesis.values.back() = values;
-    Fit again = fit_from(*problem_, start);
+    Fit again = fit_at(start);
     if (again.deviance < result.fit.deviance) result.fit = std::move(again);
   }
   return sets_[set] = std::move(result);
@@ -281,8 +281,18 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   }
 }
 
+// Derivatives by the nuisances as they are at the best set so far; without effects those of the null.
+const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_t>& set) const {
+  return set.empty() || columns_.empty() ? &problem_->kept_columns : &columns_;
+}
+
+Fit Search::fit_at(const Point& start, FitOptions options) const {
+  options.columns = columns_for(start.hypothesis.candidates);
+  return fit_from(*problem_, start, options);
+}
+
 void Search::finish(SetFit& fit) const {
-  if (fit.rough) fit.fit = fit_from(*problem_, Point(fit.fit.point));
+  if (fit.rough) fit.fit = fit_at(Point(fit.fit.point));
   fit.rough = false;
 }
 
@@ -312,11 +322,13 @@ void Search::choose_best() {
     }
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
+  const auto before = best_;
   for (auto* fit : order)
     if (needed(*fit)) {
       best_ = fit->set;
       break;
     }
+  if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
 
 // A set's fit with only `part` of its effects; a set that was tried stays as it is.
@@ -332,7 +344,7 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
       h.values.push_back(start.hypothesis.values[i]);
     }
   start.hypothesis = h;
-  fit.fit = fit_from(*problem_, start);
+  fit.fit = fit_at(start);
   sets_[part] = std::move(fit);
   return true;
 }
@@ -383,7 +395,7 @@ void Search::restart_null() {
     if (closest == nullptr || closest->fit.deviance > before - kWorthAFit) return;
     Point start = closest->fit.point;
     start.hypothesis = {};
-    Fit again = fit_from(*problem_, start);
+    Fit again = fit_at(start);
     if (again.deviance > before - kFreed * std::max(1.0, before - closest->fit.deviance)) return;
     SetFit freed = null();
     freed.fit = std::move(again);
@@ -411,7 +423,7 @@ bool Search::try_proposals() {
     fit.set = set;
     Point start = from;
     start.hypothesis = proposal.start;
-    fit.fit = fit_from(*problem_, start);
+    fit.fit = fit_at(start);
     sets_[set] = std::move(fit);
     tried = true;
   }
@@ -434,7 +446,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   sets_.clear();
   screens_.clear();
   SetFit null;
-  null.fit = fit_from(*problem_, start);
+  null.fit = fit_at(start);
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
@@ -442,7 +454,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     SetFit fit;
     fit.set = seed.hypothesis.candidates;
     std::sort(fit.set.begin(), fit.set.end());
-    fit.fit = fit_from(*problem_, seed);
+    fit.fit = fit_at(seed);
     sets_[fit.set] = std::move(fit);
   }
   std::vector<std::vector<std::size_t>> front{{}};

@@ -70,6 +70,8 @@ class Search {
   void prune();
   bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
+  const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
+  Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;
   void finish_rivals();
   void choose_best();
@@ -79,6 +81,7 @@ class Search {
   std::map<std::vector<std::size_t>, SetFit> sets_;
   std::map<std::vector<std::size_t>, std::vector<Screened>> screens_;
   std::vector<std::size_t> best_;
+  std::vector<KeptColumns> columns_;  // at the best set; empty: it is the null
   double dispersion_ = 1.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -103,6 +104,9 @@ class Replay {
       mcap::Message message;
       while (log_->next(message)) take(message);
       result_.truncated_at = log_->truncated_at();
+      salvaged_ = salvaged_ || std::ranges::any_of(log_->metadata(), [](const mcap::Metadata& metadata) {
+                    return metadata.name == "recovery";
+                  });
       ++result_.files;
     } while (!result_.truncated_at && open_next());
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -110,8 +114,9 @@ class Replay {
     result_.x_real_time = result_.seconds > 0.0 ? logged_s / result_.seconds : 0.0;
     result_.events = events_.count();
     result_.strides = strides_.count();
-    // A cut log may lack the last records of what the cycle gave; a closed one must have them all.
-    if (!result_.truncated_at && result_.gaps == 0) {
+    // A cut log, and what `hop recover` saved of one, may lack the last records of what the cycle gave; one
+    // that was closed must have them all.
+    if (!result_.truncated_at && !salvaged_ && result_.gaps == 0) {
       report_missing(outputs_);
       report_missing(events_);
       report_missing(strides_);
@@ -174,6 +179,7 @@ class Replay {
   Comparison<StrideResult> strides_{topic::kStride};
   SensorFrame frame_{};
   ReplayResult result_{};
+  bool salvaged_ = false;
   std::int64_t first_ns_ = 0;
   std::int64_t last_ns_ = 0;
 };
