@@ -99,6 +99,19 @@ std::size_t shortest_by_number(const std::map<std::size_t, double>& runs) {
   return std::numeric_limits<std::size_t>::max();
 }
 
+// A speed may stay the same: then the position went on by as much as it says.
+bool position_went_along(const SampledChannel& speed, const std::string& channel, const Stretch& stretch) {
+  constexpr double kAgree = 0.02;
+  static const std::string kSpeed = "velocity_radps";
+  if (!channel.ends_with(kSpeed)) return false;
+  const auto* position =
+      speed.trial->find(channel.substr(0, channel.size() - kSpeed.size()) + "position_rad");
+  if (position == nullptr) return false;
+  const double moved = (*position)[speed.rows[stretch.last]] - (*position)[speed.rows[stretch.first]];
+  const double said = speed.value[stretch.first] * stretch.duration_s;
+  return std::abs(moved - said) < kAgree * std::abs(said);
+}
+
 // Values held, in one channel.
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
   const auto samples = sampled(trials, channel);
@@ -134,6 +147,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
+      if (position_went_along(s, channel, stretch)) continue;
       hit = true;
       longest = std::max(longest, stretch.last - stretch.first + 1);
       durations.push_back(stretch.duration_s);
