@@ -23,6 +23,9 @@ constexpr double kUnknownShare = 0.30;  // of what can be explained: more than t
 constexpr double kUnknownSignificance = 0.003;
 constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
+constexpr double kMisfitPerRow = 0.5;   // of a deviance of 1 a row, that of the noise
+constexpr double kMisfitOfExplained = 0.1;
+constexpr double kMisfitSignificance = 0.05;
 constexpr double kDoubtBesideUnknown = 0.6;
 constexpr std::size_t kSeeds = 14;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
@@ -125,17 +128,29 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     diagnosis.log.push_back(fmt::format(
         "free law at {} of {}: held-out gain {:.1f}, p {:.1e}, better in {:.0f} %", gains[i].family.port,
         gains[i].family.variable, gains[i].held_out, gains[i].p_value, 100.0 * gains[i].trials_better));
+  // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
+  // form, too: they are asked again without it.
+  const double unexplained = best.fit.deviance - rows;
+  const bool misfit = problem.trials.size() >= kTooFewTrials && unexplained > kMisfitPerRow * rows &&
+                      unexplained > kMisfitOfExplained * explained;
+  std::vector<FreeGain> alone;
+  if (misfit && rest == nullptr) {
+    alone = free_gains(problem, search.null().fit.point);
+    for (const auto& gain : alone)
+      if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kMisfitSignificance) rest = &gain;
+  }
   const double remainder = rest ? rest->held_out : 0.0;
   const double share = remainder > 0.0 ? remainder / (remainder + std::max(explained, 0.0)) : 0.0;
   diagnosis.log.push_back(fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %), {} rows", explained,
                                       remainder, 100.0 * share, rows));
 
   const Posterior belief = posterior(problem, search, remainder);
-  const bool unknown = rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows);
+  const bool unknown =
+      misfit || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
-    diagnosis.detail = "unknown_at_port";
-    report_unknown(problem, *rest, share, diagnosis);
+    diagnosis.detail = rest != nullptr ? "unknown_at_port" : "unknown_not_localised";
+    if (rest != nullptr) report_unknown(problem, *rest, share, diagnosis);
     // What is on the list and explains most may be there beside it, or be what the unknown looks like.
     if (share <= kUnknownShare) {
       report_effects(problem, search, belief, diagnosis);
