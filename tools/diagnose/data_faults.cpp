@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "tools/diagnose/data_fault_parts.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -19,6 +20,7 @@ constexpr double kLong_s = 0.06;         // a shorter stretch may also be lost s
 constexpr std::size_t kShortest = 4;
 // A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
 constexpr std::size_t kShortestOfSpeed = 10;
+constexpr std::string_view kSpeed = "velocity_radps";
 
 struct Stretch {
   std::size_t first, last;  // of `rows`
@@ -102,7 +104,6 @@ std::size_t shortest_by_number(const std::map<std::size_t, double>& runs) {
 // A speed may stay the same: then the position went on by as much as it says.
 bool position_went_along(const SampledChannel& speed, const std::string& channel, const Stretch& stretch) {
   constexpr double kAgree = 0.02;
-  static const std::string kSpeed = "velocity_radps";
   if (!channel.ends_with(kSpeed)) return false;
   const auto* position =
       speed.trial->find(channel.substr(0, channel.size() - kSpeed.size()) + "position_rad");
@@ -138,7 +139,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   }
   if (total < 20.0 || repeated > 0.5 * total) return;  // a slow sensor, held in the log
   const std::size_t by_number = shortest_by_number(runs);
-  const std::size_t shortest = channel.ends_with("velocity_radps") ? kShortestOfSpeed : kShortest;
+  const std::size_t shortest = channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest;
   std::vector<double> durations;
   std::size_t longest = 0;
   for (const auto& s : samples) {

@@ -180,8 +180,7 @@ void Search::judge(SetFit& result) {
     evidence.candidate = point.hypothesis.candidates[e];
     evidence.evidence = group.evidence;
     evidence.gain = group.gain;
-    evidence.typicals = std::abs(amplitudes[0]);
-    for (const double a : amplitudes) evidence.typicals = std::max(evidence.typicals, std::abs(a));
+    evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
     evidence.p_value =
         std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
     const auto& p = candidate.parameters[0];

@@ -35,9 +35,9 @@ Samples without_repeats(const Samples& samples);
 // How long each sample of a sensor with a clock of its own, slower than the rows, had waited for its row.
 // Rows with and without a fresh sample tell the phase p of ticks at (k + p) / rate: that which suits most of
 // them. Empty where the rate is not known, not slower, or the pattern is another one.
-// Of its age a row's value may have all (it is of the tick) or half (of the row's middle); believed so.
-inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz);
+// The share of that age by which a row's value is older than its row: all of it, or half; believed so.
+inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 
 // Means over successive samples, so that no two are closer than `least_step_s`: what a slow motion shows is
 // kept, the number of rows is not.
