@@ -129,6 +129,24 @@ TEST(DiagnoseDataFaults, SamplesThatFallToZeroAreADropoutAndNoPhysics) {
   EXPECT_GE(fault->parameters.front().high, 0.015);
 }
 
+// Where the quantity itself is near zero nothing falls; that the sensor fell out elsewhere for as long tells.
+TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
+  auto recordings = presses([](double, double) { return 0.0; });
+  std::size_t lost = 0;
+  double recorded_s = 0.0;
+  for (auto& trial : recordings.trials) {
+    auto& force = trial.channels["force_N"];
+    recorded_s += trial.time_s.back() - trial.time_s.front();
+    for (std::size_t i = 10; i + 5 < force.size(); i += 60, ++lost)
+      for (std::size_t k = 0; k < 5; ++k) force[i + k] = 0.0;
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+  EXPECT_NEAR(d.effects.front().parameters.back().value, static_cast<double>(lost) / recorded_s,
+              0.02 * static_cast<double>(lost) / recorded_s);
+}
+
 TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (std::size_t t = 0; t < recordings.trials.size(); t += 2) {

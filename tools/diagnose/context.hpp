@@ -31,6 +31,7 @@ struct ChannelScale {
   double step_s = 1e-3;        // median time between samples
   double share_at_high = 0.0;  // samples that sit exactly on the largest and smallest value
   double share_at_low = 0.0;
+  double grid = 0.0;  // least step between values that differ
 };
 
 // What an effect may know when it says what it would look like in this campaign.

@@ -26,7 +26,12 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   const double noise = own_noise(samples), grid = value_grid(samples);
   if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
     // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
-    DataFault always{channel, "sensor.saturation", samples.size(), 0.0, 0.0, 0.0, 0.0, high, true, {}};
+    DataFault always{.channel = channel,
+                     .id = "sensor.saturation",
+                     .stretches = samples.size(),
+                     .limit = high,
+                     .borderline = true,
+                     .trials = {}};
     for (const auto& s : samples) always.trials.push_back(s.trial->name);
     faults.push_back(std::move(always));
     return;
@@ -35,6 +40,7 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   DataFault fault;
   fault.channel = channel;
   fault.id = "sensor.saturation";
+  fault.limit_resolution = 0.5 * grid;
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;
     for (const auto& s : samples)

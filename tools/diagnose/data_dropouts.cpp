@@ -15,6 +15,7 @@ constexpr double kOften = 3.0;     // lost stretches per trial that are more tha
 constexpr double kMostTrials = 0.75;
 constexpr double kShareLost = 0.004;
 constexpr std::size_t kEnough = 3;
+constexpr double kSeldom = 0.3;  // of the neighbours: a channel that shows the code more often rests there
 
 // Zero, and an end of the range that stands apart from all other values.
 std::vector<double> codes(const std::vector<SampledChannel>& channel) {
@@ -54,6 +55,62 @@ bool falls_out(const std::vector<double>& v, std::size_t first, std::size_t last
   return far > kFar * change && std::abs(before - after) < kAlike * far;
 }
 
+// Samples from first to last, all at the code.
+struct Stretch {
+  std::size_t first, last;
+  std::size_t samples() const { return last - first + 1; }
+};
+
+std::vector<Stretch> stretches_at(const std::vector<double>& v, double code) {
+  std::vector<Stretch> found;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (v[i] != code) continue;
+    if (i > 0 && v[i - 1] == code)
+      found.back().last = i;
+    else
+      found.push_back({i, i});
+  }
+  return found;
+}
+
+bool rests_there(const std::vector<double>& v, const Stretch& s, double code) {
+  double at_code = 0.0, count = 0.0;
+  const auto add = [&](std::size_t i) {
+    at_code += v[i] == code ? 1.0 : 0.0;
+    ++count;
+  };
+  for (std::size_t i = s.first > kNeighbours ? s.first - kNeighbours : 0; i < s.first; ++i) add(i);
+  for (std::size_t i = s.last + 1; i < std::min(v.size(), s.last + 1 + kNeighbours); ++i) add(i);
+  return count == 0.0 || at_code > kSeldom * count;
+}
+
+// The stretches of one channel that fall out. Those where the quantity is far from the code prove the fault
+// and show how long one lasts; stretches as long are lost, too, where the quantity is near the code or
+// changes.
+std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code) {
+  const double noise = own_noise(channel);
+  std::vector<std::vector<Stretch>> lost(channel.size());
+  std::size_t proven = 0, shortest = std::numeric_limits<std::size_t>::max(), longest = 0;
+  for (const auto& s : channel)
+    for (const auto& stretch : stretches_at(s.value, code))
+      if (falls_out(s.value, stretch.first, stretch.last, code, noise)) {
+        ++proven;
+        shortest = std::min(shortest, stretch.samples());
+        longest = std::max(longest, stretch.samples());
+      }
+  if (proven < kEnough) return lost;
+  for (std::size_t c = 0; c < channel.size(); ++c)
+    for (const auto& stretch : stretches_at(channel[c].value, code)) {
+      const auto& v = channel[c].value;
+      const bool at_the_edge = stretch.first == 0 || stretch.last + 1 == v.size();
+      const bool as_long = stretch.samples() <= longest && (at_the_edge || 2 * stretch.samples() >= shortest);
+      if (falls_out(v, stretch.first, stretch.last, code, noise) ||
+          (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code)))
+        lost[c].push_back(stretch);
+    }
+  return lost;
+}
+
 }  // namespace
 
 void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
@@ -61,38 +118,29 @@ void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::
   double total = 0.0;
   for (const auto& s : samples) total += static_cast<double>(s.value.size());
   if (total < 20.0) return;
-  const double noise = own_noise(samples);
   for (const double code : codes(samples)) {
     DataFault fault;
     fault.channel = channel;
     fault.id = "data.dropout";
     std::vector<double> lengths;
-    for (auto& s : samples) {
-      bool hit = false;
+    const auto lost = lost_stretches(samples, code);
+    for (std::size_t c = 0; c < samples.size(); ++c) {
+      const auto& s = samples[c];
       auto& values = s.trial->channels[channel];
       double step_s = 1e-3;
       if (s.time_s.size() > 1)
         step_s = (s.time_s.back() - s.time_s.front()) / static_cast<double>(s.time_s.size() - 1);
       fault.step_s = std::max(fault.step_s, step_s);
       if (!s.time_s.empty()) fault.recorded_s += s.time_s.back() - s.time_s.front();
-      for (std::size_t i = 0; i < s.value.size();) {
-        if (s.value[i] != code) {
-          ++i;
-          continue;
-        }
-        std::size_t j = i;
-        while (j + 1 < s.value.size() && s.value[j + 1] == code) ++j;
-        if (falls_out(s.value, i, j, code, noise)) {
-          hit = true;
-          lengths.push_back(static_cast<double>(j - i + 1) * step_s);
-          for (std::size_t k = i; k <= j; ++k) values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
-        }
-        i = j + 1;
+      for (const auto& stretch : lost[c]) {
+        lengths.push_back(static_cast<double>(stretch.samples()) * step_s);
+        for (std::size_t k = stretch.first; k <= stretch.last; ++k)
+          values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
       }
-      if (hit) fault.trials.push_back(s.trial->name);
+      if (!lost[c].empty()) fault.trials.push_back(s.trial->name);
     }
     fault.stretches = lengths.size();
-    if (fault.stretches < kEnough) continue;
+    if (fault.stretches == 0) continue;
     std::sort(lengths.begin(), lengths.end());
     fault.duration_s = lengths[lengths.size() / 2];
     fault.rate_Hz = static_cast<double>(fault.stretches) / std::max(fault.recorded_s, 1e-9);

@@ -15,8 +15,9 @@ struct DataFault {
   double step_s = 0.0;      // between samples: how well a duration is known
   double rate_Hz = 0.0;     // stretches per second of recording
   double recorded_s = 0.0;
-  double limit = 0.0;       // of a saturation
-  bool borderline = false;  // a held value that short may be what a logger puts where samples are lost
+  double limit = 0.0;             // of a saturation
+  double limit_resolution = 0.0;  // half a step of the channel's grid
+  bool borderline = false;        // a held value that short may be what a logger puts where samples are lost
   std::vector<std::string> trials;
 };
 

@@ -21,7 +21,8 @@ struct EffectParameter {
   double high = 1.0;
   bool either_sign = false;  // starts are tried on both sides
   double base = 0.0;
-  double scale = 1.0;
+  double scale = 1.0;            // 0: read off the data and not fitted, to within
+  double resolution = 0.0;       //   this
   bool amplitude = false;        // besides the first: zero switches this part off, too
   bool reciprocal = false;       // reported as 1 / (base + scale * value)
   bool other_law_above = false;  // at its upper bound this is not the effect any more

@@ -84,6 +84,11 @@ void NoiseModel::widen(double factor) {
     for (double& sd : channel.sd_of_phase) sd *= factor;
 }
 
+double NoiseModel::sd(const TrialModel& trial, const Row& row) const {
+  const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[row.channel];
+  return factor * row.relative_sd * channels_[row.channel].sd_of_phase[row.phase];
+}
+
 void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
                         Eigen::Ref<Eigen::MatrixXd> values) const {
   const std::size_t rows = trial.rows.size();
@@ -102,11 +107,9 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
         value = 0.0;
         continue;
       }
-      const ChannelNoise& noise = channels_[trial.rows[k].channel];
       const Row& row = trial.rows[k];
-      const auto& [a, innovation_sd] = noise.correlation_of_phase[row.phase];
-      const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[row.channel];
-      const double e = value / (factor * row.relative_sd * noise.sd_of_phase[row.phase]);
+      const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
+      const double e = value / sd(trial, row);
       value = e;
       if (before[k] >= a.size()) {
         for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];

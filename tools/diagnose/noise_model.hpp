@@ -34,6 +34,8 @@ class NoiseModel {
   void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
               Eigen::Ref<Eigen::MatrixXd> values) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
+  // Standard deviation of one row, as whitening takes it.
+  double sd(const TrialModel& trial, const Row& row) const;
   void fix(std::size_t channel, double sd);  // white, the same in all phases
   // All standard deviations times this: what a fit took up belongs to the noise, too.
   void widen(double factor);

@@ -29,8 +29,19 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// What a converter's grid is.
+double least_step(const std::vector<Trial>& trials, const std::string& channel) {
+  double least = 1e300;
+  for (const auto& trial : trials) {
+    const auto s = samples_of(trial, channel);
+    for (std::size_t i = 1; i < s.value.size(); ++i)
+      if (s.value[i] != s.value[i - 1]) least = std::min(least, std::abs(s.value[i] - s.value[i - 1]));
+  }
+  return least < 1e299 ? least : 0.0;
+}
+
 ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& channel) {
-  ChannelScale scale{1e300, -1e300, 0.0, 1e-3, 0.0, 0.0};
+  ChannelScale scale{.low = 1e300, .high = -1e300};
   std::vector<double> noises, steps;
   double samples = 0.0;
   for (const auto& trial : trials) {
@@ -52,18 +63,8 @@ ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& chann
     }
   scale.noise_rms = median(noises);
   scale.step_s = median(steps);
+  scale.grid = least_step(trials, channel);
   return scale;
-}
-
-// Smallest step between values that differ: what a converter's grid adds.
-double grid_rms(const std::vector<Trial>& trials, const std::string& channel) {
-  double least = 1e300;
-  for (const auto& trial : trials) {
-    const auto s = samples_of(trial, channel);
-    for (std::size_t i = 1; i < s.value.size(); ++i)
-      if (s.value[i] != s.value[i - 1]) least = std::min(least, std::abs(s.value[i] - s.value[i - 1]));
-  }
-  return least < 1e299 ? least / std::sqrt(12.0) : 0.0;
 }
 
 // What the trials' simulations believe, set-ups included: the median of each number. Effects take their sizes
@@ -232,8 +233,7 @@ Prepared prepare(const Recordings& recordings) {
     }
     const ChannelScale scale = scale_of(recordings.trials, channel);
     const double span = std::max(scale.high - scale.low, 0.0);
-    const double floor =
-        std::max({scale.noise_rms, 0.5 * grid_rms(recordings.trials, channel), 1e-6 * span, 1e-12});
+    const double floor = std::max({scale.noise_rms, 0.5 * scale.grid / std::sqrt(12.0), 1e-6 * span, 1e-12});
     problem.floor_sd.push_back(floor);
     if (span > 0.0)
       problem.context.channels[channel] = scale;

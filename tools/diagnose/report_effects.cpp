@@ -78,9 +78,10 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
       FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
                          p.reported(std::min(p.high, value + half))};
-      if (p.scale == 0.0) {  // a limit is read off, within a thousandth
-        out.low = out.value - 1e-3 * std::abs(out.value);
-        out.high = out.value + 1e-3 * std::abs(out.value);
+      if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
+        const double within = p.resolution + 1e-3 * std::abs(out.value);
+        out.low = out.value - within;
+        out.high = out.value + within;
       }
       if (out.low > out.high) std::swap(out.low, out.high);
       found.parameters.push_back(out);

@@ -18,13 +18,14 @@ struct Squares {
 // Sums by channel, and by channel and phase.
 struct Sums {
   Squares by_channel, by_cell;
-  Sums(const Problem& problem, const std::vector<VectorXd>& residuals)
+  template <class ErrorOf>
+  Sums(const Problem& problem, const ErrorOf& error_of)
       : by_channel(problem.channels.size()), by_cell(problem.channels.size() * problem.phases.size()) {
-    for (std::size_t t = 0; t < residuals.size(); ++t) {
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
       const auto& rows = problem.trials[t]->rows;
       for (std::size_t k = 0; k < rows.size(); ++k) {
         if (!problem.used[t][k]) continue;
-        const double square = std::pow(residuals[t][static_cast<Index>(k)], 2);
+        const double square = std::pow(error_of(t, k), 2);
         const std::size_t cell = rows[k].channel * problem.phases.size() + rows[k].phase;
         by_channel.sum[rows[k].channel] += square;
         ++by_channel.count[rows[k].channel];
@@ -37,25 +38,32 @@ struct Sums {
 
 }  // namespace
 
-// Held out: the effects' parameters come from the other trials, the trial's own nuisances are fitted.
+// Held out: the effects' parameters come from the other trials, the trial's own nuisances are fitted. The
+// floor is what the noise alone would leave in the same rows: it may grow with the force, and differ between
+// trials.
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis) {
-  const Sums before(problem, residuals.before), after(problem, residuals.after),
-      held_out(problem, residuals.held_out);
+  const auto sums_of = [&](const std::vector<VectorXd>& errors) {
+    return Sums(problem, [&](std::size_t t, std::size_t k) { return errors[t][static_cast<Index>(k)]; });
+  };
+  const Sums before = sums_of(residuals.before), after = sums_of(residuals.after),
+             held_out = sums_of(residuals.held_out);
+  const Sums floor(problem, [&](std::size_t t, std::size_t k) {
+    return problem.noise.sd(*problem.trials[t], problem.trials[t]->rows[k]);
+  });
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     if (before.by_channel.count[c] == 0.0 || !problem.context.has(problem.channels[c])) continue;
-    const auto& noise = problem.noise.channel(c);
     ChannelFit fit;
     fit.channel = problem.channels[c];
     fit.train = {before.by_channel.rms(c), after.by_channel.rms(c)};
     fit.heldout = {before.by_channel.rms(c), held_out.by_channel.rms(c)};
-    fit.floor = noise.sd();
+    fit.floor = floor.by_channel.rms(c);
     diagnosis.noise_floor[fit.channel] = fit.floor;
     diagnosis.fits.push_back(fit);
     for (std::size_t p = 0; p < problem.phases.size(); ++p) {
       const std::size_t cell = c * problem.phases.size() + p;
       if (before.by_cell.count[cell] > 0.0)
         diagnosis.phase_errors.push_back({fit.channel, problem.phases[p], before.by_cell.rms(cell),
-                                          held_out.by_cell.rms(cell), noise.sd_of_phase[p],
+                                          held_out.by_cell.rms(cell), floor.by_cell.rms(cell),
                                           static_cast<std::size_t>(before.by_cell.count[cell])});
     }
   }

@@ -74,7 +74,8 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     if (fault.id == "sensor.saturation") {
       const double limit = std::abs(fault.limit);
       effect.equation = "y = min(x, limit)";
-      effect.parameters = {{"limit", limit, 0.999 * limit, 1.001 * limit}};
+      const double within = fault.limit_resolution + 1e-3 * limit;
+      effect.parameters = {{"limit", limit, limit - within, limit + within}};
     } else {
       effect.equation =
           fault.id == "data.stuck" ? "y(t) = y(t_0), t_0 < t < t_0 + T" : "no y(t), t_0 < t < t_0 + T";

@@ -5,39 +5,47 @@ namespace {
 
 constexpr double kPileUp = 0.02;  // of all samples exactly on the end value
 
-// The end of the range is where samples pile up; how far the sensor is really cut there is fitted, 1 wholly.
-struct End {
-  bool high = false;
-  double limit = 0.0;
+// The ends of the range are where samples pile up; how far the sensor is really cut there is fitted, 1
+// wholly.
+struct SensorRange {
+  double low = -1e300, high = 1e300;
   bool found = false;
+  double limit = 0.0;       // as it is reported
+  double resolution = 0.0;  // half a step of the channel's grid: the limit itself is rounded
 };
-End end_of(const Context& c, const std::string& channel) {
+SensorRange sensor_range(const Context& c, const std::string& channel) {
+  SensorRange range;
   const auto it = c.channels.find(channel);
-  if (it == c.channels.end()) return {};
+  if (it == c.channels.end()) return range;
   const auto& s = it->second;
-  if (s.share_at_high > kPileUp && s.share_at_high >= s.share_at_low) return {true, s.high, true};
-  if (s.share_at_low > kPileUp) return {false, s.low, true};
-  return {};
+  const bool symmetric = std::abs(s.high + s.low) < 0.5 * s.grid + 1e-9 * s.high;
+  const double both = symmetric ? s.share_at_high + s.share_at_low : 0.0;
+  range.resolution = 0.5 * s.grid;
+  if (std::max(s.share_at_low, both) > kPileUp) range.low = s.low;
+  if (std::max(s.share_at_high, both) > kPileUp) range.high = s.high;
+  const bool at_low = range.low == s.low, at_high = range.high == s.high;
+  range.found = at_low || at_high;
+  range.limit = at_high && (symmetric || !at_low || s.share_at_high >= s.share_at_low) ? s.high : s.low;
+  return range;
 }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
-  const End end = end_of(c, channel);
-  if (!end.found) return {};
+  const SensorRange range = sensor_range(c, channel);
+  if (!range.found) return {};
   return {{.name = "limit_" + unit_of(channel),
            .typical = 1.0,
            .low = 0.0,
            .high = 1.5,
-           .base = end.limit,
-           .scale = 0.0}};
+           .base = range.limit,
+           .scale = 0.0,
+           .resolution = range.resolution}};
 }
 
 void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
-  const End end = end_of(c, channel);
+  const SensorRange range = sensor_range(c, channel);
   const double share = v[0];
-  edits.sensor_law(channel, [end, share](const PortState& s) {
-    const double beyond =
-        end.high ? std::max(0.0, s.position - end.limit) : std::min(0.0, s.position - end.limit);
-    return -share * beyond;
+  edits.sensor_law(channel, [range, share](const PortState& s) {
+    return share * (std::clamp(s.position, range.low, range.high) - s.position);
   });
 }
 
