@@ -139,8 +139,13 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     for (const auto& gain : alone)
       if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kMisfitSignificance) rest = &gain;
   }
+  const auto share_of = [&](const FreeGain* gain) {
+    return gain == nullptr ? 0.0 : gain->held_out / (gain->held_out + std::max(explained, 0.0));
+  };
+  // What lies within the noise and is little beside what was found is nothing unknown.
+  if (best.fit.deviance < rows && share_of(rest) <= kUnknownShare) rest = nullptr;
   const double remainder = rest ? rest->held_out : 0.0;
-  const double share = remainder > 0.0 ? remainder / (remainder + std::max(explained, 0.0)) : 0.0;
+  const double share = share_of(rest);
   diagnosis.log.push_back(fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %), {} rows", explained,
                                       remainder, 100.0 * share, rows));
 

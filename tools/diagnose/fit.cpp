@@ -264,6 +264,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
   double last_drop = 0.0;  // of the deviance, relative
   for (fit.iterations = 0; fit.iterations < options.max_iterations && !done; ++fit.iterations) {
     const double drop = fitter.step(0.5 * options.tolerance);
+    fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
       const bool short_of = fitter.promised > kPromise && drop < 0.5 * fitter.promised;

@@ -21,6 +21,7 @@ struct Fit {
   std::vector<double> trial_deviance;  // without the priors of effects and tolerances
   Eigen::MatrixXd information;         // of effects' parameters (scaled by typical), then tolerances
   int iterations = 0;
+  double promised = 0.0;  // drop of the deviance that the last step hoped for and did not bring
 };
 
 struct FitOptions {

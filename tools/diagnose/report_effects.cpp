@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/calibration.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {
@@ -107,6 +108,11 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   }
   std::sort(diagnosis.effects.begin(), diagnosis.effects.end(),
             [](const FoundEffect& a, const FoundEffect& b) { return a.heldout_gain > b.heldout_gain; });
+  for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
+    auto& beside = diagnosis.effects[i];
+    if (!beside.id.starts_with("unknown@"))
+      beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+  }
 }
 
 }  // namespace sandhopper::diagnose

@@ -23,13 +23,17 @@ constexpr double kSmallestOfTypical = 0.08;
 constexpr double kSmallestShare = 0.002;   // of what all effects explain
 constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
 constexpr double kLinearError =
-    0.05;                            // of what is explained: a proposal's estimate may be worse than its fit
-constexpr double kSizeSpread = 1.8;  // of the logarithm of a size in typical ones, believed beforehand
+    0.05;  // of what is explained: a proposal's estimate may be worse than its fit
+// Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
+// nearly cancel, both are many times their typical size.
+constexpr double kSpreadBelow = 1.8;
+constexpr double kSpreadAbove = 1.0;
 constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
 
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
 constexpr double kRival = 20.0;                                // of the criterion
+constexpr double kPromise = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
@@ -58,8 +62,10 @@ double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::si
 // Minus twice the logarithm of how likely these sizes were beforehand.
 double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
-  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
-    sum += std::pow(std::log(std::max(typicals_of(problem, hypothesis, e), 1e-3)) / kSizeSpread, 2);
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
+    const double size = std::log(std::max(typicals_of(problem, hypothesis, e), 1e-3));
+    sum += std::pow(size / (size < 0.0 ? kSpreadBelow : kSpreadAbove), 2);
+  }
   return sum;
 }
 
@@ -295,11 +301,13 @@ void Search::finish(SetFit& fit) const {
   fit.rough = false;
 }
 
-// What competes with the best must not lose only because it was fitted roughly.
+// What competes with the best must not lose only because it was fitted roughly and stopped short of what it
+// might explain.
 void Search::finish_rivals() {
   const double limit = criterion(best()) + kRival;
   for (auto& [set, fit] : sets_)
-    if (set.size() <= best_.size() && criterion(fit) < limit) finish(fit);
+    if (set.size() <= best_.size() && criterion(fit) - kPromise * fit.fit.promised / dispersion_ < limit)
+      finish(fit);
 }
 
 void Search::choose_best() {

@@ -36,7 +36,7 @@ const EffectRegistration kEffect(
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
-               {.name = "drift", .typical = 2e-3, .low = -0.2, .high = 0.2, .either_sign = true}};
+               {.name = "drift", .typical = 2e-3, .low = -0.05, .high = 0.05, .either_sign = true}};
          },
      .apply = apply});
 

@@ -57,7 +57,7 @@ inline Effect scale_effect(std::string id, std::vector<PlantKind> plants,
           .parameters =
               [](const Context&, const std::string&) {
                 return std::vector<EffectParameter>{
-                    {.name = "scale_error", .typical = 0.02, .low = -0.5, .high = 1.0, .either_sign = true}};
+                    {.name = "scale_error", .typical = 0.02, .low = -0.3, .high = 0.4, .either_sign = true}};
               },
           .apply = [](const Context&, const std::string& channel, std::span<const double> v,
                       Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, 1.0 + v[0]); }};
