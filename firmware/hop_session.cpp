@@ -64,6 +64,7 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
                                     .wall_clock_step_ns = step_ns,
                                     .request = request});
     world.heart.beat(output.state, output.fault);
+    if (world.status != nullptr) world.status->publish(live_status(cycle.frame(), output, clock.latency()));
     const bool off = output.command.drive == DriveRequest::off;
     if (!off) off_since = clock.cycle();
     result.last_state = output.state;

@@ -4,8 +4,10 @@
 #include <string>
 
 #include "config/robot_config.hpp"
+#include "drivers/latest.hpp"
 #include "firmware/board.hpp"
 #include "firmware/cycle.hpp"
+#include "firmware/live_status.hpp"
 #include "firmware/realtime.hpp"
 #include "firmware/wall_clock.hpp"
 #include "firmware/watchdog/heartbeat.hpp"
@@ -53,6 +55,7 @@ class HopSession {
     std::function<void(const std::string&)> say;  // warnings, before the first cycle
     TimeSource& time = monotonic_time();
     WallClock wall_clock{};
+    Latest<LiveStatus>* status = nullptr;  // who watches the cycle, if anyone does
   };
   // On the calling thread, which is made real-time.
   SessionResult run(World world);

@@ -36,6 +36,7 @@ struct Options {
   std::string board = "linux";
   std::uint64_t segment_MB = 0;
   std::uint64_t quota_MB = 0;
+  int status_Hz = 0;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -57,6 +58,10 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--quota-MB", options.quota_MB,
                  "remove the oldest files of this log when all together hold more; 0: keep all")
+      ->capture_default_str();
+  app.add_option("--status-Hz", options.status_Hz,
+                 "how often to tell how the cycle stands, {\"status\": {…}}; 0: never")
+      ->check(CLI::Range(0, 100))
       ->capture_default_str();
   app.footer(
       "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
@@ -117,7 +122,8 @@ SessionResult run_session(const Session& s) {
   warn(watchdog.warning());
   warn(keepalive.warning());
   std::thread cycle([&] {
-    result = session.run({.quit = quit, .requests = requests, .heart = s.heart, .say = warn});
+    result = session.run(
+        {.quit = quit, .requests = requests, .heart = s.heart, .say = warn, .status = &s.channel.status()});
     ended.store(true);
   });
   s.channel.tell_text("ready", "arm");
@@ -192,6 +198,7 @@ int run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   OperatorChannel channel;
+  channel.tell_status_at(options.status_Hz);
   try {
     return run(options, channel);
   } catch (const ConfigError& error) {

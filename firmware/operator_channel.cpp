@@ -1,17 +1,19 @@
 #include "firmware/operator_channel.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <system_error>
+
+#include "drivers/clock.hpp"
+#include "firmware/operator_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -31,33 +33,17 @@ void ask_again(std::atomic<Quit>& quit) {
   ask_to(quit.load() == Quit::no ? Quit::softly : Quit::at_once, quit);
 }
 
-// In one call: the logger's and the stride's thread speak, too.
-void print(const std::string& line) {
-  std::fputs((line + '\n').c_str(), stdout);
-  std::fflush(stdout);
-}
-
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') {
-      out += "\\n";
-      continue;
-    }
-    out += c;
-  }
-  return out + '"';
-}
-
-template <class Estimate>
-std::string stiffness(const Estimate& k) {
-  return fmt::format(R"({{"value":{},"ci95":[{},{}],"valid":{},"reason":"{}"}})", k.value_N_per_m,
-                     k.ci95_low_N_per_m, k.ci95_high_N_per_m, k.validity == Validity::valid,
-                     name_of(k.validity));
-}
-
 }  // namespace
+
+bool take_word(std::string_view word, RequestBox& requests, std::atomic<Quit>& quit) {
+  if (word == "quit") {
+    ask_again(quit);
+    return true;
+  }
+  const auto request = request_named(word);
+  if (request) requests.post(*request);
+  return request.has_value();
+}
 
 OperatorChannel::OperatorChannel() {
   sigset_t set;
@@ -70,21 +56,32 @@ OperatorChannel::OperatorChannel() {
   std::signal(SIGHUP, SIG_DFL);  // also under nohup: a robot is not left to itself
   signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  outbox_.emplace(STDOUT_FILENO);  // its thread has the signals blocked, too
 }
 
 OperatorChannel::~OperatorChannel() { close(signal_fd_); }
 
 void OperatorChannel::listen(RequestBox& requests, std::atomic<Quit>& quit, const std::atomic<bool>& ended) {
-  constexpr int kLook_ms = 100;
+  const int look_ms = status_Hz_ > 0 ? std::max(1, 1000 / status_Hz_) : 100;
+  std::int64_t next_status_ns = 0;
   std::array<pollfd, 2> fds{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{signal_fd_, POLLIN, 0}};
   while (!ended.load()) {
-    if (poll(fds.data(), fds.size(), kLook_ms) < 0 && errno != EINTR) ask_to(Quit::at_once, quit);
+    if (poll(fds.data(), fds.size(), look_ms) < 0 && errno != EINTR) ask_to(Quit::at_once, quit);
     if ((fds[1].revents & POLLIN) != 0) take_signal(quit);
     if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit)) {
       fds[0].fd = -1;
       ask_to(Quit::softly, quit);
     }
+    if (status_Hz_ > 0 && monotonic_ns() >= next_status_ns) {
+      next_status_ns = monotonic_ns() + look_ms * std::int64_t{1'000'000};
+      tell_status();
+    }
   }
+}
+
+void OperatorChannel::tell_status() {
+  LiveStatus newest;
+  if (status_.take(newest)) outbox_->put_status(operator_text(newest));
 }
 
 void OperatorChannel::take_signal(std::atomic<Quit>& quit) {
@@ -109,44 +106,15 @@ bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<Quit>& quit) 
 }
 
 void OperatorChannel::take_line(const std::string& line, RequestBox& requests, std::atomic<Quit>& quit) {
-  if (line == "quit") {
-    ask_again(quit);
-    return;
-  }
-  if (const auto request = request_named(line))
-    requests.post(*request);
-  else if (!line.empty())
+  if (!line.empty() && !take_word(line, requests, quit))
     tell_text("error", "unknown word '" + line + "'; known: arm, release, stop, disarm, quit");
 }
 
-void OperatorChannel::tell(const Event& e) {
-  print(fmt::format(
-      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]}})",
-      name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, e.values[0], e.values[1],
-      e.values[2], e.values[3]));
-}
-
-void OperatorChannel::tell(const StrideResult& r) {
-  print(fmt::format(R"({{"stride":{},"touchdown_speed_mps":{},"peak_force_N":{},"max_depth_m":{},)"
-                    R"("stiffness_N_per_m":{{"qs_ols":{},"mo_ols":{},"mo_wls":{},"joint":{}}}}})",
-                    r.summary.stride, r.summary.touchdown_speed_mps, r.summary.peak_force_N,
-                    r.summary.max_depth_m, stiffness(r.quasi_static_ols), stiffness(r.observer_ols),
-                    stiffness(r.observer_wls), stiffness(r.joint)));
-}
-
-void OperatorChannel::tell(const SessionResult& r) {
-  print(fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
-                    R"("lost_can_frames":{},"log_error":{},"clock_steps":{},"watchdog_trips":{},)"
-                    R"("longest_stall_ms":{:.1f},)"
-                    R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{},"histogram":{}}}}}}})",
-                    name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
-                    r.lost_can_frames, json_string(r.log_error), r.clock_steps, r.watchdog_trips,
-                    1e3 * r.longest_stall_s, r.latency.quantile_us(0.5), r.latency.quantile_us(0.99),
-                    r.latency.quantile_us(0.999), r.latency.largest_us(), r.latency.as_json()));
-}
-
+void OperatorChannel::tell(const Event& event) { outbox_->put(operator_text(event)); }
+void OperatorChannel::tell(const StrideResult& result) { outbox_->put(operator_text(result)); }
+void OperatorChannel::tell(const SessionResult& result) { outbox_->put(operator_text(result)); }
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {
-  print(fmt::format("{{{}:{}}}", json_string(key), json_string(text)));
+  outbox_->put(operator_text(key, text));
 }
 
 }  // namespace sandhopper

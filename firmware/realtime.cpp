@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -72,7 +73,9 @@ RealTimeThread::~RealTimeThread() {
 void LatencyHistogram::add(std::int64_t late_ns) noexcept {
   const auto bin = static_cast<std::size_t>(std::max<std::int64_t>(late_ns, 0) / 1000);
   ++bins_[std::min(bin, kBins - 1)];
+  ++octaves_[std::min(static_cast<std::size_t>(std::bit_width(bin)), kOctaves - 1)];
   ++count_;
+  last_ns_ = late_ns;
   largest_ns_ = std::max(largest_ns_, late_ns);
 }
 

@@ -46,9 +46,13 @@ class RealTimeThread {
 class LatencyHistogram {
  public:
   static constexpr std::size_t kBins = 1001;
+  // Coarse bins for a quick look: below 1 us, below 2, below 4, … below 1024 us, and all beyond.
+  static constexpr std::size_t kOctaves = 12;
   void add(std::int64_t late_ns) noexcept;
   std::uint64_t count() const noexcept { return count_; }
   double largest_us() const noexcept { return static_cast<double>(largest_ns_) * 1e-3; }
+  double last_us() const noexcept { return static_cast<double>(last_ns_) * 1e-3; }
+  const std::array<std::uint64_t, kOctaves>& octaves() const noexcept { return octaves_; }
   // Upper edge of the bin that holds this share of the counts.
   double quantile_us(double share) const noexcept;
   // [[n, cycles], …] of the bins that are not empty; bin n counts n-1 to n us, the last one all beyond.
@@ -56,7 +60,9 @@ class LatencyHistogram {
 
  private:
   std::array<std::uint64_t, kBins> bins_{};
+  std::array<std::uint64_t, kOctaves> octaves_{};
   std::uint64_t count_ = 0;
+  std::int64_t last_ns_ = 0;
   std::int64_t largest_ns_ = 0;
 };
 

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "drivers/latest.hpp"
 #include "firmware/cycle.hpp"
+#include "firmware/live_status.hpp"
 #include "tests/unit/allocation_guard.hpp"
 #include "tools/plant/sim_board.hpp"
 
@@ -38,7 +40,8 @@ struct Run {
   int strides = 0;
 };
 
-// A whole trial of three strides with its logging, every turn of the cycle under the guard.
+// A whole trial of three strides with its logging and what an operator watches, every turn of the cycle under
+// the guard.
 Run run_trial(std::uint64_t plant_at) {
   const auto log = std::filesystem::temp_directory_path() / "sandhopper_allocation_test.mcap";
   std::filesystem::remove(log);
@@ -55,12 +58,16 @@ Run run_trial(std::uint64_t plant_at) {
     Controller controller(CycleConfig{});
     Aftermath aftermath(StiffnessConfig{}, logger, topics, {});
     Cycle cycle({board, controller, logger, topics, aftermath});
+    LatencyHistogram latency;
+    Latest<LiveStatus> status;
     Request request = Request::arm;
     for (std::uint64_t k = 1; k < 4000; ++k) {
       {
         const AllocationGuard guard;
-        cycle.run(
+        const auto& output = cycle.run(
             {.time_ns = static_cast<std::int64_t>(k) * kCyclePeriod_ns, .cycle = k, .request = request});
+        latency.add(static_cast<std::int64_t>(k % 3000) * 1000);
+        status.publish(live_status(cycle.frame(), output, latency));
         run.allocations += guard.count();
       }
       request = Request::none;

@@ -34,7 +34,14 @@ ChildProcess::ChildProcess(std::vector<std::string> command) {
   std::vector<char*> argv;
   for (auto& word : command) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const int error = posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  const int error = posix_spawn(&pid_, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(input[0]);
   close(output[1]);
@@ -66,6 +73,15 @@ bool ChildProcess::read_line(std::string& line) {
     if (line.back() == '\n') line.pop_back();
   }
   free(text);
+  return got > 0;
+}
+
+int ChildProcess::output() const { return fileno(from_); }
+
+bool ChildProcess::read_some(std::string& text) {
+  std::array<char, 4096> buffer{};
+  const auto got = ::read(output(), buffer.data(), buffer.size());
+  if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
   return got > 0;
 }
 

@@ -29,13 +29,6 @@ std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   return path;
 }
 
-bool on_virtual_bench() { return std::string_view(board_file()) == "bench.toml"; }
-
-void reset_bench(const TrialSetup& trial) {
-  bench::tell_bench(fmt::format("reset seed={} height={} noise={}", trial.seed, trial.release_height_m,
-                                trial.noise ? "on" : "off"));
-}
-
 class Operator {
  public:
   Operator(const LinuxTrialSetup& setup, ChildProcess& daemon) : setup_(setup), daemon_(daemon) {}
@@ -74,7 +67,7 @@ class Operator {
 
   void prepare() {
     if (on_virtual_bench())
-      reset_bench(setup_.trial);
+      reset_virtual_bench(setup_.trial);
     else
       setup_.say(fmt::format("hang the robot with its sole {:.1f} mm over the sand; press Enter",
                              1e3 * setup_.trial.release_height_m));
@@ -98,11 +91,28 @@ class Operator {
 
 }  // namespace
 
-LinuxTrialResult run_linux_trial(const LinuxTrialSetup& setup) {
+bool on_virtual_bench() { return std::string_view(board_file()) == "bench.toml"; }
+
+void reset_virtual_bench(const TrialSetup& trial) {
+  bench::tell_bench(fmt::format("reset seed={} height={} noise={}", trial.seed, trial.release_height_m,
+                                trial.noise ? "on" : "off"));
+}
+
+std::vector<std::string> daemon_command(const LinuxTrialSetup& setup) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "hopperd";
-  ChildProcess daemon({program.string(), "--config", setup.config_directory.string(), "--robot",
-                       write_robot_file(setup).string(), "--devices", setup.devices.string(), "--log",
-                       setup.log.string()});
+  return {program.string(),
+          "--config",
+          setup.config_directory.string(),
+          "--robot",
+          write_robot_file(setup).string(),
+          "--devices",
+          setup.devices.string(),
+          "--log",
+          setup.log.string()};
+}
+
+LinuxTrialResult run_linux_trial(const LinuxTrialSetup& setup) {
+  ChildProcess daemon(daemon_command(setup));
   return Operator(setup, daemon).run();
 }
 

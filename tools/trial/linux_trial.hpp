@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "config/robot_config.hpp"
 #include "firmware/records.hpp"
@@ -26,5 +27,11 @@ struct LinuxTrialResult {
 // Runs hopperd on the device nodes as the operator of one trial: arm, release, wait for the end. Throws
 // std::runtime_error with hopperd's own message when it does not start.
 LinuxTrialResult run_linux_trial(const LinuxTrialSetup& setup);
+
+// For a trial with the operator at the keys: how hopperd is started for it, and whether its robot is the
+// virtual bench's, which is then put back to its start for each trial.
+std::vector<std::string> daemon_command(const LinuxTrialSetup& setup);
+bool on_virtual_bench();
+void reset_virtual_bench(const TrialSetup& trial);
 
 }  // namespace sandhopper

@@ -47,18 +47,22 @@ TrialLogOptions log_options(const SimTrialSetup& setup) {
 
 }  // namespace
 
-SimTrialResult run_sim_trial(const SimTrialSetup& setup) {
-  World world(setup.world, setup.trial, 0);
-  SimBoard board(world);
-  TrialLogger logger(log_options(setup));
-  const TrialTopics topics(logger);
-  const auto truth = logger.add_topic<PlantTruth>(topic::kTruth);
+void describe_simulated_trial(TrialLogger& logger, const SimTrialSetup& setup) {
   describe_trial(logger, setup.robot, "sim");
   logger.attach("world.toml", "application/toml", to_toml(to_node(setup.world)));
   logger.add_metadata("simulated trial",
                       {{"seed", std::to_string(setup.trial.seed)},
                        {"noise", setup.trial.noise ? "on" : "off"},
                        {"release_height_m", std::to_string(setup.trial.release_height_m)}});
+}
+
+SimTrialResult run_sim_trial(const SimTrialSetup& setup) {
+  World world(setup.world, setup.trial, 0);
+  SimBoard board(world);
+  TrialLogger logger(log_options(setup));
+  const TrialTopics topics(logger);
+  const auto truth = logger.add_topic<PlantTruth>(topic::kTruth);
+  describe_simulated_trial(logger, setup);
   logger.start();
   Controller controller(cycle_config(setup.robot));
   Aftermath aftermath(setup.robot.stiffness, logger, topics, {});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/robot_config.hpp"
+#include "firmware/log/trial_logger.hpp"
 #include "firmware/records.hpp"
 #include "tools/plant/world.hpp"
 
@@ -29,5 +30,8 @@ struct SimTrialResult {
 // A whole trial in the simulated world, as fast as it goes: arm, release, hop, soft stop; logged like a real
 // one, with the truth beside it. The same setup gives the same bytes.
 SimTrialResult run_sim_trial(const SimTrialSetup& setup);
+
+// Into the log, before it starts: robot, world, seed, release height.
+void describe_simulated_trial(TrialLogger& logger, const SimTrialSetup& setup);
 
 }  // namespace sandhopper

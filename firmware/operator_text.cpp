@@ -1,0 +1,71 @@
+#include "firmware/operator_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/json.hpp"
+
+namespace sandhopper {
+namespace {
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    out += c;
+  }
+  return out + '"';
+}
+
+// JSON has no NaN.
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+
+template <class Estimate>
+std::string stiffness(const Estimate& k) {
+  return fmt::format(R"({{"value":{},"ci95":[{},{}],"valid":{},"reason":"{}"}})", number(k.value_N_per_m),
+                     number(k.ci95_low_N_per_m), number(k.ci95_high_N_per_m), k.validity == Validity::valid,
+                     name_of(k.validity));
+}
+
+}  // namespace
+
+std::string operator_text(const Event& e) {
+  return fmt::format(
+      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]}})",
+      name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, number(e.values[0]),
+      number(e.values[1]), number(e.values[2]), number(e.values[3]));
+}
+
+std::string operator_text(const StrideResult& r) {
+  return fmt::format(R"({{"stride":{},"touchdown_speed_mps":{},"peak_force_N":{},"max_depth_m":{},)"
+                     R"("stiffness_N_per_m":{{"qs_ols":{},"mo_ols":{},"mo_wls":{},"joint":{}}}}})",
+                     r.summary.stride, number(r.summary.touchdown_speed_mps), number(r.summary.peak_force_N),
+                     number(r.summary.max_depth_m), stiffness(r.quasi_static_ols), stiffness(r.observer_ols),
+                     stiffness(r.observer_wls), stiffness(r.joint));
+}
+
+std::string operator_text(const SessionResult& r) {
+  return fmt::format(R"({{"end":{{"state":"{}","fault":"{}","cycles":{},"overruns":{},"lost_records":{},)"
+                     R"("lost_can_frames":{},"log_error":{},"clock_steps":{},"watchdog_trips":{},)"
+                     R"("longest_stall_ms":{:.1f},)"
+                     R"("latency_us":{{"p50":{},"p99":{},"p99_9":{},"max":{},"histogram":{}}}}}}})",
+                     name_of(r.last_state), name_of(r.last_fault), r.cycles, r.overruns, r.lost_records,
+                     r.lost_can_frames, json_string(r.log_error), r.clock_steps, r.watchdog_trips,
+                     1e3 * r.longest_stall_s, r.latency.quantile_us(0.5), r.latency.quantile_us(0.99),
+                     r.latency.quantile_us(0.999), r.latency.largest_us(), r.latency.as_json());
+}
+
+std::string operator_text(const std::string& key, const std::string& text) {
+  return fmt::format("{{{}:{}}}", json_string(key), json_string(text));
+}
+
+std::string operator_text(const LiveStatus& status) {
+  return fmt::format(R"({{"status":{}}})", to_json(status).dump());
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "firmware/hop_session.hpp"
+
+// What hopperd says, one JSON object a line; without the line's end.
+namespace sandhopper {
+
+std::string operator_text(const Event& event);
+std::string operator_text(const StrideResult& result);
+std::string operator_text(const LiveStatus& status);  // {"status":{…}}, keys as in LiveStatus
+std::string operator_text(const SessionResult& result);
+std::string operator_text(const std::string& key, const std::string& text);
+
+}  // namespace sandhopper

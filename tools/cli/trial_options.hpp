@@ -1,0 +1,23 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace sandhopper::cli {
+
+// The command line of `hop trial`.
+struct TrialOptions {
+  std::string board = "sim";
+  int trials = 1;
+  int strides = 3;
+  double release_height_m = 0.0618;
+  double compression_stiffness_N_per_m = 0.0;  // 0: as in robot.toml
+  std::uint64_t seed = 1;
+  std::string noise = "on";
+  std::string output;
+  std::string devices;
+  bool report = true;
+  bool plain = false;  // no live view
+  double speed = 1.0;  // of the simulated board in the live view
+};
+
+}  // namespace sandhopper::cli

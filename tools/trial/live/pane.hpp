@@ -1,0 +1,45 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/trial/live/canvas.hpp"
+
+namespace sandhopper {
+
+// A rectangle of the canvas that is filled from its top, line by line; what does not fit is left out.
+class Pane {
+ public:
+  struct Area {
+    int row, column, rows, columns;
+  };
+  Pane(Canvas& canvas, Area area) : canvas_(canvas), area_(area) {}
+
+  int left() const { return area_.rows - used_; }  // lines
+  int columns() const { return area_.columns; }
+  int row() const { return area_.row + used_; }
+
+  // Begins a line; put() writes on it.
+  bool line();
+  void put(int column, std::string_view text, Style style = Style::plain);
+  void put_right(int end, std::string_view text, Style style = Style::plain);
+  void blank() { line(); }
+  // "Title ─────────"
+  void heading(std::string_view text);
+  // Over as many lines as it takes, at most `most`; later lines are indented.
+  void paragraph(std::string_view text, int indent, int most, Style style = Style::plain);
+  Pane below() const { return {canvas_, {row(), area_.column, left(), area_.columns}}; }
+  Canvas& canvas() { return canvas_; }
+  const Area& area() const { return area_; }
+
+ private:
+  Canvas& canvas_;
+  Area area_;
+  int used_ = 0;
+};
+
+// Broken at blanks into lines of at most `columns` characters (a longer word is broken, too), all but the
+// first one indented.
+std::vector<std::string> wrap(std::string_view text, int columns, int indent);
+
+}  // namespace sandhopper

@@ -1,0 +1,176 @@
+#include "tools/trial/live/trial_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace sandhopper {
+namespace {
+
+using Json = nlohmann::json;
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <NamedEnum E>
+E enum_named(const std::string& name, E otherwise) {
+  for (std::size_t i = 0; i < EnumNames<E>::value.size(); ++i)
+    if (EnumNames<E>::value[i] == name) return static_cast<E>(i);
+  return otherwise;
+}
+
+template <class T>
+void read(const Json& json, T& value) {
+  if constexpr (NamedEnum<T>) {
+    value = enum_named(json.get<std::string>(), value);
+  } else if constexpr (std::same_as<T, double>) {
+    value = number(json);
+  } else if constexpr (std::integral<T>) {
+    value = json.get<T>();
+  } else {  // array
+    for (std::size_t i = 0; i < value.size(); ++i) read(json.at(i), value[i]);
+  }
+}
+
+LiveStatus status_of(const Json& json) {
+  LiveStatus status;
+  LiveStatus::fields(status, [&](std::string_view key, auto& member) {
+    if (const auto found = json.find(std::string(key)); found != json.end()) read(*found, member);
+  });
+  return status;
+}
+
+std::string readable(std::string text) {
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+LiveStride::Stiffness stiffness_of(const Json& json) {
+  return {number(json.at("value")), number(json.at("ci95").at(0)), number(json.at("ci95").at(1)),
+          json.at("valid").get<bool>(), readable(json.at("reason").get<std::string>())};
+}
+
+LiveStride stride_of(const Json& json) {
+  const auto& stiffness = json.at("stiffness_N_per_m");
+  return {json.at("stride").get<std::uint32_t>(), number(json.at("touchdown_speed_mps")),
+          number(json.at("peak_force_N")),        number(json.at("max_depth_m")),
+          stiffness_of(stiffness.at("mo_wls")),   stiffness_of(stiffness.at("joint"))};
+}
+
+std::string time_text(const TrialModel& model, std::int64_t time_ns) {
+  if (!model.released_ns) return "";
+  return fmt::format("{:+.3f} s  ", static_cast<double>(time_ns - *model.released_ns) * 1e-9);
+}
+
+std::string event_text(EventKind kind, const Json& json, Fault fault) {
+  const auto value = [&](std::size_t i) { return number(json.at("values").at(i)); };
+  switch (kind) {
+    case EventKind::armed:
+      return "armed: the drives hold the leg, the encoders agree; release when ready";
+    case EventKind::zero_check:
+      return "";  // told with what follows it
+    case EventKind::released:
+      return fmt::format("released from {:.1f} mm", 1e3 * value(1));
+    case EventKind::touchdown:
+      return json.at("reason") == name_of(Reason::strides_done)
+                 ? std::string("touchdown, soft stop")
+                 : fmt::format("touchdown {}", json.at("stride").get<int>());
+    case EventKind::stance_switch:
+      return fmt::format("extending from {:.1f} mm", 1e3 * value(0));
+    case EventKind::liftoff:
+      return fmt::format("liftoff {}", json.at("stride").get<int>());
+    case EventKind::stop_requested:
+      return "stop requested: soft stop at the next touchdown";
+    case EventKind::stopped:
+      return "stopped: the drives are off";
+    case EventKind::fault_raised:
+      return fmt::format("FAULT {} {}", static_cast<int>(fault), name_of(fault));
+    case EventKind::disarmed:
+      return "disarmed: the drives are off";
+    case EventKind::arming_refused:
+      return "arming refused: " + readable(json.at("reason").get<std::string>());
+    case EventKind::disarm_refused:
+      return fmt::format("disarming refused: {} must end first", name_of(fault));
+    case EventKind::clock_stepped:
+      return fmt::format("the date was set by {:+.3f} s; nothing depends on it", value(0));
+  }
+  return "";
+}
+
+void take_event(TrialModel& model, const Json& json) {
+  const auto kind = enum_named(json.at("event").get<std::string>(), EventKind::armed);
+  const auto time_ns = json.at("time_ns").get<std::int64_t>();
+  const auto fault = enum_named(json.at("fault").get<std::string>(), Fault::none);
+  if (kind == EventKind::armed) model.zero_checked = true;
+  if (kind == EventKind::released) model.released_ns = time_ns;
+  if (kind == EventKind::stopped && model.released_ns) model.over = true;
+  if (kind == EventKind::fault_raised) model.fault = fault;
+  if (kind == EventKind::disarmed) model.fault = Fault::none;
+  const bool drives_go_off =
+      kind == EventKind::stopped || kind == EventKind::disarmed || kind == EventKind::fault_raised;
+  if (drives_go_off) model.zero_checked = false;
+  if (const auto text = event_text(kind, json, fault); !text.empty())
+    model.say(time_text(model, time_ns) + text);
+}
+
+void take_status(TrialModel& model, const Json& json) {
+  model.status = status_of(json);
+  model.fault = model.status->fault;
+  if (model.status->state == State::idle) model.zero_checked = false;
+  model.history.push_back(*model.status);
+  if (model.history.size() > TrialModel::kHistory) model.history.pop_front();
+}
+
+void take_end(TrialModel& model, const Json& end) {
+  model.ended = true;
+  model.last_state = enum_named(end.at("state").get<std::string>(), State::idle);
+  model.fault = enum_named(end.at("fault").get<std::string>(), Fault::none);
+  if (model.status) model.status->state = model.last_state;
+  const auto& late = end.at("latency_us");
+  model.ending = fmt::format(
+      "{} cycles, {} overruns, {} records lost; woke late by {:.0f} us (median), "
+      "{:.0f} us (99.9 %), {:.0f} us (worst)",
+      end.at("cycles").get<std::int64_t>(), end.at("overruns").get<std::int64_t>(),
+      end.at("lost_records").get<std::int64_t>(), number(late.at("p50")), number(late.at("p99_9")),
+      number(late.at("max")));
+  if (const auto trouble = end.at("log_error").get<std::string>(); !trouble.empty()) model.error = trouble;
+}
+
+void take_json(TrialModel& model, const Json& json) {
+  if (json.contains("status")) return take_status(model, json["status"]);
+  if (json.contains("event")) return take_event(model, json);
+  if (json.contains("stiffness_N_per_m")) return model.strides.push_back(stride_of(json));
+  if (json.contains("end")) return take_end(model, json["end"]);
+  if (json.contains("ready")) {
+    model.ready = true;
+    return model.say("the cycle runs, the drives are off");
+  }
+  if (json.contains("warning")) return model.say("warning: " + json["warning"].get<std::string>());
+  if (json.contains("error")) {
+    model.error = json["error"].get<std::string>();
+    return model.say("ERROR: " + model.error);
+  }
+  model.say(json.dump());
+}
+
+}  // namespace
+
+void TrialModel::take(const std::string& line) {
+  const auto json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return say(line);
+  try {
+    take_json(*this, json);
+  } catch (const Json::exception&) {
+    say(line);  // another version's
+  }
+}
+
+void TrialModel::say(std::string message) {
+  messages.push_back(std::move(message));
+  if (messages.size() > kMessages) messages.pop_front();
+}
+
+}  // namespace sandhopper
