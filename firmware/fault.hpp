@@ -140,7 +140,7 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "let it cool; lower the torque limit or the hop rate; if it is cold, check the motor's `reply` key: "
      "some drives send the temperature without the offset of 40"},
     {Fault::phase_timeout, "phase_timeout", Reaction::damp, Latch::until_disarmed, 2,
-     "flight or stance lasted longer than limits.phase_time_s",
+     "flight, stance or the soft stop lasted longer than limits.phase_time_s",
      "a robot that comes to rest in stance is stopped softly instead, so it hangs, or moves on without a "
      "touchdown or liftoff: check that it was released over the bed and that the ToF sensor sees it"},
     {Fault::bus_off, "bus_off", Reaction::limp, Latch::until_restart, 1,

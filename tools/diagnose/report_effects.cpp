@@ -13,9 +13,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Covariance of a fit's parameters in typical sizes: the larger of what the noise gives and what the spread
-// between trials gives (sandwich), the latter held up as if `kModelTrials` trials agreed with the noise.
-MatrixXd parameter_covariance(const Problem& problem, const Point& point) {
+// between trials gives (sandwich), the latter held up as if `kModelTrials` trials agreed with the noise. To
+// this comes what a believed law of another form may do: it leaves up to the plant's `form_error` of the
+// explained deviance as a residual that all trials share, of which a part `kAlong` (root mean square) lies
+// along a parameter.
+MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
   constexpr double kModelTrials = 4.0;
+  constexpr double kAlong = 1.0 / 6.0;
   const auto directions = parameter_directions(problem, point);
   const auto linear = linearise_all(problem, point, directions);
   const auto k = static_cast<Index>(directions.size());
@@ -35,8 +39,9 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point) {
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
   const MatrixXd middle = (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0);
-  const MatrixXd sandwich = inverse * middle * inverse;
-  return sandwich.topLeftCorner(own, own);
+  const double form = kAlong * kAlong * problem.plant->form_error() * explained;
+  const MatrixXd covariance = inverse * middle * inverse + form * inverse;
+  return covariance.topLeftCorner(own, own);
 }
 
 // "mass_change_kg" of "mass_kg".
@@ -60,8 +65,8 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
                     Diagnosis& diagnosis) {
   const SetFit& best = search.best();
   const Point& point = best.fit.point;
-  const MatrixXd covariance = parameter_covariance(problem, point);
   const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
+  const MatrixXd covariance = parameter_covariance(problem, point, explained);
   const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
   Index at = 0;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
