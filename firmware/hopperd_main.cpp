@@ -41,7 +41,8 @@ struct Options {
 
 void add_options(CLI::App& app, Options& options) {
   app.set_version_flag("--version", std::string(kVersion));
-  app.add_option("--config", options.config_directory, "configuration directory");
+  app.add_option("--config", options.config_directory,
+                 "configuration directory; default $SANDHOPPER_CONFIG, the source tree's, /etc/sandhopper");
   app.add_option("--robot", options.robot_file,
                  "robot file; default robot.toml of the configuration directory");
   app.add_option(

@@ -22,7 +22,9 @@ constexpr const char* kFooter =
 void add_common_options(CLI::App& app, Session& session) {
   app.add_flag("--json", session.json, "one JSON object on standard output, text on standard error")
       ->group("Every verb");
-  app.add_option("--config", session.config_option, "directory of the TOML files")
+  app.add_option("--config", session.config_option,
+                 "directory of the TOML files; default $SANDHOPPER_CONFIG, the source tree's, "
+                 "/etc/sandhopper")
       ->type_name("DIR")
       ->group("Every verb");
 }
