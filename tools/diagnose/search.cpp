@@ -268,7 +268,10 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
         problem_->candidates[added.candidate].parameters[0].high);
     start.hypothesis.values.back() = values;
     Fit again = fit_at(start);
-    if (again.deviance < result.fit.deviance) result.fit = std::move(again);
+    if (again.deviance < result.fit.deviance) {
+      result.fit = std::move(again);
+      result.rough = false;
+    }
   }
   return sets_[set] = std::move(result);
 }
