@@ -87,6 +87,21 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
   return found;
 }
 
+// Where a recording begins or ends in a stretch there is no other side to judge it by: it is one where others
+// of at least half its length were found.
+std::vector<Stretch> stretches_at_the_ends(const std::vector<double>& v, const std::vector<double>& t,
+                                           std::size_t shortest) {
+  std::vector<Stretch> found;
+  if (v.size() < 2 * shortest) return found;
+  std::size_t first = 0, last = v.size() - 1;
+  while (first + 1 < v.size() && v[first + 1] == v[0]) ++first;
+  while (last > 0 && v[last - 1] == v.back()) --last;
+  if (first + 1 >= shortest && v[0] != 0.0) found.push_back({0, first, t[first] - t[0]});
+  if (v.size() - last >= shortest && v.back() != 0.0 && last > first)
+    found.push_back({last, v.size() - 1, t.back() - t[last]});
+  return found;
+}
+
 // Stretches whose number grows again with length did not come from a geometric law of chance repeats.
 std::size_t shortest_by_number(const std::map<std::size_t, double>& runs) {
   const auto count = [&](std::size_t length) {
@@ -141,25 +156,32 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   const std::size_t by_number = shortest_by_number(runs);
   const std::size_t shortest = channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest;
   std::vector<double> durations;
-  std::size_t longest = 0;
-  for (const auto& s : samples) {
+  std::size_t longest = 0, least = std::numeric_limits<std::size_t>::max();
+  const auto take_out = [&](const SampledChannel& s, const Stretch& stretch) {
     auto& values = s.trial->channels[channel];
-    bool hit = false;
+    for (std::size_t k = stretch.first + 1; k <= stretch.last; ++k)
+      values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
+    if (fault.trials.empty() || fault.trials.back() != s.trial->name) fault.trials.push_back(s.trial->name);
+    ++fault.stretches;
+  };
+  for (const auto& s : samples)
     for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       if (position_went_along(s, channel, stretch)) continue;
-      hit = true;
       longest = std::max(longest, stretch.last - stretch.first + 1);
+      least = std::min(least, stretch.last - stretch.first + 1);
       durations.push_back(stretch.duration_s);
-      for (std::size_t k = stretch.first + 1; k <= stretch.last; ++k)
-        values[s.rows[k]] = std::numeric_limits<double>::quiet_NaN();
+      take_out(s, stretch);
     }
-    if (hit) fault.trials.push_back(s.trial->name);
-  }
-  fault.stretches = durations.size();
   // One stretch may be a pause of what moves the foot.
   if (fault.stretches < 2 && (longest < 8 || channel == "foot_z_m")) return;
+  if (fault.stretches > 1)
+    for (const auto& s : samples)
+      for (const auto& stretch : stretches_at_the_ends(s.value, s.time_s, std::max(kShortest, least / 2)))
+        take_out(s, stretch);
+  std::sort(fault.trials.begin(), fault.trials.end());
+  fault.trials.erase(std::unique(fault.trials.begin(), fault.trials.end()), fault.trials.end());
   std::sort(durations.begin(), durations.end());
   fault.duration_s = durations[durations.size() / 2];
   fault.rate_Hz = fault.recorded_s > 0.0 ? static_cast<double>(fault.stretches) / fault.recorded_s : 0.0;
