@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "config/calibration_record.hpp"
 #include "drivers/can/can_config.hpp"
 #include "firmware/controller_config.hpp"
 #include "firmware/realtime.hpp"
@@ -23,6 +24,7 @@ struct RobotConfig {
   SupervisionConfig supervision{};
   RealTimeConfig real_time{};
   WatchdogConfig watchdog{};
+  std::optional<RobotCalibrations> calibration{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -36,6 +38,7 @@ struct RobotConfig {
     visit("supervision", self.supervision);
     visit("real_time", self.real_time);
     visit("watchdog", self.watchdog);
+    visit("calibration", self.calibration);
   }
 
   // Rules that span keys and roles; called by the loader (config/load.hpp).

@@ -163,6 +163,7 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
   TrialLogger logger(log_options(options, channel));
   describe_trial(logger, robot, options.board);
+  if (!simulate) describe_devices(logger, devices);
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
   if (simulate)

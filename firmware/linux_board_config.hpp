@@ -1,4 +1,5 @@
 #pragma once
+#include "config/calibration_record.hpp"
 #include "drivers/adc/load_cell_config.hpp"
 #include "drivers/can/can_config.hpp"
 #include "drivers/gpio/line_config.hpp"
@@ -19,6 +20,7 @@ struct LinuxBoardConfig {
   LineConfig estop{.chip = "", .line = "ESTOP", .active_low = true, .bias = Bias::pull_down};
   // Active holds the body, inactive lets go. Line empty: no catch.
   LineConfig body_catch{.chip = "", .line = "CATCH"};
+  std::optional<BoardCalibrations> calibration{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -29,6 +31,7 @@ struct LinuxBoardConfig {
     visit("tof", self.tof);
     visit("estop", self.estop);
     visit("catch", self.body_catch);
+    visit("calibration", self.calibration);
   }
 
   template <class Problem>

@@ -23,6 +23,11 @@ struct ImuConfig {
   int gyro_lowpass_code = 0;  // FTYPE of LPF1; at 1666 Hz 0: 304, 1: 221, 2: 167, 3: 453, 4: 100, 5: 50 Hz
   // Rows: x, y, z of the robot (z up) in the sensor's axes. A rotation.
   std::array<double, 9> mount{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  // Along the sensor's own axes, before the mounting: specific force = accel_scale (as delivered -
+  // accel_bias_mps2), rate = as delivered - gyro_bias_radps.
+  std::array<double, 3> accel_scale{1, 1, 1};
+  std::array<double, 3> accel_bias_mps2{0, 0, 0};
+  std::array<double, 3> gyro_bias_radps{0, 0, 0};
   double latency_s = 0.0;    // age of a sample when data-ready rises: the filters' group delay
   int thread_priority = 60;  // SCHED_FIFO; 0: ordinary scheduling
 
@@ -38,6 +43,9 @@ struct ImuConfig {
     visit("accel_lowpass_divisor", self.accel_lowpass_divisor, Range{2, 800});
     visit("gyro_lowpass_code", self.gyro_lowpass_code, Range{0, 7});
     visit("mount", self.mount, Range{-1, 1});
+    visit("accel_scale", self.accel_scale, Range{0.9, 1.1});
+    visit("accel_bias_mps2", self.accel_bias_mps2, Range{-5, 5});
+    visit("gyro_bias_radps", self.gyro_bias_radps, Range{-1, 1});
     visit("latency_s", self.latency_s, Range{0, 0.1});
     visit("thread_priority", self.thread_priority, Range{0, 98});
   }

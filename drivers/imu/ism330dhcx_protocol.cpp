@@ -34,12 +34,25 @@ std::int16_t word(std::span<const std::uint8_t, kBurstSize> bytes, std::size_t a
   return static_cast<std::int16_t>(bytes[at] | (bytes[at + 1] << 8));
 }
 
-std::array<double, 3> rotated(const std::array<double, 9>& rotation,
-                              const std::array<std::int16_t, 3>& counts, double scale) noexcept {
-  std::array<double, 3> out{};
+using Vector = std::array<double, 3>;
+
+// Rows of the mounting are the robot's axes in the sensor's: it leads to the robot, its transpose back.
+Vector to_robot(const std::array<double, 9>& mount, const Vector& sensor) noexcept {
+  Vector out{};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) out[i] += rotation[3 * i + k] * (counts[k] * scale);
+    for (std::size_t k = 0; k < 3; ++k) out[i] += mount[3 * i + k] * sensor[k];
   return out;
+}
+
+Vector to_sensor(const std::array<double, 9>& mount, const Vector& robot) noexcept {
+  Vector out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) out[k] += mount[3 * i + k] * robot[i];
+  return out;
+}
+
+Vector scaled(const std::array<std::int16_t, 3>& counts, double unit) noexcept {
+  return {counts[0] * unit, counts[1] * unit, counts[2] * unit};
 }
 
 }  // namespace
@@ -95,10 +108,38 @@ double gyro_radps_per_count(int range_dps) noexcept {
   return range_dps / 125.0 * 4.375e-3 * std::numbers::pi / 180.0;
 }
 
+Vector calibrated_accel_mps2(const Vector& raw, const ImuConfig& config) noexcept {
+  Vector sensor{};
+  for (std::size_t k = 0; k < 3; ++k)
+    sensor[k] = config.accel_scale[k] * (raw[k] - config.accel_bias_mps2[k]);
+  return to_robot(config.mount, sensor);
+}
+
+Vector calibrated_gyro_radps(const Vector& raw, const ImuConfig& config) noexcept {
+  Vector sensor{};
+  for (std::size_t k = 0; k < 3; ++k) sensor[k] = raw[k] - config.gyro_bias_radps[k];
+  return to_robot(config.mount, sensor);
+}
+
+Vector raw_accel_mps2(const Vector& robot, const ImuConfig& config) noexcept {
+  auto sensor = to_sensor(config.mount, robot);
+  for (std::size_t k = 0; k < 3; ++k)
+    sensor[k] = sensor[k] / config.accel_scale[k] + config.accel_bias_mps2[k];
+  return sensor;
+}
+
+Vector raw_gyro_radps(const Vector& robot, const ImuConfig& config) noexcept {
+  auto sensor = to_sensor(config.mount, robot);
+  for (std::size_t k = 0; k < 3; ++k) sensor[k] += config.gyro_bias_radps[k];
+  return sensor;
+}
+
 ImuSample to_sample(const Burst& burst, const ImuConfig& config) noexcept {
   ImuSample out;
-  out.accel_mps2 = rotated(config.mount, burst.accel, accel_mps2_per_count(config.accel_range_g));
-  out.gyro_radps = rotated(config.mount, burst.gyro, gyro_radps_per_count(config.gyro_range_dps));
+  out.accel_mps2 =
+      calibrated_accel_mps2(scaled(burst.accel, accel_mps2_per_count(config.accel_range_g)), config);
+  out.gyro_radps =
+      calibrated_gyro_radps(scaled(burst.gyro, gyro_radps_per_count(config.gyro_range_dps)), config);
   out.fresh = true;
   return out;
 }

@@ -61,6 +61,15 @@ std::array<std::uint8_t, kBurstSize> encode_burst(const Burst& burst) noexcept; 
 double accel_mps2_per_count(int range_g) noexcept;
 double gyro_radps_per_count(int range_dps) noexcept;
 
+// From what the sensor delivers along its own axes to the robot's frame, with the configured scale, biases
+// and mounting, and back.
+std::array<double, 3> calibrated_accel_mps2(const std::array<double, 3>& raw,
+                                            const ImuConfig& config) noexcept;
+std::array<double, 3> calibrated_gyro_radps(const std::array<double, 3>& raw,
+                                            const ImuConfig& config) noexcept;
+std::array<double, 3> raw_accel_mps2(const std::array<double, 3>& robot, const ImuConfig& config) noexcept;
+std::array<double, 3> raw_gyro_radps(const std::array<double, 3>& robot, const ImuConfig& config) noexcept;
+
 // Specific force and rate in the robot's frame; time and count are the caller's.
 ImuSample to_sample(const Burst& burst, const ImuConfig& config) noexcept;
 

@@ -2,14 +2,19 @@
 #include <string_view>
 
 #include "config/robot_config.hpp"
+#include "firmware/linux_board_config.hpp"
 #include "firmware/log/trial_logger.hpp"
 
 namespace sandhopper {
 
 inline constexpr std::string_view kRobotAttachment = "robot.toml";
+inline constexpr std::string_view kBoardAttachment = "board.toml";
 
 // What every trial's log carries besides its records: the robot's whole configuration and the build it was
 // made by.
 void describe_trial(TrialLogger& logger, const RobotConfig& robot, std::string_view board);
+
+// Of a trial on devices: what turned their raw figures into the frames' SI units.
+void describe_devices(TrialLogger& logger, const LinuxBoardConfig& devices);
 
 }  // namespace sandhopper

@@ -1,12 +1,13 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "config/problem.hpp"
+#include "config/robot_config.hpp"
 #include "firmware/linux_board_config.hpp"
-#include "firmware/realtime.hpp"
 
-// What `hop doctor` looks at. Nothing is energised, taken over or changed: devices are looked up, not opened
-// for use.
+// What `hop doctor` looks at. No drive is energised and no setting changed.
 namespace sandhopper::cli {
 
 enum class Health : std::uint8_t { ok, warn, fail };
@@ -19,9 +20,35 @@ struct Finding {
 };
 
 // Kernel, priorities, memory locking, processors, clocks, disk space.
-std::vector<Finding> examine_machine(const RealTimeConfig& wanted);
+std::vector<Finding> examine_machine(const RobotConfig& robot);
 
-// CAN interface, device nodes and GPIO lines of the board's file.
+// CAN interface, device nodes and GPIO lines of the board's file: looked up, not opened for use.
 std::vector<Finding> examine_devices(const LinuxBoardConfig& board);
+
+// Bit rate, error state and queue of a CAN interface that is up; empty of one that is not.
+std::vector<Finding> examine_bus(const std::string& interface);
+
+// Opens every device as a start of hopperd would, but for the catch: chip identities, companion controller,
+// drives and their dialect. Where hopperd runs, it has them, and that is said instead. Devices whose finding
+// in `known` is red are left out.
+std::vector<Finding> examine_identities(const LinuxBoardConfig& board, const std::vector<Finding>& known);
+
+// What calibrations left in the configuration, and values that were edited since.
+std::vector<Finding> examine_calibrations(const RobotConfig& robot, const LinuxBoardConfig& board);
+
+// A configuration that cannot be read.
+std::vector<Finding> examine_problems(const ConfigError& error);
+
+// Collects identifiers on a CAN interface from its making on.
+class BusListener {
+ public:
+  explicit BusListener(const std::string& interface);
+  ~BusListener();
+  Finding seen(const CanConfig& config);
+
+ private:
+  struct Socket;
+  std::unique_ptr<Socket> socket_;
+};
 
 }  // namespace sandhopper::cli

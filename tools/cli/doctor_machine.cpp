@@ -6,10 +6,13 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "tools/cli/doctor.hpp"
@@ -69,11 +72,30 @@ Finding locked_memory() {
 }
 
 Finding governor() {
-  const auto name = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
-  if (name.empty()) return {Health::ok, "CPU governor", "no frequency scaling", ""};
-  if (name == "performance") return {Health::ok, "CPU governor", name, ""};
-  return {Health::warn, "CPU governor", name + ": the clock rate follows the load, late",
+  std::string slow;
+  bool scaled = false;
+  for (unsigned cpu = 0; cpu < std::thread::hardware_concurrency(); ++cpu) {
+    const auto name = first_line(fmt::format("/sys/devices/system/cpu/cpu{}/cpufreq/scaling_governor", cpu));
+    scaled |= !name.empty();
+    if (!name.empty() && name != "performance")
+      slow += fmt::format("{}CPU {} {}", slow.empty() ? "" : ", ", cpu, name);
+  }
+  if (!scaled) return {Health::ok, "CPU governor", "no frequency scaling", ""};
+  if (slow.empty()) return {Health::ok, "CPU governor", "performance", ""};
+  return {Health::warn, "CPU governor", slow + ": the clock rate follows the load, late",
           "echo performance | tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"};
+}
+
+// "2-3,6" holds 3.
+bool holds(const std::string& list, int cpu) {
+  std::istringstream in(list);
+  for (std::string part; std::getline(in, part, ',');) {
+    const auto dash = part.find('-');
+    const int low = std::atoi(part.c_str());
+    const int high = dash == std::string::npos ? low : std::atoi(part.c_str() + dash + 1);
+    if (!part.empty() && cpu >= low && cpu <= high) return true;
+  }
+  return false;
 }
 
 Finding processor(int cpu) {
@@ -81,9 +103,19 @@ Finding processor(int cpu) {
   const auto isolated = first_line("/sys/devices/system/cpu/isolated");
   const auto found = fmt::format("online {}, isolated {}, cycle on {}", online,
                                  isolated.empty() ? "none" : isolated, cpu < 0 ? "any" : std::to_string(cpu));
-  if (cpu < static_cast<int>(std::thread::hardware_concurrency()))
-    return {Health::ok, "processors", found, ""};
-  return {Health::fail, "processors", found, "set real_time.cpu to one that is online, or -1 for any"};
+  if (cpu >= 0 && !holds(online, cpu))
+    return {Health::fail, "processors", found, "set real_time.cpu to one that is online, or -1 for any"};
+  if (cpu >= 0 && !holds(isolated, cpu))
+    return {
+        Health::warn, "processors", found + ": other programs run on the cycle's",
+        fmt::format(
+            "add isolcpus={0} nohz_full={0} rcu_nocbs={0} to the kernel's command line and reboot, or set "
+            "real_time.cpu to -1",
+            cpu)};
+  if (cpu < 0 && !isolated.empty())
+    return {Health::warn, "processors", found + ": nothing runs on the isolated one",
+            fmt::format("set real_time.cpu in robot.toml to {}", std::atoi(isolated.c_str()))};
+  return {Health::ok, "processors", found, ""};
 }
 
 Finding idle_states(bool wanted) {
@@ -125,15 +157,19 @@ Finding disk_space() {
     return {Health::warn, "disk", std::strerror(errno), "change to a folder that is there"};
   const double free_GB = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) * 1e-9;
   const auto found = fmt::format("{:.1f} GB free here", free_GB);
+  if (::access(".", W_OK) != 0)
+    return {Health::warn, "disk", found + ", but this folder cannot be written",
+            "change to a folder of your own"};
   if (free_GB > 1.0) return {Health::ok, "disk", found, ""};
   return {Health::warn, "disk", found, "a minute of log takes up to 100 MB: make room"};
 }
 
 }  // namespace
 
-std::vector<Finding> examine_machine(const RealTimeConfig& wanted) {
+std::vector<Finding> examine_machine(const RobotConfig& robot) {
+  const auto& wanted = robot.real_time;
   return {kernel(),
-          priority(wanted.priority),
+          priority(wanted.priority == 0 ? 0 : std::max(wanted.priority, robot.watchdog.priority)),
           throttling(),
           locked_memory(),
           governor(),

@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "config/files.hpp"
 #include "tools/cli/doctor.hpp"
@@ -10,12 +13,21 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kHealthName{"ok", "warn", "FAIL"};
 constexpr std::array<std::string_view, 3> kHealthKey{"ok", "warn", "fail"};
+constexpr std::array<std::string_view, 3> kColour{"\033[32m", "\033[33m", "\033[1;31m"};
+
+// Green, yellow, red on a terminal (no-color.org).
+std::string coloured(const Session& session, std::size_t health) {
+  const auto word = fmt::format("{:<4}", kHealthName[health]);
+  if (::isatty(session.json ? STDERR_FILENO : STDOUT_FILENO) == 0 || std::getenv("NO_COLOR") != nullptr)
+    return word;
+  return fmt::format("{}{}\033[0m", kColour[health], word);
+}
 
 ExitCode report(Session& session, const std::vector<Finding>& findings) {
   session.result["checks"] = nlohmann::ordered_json::array();
   for (const auto& finding : findings) {
     const auto health = static_cast<std::size_t>(finding.health);
-    session.say("{:<4}  {:<32}  {}", kHealthName[health], finding.what, finding.found);
+    session.say("{}  {:<32}  {}", coloured(session, health), finding.what, finding.found);
     if (!finding.cure.empty()) session.say("{:<4}  {:<32}  -> {}", "", "", finding.cure);
     session.result["checks"].push_back({{"name", finding.what},
                                         {"status", kHealthKey[health]},
@@ -30,25 +42,46 @@ ExitCode report(Session& session, const std::vector<Finding>& findings) {
   return failed == 0 ? ExitCode::ok : ExitCode::no;
 }
 
+void append(std::vector<Finding>& findings, const std::vector<Finding>& more) {
+  findings.insert(findings.end(), more.begin(), more.end());
+}
+
+std::vector<Finding> examine_board(const RobotConfig& robot, const LinuxBoardConfig& board) {
+  auto findings = examine_devices(board);
+  append(findings, examine_bus(board.can.interface));
+  append(findings, examine_identities(board, findings));
+  append(findings, examine_calibrations(robot, board));
+  return findings;
+}
+
+// The rest of the machine is looked at even where the configuration cannot be read.
+std::vector<Finding> examine(Session& session, const std::string& board) {
+  const auto& directory = session.config_directory();
+  RobotConfig robot;
+  std::vector<Finding> configuration, devices;
+  try {
+    robot = load_robot(directory);
+    configuration = {{Health::ok, "configuration", directory.string() + ": right", ""}};
+    if (board == "linux") devices = examine_board(robot, load_linux_board(directory / board_file(), robot));
+  } catch (const ConfigError& error) {
+    configuration = examine_problems(error);
+  }
+  auto findings = examine_machine(robot);
+  // The simulated robot runs without real-time rights, only not in step with the clock.
+  if (board == "sim")
+    for (auto& finding : findings) finding.health = std::min(finding.health, Health::warn);
+  append(findings, configuration);
+  append(findings, devices);
+  return findings;
+}
+
 Run set_up(CLI::App& app) {
   auto board = std::make_shared<std::string>("linux");
   app.add_option("--board", *board,
                  "linux: machine and device nodes; sim: only what the simulated robot needs")
       ->check(CLI::IsMember({"linux", "sim"}))
       ->capture_default_str();
-  return [board](Session& session) {
-    const auto& directory = session.config_directory();
-    const auto robot = load_robot(directory);
-    auto findings = examine_machine(robot.real_time);
-    if (*board == "linux") {
-      const auto devices = examine_devices(load_linux_board(directory / board_file(), robot));
-      findings.insert(findings.end(), devices.begin(), devices.end());
-    } else {
-      // The simulated robot runs without real-time rights, only not in step with the clock.
-      for (auto& finding : findings) finding.health = std::min(finding.health, Health::warn);
-    }
-    return report(session, findings);
-  };
+  return [board](Session& session) { return report(session, examine(session, *board)); };
 }
 
 const VerbRegistration kDoctor({"doctor", "say whether this machine can run the robot, and what to do if not",

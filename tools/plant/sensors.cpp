@@ -48,8 +48,8 @@ void Imu::step(const GridStep& step, const Input& input) noexcept {
     const double structure = input.stance ? setup_.structure_noise_mps2 : 0.0;
     const double accel_noise = std::hypot(setup_.noise_mps2, structure);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      double accel =
-          axis == 2 ? (1.0 + setup_.scale_relative) * filter_.at(step.fraction(sample_.time_ns)) : 0.0;
+      const double force = axis == 2 ? filter_.at(step.fraction(sample_.time_ns)) : input.lateral_mps2[axis];
+      double accel = (1.0 + setup_.scale_relative) * force;
       double rate = setup_.gyro_bias_radps[axis];
       accel += setup_.raw_offset_mps2[axis] + (input.released ? setup_.bias_mps2[axis] : 0.0);
       if (noisy_) {

@@ -77,8 +77,9 @@ struct GridStep {
   }
 };
 
-// Accelerometer and gyro on a vertical rail: z carries the specific force, the other axes and the rates only
-// noise and offsets. Noise is white through the sensor's bandwidth; structure noise adds in stance.
+// Accelerometer and gyro on a vertical rail: z carries the specific force, the other axes what a robot laid
+// on its side feels, the rates only noise and offsets. Noise is white through the sensor's bandwidth;
+// structure noise adds in stance.
 class Imu {
  public:
   struct Setup {
@@ -96,9 +97,10 @@ class Imu {
   Imu(const Setup& setup, const SampleClock::Setup& clock, std::int64_t start_ns, const Random& random);
 
   struct Input {
-    double specific_force_mps2;
+    double specific_force_mps2;  // along z
     bool stance;
     bool released;
+    std::array<double, 2> lateral_mps2{};  // along x and y; what changes too slowly for the filter to matter
   };
   void reset(double specific_force_mps2) noexcept { filter_.reset(specific_force_mps2); }
   void step(const GridStep& step, const Input& input) noexcept;

@@ -16,6 +16,7 @@ World::World(const WorldConfig& config, const TrialSetup& setup, const TrialDraw
       release_speed_mps_(draw.release().speed_mps),
       surface_height_m_(draw.release().surface_height_m),
       motors_(static_cast<std::size_t>(config.robot.leg.motor_count)),
+      joint_friction_Nm_(config.robot.leg.motor_count * config.robot.joint_coulomb_Nm),
       start_ns_(start_ns),
       now_ns_(start_ns),
       plant_(config, draw.bed(), {.cable_force_N = draw.cable_force_N(), .bed_memory = setup.bed_memory}),
@@ -41,9 +42,23 @@ World::World(const WorldConfig& config, const TrialSetup& setup, const TrialDraw
 void World::open_catch() noexcept {
   if (truth_.released) return;
   truth_.released = true;
+  fixture_ = {};
   PlantState state = plant_.state();
   state.foot_velocity_mps = release_speed_mps_;
   plant_.place(state);
+}
+
+void World::hold(const Fixture& fixture) noexcept {
+  if (truth_.released) return;
+  fixture_ = fixture;
+  fixture_ns_ = now_ns_;
+  PlantState state = plant_.state();
+  if (fixture.leg_angle_rad) state.angle_rad = *fixture.leg_angle_rad;
+  plant_.place(state);
+  if (fixture.body_height_m) {
+    state.foot_z_m += *fixture.body_height_m - plant_.motion(0.0).body_z_m;
+    plant_.place(state);
+  }
 }
 
 void World::command(Side side, const MotorCommand& command, bool enabled) noexcept {
@@ -72,10 +87,18 @@ void World::step() noexcept {
   for (auto& drive : drive_) drive.measure(plant_.state().angle_rad);
   take_truth();
 
-  const bool stance = truth_.contact_force_N > 0.0;
   const bool released = truth_.released;
-  imu_body_.step(step, {truth_.body_accel_mps2 + gravity_mps2_, stance, released});
-  imu_foot_.step(step, {truth_.foot_accel_mps2 + gravity_mps2_, stance, released});
+  const bool stance = released && truth_.contact_force_N > 0.0;
+  const auto& body_up = fixture_.body_up;
+  const auto& foot_up = fixture_.foot_up;
+  imu_body_.step(step, {truth_.body_accel_mps2 + gravity_mps2_ * body_up[2],
+                        stance,
+                        released,
+                        {gravity_mps2_ * body_up[0], gravity_mps2_ * body_up[1]}});
+  imu_foot_.step(step, {truth_.foot_accel_mps2 + gravity_mps2_ * foot_up[2],
+                        stance,
+                        released,
+                        {gravity_mps2_ * foot_up[0], gravity_mps2_ * foot_up[1]}});
   tof_.step(step, truth_.body_z_m);
   load_cell_.step(step, truth_.contact_force_N);
   mocap_.step(step, {truth_.body_z_m + surface_height_m_, truth_.foot_z_m + surface_height_m_});
@@ -100,8 +123,20 @@ void World::take_truth() noexcept {
   truth_.leg_length_m = motion.leg_length_m;
   truth_.motor_torque_Nm = motor_torque_Nm();
   truth_.contact_force_N = released ? motion.contact_force_N : 0.0;
+  if (!released) take_held_truth();
   truth_.contact_impulse_Ns = plant_.contact_impulse_Ns();
   truth_.max_depth_m = plant_.max_depth_m();
+}
+
+// What the fixture makes of a robot that is held.
+void World::take_held_truth() noexcept {
+  const double tap = fixture_.tap_at(static_cast<double>(now_ns_ - fixture_ns_) * 1e-9);
+  truth_.body_accel_mps2 = truth_.foot_accel_mps2 = fixture_.tap_accel_mps2 * tap;
+  truth_.contact_force_N = fixture_.load_N + fixture_.tap_force_N * tap;
+  if (!fixture_.clamped) return;
+  const double torque_Nm = pressed_.follow(motor_torque_Nm(), joint_friction_Nm_);
+  const double length_gain = plant_.leg().kinematics(plant_.state().angle_rad).dlength_m_per_rad;
+  truth_.contact_force_N += std::max(0.0, torque_Nm / length_gain);
 }
 
 std::int64_t World::next_sample_ns() const noexcept {

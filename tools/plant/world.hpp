@@ -5,6 +5,7 @@
 #include "drivers/samples.hpp"
 #include "firmware/command.hpp"
 #include "tools/plant/drive.hpp"
+#include "tools/plant/fixture.hpp"
 #include "tools/plant/plant.hpp"
 #include "tools/plant/plant_truth.hpp"
 #include "tools/plant/sensors.hpp"
@@ -42,6 +43,9 @@ class World {
   // The body is free from the next step on.
   void open_catch() noexcept;
 
+  // In force from the next step on, until the body is released.
+  void hold(const Fixture& fixture) noexcept;
+
   // In force from the next step until the next command; not enabled = no torque.
   void command(Side side, const MotorCommand& command, bool enabled) noexcept;
 
@@ -74,14 +78,19 @@ class World {
 
   void step() noexcept;
   void take_truth() noexcept;
+  void take_held_truth() noexcept;
   double motor_torque_Nm() const noexcept;
 
   double gravity_mps2_;
   double release_speed_mps_;
   double surface_height_m_;
   std::size_t motors_;
+  double joint_friction_Nm_;  // all motors' together
   std::int64_t start_ns_;
   std::int64_t now_ns_;
+  Fixture fixture_{};
+  std::int64_t fixture_ns_ = 0;
+  PressedTorque pressed_{};
   Plant plant_;
   std::array<Drive, kMotorCount> drive_;
   Imu imu_body_;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "config/json.hpp"
+#include "config/load.hpp"
 #include "drivers/clock.hpp"
 
 namespace sandhopper::bench {
@@ -40,6 +41,13 @@ TrialSetup with(TrialSetup setup, const ControlSocket::Words& words) {
         !take_switch(word, "noise", setup.noise) && !take_switch(word, "bed_memory", setup.bed_memory))
       throw std::invalid_argument("'" + word + "'; known: seed=N height=M noise=on|off bed_memory=on|off");
   return setup;
+}
+
+// "load_N=9.81": the keys of Fixture, those left out as they are by default.
+Fixture fixture_of(const ControlSocket::Words& words) {
+  std::string lines;
+  for (const auto& word : words) lines += word + "\n";
+  return load_text<Fixture>("hold", lines, MissingKeys::use_default);
 }
 
 std::string only(const ControlSocket::Words& words, const std::string& choices) {
@@ -125,6 +133,10 @@ void Devices::connect_control() {
   control_.on("catch", [this](const auto& words) {
     if (only(words, "open") != "open") throw std::invalid_argument("expected: open");
     world_.now().open_catch();
+    return std::string("ok");
+  });
+  control_.on("hold", [this](const auto& words) {
+    world_.now().hold(fixture_of(words));
     return std::string("ok");
   });
   control_.on("truth", [this](const auto&) { return "ok " + to_json(world_.now().truth()).dump(); });

@@ -82,11 +82,13 @@ double Ism330dhcx::gyro_unit_radps() const noexcept {
   return unit_mdps * 1e-3 * std::numbers::pi / 180.0;
 }
 
-void Ism330dhcx::put(std::uint8_t address, const std::array<double, 3>& robot_axes, double unit) {
+void Ism330dhcx::put(std::uint8_t address, const std::array<double, 3>& robot_axes, const Flaws& flaws,
+                     double unit) {
   for (std::uint8_t axis = 0; axis < 3; ++axis) {
     double value = 0.0;  // rows of the mounting are the robot's axes: its transpose leads back
     for (std::size_t robot = 0; robot < 3; ++robot)
       value += config_.mount[3 * robot + axis] * robot_axes[robot];
+    value = value / flaws.scale[axis] + flaws.bias[axis];
     const auto count = static_cast<std::int16_t>(std::lround(std::clamp(value / unit, -32768.0, 32767.0)));
     register_[address + 2 * axis] = low_byte(static_cast<std::uint16_t>(count));
     register_[address + 2 * axis + 1] = low_byte(static_cast<std::uint16_t>(count) >> 8);
@@ -96,11 +98,11 @@ void Ism330dhcx::put(std::uint8_t address, const std::array<double, 3>& robot_ax
 void Ism330dhcx::complete(const ImuSample& sample) {
   std::uint8_t ready = 0;
   if (accel_rate_.takes_next(kRate_Hz[register_[kCtrl1Accel] >> 4])) {
-    put(kOutAccel, sample.accel_mps2, accel_unit_mps2());
+    put(kOutAccel, sample.accel_mps2, {config_.accel_scale, config_.accel_bias_mps2}, accel_unit_mps2());
     ready |= kAccelReady | kTemperatureReady;
   }
   if (gyro_rate_.takes_next(kRate_Hz[register_[kCtrl2Gyro] >> 4])) {
-    put(kOutGyro, sample.gyro_radps, gyro_unit_radps());
+    put(kOutGyro, sample.gyro_radps, {{1, 1, 1}, config_.gyro_bias_radps}, gyro_unit_radps());
     ready |= kGyroReady | kTemperatureReady;
   }
   register_[kStatus] |= ready;

@@ -34,7 +34,11 @@ class Ism330dhcx : public SpiChip {
   void reset();
   std::uint8_t read_register(std::uint8_t address);
   void write_register(std::uint8_t address, std::uint8_t value);
-  void put(std::uint8_t address, const std::array<double, 3>& robot_axes, double unit);
+  // What the configuration takes off again: delivered = true / scale + bias.
+  struct Flaws {
+    std::array<double, 3> scale, bias;
+  };
+  void put(std::uint8_t address, const std::array<double, 3>& robot_axes, const Flaws& flaws, double unit);
   void show_data_ready(bool new_sample);
   std::uint32_t timestamp() const noexcept;
   double accel_unit_mps2() const noexcept;

@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "tests/unit/calibration_bench.hpp"
+#include "tools/calibrate/timing.hpp"
+#include "tools/plant/sensors.hpp"
+
+namespace sandhopper::calibrate {
+namespace {
+
+constexpr int kTaps = 10;
+
+// Latencies of the devices, where the firmware believes in those of the default configuration.
+LinuxBoardConfig real_board() {
+  LinuxBoardConfig board;
+  board.imu_body.latency_s = 0.00031;
+  board.load_cell.latency_s = 0.00143;
+  return board;
+}
+
+// All sensors with the same bandwidth, so that what is planted is all there is.
+WorldConfig world() {
+  WorldConfig out;
+  out.sensors.load_cell_bandwidth_Hz = out.sensors.imu_bandwidth_Hz;
+  return out;
+}
+
+Recording tap(std::uint64_t seed, int taps = kTaps, double force_N = 60.0) {
+  Step step{.prompt = "", .fixture = {.taps = taps, .tap_force_N = force_N}, .seconds = 0.5 * taps + 0.6};
+  return record_on_sim(
+             {}, {},
+             {.world = world(), .real_robot = {}, .real_board = real_board(), .trial = {.seed = seed}},
+             {step})
+      .front();
+}
+
+struct Fitted {
+  Outcome outcome;
+  std::optional<ForeignClock> clock;
+};
+Fitted fit(const Recording& recording, std::optional<ForeignRecording> foreign = {}) {
+  Fitted out;
+  TimingSetup setup{.reference = TapSensor::imu_foot, .others = {TapSensor::imu_body, TapSensor::load_cell}};
+  if (foreign) setup.others.clear();
+  setup.foreign = std::move(foreign);
+  out.outcome = calibrate_timing(recording, LinuxBoardConfig{}, setup, out.clock);
+  return out;
+}
+
+// The foot's signal as another computer at `rate_Hz` would record it: its clock is `offset_s` behind and runs
+// fast by `drift`.
+struct Other {
+  double rate_Hz, offset_s, drift;
+  std::uint64_t seed;
+  double begin_s = 0.052;  // of our recording, after the fixture was set
+};
+ForeignRecording foreign_of(const Other& other) {
+  const Fixture fixture{.taps = kTaps};
+  std::mt19937_64 generator(other.seed);
+  std::normal_distribution<double> noise(0.0, 0.2);
+  LowPass filter(400.0, 1e-4);
+  ForeignRecording out{"camera.csv", {}};
+  double next_s = 0.0;
+  for (double t = 0.0; t < 0.5 * kTaps + 0.6; t += 1e-4) {
+    filter.step(fixture.tap_force_N * fixture.tap_at(t + other.begin_s));
+    if (t < next_s) continue;
+    next_s += 1.0 / other.rate_Hz;
+    out.signal.time_s.push_back((t - other.offset_s) * (1.0 + other.drift));
+    out.signal.value.push_back(filter.value() + noise(generator));
+  }
+  return out;
+}
+
+TEST(CalibrateTiming, FindsTheSkewOfEachSensorToAFractionOfASample) {
+  Coverage latency;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto found = fit(tap(seed));
+    ASSERT_EQ(reasons(found.outcome), "") << found.outcome.refusals.front().text;
+    const auto& body = value_of(found.outcome, "imu_body.latency_s");
+    const auto& cell = value_of(found.outcome, "load_cell.latency_s");
+    latency.see(body, 0.00031);
+    latency.see(cell, 0.00143);
+    EXPECT_LT(body.ci95, 1e-4);
+    EXPECT_LT(cell.ci95, 1e-4);
+  }
+  EXPECT_GE(latency.held, 19) << "of 24";
+}
+
+TEST(CalibrateTiming, FindsAnotherComputersClock) {
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto recording = tap(seed);
+    const double begin_s = 1e-9 * static_cast<double>(recording.begin_ns);
+    const auto found = fit(recording, foreign_of({1000.0, 3.2174, 5e-5, seed, begin_s}));
+    ASSERT_EQ(reasons(found.outcome), "") << found.outcome.refusals.front().text;
+    ASSERT_TRUE(found.clock);
+    EXPECT_NEAR(found.clock->drift, -5e-5, 4e-5);
+    // At the middle of the taps: t_recording - t_foreign.
+    const double truth = 3.2174 - found.clock->middle_s * 5e-5;
+    held += std::abs(found.clock->offset_s - truth) < found.clock->ci95_s;
+    EXPECT_LT(found.clock->ci95_s, 1e-4);
+  }
+  EXPECT_GE(held, 7) << "of 10";
+}
+
+TEST(CalibrateTiming, FourTapsAreTooFew) { EXPECT_EQ(reasons(fit(tap(1, 4)).outcome), "too_few_points"); }
+
+TEST(CalibrateTiming, ADoubleTapIsRefused) {
+  auto recording = tap(1);
+  // The third tap bounces: the same again 40 ms later.
+  const std::int64_t first_ns = recording.begin_ns + 1'440'000'000;
+  for (auto& sample : recording.imu_foot) {
+    const double since_s = static_cast<double>(sample.time_ns - first_ns) * 1e-9 - 0.049;
+    if (since_s > 0.0 && since_s < 0.008) sample.accel_mps2[2] += 25.0 * std::sin(3.14159 * since_s / 0.008);
+  }
+  EXPECT_EQ(reasons(fit(recording).outcome), "double_tap");
+}
+
+TEST(CalibrateTiming, ASensorAtTheEndOfItsRangeIsRefused) {
+  auto recording = tap(1);
+  for (auto& sample : recording.imu_body) sample.accel_mps2[2] = std::min(10.0 * sample.accel_mps2[2], 156.9);
+  EXPECT_THAT(reasons(fit(recording).outcome), ::testing::HasSubstr("saturated"));
+}
+
+TEST(CalibrateTiming, ASensorThatFeelsSomethingElseIsRefused) {
+  auto recording = tap(1);
+  for (std::size_t i = 0; i < recording.load_cell.size(); ++i)
+    recording.load_cell[i].force_N = 5.0 * std::sin(0.3 * static_cast<double>(i));
+  EXPECT_THAT(reasons(fit(recording).outcome), ::testing::HasSubstr("residual_too_large"));
+}
+
+TEST(CalibrateTiming, DelaysThatScatterAreRefused) {
+  auto recording = tap(1);
+  for (auto& sample : recording.load_cell)
+    sample.time_ns += (sample.time_ns - recording.begin_ns) / 500'000'000 % 3 * 700'000;
+  EXPECT_THAT(reasons(fit(recording).outcome), ::testing::HasSubstr("interval_too_wide"));
+}
+
+TEST(CalibrateTiming, OtherTapsThanOursAreRefused) {
+  auto foreign = foreign_of({.rate_Hz = 1000.0, .offset_s = 0.0, .drift = 0.0, .seed = 1});
+  for (auto& t : foreign.signal.time_s) t *= 1.2;
+  EXPECT_EQ(reasons(fit(tap(1), foreign).outcome), "taps_differ");
+}
+
+}  // namespace
+}  // namespace sandhopper::calibrate

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "firmware/log/csv_import.hpp"
+#include "tools/calibrate/timing.hpp"
+#include "tools/cli/calibration.hpp"
+#include "tools/cli/failure.hpp"
+
+namespace sandhopper::cli {
+namespace {
+
+using calibrate::TapSensor;
+
+struct Options {
+  std::string reference = "imu_foot";
+  std::vector<std::string> sensors{"imu_body", "load_cell"};
+  int taps = 10;
+  std::string foreign;
+  std::string foreign_column;
+  std::string aligned;
+};
+
+TapSensor sensor_of(const std::string& name) {
+  if (name == "imu_body") return TapSensor::imu_body;
+  return name == "imu_foot" ? TapSensor::imu_foot : TapSensor::load_cell;
+}
+
+calibrate::ForeignRecording read_foreign(const Options& options) {
+  const auto table = read_csv(std::filesystem::path(options.foreign));
+  const auto* time = table.find("t_s");
+  const auto* column = table.find(options.foreign_column);
+  if (time == nullptr || column == nullptr)
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("{} has no column {}", options.foreign, time == nullptr ? "t_s" : options.foreign_column),
+        "name the column that shows the taps with --foreign-column; time is t_s");
+  calibrate::ForeignRecording out{std::filesystem::path(options.foreign).filename().string(), {}};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    if (std::isnan((*column)[i])) continue;
+    out.signal.time_s.push_back((*time)[i]);
+    out.signal.value.push_back((*column)[i]);
+  }
+  return out;
+}
+
+// The foreign table once more, its times on the recording's clock.
+void write_aligned(const Options& options, const calibrate::ForeignClock& clock) {
+  const auto table = read_csv(std::filesystem::path(options.foreign));
+  std::ofstream out(options.aligned);
+  for (std::size_t c = 0; c < table.names.size(); ++c) out << (c ? "," : "") << table.names[c];
+  out << "\n";
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    for (std::size_t c = 0; c < table.names.size(); ++c) {
+      const double value = table.columns[c][i];
+      out << (c ? "," : "");
+      if (table.names[c] == "t_s")
+        out << fmt::format("{:.6f}", value + clock.offset_s + clock.drift * (value - clock.middle_s));
+      else if (!std::isnan(value))
+        out << fmt::format("{}", value);
+    }
+    out << "\n";
+  }
+  if (!out.flush())
+    throw Failure(ExitCode::fault, "cannot write " + options.aligned,
+                  "name a file you may write with --aligned");
+}
+
+std::vector<calibrate::Step> steps(const Options& options) {
+  if (options.foreign.empty() != options.foreign_column.empty())
+    throw Failure(ExitCode::usage, "--foreign and --foreign-column belong together", "give both, or neither");
+  if (!options.aligned.empty() && options.foreign.empty())
+    throw Failure(ExitCode::usage, "--aligned needs --foreign",
+                  "name the other computer's table with --foreign");
+  calibrate::Step step;
+  step.prompt = "stand the foot on something hard, the body held; let every recorder run";
+  step.during = fmt::format("tap along the leg {} times, half a second apart, at once", options.taps);
+  step.fixture.taps = options.taps;
+  step.seconds = 0.5 * options.taps + 1.0;
+  if (options.foreign.empty()) step.seconds += 2.0;  // a person begins late
+  return {step};
+}
+
+calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, const CalibrationInput& input,
+                       const Options& options) {
+  calibrate::TimingSetup setup;
+  setup.reference = sensor_of(options.reference);
+  for (const auto& name : options.sensors)
+    if (name != options.reference) setup.others.push_back(sensor_of(name));
+  if (!options.foreign.empty()) {
+    setup.others.clear();
+    setup.foreign = read_foreign(options);
+  }
+  std::optional<calibrate::ForeignClock> clock;
+  auto outcome = calibrate_timing(recordings.front(), input.board, setup, clock);
+  if (clock && outcome.refusals.empty() && !options.aligned.empty()) {
+    write_aligned(options, *clock);
+    outcome.notes.push_back(options.aligned + " has its rows with times of the recording");
+  }
+  return outcome;
+}
+
+Calibration::Actions set_up(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  const auto sensors = CLI::IsMember({"imu_body", "imu_foot", "load_cell"});
+  app.add_option("--reference", options->reference, "sensor whose time stamps are right")
+      ->check(sensors)
+      ->capture_default_str();
+  app.add_option("--sensors", options->sensors, "whose latency is found")
+      ->delimiter(',')
+      ->check(sensors)
+      ->capture_default_str();
+  app.add_option("--taps", options->taps, "how many")->check(CLI::Range(5, 200))->capture_default_str();
+  app.add_option(
+         "--foreign", options->foreign,
+         "table (.csv) of another computer with the same taps: its clock is found in place of latencies")
+      ->check(CLI::ExistingFile);
+  app.add_option("--foreign-column", options->foreign_column, "of that table, where the taps show");
+  app.add_option("--aligned", options->aligned, "writes that table with times of the recording (t_s)");
+  return {.steps = [options](const CalibrationInput&) { return steps(*options); },
+          .fit = [options](const auto& recordings,
+                           const auto& input) { return fit(recordings, input, *options); }};
+}
+
+const CalibrationRegistration kTiming(
+    {"timing", "skew between sensors, and of another computer's clock, from taps that all of them feel",
+     set_up});
+
+}  // namespace
+}  // namespace sandhopper::cli

@@ -1,0 +1,41 @@
+#pragma once
+#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/calibrate/outcome.hpp"
+#include "tools/calibrate/recorder.hpp"
+
+namespace sandhopper::cli {
+
+// What every calibration is given.
+struct CalibrationInput {
+  RobotConfig robot;
+  LinuxBoardConfig board;  // with the robot's motors
+};
+
+// One word after `hop calibrate`. `set_up` adds its options and returns what is done with them.
+struct Calibration {
+  struct Actions {
+    // What is recorded, one step after the other; also how many files --from needs. Throws Failure(usage)
+    // where the options do not fit together.
+    std::function<std::vector<calibrate::Step>(const CalibrationInput&)> steps;
+    std::function<calibrate::Outcome(const std::vector<calibrate::Recording>&, const CalibrationInput&)> fit;
+    std::function<void(CalibrationInput&)> prepare{};  // changes what is believed before anything is recorded
+  };
+  std::string name;
+  std::string summary;
+  std::function<Actions(CLI::App&)> set_up;
+};
+
+// A constant of this type in a file tools/cli/calibrate_NAME.cpp makes the calibration known.
+class CalibrationRegistration {
+ public:
+  explicit CalibrationRegistration(Calibration calibration);
+};
+std::vector<Calibration> known_calibrations();  // in alphabetical order
+
+}  // namespace sandhopper::cli

@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <optional>
+
+#include "config/fields.hpp"
+
+namespace sandhopper {
+
+// What somebody does to the robot while the catch holds it: weights on the load cell, the leg moved by hand,
+// the robot laid on its side, taps, or foot and body clamped so that the motors press on the load cell.
+struct Fixture {
+  double load_N = 0.0;
+  std::optional<double> leg_angle_rad{};   // not given: as it is
+  std::optional<double> body_height_m{};   // of the hip axis over the surface; not given: as it is
+  std::array<double, 3> body_up{0, 0, 1};  // the direction up in the robot's axes, as the body's IMU has them
+  std::array<double, 3> foot_up{0, 0, 1};  // and the foot's
+  bool clamped = false;
+  // Half-sine taps along the leg, felt by both IMUs and the load cell; the first one tap_period_s after the
+  // fixture was set.
+  int taps = 0;
+  double tap_period_s = 0.5;
+  double tap_length_s = 0.008;
+  double tap_force_N = 60.0;
+  double tap_accel_mps2 = 40.0;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("load_N", self.load_N, Range{-1000.0, 1000.0});
+    visit("leg_angle_rad", self.leg_angle_rad, Range{0.0, 3.1});
+    visit("body_height_m", self.body_height_m, Range{0.0, 10.0});
+    visit("body_up", self.body_up, Range{-1.0, 1.0});
+    visit("foot_up", self.foot_up, Range{-1.0, 1.0});
+    visit("clamped", self.clamped);
+    visit("taps", self.taps, Range{0, 1000});
+    visit("tap_period_s", self.tap_period_s, Range{0.02, 10.0});
+    visit("tap_length_s", self.tap_length_s, Range{1e-4, 0.1});
+    visit("tap_force_N", self.tap_force_N, Range{0.0, 1000.0});
+    visit("tap_accel_mps2", self.tap_accel_mps2, Range{0.0, 1000.0});
+  }
+
+  // 1 at the peak of a tap.
+  double tap_at(double since_set_s) const noexcept;
+};
+
+// The torque that reaches the links of a clamped leg: it follows the motors' with the play of Coulomb
+// friction.
+class PressedTorque {
+ public:
+  double follow(double motor_torque_Nm, double friction_Nm) noexcept;
+  void reset() noexcept { torque_Nm_ = 0.0; }
+
+ private:
+  double torque_Nm_ = 0.0;
+};
+
+}  // namespace sandhopper
