@@ -100,7 +100,10 @@ void add_slow_sensors(Cells& cells) {
   const auto cell = Device::load_cell;
   cells.in_every_phase(cell, Kind::off, Fault::load_cell_stale);
   cells.in_every_phase(cell, Kind::stuck, Fault::load_cell_stuck);
-  cells.in_every_phase(cell, Kind::garbage, Fault::load_cell_out_of_range);
+  // Random forces, some of them out of range, none of them the leg's.
+  for (const auto phase : kPhases)
+    cells.add(cell, Kind::garbage, phase, Fault::load_cell_out_of_range).or_else =
+        Fault::load_cell_implausible;
   for (const auto phase : kPhases) {
     auto& wrong = cells.add(cell, Kind::wrong, phase,
                             phase == Phase::idle ? Fault::none : Fault::load_cell_implausible);
