@@ -112,6 +112,8 @@ expect(wrong.status === 1 && wrong.result.refusals?.[0].reason === 'outlier' && 
 expect(text_of('linux.toml') === files, 'a refused calibration leaves the file alone');
 const few = calibrate('load-cell', '--weights-kg', '0,1,2,3', '--from', ...tables);
 expect(few.status === 2 && few.text.includes('6 recordings, 4 are needed'), `recordings are counted: ${few.text}`);
+const twice = calibrate('load-cell', '--weights-kg', '0,1,2,0', '--from', ...tables.slice(0, 3), tables[0]);
+expect(twice.status === 2 && twice.text.includes('is named twice'), `one recording is no repeat: ${twice.text}`);
 const blind = spawnSync(hop, ['calibrate', 'tof', '--config', believed, '--output', join(folder, 'blind')], { encoding: 'utf8', input: '' });
 expect(blind.status === 2 && blind.stderr.includes('--from'), `without a terminal: ${blind.stderr}`);
 

@@ -120,6 +120,9 @@ std::vector<calibrate::Recording> read_all(const Options& options, const Calibra
                   "name one for each step, in the order of the options; --help lists them");
   std::vector<calibrate::Recording> out;
   for (const auto& file : options.from) {
+    // The scatter of repeats is what intervals stand on.
+    if (std::ranges::count(options.from, file) > 1)
+      throw Failure(ExitCode::usage, file + " is named twice", "a repeat is a recording of its own");
     if (!fs::exists(file))
       throw Failure(ExitCode::usage, file + ": there is no such file", "name logs (.mcap) or tables (.csv)");
     out.push_back(calibrate::read_recording(file, input.board));
