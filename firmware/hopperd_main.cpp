@@ -16,6 +16,7 @@
 #include "firmware/linux_board.hpp"
 #include "firmware/log/can_log_tap.hpp"
 #include "firmware/log/trial_description.hpp"
+#include "firmware/log/trial_sheet.hpp"
 #include "firmware/operator_channel.hpp"
 #include "firmware/version.hpp"
 #include "firmware/watchdog/guard_process.hpp"
@@ -37,6 +38,7 @@ struct Options {
   std::uint64_t segment_MB = 0;
   std::uint64_t quota_MB = 0;
   int status_Hz = 0;
+  std::string sheet_file;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -60,6 +62,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--quota-MB", options.quota_MB,
                  "remove the oldest files of this log when all together hold more; 0: keep all")
       ->capture_default_str();
+  app.add_option("--sheet", options.sheet_file,
+                 "trial sheet (TOML: who, bed, bed_preparation, release_height_m, payload_kg, notes) to be "
+                 "kept in the log");
   app.add_option("--status-Hz", options.status_Hz,
                  "how often to tell how the cycle stands, {\"status\": {…}}; 0: never")
       ->check(CLI::Range(0, 100))
@@ -159,11 +164,15 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
       simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, board_file()), robot);
+  const auto sheet = options.sheet_file.empty()
+                         ? std::optional<TrialSheet>()
+                         : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
   // Before the log: another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
   TrialLogger logger(log_options(options, channel));
   describe_trial(logger, robot, options.board);
   if (!simulate) describe_devices(logger, devices);
+  if (sheet) add_sheet(logger, *sheet);
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
   if (simulate)

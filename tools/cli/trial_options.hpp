@@ -10,6 +10,7 @@ struct TrialOptions {
   int trials = 1;
   int strides = 3;
   double release_height_m = 0.0618;
+  bool release_height_given = false;
   double compression_stiffness_N_per_m = 0.0;  // 0: as in robot.toml
   std::uint64_t seed = 1;
   std::string noise = "on";
@@ -17,7 +18,14 @@ struct TrialOptions {
   std::string devices;
   bool report = true;
   bool plain = false;  // no live view
-  double speed = 1.0;  // of the simulated board in the live view
+  int series = 0;      // trials with prompts between them; 0: no series
+  std::string sheet;   // a file
+  std::string who;
+  std::string bed;
+  std::string bed_preparation;
+  std::string notes;
+  double payload_kg = -1.0;  // negative: not given
+  double speed = 1.0;        // of the simulated board in the live view
 };
 
 }  // namespace sandhopper::cli

@@ -50,7 +50,8 @@ std::int64_t date_ns() {
 
 // Several trials in a row are a batch, which nobody wants to press keys for.
 bool wants_view(const Session& session, const TrialOptions& options) {
-  return !options.plain && !session.json && options.trials == 1 && LiveTerminal::available();
+  return !options.plain && !session.json && (options.trials == 1 || options.series > 0) &&
+         LiveTerminal::available();
 }
 
 }  // namespace
@@ -70,12 +71,35 @@ TrialRunner::TrialRunner(Session& session, const TrialOptions& options)
 }
 
 TrialSetup TrialRunner::setup_of(int number) const {
-  return {.release_height_m = options_.release_height_m,
+  const auto height_m =
+      sheet_ && sheet_->release_height_m ? *sheet_->release_height_m : options_.release_height_m;
+  return {.release_height_m = height_m,
           .seed = options_.seed + static_cast<std::uint64_t>(number),
           .noise = options_.noise == "on"};
 }
 
-TrialRunner::Outcome TrialRunner::run(int number) {
+SimTrialSetup TrialRunner::simulated_setup(int number, const fs::path& log) const {
+  return {.robot = robot_,
+          .world = world_,
+          .trial = setup_of(number),
+          .sheet = sheet_,
+          .log = log,
+          .realtime_offset_ns = date_ns()};  // its own time starts at zero
+}
+
+LinuxTrialSetup TrialRunner::linux_setup(int number, const fs::path& log) {
+  return {.config_directory = session_.config_directory(),
+          .devices = devices_,
+          .robot = robot_,
+          .trial = setup_of(number),
+          .sheet = sheet_,
+          .log = log,
+          .say = [this](const std::string& line) { session_.say_line(line); }};
+}
+
+TrialRunner::Outcome TrialRunner::run(int number, int trials, const std::optional<TrialSheet>& sheet) {
+  trials_ = trials;
+  sheet_ = sheet;
   const fs::path log = folder_ / fmt::format("trial_{:03}.mcap", number + 1);
   if (fs::exists(log))
     throw Failure(ExitCode::usage, log.string() + " exists and is not overwritten",
@@ -86,32 +110,26 @@ TrialRunner::Outcome TrialRunner::run(int number) {
 
 TrialRunner::Outcome TrialRunner::simulate(int number, const fs::path& log) {
   Progress progress(fmt::format("trial {}", number + 1), 4.0);
-  const auto result = run_sim_trial({.robot = robot_,
-                                     .world = world_,
-                                     .trial = setup_of(number),
-                                     .log = log,
-                                     .realtime_offset_ns = date_ns(),  // its own time starts at zero
-                                     .progress = [&](double time_s) { progress.at(time_s); }});
+  auto setup = simulated_setup(number, log);
+  setup.progress = [&](double time_s) { progress.at(time_s); };
+  const auto result = run_sim_trial(setup);
   return {log, result.last_state, result.last_fault};
 }
 
 TrialRunner::Outcome TrialRunner::run_linux(int number, const fs::path& log) {
-  const auto result = run_linux_trial({.config_directory = session_.config_directory(),
-                                       .devices = devices_,
-                                       .robot = robot_,
-                                       .trial = setup_of(number),
-                                       .log = log,
-                                       .say = [&](const std::string& line) { session_.say_line(line); }});
+  const auto result = run_linux_trial(linux_setup(number, log));
   return {log, result.last_state, result.last_fault};
 }
 
 TrialModel TrialRunner::model_of(int number, const fs::path& log) const {
   TrialModel model;
-  model.title = fmt::format("hop trial {} of {}", number + 1, options_.trials);
-  model.place = options_.board == "sim" ? fmt::format("simulated board, {:g} x real time", options_.speed)
-                : on_virtual_bench()    ? "virtual bench"
-                                        : "robot";
+  model.title = fmt::format("hop trial {} of {}", number + 1, trials_);
+  if (options_.board == "sim")
+    model.place = fmt::format("simulated board, {:g} x real time", options_.speed);
+  else
+    model.place = on_virtual_bench() ? "virtual bench" : "robot";
   model.log = log.string();
+  if (sheet_) model.sheet = entries_of(*sheet_);
   model.config = cycle_config(robot_);
   return model;
 }
@@ -120,20 +138,10 @@ TrialRunner::Outcome TrialRunner::run_live(int number, const fs::path& log) {
   SignalWatch signals;
   std::unique_ptr<CycleLink> link;
   if (options_.board == "sim") {
-    const SimTrialSetup setup{.robot = robot_,
-                              .world = world_,
-                              .trial = setup_of(number),
-                              .log = log,
-                              .realtime_offset_ns = date_ns()};
-    link = std::make_unique<SimulatedLink>(setup, options_.speed, kLiveStatus_Hz);
+    link = std::make_unique<SimulatedLink>(simulated_setup(number, log), options_.speed, kLiveStatus_Hz);
   } else {
     if (on_virtual_bench()) reset_virtual_bench(setup_of(number));
-    auto command = daemon_command({.config_directory = session_.config_directory(),
-                                   .devices = devices_,
-                                   .robot = robot_,
-                                   .trial = setup_of(number),
-                                   .log = log,
-                                   .say = {}});
+    auto command = daemon_command(linux_setup(number, log));
     command.insert(command.end(), {"--status-Hz", std::to_string(kLiveStatus_Hz)});
     link = std::make_unique<DaemonLink>(std::move(command));
   }

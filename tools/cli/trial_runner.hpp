@@ -6,7 +6,9 @@
 #include "tools/cli/session.hpp"
 #include "tools/cli/trial_options.hpp"
 #include "tools/plant/world.hpp"
+#include "tools/trial/linux_trial.hpp"
 #include "tools/trial/live/live_trial.hpp"
+#include "tools/trial/sim_trial.hpp"
 
 namespace sandhopper::cli {
 
@@ -27,10 +29,15 @@ class TrialRunner {
 
   const RobotConfig& robot() const { return robot_; }
   const std::filesystem::path& folder() const { return folder_; }
-  Outcome run(int number);  // from 0
+  bool live() const { return live_; }
+  // The next trial, counted from 0, of so many. A sheet goes into its log, and its release height goes before
+  // the option.
+  Outcome run(int number, int trials, const std::optional<TrialSheet>& sheet);
 
  private:
   TrialSetup setup_of(int number) const;
+  SimTrialSetup simulated_setup(int number, const std::filesystem::path& log) const;
+  LinuxTrialSetup linux_setup(int number, const std::filesystem::path& log);
   Outcome simulate(int number, const std::filesystem::path& log);
   Outcome run_linux(int number, const std::filesystem::path& log);
   Outcome run_live(int number, const std::filesystem::path& log);
@@ -43,6 +50,8 @@ class TrialRunner {
   std::filesystem::path devices_;
   std::filesystem::path folder_;
   WorldConfig world_{};
+  int trials_ = 1;
+  std::optional<TrialSheet> sheet_{};  // of the trial that runs
 };
 
 }  // namespace sandhopper::cli

@@ -1,9 +1,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "config/json.hpp"
 #include "firmware/log/csv_export.hpp"
 #include "firmware/log/mcap_reader.hpp"
+#include "firmware/log/trial_sheet.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/trial/layouts/layouts.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -12,7 +15,41 @@ struct Options {
   std::string log;
   std::string output;
   bool all = false;
+  std::string layouts;
 };
+
+std::optional<TrialSheet> read_sheet(const std::filesystem::path& log) {
+  return sheet_of(mcap::Reader(log, {.check_crc = false}));
+}
+
+// A table has no place for what is known of the trial as a whole.
+std::filesystem::path write_sheet_beside(const std::filesystem::path& log, std::filesystem::path csv) {
+  const auto sheet = read_sheet(log);
+  if (!sheet) return {};
+  csv.replace_extension(".sheet.toml");
+  std::ofstream out(csv);
+  out << to_toml(*sheet);
+  if (!out.flush())
+    throw Failure(ExitCode::fault, "cannot write " + csv.string(),
+                  "check the free space and who may write there");
+  return csv;
+}
+
+void write_layouts(Session& session, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  auto names = nlohmann::ordered_json::array();
+  for (const auto& file : layout_files()) {
+    std::ofstream out(folder / file.name);
+    out << file.text;
+    if (!out.flush())
+      throw Failure(ExitCode::usage, "cannot write " + (folder / file.name).string(),
+                    "name a folder you may write with --layouts");
+    session.say_line((folder / file.name).string());
+    names.push_back((folder / file.name).string());
+  }
+  session.result["layouts"] = names;
+}
 
 ExitCode export_log(Session& session, const Options& options) {
   std::filesystem::path path = options.output;
@@ -32,19 +69,33 @@ ExitCode export_log(Session& session, const Options& options) {
   if (result.truncated_at)
     session.say("the log is cut at byte {}; exported up to there", *result.truncated_at);
   if (result.lost_records > 0) session.say("{} records were lost when it was logged", result.lost_records);
-  session.result = {{"csv", path.string()},
-                    {"rows", result.rows},
-                    {"columns", result.columns},
-                    {"lost_records", result.lost_records}};
+  const auto sheet = write_sheet_beside(options.log, path);
+  if (!sheet.empty()) session.say("trial sheet: {}", sheet.string());
+  session.result.update(nlohmann::ordered_json{{"csv", path.string()},
+                                               {"rows", result.rows},
+                                               {"columns", result.columns},
+                                               {"lost_records", result.lost_records}});
+  if (const auto kept = read_sheet(options.log)) session.result["sheet"] = to_json(*kept);
   return ExitCode::ok;
 }
 
 Run set_up(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("LOG", options->log, "a trial's .mcap file")->required()->check(CLI::ExistingFile);
+  auto* log = app.add_option("LOG", options->log, "a trial's .mcap file")->check(CLI::ExistingFile);
   app.add_option("--output", options->output, "CSV file; default: beside the log");
   app.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
-  return [options](Session& session) { return export_log(session, *options); };
+  app.add_option(
+      "--layouts", options->layouts,
+      "write into this folder: layouts for PlotJuggler and Foxglove, loaders for Python and MATLAB or "
+      "Octave; without LOG only these");
+  return [options, log](Session& session) {
+    if (!options->layouts.empty()) write_layouts(session, options->layouts);
+    if (log->count() > 0) return export_log(session, *options);
+    if (options->layouts.empty())
+      throw Failure(ExitCode::usage, "LOG is required: a trial's .mcap file",
+                    "name it, or a folder for --layouts; see 'hop export --help'");
+    return ExitCode::ok;
+  };
 }
 
 const VerbRegistration kExport({"export", "write a log as CSV, one row per cycle", set_up});

@@ -1,9 +1,11 @@
 #include <filesystem>
 
+#include "tools/cli/series_prompts.hpp"
 #include "tools/cli/trial_runner.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/log_report.hpp"
 #include "tools/report/trial_page.hpp"
+#include "tools/trial/series_campaign.hpp"
 #include "tools/trial/trial_text.hpp"
 
 namespace sandhopper::cli {
@@ -35,35 +37,88 @@ nlohmann::ordered_json as_json(const Outcome& outcome, const ReportData& data, c
           {"fault", std::string(name_of(outcome.last_fault))}};
 }
 
-ExitCode trial(Session& session, const TrialOptions& options) {
-  TrialRunner runner(session, options);
+// What came of the trials so far.
+struct Tally {
   bool all_good = true;
-  auto trials = nlohmann::ordered_json::array();
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
   std::vector<ReportStride> strides;
-  for (int number = 0; number < options.trials; ++number) {
-    const Outcome outcome = runner.run(number);
-    const ReportData data = report_data_from_log(outcome.log);
-    fs::path page;
-    if (options.report) {
-      page = fs::path(outcome.log).replace_extension(".html");
-      write_trial_report(data, page);
-    }
-    session.say("trial {} of {}: {} strides", number + 1, options.trials, data.strides.size());
-    tell(session, outcome, data, page);
-    trials.push_back(as_json(outcome, data, page));
-    strides.insert(strides.end(), data.strides.begin(), data.strides.end());
-    all_good = all_good && outcome.last_fault == Fault::none && !data.strides.empty();
-    if (outcome.connection_lost) break;
+  std::vector<SeriesTrial> series;
+};
+
+std::string why_unusable(const Outcome& outcome, const ReportData& data) {
+  if (outcome.last_fault != Fault::none)
+    return fmt::format("it ended in the fault {}", name_of(outcome.last_fault));
+  return data.strides.empty() ? "no stride" : "";
+}
+
+void take(Session& session, const TrialOptions& options, const Outcome& outcome, Tally& tally) {
+  const ReportData data = report_data_from_log(outcome.log);
+  fs::path page;
+  if (options.report) {
+    page = fs::path(outcome.log).replace_extension(".html");
+    write_trial_report(data, page);
   }
-  if (options.trials == 1)
-    session.result.update(trials.front());
+  session.say("trial {} of {}: {} strides", tally.trials.size() + 1, options.trials, data.strides.size());
+  tell(session, outcome, data, page);
+  tally.trials.push_back(as_json(outcome, data, page));
+  tally.strides.insert(tally.strides.end(), data.strides.begin(), data.strides.end());
+  tally.all_good = tally.all_good && why_unusable(outcome, data).empty();
+  tally.series.push_back({outcome.log, {}, why_unusable(outcome, data)});
+}
+
+void tell_all(Session& session, const TrialOptions& options, const JointConfig& joint, const Tally& tally) {
+  if (options.trials == 1 && tally.trials.size() == 1)
+    session.result.update(tally.trials.front());
   else
-    session.result["trials"] = trials;
-  if (const auto pooled = pooled_text(strides, runner.robot().stiffness.joint); !pooled.line.empty()) {
+    session.result["trials"] = tally.trials;
+  if (const auto pooled = pooled_text(tally.strides, joint); !pooled.line.empty()) {
     session.say_line(pooled.line);
     session.result["pooled_stiffness_N_per_m"] = pooled.json;
   }
-  return all_good ? ExitCode::ok : ExitCode::no;
+}
+
+void tell_campaign(Session& session, const fs::path& folder) {
+  session.say("campaign {}: look at it with 'hop terrain {}' and 'hop diagnose {}'", folder.string(),
+              folder.string(), folder.string());
+  session.result["campaign"] = folder.string();
+}
+
+ExitCode trial(Session& session, TrialOptions options) {
+  if (options.series > 0) options.trials = options.series;
+  auto sheet = gather_sheet(session, options);
+  TrialRunner runner(session, options);
+  Tally tally;
+  for (int number = 0; number < options.trials; ++number) {
+    if (options.series > 0 && can_ask(session) && !prepare_next(session, number, options.trials, *sheet))
+      break;
+    const Outcome outcome = runner.run(number, options.trials, sheet);
+    take(session, options, outcome, tally);
+    if (sheet) tally.series.back().sheet = *sheet;
+    if (options.series > 0) write_series_campaign(runner.folder(), runner.robot(), tally.series);
+    if (outcome.connection_lost) break;
+  }
+  tell_all(session, options, runner.robot().stiffness.joint, tally);
+  if (options.series > 0 && !tally.trials.empty()) tell_campaign(session, runner.folder());
+  return tally.all_good && !tally.trials.empty() ? ExitCode::ok : ExitCode::no;
+}
+
+void add_sheet_options(CLI::App& app, TrialOptions& options) {
+  app.add_option("--series", options.series,
+                 "so many trials with the operator: before each, what to do to the bed, its release height "
+                 "and notes; "
+                 "the folder becomes a campaign for hop terrain and hop diagnose")
+      ->check(CLI::Range(1, 1000));
+  app.add_option(
+      "--sheet", options.sheet,
+      "trial sheet for the logs, a TOML file with who, bed, bed_preparation, release_height_m, payload_kg, "
+      "notes; the options below go before it");
+  app.add_option("--who", options.who, "trial sheet: who runs the trials");
+  app.add_option("--bed", options.bed, "trial sheet: the bed's material");
+  app.add_option("--bed-preparation", options.bed_preparation,
+                 "trial sheet: what is done to the bed before each trial");
+  app.add_option("--payload-kg", options.payload_kg, "trial sheet: mass on the body besides robot.toml's")
+      ->check(CLI::Range(0.0, 20.0));
+  app.add_option("--notes", options.notes, "trial sheet: notes");
 }
 
 Run set_up(CLI::App& app) {
@@ -78,10 +133,10 @@ Run set_up(CLI::App& app) {
   app.add_option("--strides", options->strides, "strides per trial, then a soft stop")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  app.add_option("--release-height-m", options->release_height_m,
-                 "height of the sole when released; 0.0618 gives 1 m/s")
-      ->check(CLI::Range(0.0005, 1.0))
-      ->capture_default_str();
+  auto* height = app.add_option("--release-height-m", options->release_height_m,
+                                "height of the sole when released; 0.0618 gives 1 m/s")
+                     ->check(CLI::Range(0.0005, 1.0))
+                     ->capture_default_str();
   app.add_option("--compression-stiffness-N-per-m", options->compression_stiffness_N_per_m,
                  "instead of robot.toml's, e.g. 250, 375, 500")
       ->check(CLI::Range(10.0, 5000.0));
@@ -93,6 +148,7 @@ Run set_up(CLI::App& app) {
   app.add_option("--output", options->output, "folder for logs and reports; default trials/DATE_TIME");
   app.add_option("--devices", options->devices,
                  "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
+  add_sheet_options(app, *options);
   app.add_flag("--plain", options->plain,
                "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
                "where standard output is no terminal");
@@ -100,7 +156,11 @@ Run set_up(CLI::App& app) {
       ->check(CLI::Range(0.05, 10.0))
       ->capture_default_str();
   app.add_flag("!--no-report", options->report, "write no report page");
-  return [options](Session& session) { return trial(session, *options); };
+  app.get_option("--series")->excludes("--trials");
+  return [options, height](Session& session) {
+    options->release_height_given = height->count() > 0;
+    return trial(session, *options);
+  };
 }
 
 const VerbRegistration kTrial({"trial", "run hop trials and say how stiff the ground is", set_up});

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "firmware/log/topics.hpp"
+#include "firmware/log/trial_sheet.hpp"
 #include "tools/report/report_builder.hpp"
 
 namespace sandhopper {
@@ -49,8 +50,13 @@ struct Feed {
 
 // "release_height_m", "0.061800" -> "release height", "0.0618 m"
 std::pair<std::string, std::string> fact_of(std::string key, std::string value) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kUnits{
-      {{"_N_per_m", " N/m"}, {"_mps", " m/s"}, {"_Hz", " Hz"}, {"_m", " m"}, {"_s", " s"}, {"_N", " N"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kUnits{{{"_kg", " kg"},
+                                                                                        {"_N_per_m", " N/m"},
+                                                                                        {"_mps", " m/s"},
+                                                                                        {"_Hz", " Hz"},
+                                                                                        {"_m", " m"},
+                                                                                        {"_s", " s"},
+                                                                                        {"_N", " N"}}};
   for (const auto& [suffix, unit] : kUnits) {
     if (!key.ends_with(suffix)) continue;
     double number = 0.0;
@@ -72,7 +78,10 @@ std::string utc(std::int64_t realtime_ns) {
 // Metadata are facts under the title, but for explanations, which stand above the attached text.
 void add_attached(const mcap::Reader& log, ReportData& data) {
   constexpr std::size_t kLongest = 24;
+  if (const auto sheet = sheet_of(log))
+    for (const auto& [key, text] : entries_of(*sheet)) data.facts.push_back(fact_of(key, text));
   for (const mcap::Metadata& metadata : log.metadata()) {
+    if (metadata.name == kSheetMetadata) continue;
     for (const auto& [key, value] : metadata.entries) {
       if (value.size() <= kLongest) {
         data.facts.push_back(fact_of(key, value));

@@ -15,6 +15,12 @@
 namespace sandhopper {
 namespace {
 
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream out(path);
+  out << text;
+  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
 template <NamedEnum E>
 E enum_named(const std::string& name) {
   for (std::size_t i = 0; i < EnumNames<E>::value.size(); ++i)
@@ -25,7 +31,7 @@ E enum_named(const std::string& name) {
 // The robot as this trial has it, beside the log, so that hopperd reads what was asked for.
 std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   auto path = std::filesystem::path(setup.log).replace_extension(".robot.toml");
-  std::ofstream(path) << to_toml(to_node(setup.robot));
+  write_file(path, to_toml(setup.robot));
   return path;
 }
 
@@ -100,15 +106,21 @@ void reset_virtual_bench(const TrialSetup& trial) {
 
 std::vector<std::string> daemon_command(const LinuxTrialSetup& setup) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "hopperd";
-  return {program.string(),
-          "--config",
-          setup.config_directory.string(),
-          "--robot",
-          write_robot_file(setup).string(),
-          "--devices",
-          setup.devices.string(),
-          "--log",
-          setup.log.string()};
+  std::vector<std::string> command{program.string(),
+                                   "--config",
+                                   setup.config_directory.string(),
+                                   "--robot",
+                                   write_robot_file(setup).string(),
+                                   "--devices",
+                                   setup.devices.string(),
+                                   "--log",
+                                   setup.log.string()};
+  if (setup.sheet) {
+    const auto sheet = std::filesystem::path(setup.log).replace_extension(".sheet.toml");
+    write_file(sheet, to_toml(*setup.sheet));
+    command.insert(command.end(), {"--sheet", sheet.string()});
+  }
+  return command;
 }
 
 LinuxTrialResult run_linux_trial(const LinuxTrialSetup& setup) {

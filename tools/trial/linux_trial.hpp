@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "config/robot_config.hpp"
+#include "firmware/log/trial_sheet.hpp"
 #include "firmware/records.hpp"
 #include "tools/plant/world.hpp"
 
@@ -15,6 +17,7 @@ struct LinuxTrialSetup {
   std::filesystem::path devices;  // linux.toml, inside the virtual bench bench.toml
   RobotConfig robot{};
   TrialSetup trial{};  // told to the bench; on a real robot the operator is asked
+  std::optional<TrialSheet> sheet{};
   std::filesystem::path log;
   std::function<void(const std::string&)> say;
 };

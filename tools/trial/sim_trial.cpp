@@ -54,6 +54,7 @@ void describe_simulated_trial(TrialLogger& logger, const SimTrialSetup& setup) {
                       {{"seed", std::to_string(setup.trial.seed)},
                        {"noise", setup.trial.noise ? "on" : "off"},
                        {"release_height_m", std::to_string(setup.trial.release_height_m)}});
+  if (setup.sheet) add_sheet(logger, *setup.sheet);
 }
 
 SimTrialResult run_sim_trial(const SimTrialSetup& setup) {

@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "config/robot_config.hpp"
 #include "firmware/log/trial_logger.hpp"
+#include "firmware/log/trial_sheet.hpp"
 #include "firmware/records.hpp"
 #include "tools/plant/world.hpp"
 
@@ -15,6 +17,7 @@ struct SimTrialSetup {
   RobotConfig robot{};
   WorldConfig world{};
   TrialSetup trial{};
+  std::optional<TrialSheet> sheet{};
   std::filesystem::path log;            // .mcap
   std::int64_t realtime_offset_ns = 0;  // date of the trial's start
   double longest_s = 60.0;              // a trial that has not ended by then is stopped

@@ -35,7 +35,7 @@ struct StateText {
 
 StateText state_text(const TrialModel& model) {
   if (model.ended) return {"the log is closed", Style::good};
-  if (!model.status) return {"starting", Style::caution};
+  if (!model.status) return {"", Style::caution};
   switch (model.state()) {
     case State::idle:
       return {model.over ? "the trial is over" : "", Style::plain};
@@ -107,7 +107,8 @@ Hint hint(const TrialModel& model) {
 void draw_state(Pane& pane, const TrialModel& model) {
   pane.line();
   pane.line();
-  const auto name = fmt::format(" {} ", upper(model.ended ? "ended" : name_of(model.state())));
+  const std::string_view state = model.status ? name_of(model.state()) : std::string_view("starting");
+  const auto name = fmt::format(" {} ", upper(model.ended ? "ended" : state));
   pane.put(0, name, state_style(model));
   const auto [text, style] = state_text(model);
   pane.put(static_cast<int>(name.size()) + 1, text, style);

@@ -1,0 +1,12 @@
+# Puts this folder's layouts and loaders into a library as text.
+function(sandhopper_embed_layouts target)
+  set(folder ${PROJECT_SOURCE_DIR}/tools/trial/layouts)
+  set(SANDHOPPER_LAYOUT_FILES "")
+  foreach(name sandhopper.plotjuggler.xml sandhopper.foxglove.json load_trial.py load_trial.m)
+    file(READ ${folder}/${name} text)
+    string(APPEND SANDHOPPER_LAYOUT_FILES "      {\"${name}\", R\"~~~(${text})~~~\"},\n")
+    set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${name})
+  endforeach()
+  configure_file(${folder}/files.cpp.in ${PROJECT_BINARY_DIR}/layout_files.cpp @ONLY)
+  target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/layout_files.cpp)
+endfunction()
