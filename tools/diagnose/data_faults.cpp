@@ -232,7 +232,7 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
   for (const auto& trial : trials)
     for (const auto& [name, values] : trial.channels)
       if (name != "phase" && !name.starts_with("command_") && !name.starts_with("estimate_") &&
-          !name.ends_with("temperature_C"))
+          !name.ends_with("temperature_C") && name != "bus_voltage_V")
         channels.insert(name);
   std::vector<DataFault> faults;
   find_lost_rows(trials, faults);

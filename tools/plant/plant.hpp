@@ -71,8 +71,8 @@ class Plant {
   PlantMotion motion(double torque_Nm) const noexcept;
 
   // motion() here and a step by the midpoint rule, two evaluations in place of five aloft and four in
-  // contact; it is divided where the bed's force has a kink or a jump. For many simulations of the same hop at
-  // 0.25 ms, smooth in what they start from.
+  // contact; it is divided where the bed's force has a kink or a jump. For many simulations of the same hop
+  // at 0.25 ms, smooth in what they start from.
   PlantMotion advance(double torque_Nm, double step_s) noexcept;
   const PlantState& state() const noexcept { return state_; }
   const Leg& leg() const noexcept { return leg_; }

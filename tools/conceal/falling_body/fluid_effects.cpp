@@ -40,7 +40,8 @@ Json buoyancy(World& w, double size, Random&) {
 Json added_mass(World& w, double size, Random&) {
   const double displaced_kg = w.density_kg_per_m3 * w.volume_m3;
   w.hidden.added_mass = size * 0.08 * w.mass_kg / displaced_kg;
-  return {{"added_mass_factor_change", w.hidden.added_mass}, {"added_mass_kg", w.hidden.added_mass * displaced_kg}};
+  return {{"added_mass_factor_change", w.hidden.added_mass},
+          {"added_mass_kg", w.hidden.added_mass * displaced_kg}};
 }
 
 Json mass(World& w, double size, Random& random) {

@@ -13,9 +13,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kBlock_s = 0.5;
-constexpr double kMostRows = 3000.0;      // of a channel
-constexpr double kLong_s = 10.0;          // a recording this long is simulated in longer steps
-constexpr std::size_t kBlockRows = 60;    // at least, where the recording is slow
+constexpr double kMostRows = 3000.0;    // of a channel
+constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
+constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
 struct Figures {
