@@ -35,6 +35,9 @@ fs::path make_folder(const TrialOptions& options) {
   if (folder.empty()) {
     const std::time_t now = std::time(nullptr);
     folder = fs::path("trials") / fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(now));
+    // Two runs that begin within a second get a folder each.
+    const auto dated = folder.string();
+    for (int run = 2; fs::exists(folder); ++run) folder = fmt::format("{}_{}", dated, run);
   }
   std::error_code error;
   fs::create_directories(folder, error);
