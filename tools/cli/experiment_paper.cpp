@@ -4,6 +4,7 @@
 
 #include "config/files.hpp"
 #include "tools/cli/experiment.hpp"
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/experiment/paper/claims/claims.hpp"
 #include "tools/experiment/paper/report.hpp"
@@ -33,15 +34,6 @@ paper::ProgrammeSetup programme(Session& session, const Options& options) {
   return setup;
 }
 
-fs::path make_folder(const std::string& name) {
-  std::error_code error;
-  fs::create_directories(name, error);
-  if (error)
-    throw Failure(ExitCode::usage, "cannot make " + name + ": " + error.message(),
-                  "name a folder you may write with --output");
-  return name;
-}
-
 void write_json(const nlohmann::ordered_json& json, const fs::path& path) {
   std::ofstream file(path);
   file << json.dump(1) << '\n';
@@ -62,7 +54,7 @@ void tell(Session& session, const std::vector<paper::Claim>& claims) {
 
 ExitCode run(Session& session, const Options& options) {
   auto setup = programme(session, options);
-  const auto folder = make_folder(options.output);
+  const auto folder = made(options.output);
   Progress progress("hops", 1.0);
   setup.progress = [&progress](int done, int total) { progress.at(static_cast<double>(done) / total); };
   const auto results = paper::run_programme(setup);

@@ -9,6 +9,7 @@
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "tools/cli/failure.hpp"
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/plant/load_world.hpp"
 #include "tools/trial/linux_trial.hpp"
@@ -31,20 +32,9 @@ RobotConfig load_robot(Session& session, const TrialOptions& options) {
 }
 
 fs::path make_folder(const TrialOptions& options) {
-  fs::path folder = options.output;
-  if (folder.empty()) {
-    const std::time_t now = std::time(nullptr);
-    folder = fs::path("trials") / fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(now));
-    // Two runs that begin within a second get a folder each.
-    const auto dated = folder.string();
-    for (int run = 2; fs::exists(folder); ++run) folder = fmt::format("{}_{}", dated, run);
-  }
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
-                  "name a folder you may write with --output");
-  return folder;
+  if (!options.output.empty()) return made(options.output);
+  const std::time_t now = std::time(nullptr);
+  return made(not_there_yet(fs::path("trials") / fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(now))));
 }
 
 std::int64_t date_ns() {

@@ -11,6 +11,7 @@
 #include "tools/calibrate/page.hpp"
 #include "tools/calibrate/write.hpp"
 #include "tools/cli/calibration.hpp"
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/plant/load_world.hpp"
@@ -45,16 +46,9 @@ struct Files {
 std::string utc_now() { return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(std::time(nullptr))); }
 
 fs::path make_folder(const Options& options, const std::string& name) {
-  fs::path folder = options.output;
-  if (folder.empty())
-    folder = fs::path("calibration") /
-             fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::gmtime(std::time(nullptr)), name);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
-                  "name a folder you may write with --output");
-  return folder;
+  if (!options.output.empty()) return made(options.output);
+  return made(not_there_yet(fs::path("calibration") /
+                            fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::gmtime(std::time(nullptr)), name)));
 }
 
 // On the robot a person does what is asked, and says when it is done.

@@ -6,6 +6,7 @@
 
 #include "tools/benchmark/runner.hpp"
 #include "tools/benchmark/score_study.hpp"
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/conceal/follow_up.hpp"
@@ -56,14 +57,6 @@ void check_request(const conceal::Request& request) {
   }
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
-                  "name a folder you may write with --output");
-}
-
 ExitCode list(Session& session) {
   for (const auto* plant : conceal::plants()) {
     auto& of_plant = session.result[plant->name()];
@@ -90,7 +83,7 @@ ExitCode generate(Session& session, const Options& options) {
                   "name a new folder with --output");
   const auto request = request_of(options);
   check_request(request);
-  make_folder(root);
+  made(root);
   Progress progress("concealing", static_cast<double>(options.campaigns));
   for (std::uint64_t i = 1; i <= options.campaigns; ++i) {
     const auto name = fmt::format("{:03d}", i);
@@ -197,7 +190,7 @@ ExitCode run_and_score(Session& session, Options options) {
   run.folder = options.output;
   run.request = request_of(options);
   check_request(run.request);
-  make_folder(run.folder);
+  made(run.folder);
   run.campaigns = options.campaigns;
   run.limit_s = options.limit_s;
   run.jobs = options.jobs;

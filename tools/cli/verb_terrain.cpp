@@ -3,6 +3,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/terrain/campaign_analysis.hpp"
@@ -44,12 +45,7 @@ fs::path output_folder(const Options& options) {
   const fs::path folder = !options.output.empty()  ? fs::path(options.output)
                           : options.folder.empty() ? fs::path("terrain")
                                                    : fs::path(options.folder) / "terrain";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw Failure(ExitCode::usage, "cannot make " + folder.string() + ": " + error.message(),
-                  "name a folder you may write with --output");
-  return folder;
+  return made(folder);
 }
 
 CampaignResults analyse(const Options& options) {
