@@ -16,7 +16,7 @@ Json read_json(const std::filesystem::path& file) {
   if (!in) throw std::runtime_error("cannot read " + file.string());
   try {
     return Json::parse(in);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // a number too large for a double is out_of_range, no parse_error
     throw std::runtime_error(file.string() + " is not JSON: " + error.what());
   }
 }
