@@ -58,9 +58,7 @@ Calibration::Actions set_up(CLI::App& app) {
   app.add_option("--repeats", options->repeats, "pairs of recordings: known pose, then leg shortened by hand")
       ->check(CLI::Range(3, 50))
       ->capture_default_str();
-  app.add_option("--seconds", options->seconds, "of each recording")
-      ->check(CLI::Range(1.0, 60.0))
-      ->capture_default_str();
+  add_seconds(app, options->seconds);
   return {.steps = [options](const CalibrationInput& input) { return steps(*options, input); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

@@ -58,12 +58,8 @@ Calibration::Actions set_up(CLI::App& app) {
   app.add_option("--poses", options->poses, "how many still poses; the six faces first, in turn")
       ->check(CLI::Range(9, 200))
       ->capture_default_str();
-  app.add_option("--gravity-mps2", options->gravity_mps2, "of this place; the firmware computes with 9.81")
-      ->check(CLI::Range(9.7, 9.9))
-      ->capture_default_str();
-  app.add_option("--seconds", options->seconds, "of each recording")
-      ->check(CLI::Range(1.0, 60.0))
-      ->capture_default_str();
+  add_gravity(app, options->gravity_mps2, "of this place; the firmware computes with 9.81");
+  add_seconds(app, options->seconds);
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

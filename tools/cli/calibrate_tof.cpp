@@ -38,9 +38,7 @@ Calibration::Actions set_up(CLI::App& app) {
       ->delimiter(',')
       ->check(CLI::Range(0.02, 10.0))
       ->capture_default_str();
-  app.add_option("--seconds", options->seconds, "of each recording")
-      ->check(CLI::Range(1.0, 60.0))
-      ->capture_default_str();
+  add_seconds(app, options->seconds);
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

@@ -31,6 +31,10 @@ struct Calibration {
   std::function<Actions(CLI::App&)> set_up;
 };
 
+// Options that several calibrations have: how long each recording lasts, and gravity where it is made.
+void add_seconds(CLI::App& app, double& seconds);
+void add_gravity(CLI::App& app, double& gravity_mps2, const std::string& help);
+
 // A constant of this type in a file tools/cli/calibrate_NAME.cpp makes the calibration known.
 class CalibrationRegistration {
  public:

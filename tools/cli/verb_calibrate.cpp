@@ -257,6 +257,16 @@ CalibrationRegistration::CalibrationRegistration(Calibration calibration) {
   registered().push_back(std::move(calibration));
 }
 
+void add_seconds(CLI::App& app, double& seconds) {
+  app.add_option("--seconds", seconds, "of each recording")
+      ->check(CLI::Range(1.0, 60.0))
+      ->capture_default_str();
+}
+
+void add_gravity(CLI::App& app, double& gravity_mps2, const std::string& help) {
+  app.add_option("--gravity-mps2", gravity_mps2, help)->check(CLI::Range(9.7, 9.9))->capture_default_str();
+}
+
 std::vector<Calibration> known_calibrations() {
   auto all = registered();
   std::ranges::sort(all, {}, &Calibration::name);

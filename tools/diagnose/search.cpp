@@ -33,7 +33,7 @@ constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an ex
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
 constexpr double kRival = 20.0;                                // of the criterion
-constexpr double kPromise = 1.5;  // a linear estimate of a drop may be short by so much
+constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
@@ -309,7 +309,7 @@ void Search::finish(SetFit& fit) const {
 void Search::finish_rivals() {
   const double limit = criterion(best()) + kRival;
   for (auto& [set, fit] : sets_)
-    if (set.size() <= best_.size() && criterion(fit) - kPromise * fit.fit.promised / dispersion_ < limit)
+    if (set.size() <= best_.size() && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ < limit)
       finish(fit);
 }
 
