@@ -12,6 +12,11 @@ constexpr std::size_t kLeast = 6;   // samples there
 constexpr double kGridSteps = 3.0;  // noise must move the sensor by this many
 constexpr double kLifted = 3.0;     // standard deviations that noise may take a sample off the limit
 
+// An accelerometer clips; the other sensors saturate.
+std::string range_fault(const std::string& channel) {
+  return channel.starts_with("imu_") ? "imu.clipping" : "sensor.saturation";
+}
+
 }  // namespace
 
 void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
@@ -27,7 +32,7 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
     // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
     DataFault always{.channel = channel,
-                     .id = "sensor.saturation",
+                     .id = range_fault(channel),
                      .stretches = samples.size(),
                      .limit = high,
                      .borderline = true,
@@ -39,7 +44,7 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   if (total < 50.0 || !(high > low) || noise < kGridSteps * grid) return;
   DataFault fault;
   fault.channel = channel;
-  fault.id = "sensor.saturation";
+  fault.id = range_fault(channel);
   fault.limit_resolution = 0.5 * grid;
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;

@@ -9,13 +9,13 @@ namespace sandhopper::diagnose {
 // A channel that held a value, fell out, or stopped at a limit while the quantity went on.
 struct DataFault {
   std::string channel;
-  std::string id;  // data.stuck, data.dropout or sensor.saturation
+  std::string id;  // data.stuck, data.dropout, imu.clipping or sensor.saturation
   std::size_t stretches = 0;
   double duration_s = 0.0;  // median of a stretch
   double step_s = 0.0;      // between samples: how well a duration is known
   double rate_Hz = 0.0;     // stretches per second of recording
   double recorded_s = 0.0;
-  double limit = 0.0;             // of a saturation
+  double limit = 0.0;             // where the range ends; 0: it is another fault
   double limit_resolution = 0.0;  // half a step of the channel's grid
   bool borderline = false;        // a held value that short may be what a logger puts where samples are lost
   std::vector<std::string> trials;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
+#include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
@@ -31,6 +33,38 @@ constexpr std::size_t kSeeds = 14;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
+
+constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
+constexpr double kBalanceSignificance = 0.01;
+
+// How much the best set leaves beyond the noise.
+struct Misfit {
+  double rows = 0.0, unexplained = 0.0, explained = 0.0;
+  bool large = false;
+};
+Misfit misfit_of(const Problem& problem, const Search& search) {
+  Misfit m;
+  for (const auto& trial : problem.trials) m.rows += static_cast<double>(trial->rows.size());
+  m.unexplained = search.best().fit.deviance - m.rows;
+  m.explained = search.null().fit.deviance - search.best().fit.deviance;
+  m.large = problem.trials.size() >= kTooFewTrials && m.unexplained > kMisfitPerRow * m.rows &&
+            m.unexplained > kMisfitOfExplained * m.explained;
+  return m;
+}
+
+// A law that the balances of the recordings show by themselves. Not one of the drive's torque: what the list
+// says of the actuator looks like that; nor of time, which goes with everything.
+std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings& recordings) {
+  std::vector<Balance> balances;
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i)
+    for (auto& balance : problem.plant->balances(recordings.trials[i], recordings.beliefs[i]))
+      balances.push_back(std::move(balance));
+  for (auto& gain : laws_of_balances(problem, balances))
+    if (gain.family.variable != "torque_Nm" && gain.family.variable != "t_s" &&
+        gain.held_out > kBalanceShare && gain.p_value < kBalanceSignificance && gain.trials_better >= 0.75)
+      return std::move(gain);
+  return std::nullopt;
+}
 
 std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
   if (set.empty()) return "nothing";
@@ -92,13 +126,16 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Search search(problem, search_options);
   search.run(point);
   log_sets(problem, search, diagnosis);
-  if (!search.best().set.empty()) {
+  // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
+  // second look at the list would help.
+  std::optional<FreeGain> balance;
+  if (misfit_of(problem, search).large) balance = law_of_balances(problem, clean);
+  if (!search.best().set.empty() && !balance) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
     update_noise(problem, search.best().fit.point);
     keep_columns(problem, search.best().fit.point);
-    Point again = search.best().fit.point;
-    again.hypothesis = {};
+    const Point again = search.null().fit.point;
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
     // What came near already needs no search, but another fit.
     const auto seeds = search.best_points(kSeeds);
@@ -112,10 +149,9 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   options.progress(0.9, "");
   const SetFit& best = search.best();
   const auto gains = free_gains(problem, best.fit.point);
-  const double explained = search.null().fit.deviance - best.fit.deviance;
+  const Misfit misfit = misfit_of(problem, search);
+  const double explained = misfit.explained, rows = misfit.rows;
   const FreeGain* rest = nullptr;
-  double rows = 0.0;
-  for (const auto& trial : problem.trials) rows += static_cast<double>(trial->rows.size());
   const double form = problem.plant->form_error();
   const double least_gain =
       std::max({kUnknownGain, kUnknownGainPerRow * rows,
@@ -130,11 +166,16 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
         gains[i].family.variable, gains[i].held_out, gains[i].p_value, 100.0 * gains[i].trials_better));
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
-  const double unexplained = best.fit.deviance - rows;
-  const bool misfit = problem.trials.size() >= kTooFewTrials && unexplained > kMisfitPerRow * rows &&
-                      unexplained > kMisfitOfExplained * explained;
   std::vector<FreeGain> alone;
-  if (misfit && rest == nullptr) {
+  if (misfit.large && !balance) balance = law_of_balances(problem, clean);
+  if (balance) {
+    diagnosis.log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
+                                        balance->family.port, balance->family.variable,
+                                        100.0 * balance->held_out, balance->p_value));
+    balance->held_out = misfit.unexplained;
+    rest = &*balance;
+  }
+  if (misfit.large && rest == nullptr) {
     alone = free_gains(problem, search.null().fit.point);
     for (const auto& gain : alone)
       if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kMisfitSignificance) rest = &gain;
@@ -151,13 +192,13 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
 
   const Posterior belief = posterior(problem, search, remainder);
   const bool unknown =
-      misfit || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
+      misfit.large || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest != nullptr ? "unknown_at_port" : "unknown_not_localised";
     if (rest != nullptr) report_unknown(problem, *rest, share, diagnosis);
     // What is on the list and explains most may be there beside it, or be what the unknown looks like.
-    if (share <= kUnknownShare) {
+    if (share <= kUnknownShare && !balance) {
       report_effects(problem, search, belief, diagnosis);
       for (auto& effect : diagnosis.effects)
         if (!effect.id.starts_with("unknown@"))

@@ -9,6 +9,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr int kKnots = 9;
+constexpr double kTails = 0.005;
 constexpr int kFineKnots = 41;  // of what may ripple, where a simulation costs little
 
 struct Variable {
@@ -53,7 +54,10 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
   if (port == "joint")
     return {
         {"velocity_radps", velocity_of, one}, {"angle_rad", position_of, one}, {"torque_Nm", load_of, one}};
-  return {{"velocity_mps", velocity_of, one}, {"height_m", position_of, one}, {"t_s", time_of, one}};
+  return {{"velocity_mps", velocity_of, one},
+          {"height_m", position_of, one},
+          {"height_m, with the sign of velocity", position_of, direction_of},
+          {"t_s", time_of, one}};
 }
 
 // Lowest and highest value of each variable that the simulation visits.
@@ -77,6 +81,7 @@ std::vector<std::pair<double, double>> visited(const Problem& problem, const Poi
     edits.sensor_law(port, probe);
   else
     edits.law(port, probe);
+  edits.laws_key = 0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     std::vector<double> out(problem.trials[t]->rows.size());
     problem.trials[t]->predict(edits, point.nuisances[t], out);
@@ -120,6 +125,24 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
       if (variables[v].ripples && quick)
         families.push_back(family_of(port, variables[v], low, high, kFineKnots));
     }
+  }
+  return families;
+}
+
+std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vector<PortState>& states,
+                                           int knots) {
+  std::vector<FreeFamily> families;
+  for (const auto& variable : variables_of(port.port, port.sensor)) {
+    std::vector<double> values;
+    for (const auto& s : states)
+      if (variable.weight(s) != 0.0) values.push_back(variable.value(s));
+    if (values.empty()) continue;
+    std::ranges::sort(values);
+    const auto at = [&](double share) {
+      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    };
+    if (at(1.0 - kTails) > at(kTails))
+      families.push_back(family_of(port, variable, at(kTails), at(1.0 - kTails), knots));
   }
   return families;
 }

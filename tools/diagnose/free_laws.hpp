@@ -22,6 +22,10 @@ inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of t
 // `point`.
 std::vector<FreeFamily> free_families(const Problem& problem, const Point& point);
 
+// Those of one port over the states given, but for the few at the ends of each range.
+std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vector<PortState>& states,
+                                           int knots);
+
 // The edits of `base` with one term added.
 Edits with_term(Edits base, const FreeTerm& term, double amplitude);
 

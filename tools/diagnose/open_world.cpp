@@ -14,12 +14,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kProbe = 0.2;
+constexpr double kAloneGain = 7.5;  // of the spread, squared: believed of a single trial
+constexpr double kGainSpread = 2.0;
 constexpr double kSensorHandicap = 0.75;  // a law in the plant is preferred to one in a sensor
 
-// One-sided, trials as units: are the held-out gains more than chance, given their own spread?
-double p_of_gains(const std::vector<double>& gains) {
+}  // namespace
+
+double p_of_gains(const std::vector<double>& gains, double spread) {
   const double n = static_cast<double>(gains.size());
-  if (n < 2.0) return gains.empty() || gains[0] < 30.0 ? 1.0 : 0.01;
+  if (n < 2.0) return gains.empty() || gains[0] < kAloneGain * spread * spread ? 1.0 : 0.01;
   // Signed square roots: one trial with a huge gain is not the evidence of many.
   double sum = 0.0, squares = 0.0;
   for (const double g : gains) {
@@ -28,12 +31,10 @@ double p_of_gains(const std::vector<double>& gains) {
     squares += x * x;
   }
   const double mean = sum / n;
-  const double variance = (4.0 + squares - n * mean * mean) / (n + 3.0);
+  const double variance = (spread * spread + squares - n * mean * mean) / (n + 3.0);
   const double t = mean / std::sqrt(variance / n);
   return t <= 0.0 ? 1.0 : 0.5 * student_t_two_sided(t, n + 3.0);
 }
-
-}  // namespace
 
 std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
   auto directions = parameter_directions(problem, point);
@@ -58,7 +59,8 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
     FreeGain gain{families[f], held_out.gain, 0.0, 1.0, {}, {}};
     for (const double g : held_out.of_trial)
       gain.trials_better += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(held_out.of_trial.size());
-    gain.p_value = std::min(1.0, p_of_gains(held_out.of_trial) * static_cast<double>(families.size()));
+    gain.p_value =
+        std::min(1.0, p_of_gains(held_out.of_trial, kGainSpread) * static_cast<double>(families.size()));
     const auto k = static_cast<Index>(columns[f].size());
     MatrixXd information = MatrixXd::Identity(k, k) * kFreeLawInformation;
     VectorXd score = VectorXd::Zero(k);

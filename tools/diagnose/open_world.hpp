@@ -16,6 +16,10 @@ struct FreeGain {
   Eigen::VectorXd sd;
 };
 
+// One-sided, trials as units: are held-out gains more than chance, given their own spread? Of their square
+// roots at least `spread` is believed beforehand.
+double p_of_gains(const std::vector<double>& gains, double spread);
+
 // All families, the largest gain first.
 std::vector<FreeGain> free_gains(const Problem& problem, const Point& point);
 

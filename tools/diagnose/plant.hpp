@@ -65,6 +65,18 @@ struct FreePort {
   double scale = 1.0;  // of the force, torque or reading
 };
 
+// What the recorded motion and the belief leave over of one force or torque of one trial, instant by instant,
+// without a simulation: accelerations come from accelerometers, nothing is integrated along the trial. A
+// simulation that was led astray says nothing of where; this still does.
+struct Balance {
+  std::string port;
+  std::vector<double> rest;  // recorded less believed: N or N m
+  std::vector<PortState> states;
+  // What effects on the list would leave there, each a shape of free size: sign and size of a speed, an
+  // acceleration, the change of a reading that lags.
+  std::vector<std::vector<double>> known;
+};
+
 // A trial that could be done next, as it would be recorded, without noise, if the edits it was planned with
 // are true.
 struct DoableTrial {
@@ -90,6 +102,8 @@ class PlantModel {
   // Scales and whatever else the effects ask for.
   virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
   virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
+  // Of one trial; none where this plant's recordings do not say enough.
+  virtual std::vector<Balance> balances(const Trial& /*trial*/, const Belief& /*belief*/) const { return {}; }
   // Trials like the recorded ones and around them; none where planning is not known.
   virtual std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
                                           const Edits& edits) const {

@@ -53,7 +53,7 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
 namespace {
 
 std::string fault_statement(const DataFault& fault) {
-  if (fault.id == "sensor.saturation")
+  if (fault.limit != 0.0)
     return fmt::format("{} stops at {:.4g} while the quantity goes on.", fault.channel, fault.limit);
   if (fault.id == "data.stuck")
     return fmt::format("{} stood still {} times while the quantity went on.", fault.channel, fault.stretches);
@@ -71,11 +71,12 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     effect.channel = fault.channel;
     effect.statement = fault_statement(fault);
     effect.probability = 0.97;
-    if (fault.id == "sensor.saturation") {
+    if (fault.limit != 0.0) {
       const double limit = std::abs(fault.limit);
       effect.equation = "y = min(x, limit)";
       const double within = fault.limit_resolution + 1e-3 * limit;
-      effect.parameters = {{"limit", limit, limit - within, limit + within}};
+      effect.parameters = {
+          {fault.id == "imu.clipping" ? "limit_mps2" : "limit", limit, limit - within, limit + within}};
     } else {
       effect.equation =
           fault.id == "data.stuck" ? "y(t) = y(t_0), t_0 < t < t_0 + T" : "no y(t), t_0 < t < t_0 + T";

@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
+constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.08;
 constexpr double kSmallestShare = 0.002;   // of what all effects explain
@@ -104,6 +105,11 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
 
 }  // namespace
 
+double Search::cost_of_an_effect() const {
+  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
+  return -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+}
+
 double Search::criterion(const SetFit& fit) const {
   const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
   return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) -
@@ -130,6 +136,7 @@ void Search::judge(SetFit& result) {
   result.evidence.clear();
   result.judged = true;
   result.needed = true;
+  result.hopeless = false;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
     const auto width = static_cast<Index>(candidate.parameters.size());
@@ -234,6 +241,7 @@ void Search::judge(SetFit& result) {
         evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
         evidence.gain < least_share * explained)
       result.needed = false;
+    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * kSmallestOfTypical) result.hopeless = true;
   }
 }
 
@@ -247,8 +255,10 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
   result.set = set;
   result.rough = true;
   result.fit = fit_at(start, kRough);
-  // A second start where the first got nowhere near what its linear approximation promised.
-  if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain) {
+  // A second start where the first got nowhere near what its linear approximation promised, if that would
+  // pay.
+  if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain &&
+      added.gain > cost_of_an_effect() * dispersion_) {
     const auto& parameters = problem_->candidates[added.candidate].parameters;
     for (const double factor : {0.3, 1.0, -1.0}) {
       if (factor < 0.0 && !parameters[0].either_sign) continue;
@@ -267,11 +277,8 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
         problem_->candidates[added.candidate].parameters[0].low,
         problem_->candidates[added.candidate].parameters[0].high);
     start.hypothesis.values.back() = values;
-    Fit again = fit_at(start);
-    if (again.deviance < result.fit.deviance) {
-      result.fit = std::move(again);
-      result.rough = false;
-    }
+    Fit again = fit_at(start, kRough);
+    if (again.deviance < result.fit.deviance) result.fit = std::move(again);
   }
   return sets_[set] = std::move(result);
 }
@@ -296,12 +303,14 @@ const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_
 
 Fit Search::fit_at(const Point& start, FitOptions options) const {
   options.columns = columns_for(start.hypothesis.candidates);
+  options.tolerance *= dispersion_;  // a gain counts by what it is between trials
   return fit_from(*problem_, start, options);
 }
 
 void Search::finish(SetFit& fit) const {
-  if (fit.rough) fit.fit = fit_at(Point(fit.fit.point));
-  fit.rough = false;
+  if (!fit.rough) return;
+  fit.fit = fit_at(Point(fit.fit.point));
+  fit.rough = fit.judged = false;
 }
 
 // What competes with the best must not lose only because it was fitted roughly and stopped short of what it
@@ -321,8 +330,12 @@ void Search::choose_best() {
   std::sort(order.begin(), order.end(),
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
   const auto needed = [&](SetFit& fit) {
-    finish(fit);
     if (!fit.judged) judge(fit);
+    // A rough fit that is far from needing its effects is not worth a better one.
+    if (fit.rough && !fit.hopeless) {
+      finish(fit);
+      judge(fit);
+    }
     return fit.needed && (fit.fit.status != FitStatus::failed || fit.set.empty());
   };
   for (auto* fit : order)
@@ -418,8 +431,7 @@ void Search::restart_null() {
 // Sets that a linear approximation at the best point puts first. True when one was new.
 bool Search::try_proposals() {
   const Point from = best().fit.point;
-  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
-  const double cost = -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+  const double cost = cost_of_an_effect();
   const double explained = null().fit.deviance - best().fit.deviance;
   const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
                        kWorthAFit + kLinearError * explained;
@@ -464,7 +476,8 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     SetFit fit;
     fit.set = seed.hypothesis.candidates;
     std::sort(fit.set.begin(), fit.set.end());
-    fit.fit = fit_at(seed);
+    fit.rough = true;
+    fit.fit = fit_at(seed, kRough);
     sets_[fit.set] = std::move(fit);
   }
   std::vector<std::vector<std::size_t>> front{{}};

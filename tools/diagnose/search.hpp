@@ -26,7 +26,8 @@ struct SetFit {
   double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
   bool rough = false;       // only tried: finished before it is judged
   bool judged = false;
-  bool needed = false;  // every effect stands on its own; known once judged
+  bool needed = false;    // every effect stands on its own; known once judged
+  bool hopeless = false;  // an effect is far from that
 };
 
 struct SearchOptions {
@@ -62,6 +63,7 @@ class Search {
   double dispersion() const { return dispersion_; }
 
  private:
+  double cost_of_an_effect() const;  // of the criterion, with one parameter
   const SetFit& evaluate(const SetFit& from, const Screened& added);
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/hopper_balance.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
 #include "tools/diagnose/plants/hopper_runs.hpp"
@@ -487,6 +488,11 @@ class Hopper final : public PlantModel {
     s["angle_rad"] = high > low ? high - low : 1.0;
     s["speed_radps"] = 10.0;
     s["duration_s"] = duration;
+  }
+
+  std::vector<Balance> balances(const Trial& trial, const Belief& belief) const override {
+    if (!trial.kind.empty() && trial.kind != "hop") return {};
+    return balances_of(trial, with_payload(belief, trial));
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

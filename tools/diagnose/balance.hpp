@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "tools/diagnose/open_world.hpp"
+
+namespace sandhopper::diagnose {
+
+// Laws of free form of one variable at one port, fitted to the balances of all trials (each weighed by its
+// own variance, a constant of each trial free for the sensors' offsets, what is known taken out) and judged
+// on trials left out; `held_out` is the share of a trial's variance that the other trials' law explains. The
+// clearest first.
+std::vector<FreeGain> laws_of_balances(const Problem& problem, const std::vector<Balance>& balances);
+
+}  // namespace sandhopper::diagnose
