@@ -22,7 +22,7 @@ std::vector<Effect> known_effects() {
 
 std::string port_of(const Candidate& candidate) {
   if (!candidate.channel.empty()) return candidate.channel;
-  if (candidate.effect->port != "sensor") return candidate.effect->port;
+  if (candidate.effect->port != "sensor") return candidate.port;
   return candidate.effect->id.substr(0, candidate.effect->id.find('.'));
 }
 
@@ -33,7 +33,9 @@ std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const 
     const auto channels = effect.channels ? effect.channels(context) : std::vector<std::string>{""};
     for (const auto& channel : channels)
       if (auto parameters = effect.parameters(context, channel); !parameters.empty())
-        found.push_back({&effect, channel, std::move(parameters)});
+        found.push_back(
+            {&effect, channel, std::move(parameters),
+             effect.port == "joint" && context.plant == PlantKind::rotary_axis ? "axis" : effect.port});
   }
   return found;
 }

@@ -76,6 +76,7 @@ struct Candidate {
   const Effect* effect = nullptr;
   std::string channel;
   std::vector<EffectParameter> parameters;
+  std::string port{};  // the effect's; a rotary axis' only joint is the axis
 
   // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
   // of time or reading by its tangent, or the steep edges of a signal hide it behind its own curvature.

@@ -28,15 +28,16 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "joint.cogging",
-                                  .port = "axis",
+                                  .port = "joint",
                                   .statement = "Torque ripples with the angle of the motor (cogging).",
                                   .equation = "tau += A sin(h theta) + B cos(h theta)",
-                                  .plants = {PlantKind::rotary_axis},
+                                  .plants = {PlantKind::rotary_axis, PlantKind::hopper},
                                   .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
+                                  .apply = [](const Context& c, const std::string&, std::span<const double> v,
                                               Edits& edits) {
                                     const double a = v[0], b = v[1], h = v[2];
-                                    edits.law("axis", [=](const PortState& s) {
+                                    const char* port = c.plant == PlantKind::hopper ? "joint" : "axis";
+                                    edits.law(port, [=](const PortState& s) {
                                       return a * std::sin(h * s.position) + b * std::cos(h * s.position);
                                     });
                                   }});

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
 #include "tools/diagnose/plants/hopper_runs.hpp"
+#include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/standing_leg.hpp"
 
 namespace sandhopper::diagnose {
@@ -433,6 +435,22 @@ double largest_of(const Trial& trial, const std::string& channel) {
   return largest;
 }
 
+// Orders of the ripple over the angle that the joint's balance shows, friction and drive taken out.
+std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
+  constexpr int kFirst = 12, kLast = 300;
+  std::vector<double> angles, torques;
+  for (const auto& trial : trials)
+    for (const auto& balance : balances_of(trial, with_payload(belief, trial)))
+      if (balance.port == "joint") {
+        const auto rest = rest_without_known(balance);
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+          angles.push_back(balance.states[i].position);
+          torques.push_back(rest[i]);
+        }
+      }
+  return strongest_orders(angles, torques, kFirst, kLast);
+}
+
 class Hopper final : public PlantModel {
  public:
   std::vector<std::string> channels() const override {
@@ -486,6 +504,7 @@ class Hopper final : public PlantModel {
     s["force_N"] = force > 0.0 ? force : 60.0;
     s["torque_Nm"] = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
     s["angle_rad"] = high > low ? high - low : 1.0;
+    tell_ripple_orders(ripple_orders(trials, context.belief), context);
     s["speed_radps"] = 10.0;
     s["duration_s"] = duration;
   }

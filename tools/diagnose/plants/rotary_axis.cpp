@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/ripple.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -230,7 +231,7 @@ class RotaryTrial final : public TrialModel {
 };
 
 // Orders of the ripple over the angle that the torque needed for the recorded motion shows besides the
-// believed one, the strongest first: local maxima of |sum r exp(-i n theta)|^2 / count.
+// believed one.
 std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr int kFirst = 3, kLast = 250;
   constexpr std::size_t kMostSamples = 800;  // of a trial
@@ -268,23 +269,7 @@ std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief
     }
   }
   if (torques.size() < 100) return {};
-  std::vector<double> power;
-  for (int n = kFirst; n <= kLast; ++n) {
-    double re = 0.0, im = 0.0;
-    for (std::size_t i = 0; i < torques.size(); ++i) {
-      re += torques[i] * std::cos(n * angles[i]);
-      im += torques[i] * std::sin(n * angles[i]);
-    }
-    power.push_back(re * re + im * im);
-  }
-  std::vector<std::size_t> peaks;
-  for (std::size_t k = 1; k + 1 < power.size(); ++k)
-    if (power[k] >= power[k - 1] && power[k] > power[k + 1]) peaks.push_back(k);
-  std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
-  std::vector<double> orders;
-  for (std::size_t k = 0; k < peaks.size() && k < 3; ++k)
-    orders.push_back(kFirst + static_cast<double>(peaks[k]));
-  return orders;
+  return strongest_orders(angles, torques, kFirst, kLast);
 }
 
 class RotaryAxis final : public PlantModel {
@@ -339,9 +324,7 @@ class RotaryAxis final : public PlantModel {
     }
     context.scales["moves"] =
         swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02) ? 1.0 : 0.0;
-    const auto orders = ripple_orders(trials, context.belief);
-    for (std::size_t i = 0; i < orders.size(); ++i)
-      context.scales["ripple_order_" + std::to_string(i + 1)] = orders[i];
+    tell_ripple_orders(ripple_orders(trials, context.belief), context);
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

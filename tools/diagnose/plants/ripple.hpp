@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "tools/diagnose/context.hpp"
+
+namespace sandhopper::diagnose {
+
+// Orders of a ripple of `torques` over `angles`, the strongest first: local maxima over n of
+// |sum r exp(-i n theta)|^2.
+std::vector<double> strongest_orders(const std::vector<double>& angles, const std::vector<double>& torques,
+                                     int first, int last);
+
+// For joint.cogging, which starts there.
+void tell_ripple_orders(const std::vector<double>& orders, Context& context);
+
+}  // namespace sandhopper::diagnose
