@@ -147,6 +147,21 @@ TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
               0.02 * static_cast<double>(lost) / recorded_s);
 }
 
+// An accelerometer in free fall reads nothing but its noise, which does not give the same value six times.
+TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials) {
+    auto& accel = trial.channels["accel_mps2"];
+    for (double& a : accel) a = 1e-3 * std::round(1e3 * a);
+    for (std::size_t i = 30; i + 6 < accel.size(); i += 45)
+      for (std::size_t k = 0; k < 6; ++k) accel[i + k] = 0.0;
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+  EXPECT_EQ(d.effects.front().channel, "accel_mps2");
+}
+
 TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (std::size_t t = 0; t < recordings.trials.size(); t += 2) {

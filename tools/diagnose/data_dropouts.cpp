@@ -15,6 +15,8 @@ constexpr double kOften = 3.0;     // lost stretches per trial that are more tha
 constexpr double kMostTrials = 0.75;
 constexpr double kShareLost = 0.004;
 constexpr std::size_t kEnough = 3;
+constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
+constexpr double kByChance = 0.001;  // stretches in a whole campaign
 constexpr double kSeldom = 0.3;  // of the neighbours: a channel that shows the code more often rests there
 
 // Zero, and an end of the range that stands apart from all other values.
@@ -84,16 +86,25 @@ bool rests_there(const std::vector<double>& v, const Stretch& s, double code) {
   return count == 0.0 || at_code > kSeldom * count;
 }
 
-// The stretches of one channel that fall out. Those where the quantity is far from the code prove the fault
-// and show how long one lasts; stretches as long are lost, too, where the quantity is near the code or
-// changes.
+// The stretches of one channel that fall out. Those where the quantity is far from the code, or that last
+// longer than chance makes them, prove the fault and show how long one lasts; stretches as long are lost,
+// too, where the quantity is near the code or changes.
 std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code) {
-  const double noise = own_noise(channel);
+  const double noise = own_noise(channel), grid = value_grid(channel);
+  double samples = 0.0;
+  for (const auto& s : channel) samples += static_cast<double>(s.value.size());
+  // A quantity near the code meets it by chance, but not again and again: noise spreads over many steps of
+  // the grid.
+  const double by_chance = noise > 0.0 ? std::min(1.0, grid / (kGauss * noise)) : 1.0;
+  const auto lasts = [&](const std::vector<double>& v, const Stretch& s) {
+    return samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
+           !rests_there(v, s, code);
+  };
   std::vector<std::vector<Stretch>> lost(channel.size());
   std::size_t proven = 0, shortest = std::numeric_limits<std::size_t>::max(), longest = 0;
   for (const auto& s : channel)
     for (const auto& stretch : stretches_at(s.value, code))
-      if (falls_out(s.value, stretch.first, stretch.last, code, noise)) {
+      if (falls_out(s.value, stretch.first, stretch.last, code, noise) || lasts(s.value, stretch)) {
         ++proven;
         shortest = std::min(shortest, stretch.samples());
         longest = std::max(longest, stretch.samples());
@@ -104,7 +115,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
       const auto& v = channel[c].value;
       const bool at_the_edge = stretch.first == 0 || stretch.last + 1 == v.size();
       const bool as_long = stretch.samples() <= longest && (at_the_edge || 2 * stretch.samples() >= shortest);
-      if (falls_out(v, stretch.first, stretch.last, code, noise) ||
+      if (falls_out(v, stretch.first, stretch.last, code, noise) || lasts(v, stretch) ||
           (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code)))
         lost[c].push_back(stretch);
     }
