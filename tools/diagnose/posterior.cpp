@@ -9,22 +9,24 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kRemainderScale = 10.0;  // of remainder that halves every difference
-constexpr double kShareOfExplained =
-    2e-4;                             // a difference this small may come from the simulation's own errors
-constexpr double kLeastShare = 0.05;  // of the likeliest: below, an alternative is no member of the class
+// Of what is explained, a difference this small may come from the simulation's own errors, or from laws whose
+// true form is another one.
+constexpr double kShareOfExplained = 2e-4;
+constexpr double kShareOfForm = 0.02;  // of the plant's form error
+constexpr double kLeastShare = 0.05;   // of the likeliest: below, an alternative is no member of the class
 
 }  // namespace
 
 Posterior posterior(const Problem& problem, const Search& search, double remainder) {
-  (void)problem;
   Posterior out;
+  const double differs = std::max(kShareOfExplained, kShareOfForm * problem.plant->form_error());
   const SetFit& best = search.best();
   const double best_score = search.criterion(best);
   const double explained =
       std::max(0.0, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
-  const double temperature = 1.0 + remainder / kRemainderScale + kShareOfExplained * explained;
+  const double temperature = 1.0 + remainder / kRemainderScale + differs * explained;
   out.apart = -2.0 * std::log(kLeastShare) * temperature;
-  out.apart_per_explained = -2.0 * std::log(kLeastShare) * kShareOfExplained;
+  out.apart_per_explained = -2.0 * std::log(kLeastShare) * differs;
   std::map<std::vector<std::size_t>, double> weight;
   double total = 0.0;
   for (const auto& [set, fit] : search.sets()) {
