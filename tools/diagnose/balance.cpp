@@ -112,7 +112,7 @@ std::vector<FreeGain> laws_of_balances(const Problem& problem, const std::vector
       // Rows of one trial are alike: trials, not rows, are what there is of independent ones.
       const double left = std::max(0.0, sum(0, 0) - sum.col(0).tail(kKnots).dot(gain.size));
       gain.sd = (inverse.diagonal() * left / n).cwiseMax(0.0).cwiseSqrt();
-      gains.push_back(std::move(gain));
+      if (std::isfinite(gain.held_out)) gains.push_back(std::move(gain));
     }
   }
   for (auto& gain : gains) gain.p_value = std::min(1.0, gain.p_value * static_cast<double>(gains.size()));

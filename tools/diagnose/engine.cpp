@@ -33,7 +33,6 @@ constexpr std::size_t kSeeds = 14;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
-
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
 
