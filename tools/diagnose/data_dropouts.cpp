@@ -89,7 +89,8 @@ bool rests_there(const std::vector<double>& v, const Stretch& s, double code) {
 // The stretches of one channel that fall out. Those where the quantity is far from the code, or that last
 // longer than chance makes them, prove the fault and show how long one lasts; stretches as long are lost,
 // too, where the quantity is near the code or changes.
-std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code) {
+std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code,
+                                                 bool always_noisy) {
   const double noise = own_noise(channel), grid = value_grid(channel);
   double samples = 0.0;
   for (const auto& s : channel) samples += static_cast<double>(s.value.size());
@@ -97,7 +98,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   // the grid.
   const double by_chance = noise > 0.0 ? std::min(1.0, grid / (kGauss * noise)) : 1.0;
   const auto lasts = [&](const std::vector<double>& v, const Stretch& s) {
-    return samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
+    return always_noisy && samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
            !rests_there(v, s, code);
   };
   std::vector<std::vector<Stretch>> lost(channel.size());
@@ -122,6 +123,12 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   return lost;
 }
 
+// An encoder at rest reads the same again and again, and what was commanded is what it is; what an
+// accelerometer or a load cell reads is never without noise.
+bool always_noisy(const std::string& channel) {
+  return channel.find("accel") != std::string::npos || channel.find("force") != std::string::npos;
+}
+
 }  // namespace
 
 void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
@@ -134,7 +141,7 @@ void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::
     fault.channel = channel;
     fault.id = "data.dropout";
     std::vector<double> lengths;
-    const auto lost = lost_stretches(samples, code);
+    const auto lost = lost_stretches(samples, code, always_noisy(channel));
     for (std::size_t c = 0; c < samples.size(); ++c) {
       const auto& s = samples[c];
       auto& values = s.trial->channels[channel];

@@ -43,11 +43,16 @@ struct Misfit {
 };
 Misfit misfit_of(const Problem& problem, const Search& search) {
   Misfit m;
-  for (const auto& trial : problem.trials) m.rows += static_cast<double>(trial->rows.size());
+  std::size_t left_far = 0;  // trials that are: one that went astray alone is no physics that is missing
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const double rows = static_cast<double>(problem.trials[t]->rows.size());
+    m.rows += rows;
+    left_far += search.best().fit.trial_deviance[t] - rows > kMisfitPerRow * rows;
+  }
   m.unexplained = search.best().fit.deviance - m.rows;
   m.explained = search.null().fit.deviance - search.best().fit.deviance;
-  m.large = problem.trials.size() >= kTooFewTrials && m.unexplained > kMisfitPerRow * m.rows &&
-            m.unexplained > kMisfitOfExplained * m.explained;
+  m.large = problem.trials.size() >= kTooFewTrials && 2 * left_far >= problem.trials.size() &&
+            m.unexplained > kMisfitPerRow * m.rows && m.unexplained > kMisfitOfExplained * m.explained;
   return m;
 }
 
