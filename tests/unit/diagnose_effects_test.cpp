@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnose_campaigns.hpp"
+#include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/screen.hpp"
@@ -160,6 +161,19 @@ TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "data.dropout");
   EXPECT_EQ(d.effects.front().channel, "accel_mps2");
+}
+
+// A speed counted from an encoder is zero, exactly, for as long as no count comes.
+TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
+  auto recordings = swings([](double, double, double) { return 0.0; });
+  std::vector<Trial> trials = recordings.trials;
+  for (auto& trial : trials) {
+    auto& velocity = trial.channels["velocity_radps"];
+    for (double& v : velocity) v = 1e-3 * std::round(1e3 * v);
+    for (std::size_t i = 20; i + 5 < velocity.size(); i += 15)
+      for (std::size_t k = 0; k < 5; ++k) velocity[i + k] *= std::abs(velocity[i]) < 0.15 ? 0.0 : 1.0;
+  }
+  for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout") << fault.channel;
 }
 
 TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
