@@ -3,23 +3,17 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "config/dump.hpp"
 #include "config/files.hpp"
 #include "tools/trial/child_process.hpp"
+#include "tools/trial/text_file.hpp"
 #include "tools/virtual_bench/control_client.hpp"
 
 namespace sandhopper {
 namespace {
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw std::runtime_error("cannot write " + path.string());
-}
 
 template <NamedEnum E>
 E enum_named(const std::string& name) {
@@ -31,7 +25,7 @@ E enum_named(const std::string& name) {
 // The robot as this trial has it, beside the log, so that hopperd reads what was asked for.
 std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   auto path = std::filesystem::path(setup.log).replace_extension(".robot.toml");
-  write_file(path, to_toml(setup.robot));
+  write_text(path, to_toml(setup.robot));
   return path;
 }
 
@@ -117,7 +111,7 @@ std::vector<std::string> daemon_command(const LinuxTrialSetup& setup) {
                                    setup.log.string()};
   if (setup.sheet) {
     const auto sheet = std::filesystem::path(setup.log).replace_extension(".sheet.toml");
-    write_file(sheet, to_toml(*setup.sheet));
+    write_text(sheet, to_toml(*setup.sheet));
     command.insert(command.end(), {"--sheet", sheet.string()});
   }
   return command;

@@ -2,22 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <stdexcept>
 
 #include "config/dump.hpp"
 #include "tools/plant/world_config.hpp"
+#include "tools/trial/text_file.hpp"
 
 namespace sandhopper {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
-}
 
 std::string line(std::string_view key, const std::string& text) {
   return to_toml_line(key, detail::text_node(text)) + "\n";
@@ -65,8 +59,8 @@ void write_series_campaign(const fs::path& folder, const RobotConfig& robot,
       line("name", fmt::format("{}, {}", trials.front().sheet.bed, folder.filename().string())) +
       line("plant", std::string("hopper")) + line("model", std::string("nominal.toml"));
   for (const auto& trial : trials) campaign += trial_table(robot, trial);
-  write(folder / "nominal.toml", nominal(robot));
-  write(folder / "campaign.toml", campaign);
+  write_text(folder / "nominal.toml", nominal(robot));
+  write_text(folder / "campaign.toml", campaign);
 }
 
 }  // namespace sandhopper
