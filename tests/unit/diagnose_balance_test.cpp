@@ -61,8 +61,7 @@ std::vector<FreeGain> laws_with(const Edits& edits) {
 double peak_at(const FreeGain& gain) {
   Eigen::Index largest = 0;
   gain.size.cwiseAbs().maxCoeff(&largest);
-  return gain.family.low + (gain.family.high - gain.family.low) * static_cast<double>(largest) /
-                               static_cast<double>(gain.size.size() - 1);
+  return gain.family.knots[static_cast<std::size_t>(largest)];
 }
 
 TEST(DiagnoseBalance, ATorqueThatHoldsTheLegAtAnAngleShowsAtTheJointAndThere) {

@@ -93,10 +93,12 @@ inline Recordings swings(const AxisTorque& unknown_Nm, std::uint64_t seed = 1, s
 }
 
 using BedForce = std::function<double(double depth_m, double speed_mps)>;
+using BedMemory = std::function<double(double since_touch_s)>;  // added to the quasi-static force, relative
 
 // A plate pressed 30 mm into a bed of 1500 N/m and drawn out again at several speeds, recorded at 500 Hz; the
 // set-ups differ in how often the bed was pushed, how long it waited and how deep it is.
-inline Recordings presses(const BedForce& unknown_N, std::uint64_t seed = 1, std::size_t trials = 6) {
+inline Recordings presses(const BedForce& unknown_N, std::uint64_t seed = 1, std::size_t trials = 6,
+                          const BedMemory& memory = {}) {
   constexpr double kStiffness_N_per_m = 1500.0, kUnloadingRatio = 30.0, kDeepest_m = 0.03, kAbove_m = 0.005;
   Recordings r;
   r.plant = PlantKind::intruder;
@@ -121,13 +123,15 @@ inline Recordings presses(const BedForce& unknown_N, std::uint64_t seed = 1, std
     const double speed = 0.05 * std::pow(2.0, static_cast<double>(i % 4));
     const double half = 0.5 * (kDeepest_m + kAbove_m), rate = speed / half;
     const double zero_N = 0.02 * random.normal(), surface_m = 1e-4 * random.normal();
-    double deepest_m = 0.0, deepest_N = 0.0;
+    double deepest_m = 0.0, deepest_N = 0.0, touched_s = -1.0;
     for (double t = 0.0; t < 2.0 * M_PI / rate; t += 2e-3) {
       const double z = half - kAbove_m - half * std::cos(rate * t), v = half * rate * std::sin(rate * t);
       const double depth_m = z + surface_m;
       double force_N = 0.0;
       if (depth_m > deepest_m) {
+        if (touched_s < 0.0) touched_s = t;
         force_N = kStiffness_N_per_m * depth_m + unknown_N(depth_m, v);
+        if (memory) force_N += kStiffness_N_per_m * depth_m * memory(t - touched_s);
         deepest_m = depth_m;
         deepest_N = kStiffness_N_per_m * depth_m;
       } else if (depth_m > 0.0) {

@@ -8,6 +8,7 @@
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/proposals.hpp"
 #include "tools/diagnose/screen.hpp"
 
 // What holds for every effect that a plant can have, whichever they are.
@@ -128,6 +129,27 @@ TEST(DiagnoseDataFaults, SamplesThatFallToZeroAreADropoutAndNoPhysics) {
   EXPECT_EQ(fault->channel, "accel_mps2");
   EXPECT_LE(fault->parameters.front().low, 0.015);
   EXPECT_GE(fault->parameters.front().high, 0.015);
+}
+
+// What cannot be told from an effect of the best set is found by putting it in that effect's place, there.
+TEST(DiagnoseSearch, ProposalsHoldTheBestSetWithOneEffectExchanged) {
+  const auto recordings = presses([](double, double speed) { return 8.0 * std::max(0.0, speed); }, 2, 6);
+  const Prepared prepared = prepare(recordings);
+  const Problem& problem = prepared.problem;
+  const auto index = [&](const std::string& id) {
+    for (std::size_t c = 0; c < problem.candidates.size(); ++c)
+      if (problem.candidates[c].effect->id == id) return c;
+    throw std::runtime_error("no candidate " + id);
+  };
+  const auto viscous = index("terrain.viscous"), quadratic = index("terrain.quadratic_drag");
+  Point start = null_point(problem);
+  start.hypothesis.candidates = {viscous};
+  start.hypothesis.values = {values_of(problem.candidates[viscous], 1.0)};
+  const Fit fit = fit_from(problem, start);
+  const auto proposals = propose(problem, fit.point, 2, 6, 10.0);
+  EXPECT_TRUE(std::ranges::any_of(proposals, [&](const Proposal& p) {
+    return p.start.candidates == std::vector<std::size_t>{quadratic};
+  }));
 }
 
 // Where the quantity itself is near zero nothing falls; that the sensor fell out elsewhere for as long tells.

@@ -101,6 +101,16 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
 }
 
+TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
+  // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
+  const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
+                                  [](double since_s) { return -0.5 * std::exp(-since_s / 0.05); }));
+  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_NE(effect(d, "unknown@ground"), nullptr);
+  ASSERT_FALSE(d.unknown.empty());
+  EXPECT_EQ(d.unknown.front().curve.variable, "time since touchdown, s, times the quasi-static force");
+}
+
 TEST(Diagnose, NamesAStuckSensorAndIsNotMisledByIt) {
   auto recordings = drops(no_force);
   for (auto& trial : recordings.trials) {

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/plants/bed_grains.hpp"
+#include "tools/diagnose/screen.hpp"
 #include "tools/diagnose/signal.hpp"
 #include "tools/diagnose/statistics.hpp"
 
@@ -27,6 +31,46 @@ TEST(DiagnoseStatistics, TrialsThatDisagreeAreNoEvidence) {
 TEST(DiagnoseStatistics, SignFlipsCannotSayMoreThanTheNumberOfTrialsAllows) {
   const std::vector<TrialEvidence> all{{{5, 5, 5, 5}, {1, 1, 1, 1}}};
   EXPECT_DOUBLE_EQ(sign_flip_p_value(all, 0, 1), 1.0 / 8.0);
+}
+
+TEST(DiagnoseStatistics, EffectiveTrialsAreThoseThatCarryTheInformation) {
+  EXPECT_DOUBLE_EQ((TrialEvidence{{1, 1, 1, 1}, {2, 2, 2, 2}}.effective_trials()), 4.0);
+  EXPECT_NEAR((TrialEvidence{{1, 1, 1, 1}, {100, 1e-3, 1e-3, 1e-3}}.effective_trials()), 1.0, 1e-3);
+}
+
+// Products of residual and one column, information h and score u, of a trial.
+Eigen::MatrixXd gram_of(double u, double h) { return Eigen::MatrixXd{{1e3, u}, {u, h}}; }
+
+TEST(DiagnoseStatistics, WhatOtherTrialsSayNothingOfIsNotPredicted) {
+  const Eigen::MatrixXd prior = Eigen::MatrixXd::Constant(1, 1, 0.25);
+  // One trial alone knows the size, the others hardly: their guess must not be held against it.
+  const auto alone =
+      held_out_gain({gram_of(1e4, 1e4), gram_of(-0.03, 1e-3), gram_of(-0.03, 1e-3)}, {1}, prior);
+  EXPECT_NEAR(alone.of_trial[0], 0.0, 100.0);  // at full size it would cost 5,300
+  // Three that agree predict each other.
+  const auto agree = held_out_gain({gram_of(90, 100), gram_of(100, 100), gram_of(110, 100)}, {1}, prior);
+  for (const double gain : agree.of_trial) EXPECT_GT(gain, 70.0);
+}
+
+TEST(DiagnosePlants, GrainsMakeOfAWholePressWhatTheirCorrelationSays) {
+  // Variance of the mean over a depth D of an exponentially correlated fluctuation: about 2 L / D of its own.
+  constexpr double kLength_m = 0.002, kDepth_m = 0.04, kRelative = 0.02;
+  const BedGrains grains(kRelative, kLength_m, kDepth_m, kLength_m, 40);
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal(0.0, grains.sd());
+  double squares = 0.0;
+  constexpr int kDraws = 4000;
+  for (int i = 0; i < kDraws; ++i) {
+    std::vector<double> nuisances(grains.count());
+    for (double& n : nuisances) n = normal(generator);
+    const auto fluctuation = grains.fluctuation(nuisances);
+    double mean = 0.0;
+    constexpr int kSteps = 400;
+    for (int k = 0; k < kSteps; ++k) mean += (fluctuation.factor(kDepth_m * k / kSteps) - 1.0) / kSteps;
+    squares += mean * mean / kDraws;
+  }
+  EXPECT_NEAR(squares / (kRelative * kRelative), 2.0 * kLength_m / kDepth_m,
+              0.25 * 2.0 * kLength_m / kDepth_m);
 }
 
 TEST(DiagnoseSignal, ADelayOfAFractionOfAStepIsThatDelay) {

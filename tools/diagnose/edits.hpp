@@ -26,6 +26,7 @@ struct PortState {
   double pushes = 0.0;
   double wait_s = 0.0;
   double bed_depth_m = 0.0;
+  double since_touch_s = 0.0;
 };
 using Law = std::function<double(const PortState&)>;
 

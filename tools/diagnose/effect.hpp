@@ -39,6 +39,11 @@ struct EffectParameter {
   }
 };
 
+// Whether zero switches it, or its part of the effect, off; the others are shapes.
+inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::size_t index) {
+  return index == 0 || parameters[index].amplitude;
+}
+
 // A piece of physics, or a fault of a sensor, that a simulation may lack.
 //
 // One file in effects/ each, which registers it; its test says that it acts and is found when alone.

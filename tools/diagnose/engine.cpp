@@ -1,6 +1,7 @@
 #include "tools/diagnose/engine.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -28,8 +29,10 @@ constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left
 constexpr double kMisfitPerRow = 0.5;   // of a deviance of 1 a row, that of the noise
 constexpr double kMisfitOfExplained = 0.1;
 constexpr double kMisfitSignificance = 0.05;
+constexpr double kOutdone = 1.3;
 constexpr double kDoubtBesideUnknown = 0.3;  // none of 7 such names was right on seed 5600
 constexpr std::size_t kSeeds = 14;
+constexpr std::size_t kSetsTold = 20;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
@@ -38,21 +41,23 @@ constexpr double kBalanceSignificance = 0.01;
 
 // How much the best set leaves beyond the noise.
 struct Misfit {
-  double rows = 0.0, unexplained = 0.0, explained = 0.0;
+  double unexplained = 0.0, explained = 0.0;
   bool large = false;
 };
 Misfit misfit_of(const Problem& problem, const Search& search) {
   Misfit m;
-  std::size_t left_far = 0;  // trials that are: one that went astray alone is no physics that is missing
+  // Trials that are left far: a few whose simulations went astray are no physics that is missing.
+  std::size_t left_far = 0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const double rows = static_cast<double>(problem.trials[t]->rows.size());
-    m.rows += rows;
     left_far += search.best().fit.trial_deviance[t] - rows > kMisfitPerRow * rows;
   }
-  m.unexplained = search.best().fit.deviance - m.rows;
+  m.unexplained = search.best().fit.deviance - problem.rows();
   m.explained = search.null().fit.deviance - search.best().fit.deviance;
-  m.large = problem.trials.size() >= kTooFewTrials && 2 * left_far >= problem.trials.size() &&
-            m.unexplained > kMisfitPerRow * m.rows && m.unexplained > kMisfitOfExplained * m.explained;
+  const std::size_t enough = problem.plant->motion_is_prescribed() ? 2 : (problem.trials.size() + 1) / 2;
+  m.large = problem.trials.size() >= kTooFewTrials && left_far >= enough &&
+            m.unexplained > kMisfitPerRow * problem.rows() &&
+            m.unexplained > kMisfitOfExplained * m.explained;
   return m;
 }
 
@@ -82,16 +87,19 @@ void log_sets(const Problem& problem, const Search& search, Diagnosis& diagnosis
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
   std::sort(fits.begin(), fits.end(),
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
-  for (std::size_t i = 0; i < fits.size() && i < 14; ++i) {
+  for (std::size_t i = 0; i < fits.size() && i < kSetsTold; ++i) {
     const auto& f = *fits[i];
     std::string evidence;
+    const auto& h = f.fit.point.hypothesis;
+    for (std::size_t e = 0; e < h.candidates.size(); ++e)
+      evidence += fmt::format(" [{:.4g}]", fmt::join(h.values[e], ", "));
     for (const auto& e : f.evidence)
       evidence += fmt::format(" ({}: {:.3g} typical, p {:.1e}, flip {:.3f}, gain {:.1f}{})",
                               problem.candidates[e.candidate].label(), e.typicals, e.p_value, e.flip_p_value,
                               e.gain, e.at_bound ? ", at bound" : "");
-    diagnosis.log.push_back(fmt::format("deviance {:.1f} dispersion {:.2f} {} {}{}", f.fit.deviance,
-                                        f.dispersion, f.needed ? "needed" : "-", set_text(problem, f.set),
-                                        evidence));
+    diagnosis.log.push_back(fmt::format("deviance {:.1f} dispersion {:.2f} {}{} {}{}", f.fit.deviance,
+                                        f.dispersion, f.rough ? "~" : "", f.needed ? "needed" : "-",
+                                        set_text(problem, f.set), evidence));
   }
 }
 
@@ -154,7 +162,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const SetFit& best = search.best();
   const auto gains = free_gains(problem, best.fit.point);
   const Misfit misfit = misfit_of(problem, search);
-  const double explained = misfit.explained, rows = misfit.rows;
+  const double explained = misfit.explained, rows = problem.rows();
   const FreeGain* rest = nullptr;
   const double form = problem.plant->form_error();
   const double least_gain =
@@ -182,13 +190,26 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (misfit.large && rest == nullptr) {
     alone = free_gains(problem, search.null().fit.point);
     for (const auto& gain : alone)
-      if (rest == nullptr && gain.held_out > least_gain && gain.p_value < kMisfitSignificance) rest = &gain;
+      if (rest == nullptr && gain.held_out > least_gain &&
+          (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed()))
+        rest = &gain;
+  }
+  // Where a law of free form says more of trials it has not seen than the best names of those they were
+  // fitted to, the names are not it.
+  bool outdone = false;
+  if (!best.set.empty() && rest == nullptr && problem.context.plant != PlantKind::hopper) {
+    alone = free_gains(problem, search.null().fit.point);
+    for (const auto& gain : alone)
+      if (rest == nullptr && gain.held_out > kOutdone * explained + least_gain &&
+          gain.p_value < kMisfitSignificance && gain.trials_better >= 0.75)
+        rest = &gain;
+    outdone = rest != nullptr;
   }
   const auto share_of = [&](const FreeGain* gain) {
     return gain == nullptr ? 0.0 : gain->held_out / (gain->held_out + std::max(explained, 0.0));
   };
   // What lies within the noise and is little beside what was found is nothing unknown.
-  if (best.fit.deviance < rows && share_of(rest) <= kUnknownShare) rest = nullptr;
+  if (!outdone && best.fit.deviance < rows && share_of(rest) <= kUnknownShare) rest = nullptr;
   const double remainder = rest ? rest->held_out : 0.0;
   const double share = share_of(rest);
   diagnosis.log.push_back(fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %), {} rows", explained,

@@ -29,7 +29,7 @@ double prior_deviance(const Problem& problem, const Point& point) {
     const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
       // Only shapes need holding: an amplitude is what is asked for.
-      const bool amplitude = j == 0 || parameters[j].amplitude;
+      const bool amplitude = is_amplitude(parameters, j);
       const double centre = amplitude ? 0.0 : parameters[j].typical;
       const double sd = amplitude ? kPriorTypicals * parameters[j].typical : parameters[j].typical;
       sum += std::pow((point.hypothesis.values[i][j] - centre) / sd, 2);
@@ -45,7 +45,7 @@ void add_priors(const Problem& problem, const Point& point, MatrixXd& informatio
   for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
     const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
-      const bool amplitude = j == 0 || parameters[j].amplitude;
+      const bool amplitude = is_amplitude(parameters, j);
       const double centre = amplitude ? 0.0 : parameters[j].typical;
       const double weight = amplitude ? 1.0 / (kPriorTypicals * kPriorTypicals) : 1.0;
       information(at, at) += weight;

@@ -1,9 +1,8 @@
 #include "tools/diagnose/free_laws.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
 
 namespace sandhopper::diagnose {
 namespace {
@@ -29,6 +28,7 @@ double direction_of(const PortState& s) { return std::tanh(s.velocity / 0.02); }
 double virgin(const PortState& s) { return s.accel; }
 double not_virgin(const PortState& s) { return 1.0 - s.accel; }
 double virgin_load(const PortState& s) { return s.accel * s.load / 20.0; }
+double since_touch_of(const PortState& s) { return s.since_touch_s; }
 double virgin_speed(const PortState& s) { return s.accel * s.velocity; }
 
 std::vector<Variable> variables_of(const std::string& port, bool sensor) {
@@ -38,6 +38,7 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
             {"speed_mps", velocity_of, virgin},
             {"speed_mps, times the quasi-static force", velocity_of, virgin_load},
             {"depth_m, times speed", position_of, virgin_speed},
+            {"time since touchdown, s, times the quasi-static force", since_touch_of, virgin_load},
             {"depth_m, unloading", position_of, not_virgin},
             {"t_s", time_of, one, true}};
   if (port == "body")
@@ -60,20 +61,20 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
           {"t_s", time_of, one}};
 }
 
-// Lowest and highest value of each variable that the simulation visits.
-std::vector<std::pair<double, double>> visited(const Problem& problem, const Point& point,
-                                               const std::string& port, bool sensor,
-                                               const std::vector<Variable>& variables) {
-  std::vector<std::pair<double, double>> ranges(
-      variables.size(), {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+// Values that the simulation visits, with the share of its trial that each is.
+struct Visited {
+  std::vector<std::pair<double, double>> values;  // value, weight
+};
+std::vector<Visited> visited(const Problem& problem, const Point& point, const std::string& port, bool sensor,
+                             const std::vector<Variable>& variables) {
+  std::vector<Visited> all(variables.size());
+  std::vector<std::vector<double>> trial(variables.size());
   Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
   const Law probe = [&](const PortState& s) {
     for (std::size_t i = 0; i < variables.size(); ++i) {
       if (variables[i].weight(s) == 0.0) continue;
       const double v = variables[i].value(s);
-      if (!std::isfinite(v)) continue;
-      ranges[i].first = std::min(ranges[i].first, v);
-      ranges[i].second = std::max(ranges[i].second, v);
+      if (std::isfinite(v)) trial[i].push_back(v);
     }
     return 0.0;
   };
@@ -83,22 +84,55 @@ std::vector<std::pair<double, double>> visited(const Problem& problem, const Poi
     edits.law(port, probe);
   edits.laws_key = 0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    for (auto& values : trial) values.clear();
     std::vector<double> out(problem.trials[t]->rows.size());
     problem.trials[t]->predict(edits, point.nuisances[t], out);
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      for (const double v : trial[i])
+        all[i].values.emplace_back(v, 1.0 / static_cast<double>(trial[i].size()));
   }
-  return ranges;
+  return all;
 }
 
-FreeFamily family_of(const FreePort& port, const Variable& variable, double low, double high, int knots) {
-  FreeFamily family{port.port, port.sensor, variable.name, port.scale, low, high, {}};
-  const double spacing = (high - low) / (knots - 1);
-  for (int k = 0; k < knots; ++k) {
-    const double knot = low + spacing * k, scale = port.scale;
+std::vector<double> uniform_knots(double low, double high, int count) {
+  std::vector<double> knots;
+  for (int k = 0; k < count; ++k) knots.push_back(low + (high - low) * k / (count - 1));
+  return knots;
+}
+
+// Equal shares between knots, but none closer than a small part of the range.
+std::vector<double> knots_by_share(Visited& visited, int count) {
+  constexpr double kClosest = 2e-3;
+  auto& values = visited.values;
+  std::ranges::sort(values);
+  double total = 0.0;
+  for (const auto& [value, weight] : values) total += weight;
+  const double low = values.front().first, high = values.back().first, apart = kClosest * (high - low);
+  std::vector<double> knots{low};
+  double sum = 0.0;
+  for (const auto& [value, weight] : values) {
+    sum += weight;
+    const double share = static_cast<double>(knots.size()) / (count - 1);
+    if (static_cast<int>(knots.size()) < count - 1 && sum >= share * total)
+      knots.push_back(std::max(value, knots.back() + apart));
+  }
+  knots.push_back(std::max(high, knots.back() + apart));
+  return knots;
+}
+
+FreeFamily family_of(const FreePort& port, const Variable& variable, std::vector<double> knots) {
+  FreeFamily family{port.port, port.sensor, variable.name, port.scale, std::move(knots), {}};
+  const auto count = family.knots.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double knot = family.knots[k], scale = port.scale;
+    const double below = k > 0 ? knot - family.knots[k - 1] : family.knots[1] - knot;
+    const double above = k + 1 < count ? family.knots[k + 1] - knot : below;
     const auto value = variable.value;
     const auto weight = variable.weight;
     family.terms.push_back({port.port, port.sensor,
                             [=](const PortState& s) {
-                              const double u = 1.0 - std::abs(value(s) - knot) / spacing;
+                              const double v = value(s) - knot,
+                                           u = 1.0 - std::abs(v) / (v < 0.0 ? below : above);
                               return u > 0.0 ? scale * u * weight(s) : 0.0;
                             },
                             scale});
@@ -116,14 +150,16 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
   std::vector<FreeFamily> families;
   for (const auto& port : ports) {
     const auto variables = variables_of(port.port, port.sensor);
-    const auto ranges = visited(problem, point, port.port, port.sensor, variables);
+    auto all = visited(problem, point, port.port, port.sensor, variables);
     for (std::size_t v = 0; v < variables.size(); ++v) {
-      const auto [low, high] = ranges[v];
+      if (all[v].values.empty()) continue;
+      const auto knots = knots_by_share(all[v], kKnots);
+      const double low = all[v].values.front().first, high = all[v].values.back().first;
       if (!(high > low)) continue;
       const bool quick = problem.context.plant != PlantKind::hopper;
-      families.push_back(family_of(port, variables[v], low, high, kKnots));
+      families.push_back(family_of(port, variables[v], knots));
       if (variables[v].ripples && quick)
-        families.push_back(family_of(port, variables[v], low, high, kFineKnots));
+        families.push_back(family_of(port, variables[v], uniform_knots(low, high, kFineKnots)));
     }
   }
   return families;
@@ -142,9 +178,19 @@ std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vect
       return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
     };
     if (at(1.0 - kTails) > at(kTails))
-      families.push_back(family_of(port, variable, at(kTails), at(1.0 - kTails), knots));
+      families.push_back(family_of(port, variable, uniform_knots(at(kTails), at(1.0 - kTails), knots)));
   }
   return families;
+}
+
+Eigen::MatrixXd free_law_information(std::size_t knots) {
+  constexpr double kAlike = 2.0;  // knots
+  const auto n = static_cast<Eigen::Index>(knots);
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      covariance(i, j) = std::exp(-std::abs(static_cast<double>(i - j)) / kAlike) / kFreeLawInformation;
+  return covariance.inverse();
 }
 
 Edits with_term(Edits base, const FreeTerm& term, double amplitude) {

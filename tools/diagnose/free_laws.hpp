@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,19 @@ struct FreeFamily {
   bool sensor = false;
   std::string variable;  // what it is a function of, with unit as the plant's coordinates have it
   double scale = 1.0;
-  double low = 0.0, high = 0.0;
-  std::vector<FreeTerm> terms;
+  std::vector<double> knots;    // ascending
+  std::vector<FreeTerm> terms;  // one a knot
 };
 
 inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of the port: prior sd 2
 
-// Families for every port of the plant and for every channel, over the ranges that the trials visit at
-// `point`.
+// Prior information of a law's knots in scales of the port: each with sd 2, neighbours alike (an
+// Ornstein-Uhlenbeck process along the knots).
+Eigen::MatrixXd free_law_information(std::size_t knots);
+
+// Families for every port of the plant and for every channel, over what the trials visit at `point`: between
+// two knots lies an equal share of what they visit, every trial counting alike, so that what happens in
+// milliseconds of a fast trial is resolved beside seconds of a slow one.
 std::vector<FreeFamily> free_families(const Problem& problem, const Point& point);
 
 // Those of one port over the states given, but for the few at the ends of each range.

@@ -55,14 +55,15 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
   const auto grams = eliminated(linear, 1, own, prior);
   std::vector<FreeGain> gains;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const auto held_out = held_out_gain(grams, columns[f], kFreeLawInformation);
+    const MatrixXd prior_of_law = free_law_information(columns[f].size());
+    const auto held_out = held_out_gain(grams, columns[f], prior_of_law);
     FreeGain gain{families[f], held_out.gain, 0.0, 1.0, {}, {}};
     for (const double g : held_out.of_trial)
       gain.trials_better += (g > 0.0 ? 1.0 : 0.0) / static_cast<double>(held_out.of_trial.size());
     gain.p_value =
         std::min(1.0, p_of_gains(held_out.of_trial, kGainSpread) * static_cast<double>(families.size()));
     const auto k = static_cast<Index>(columns[f].size());
-    MatrixXd information = MatrixXd::Identity(k, k) * kFreeLawInformation;
+    MatrixXd information = prior_of_law;
     VectorXd score = VectorXd::Zero(k);
     for (const auto& gram : grams)
       for (Index i = 0; i < k; ++i) {

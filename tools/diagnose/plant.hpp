@@ -102,6 +102,8 @@ class PlantModel {
   // Scales and whatever else the effects ask for.
   virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
   virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
+  // Motion is recorded, not simulated: no trial's simulation can go astray.
+  virtual bool motion_is_prescribed() const { return false; }
   // Of one trial; none where this plant's recordings do not say enough.
   virtual std::vector<Balance> balances(const Trial& /*trial*/, const Belief& /*belief*/) const { return {}; }
   // Trials like the recorded ones and around them; none where planning is not known.

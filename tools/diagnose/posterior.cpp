@@ -23,7 +23,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
   const SetFit& best = search.best();
   const double best_score = search.criterion(best);
   const double explained =
-      std::max(0.0, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
+      with_form_unnoticed(problem, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
   const double temperature = 1.0 + remainder / kRemainderScale + differs * explained;
   out.apart = -2.0 * std::log(kLeastShare) * temperature;
   out.apart_per_explained = -2.0 * std::log(kLeastShare) * differs;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -56,7 +57,19 @@ struct Problem {
     for (const auto& trial : trials) pointers.push_back(trial.get());
     return pointers;
   }
+  double rows() const {
+    double sum = 0.0;
+    for (const auto& trial : trials) sum += static_cast<double>(trial->rows.size());
+    return sum;
+  }
 };
+
+// Of a deviance that is explained, as much as a law of another form may leave unnoticed a part of: a form
+// that is off by more shows in what is left.
+inline double with_form_unnoticed(const Problem& problem, double explained) {
+  constexpr double kPerRow = 10.0;
+  return std::clamp(explained, 0.0, kPerRow * problem.rows());
+}
 
 // A law of free form at a port, as one column of a fit: amplitude times `law`.
 struct FreeTerm {

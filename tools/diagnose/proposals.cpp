@@ -117,7 +117,8 @@ class Weigher {
     return problem_.candidates[option.candidate].parameters[option.parameters[column]];
   }
   bool is_amplitude(const Option& option, std::size_t column) const {
-    return option.parameters[column] == 0 || parameter(option, column).amplitude;
+    return diagnose::is_amplitude(problem_.candidates[option.candidate].parameters,
+                                  option.parameters[column]);
   }
   double in_typicals(const Option& option, std::size_t column) const {
     return option.values[option.parameters[column]] / parameter(option, column).typical;
@@ -142,7 +143,7 @@ class Weigher {
       for (const auto& choice : shape_choices(problem_.candidates[c])) {
         Option option{c, choice, {}, {}, false};
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-          if (i > 0 && !parameters[i].amplitude) continue;
+          if (!diagnose::is_amplitude(parameters, i)) continue;
           Hypothesis with = point.hypothesis;
           auto values = choice;
           const double step =
@@ -171,7 +172,8 @@ std::vector<Proposal> propose(const Problem& problem, const Point& point, std::s
   const Weigher weigher(problem, point);
   const auto& options = weigher.options();
   const auto better = [](const Weighed& a, const Weighed& b) { return a.deviance < b.deviance; };
-  std::vector<Weighed> all, front;
+  std::vector<Weighed> all, front, exchanged;
+  const std::size_t own = point.hypothesis.candidates.size();
   for (std::size_t size = 1; size <= most_effects; ++size) {
     std::vector<Weighed> grown;
     std::set<std::vector<std::size_t>> seen;
@@ -196,6 +198,10 @@ std::vector<Proposal> propose(const Problem& problem, const Point& point, std::s
       for (const auto& set : front) extend(set.options);
     }
     std::sort(grown.begin(), grown.end(), better);
+    for (const auto& set : grown)
+      if (size == own && std::ranges::count_if(set.options, [&](std::size_t o) { return options[o].own; }) ==
+                             static_cast<std::ptrdiff_t>(own) - 1)
+        exchanged.push_back(set);
     front.assign(grown.begin(),
                  grown.begin() + static_cast<std::ptrdiff_t>(std::min(grown.size(), kGrowing)));
     for (auto set : front) {
@@ -207,13 +213,18 @@ std::vector<Proposal> propose(const Problem& problem, const Point& point, std::s
   // One proposal of every set of candidates, whatever its shapes.
   std::vector<Proposal> proposals;
   std::set<std::vector<std::size_t>> told;
-  for (const auto& set : all) {
-    Proposal p{weigher.start(set), set.deviance};
-    auto key = p.start.candidates;
-    std::sort(key.begin(), key.end());
-    if (told.insert(key).second) proposals.push_back(std::move(p));
-    if (proposals.size() == count) break;
-  }
+  const auto tell = [&](const std::vector<Weighed>& sets, std::size_t most, double cost) {
+    const std::size_t before = proposals.size();
+    for (const auto& set : sets) {
+      if (proposals.size() == before + most) break;
+      Proposal p{weigher.start(set), set.deviance + cost};
+      auto key = p.start.candidates;
+      std::sort(key.begin(), key.end());
+      if (told.insert(key).second) proposals.push_back(std::move(p));
+    }
+  };
+  tell(all, count, 0.0);
+  tell(exchanged, count, cost_of_an_effect * static_cast<double>(own));
   return proposals;
 }
 

@@ -13,7 +13,8 @@ struct Proposal {
 
 // All singles and pairs, and what the best of them grow to, weighed in one linear approximation at `point`:
 // its own effects are put back into the residual, so that a set may do without them. Forward search finds no
-// pair of which neither half helps alone; this does. The best first.
+// pair of which neither half helps alone; this does. The best `count` first, then as many that have one of
+// the point's own effects exchanged for another: what cannot be told from it is found there.
 std::vector<Proposal> propose(const Problem& problem, const Point& point, std::size_t most_effects,
                               std::size_t count, double cost_of_an_effect);
 

@@ -34,7 +34,7 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   Index at = 0;
   for (const auto c : point.hypothesis.candidates)
     for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
-      held(at, at) += j == 0 || problem.candidates[c].parameters[j].amplitude ? 0.01 : 1.0;
+      held(at, at) += is_amplitude(problem.candidates[c].parameters, j) ? 0.01 : 1.0;
   for (; at < k; ++at) held(at, at) += 1.0;
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
@@ -113,10 +113,17 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   }
   std::sort(diagnosis.effects.begin(), diagnosis.effects.end(),
             [](const FoundEffect& a, const FoundEffect& b) { return a.heldout_gain > b.heldout_gain; });
+  // Two that nearly cancel explain much one by one and little together.
+  double together = 1.0;
+  if (!best.evidence.empty()) {
+    const auto main = std::ranges::max_element(best.evidence, {}, &EffectEvidence::gain)->candidate;
+    if (const auto alone = search.sets().find({main}); alone != search.sets().end())
+      together = (alone->second.fit.deviance - best.fit.deviance) / explained;
+  }
   for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
     auto& beside = diagnosis.effects[i];
     if (!beside.id.starts_with("unknown@"))
-      beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+      beside.probability = calibrated_beside(beside.probability, std::min(beside.heldout_gain, together));
   }
 }
 

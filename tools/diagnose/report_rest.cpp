@@ -31,8 +31,7 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   for (std::size_t i = 0; i < n; ++i) {
     // A knot that no recording visits keeps its prior: nothing is known there.
     if (gain.sd[static_cast<Eigen::Index>(i)] > 0.8 / std::sqrt(kFreeLawInformation)) continue;
-    unknown.curve.at.push_back(gain.family.low + (gain.family.high - gain.family.low) *
-                                                     static_cast<double>(i) / static_cast<double>(n - 1));
+    unknown.curve.at.push_back(gain.family.knots[i]);
     unknown.curve.value.push_back(gain.size[static_cast<Eigen::Index>(i)] * gain.family.scale);
     unknown.curve.sd.push_back(gain.sd[static_cast<Eigen::Index>(i)] * gain.family.scale);
   }

@@ -39,7 +39,7 @@ std::vector<VectorXd> changes(const Problem& problem, const Point& point, const 
     const auto& parameters = problem.candidates[point.hypothesis.candidates[e]].parameters;
     VectorXd sum = VectorXd::Zero(plain.rows());
     for (std::size_t j = 0; j < parameters.size(); ++j, ++column)
-      if (j == 0 || parameters[j].amplitude)
+      if (is_amplitude(parameters, j))
         sum += plain.col(column) * (point.hypothesis.values[e][j] / parameters[j].typical);
     out.push_back(std::move(sum));
   }

@@ -1,6 +1,7 @@
 #include "tools/diagnose/screen.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +23,12 @@ struct Alternative {
   std::vector<std::size_t> amplitudes;
 };
 
-bool is_amplitude(const EffectParameter& p, std::size_t index) { return index == 0 || p.amplitude; }
-
 }  // namespace
 
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
   std::vector<double> typical;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
-    typical.push_back(is_amplitude(candidate.parameters[i], i) ? 0.0 : candidate.parameters[i].typical);
+    typical.push_back(is_amplitude(candidate.parameters, i) ? 0.0 : candidate.parameters[i].typical);
   std::vector<std::vector<double>> choices{typical};
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     for (const double shape : candidate.parameters[i].shapes) {
@@ -88,7 +87,7 @@ GroupGain group_gain(const std::vector<MatrixXd>& grams, const std::vector<Index
 }
 
 HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Index>& columns,
-                      double prior_information) {
+                      const MatrixXd& prior_information) {
   const auto k = static_cast<Index>(columns.size());
   const auto pick = [&](const MatrixXd& gram, MatrixXd& h, VectorXd& u) {
     for (Index i = 0; i < k; ++i) {
@@ -97,7 +96,8 @@ HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Inde
         h(i, j) = gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
     }
   };
-  MatrixXd all = MatrixXd::Identity(k, k) * prior_information, h(k, k);
+  const VectorXd believed = prior_information.inverse().diagonal();
+  MatrixXd all = prior_information, h(k, k);
   VectorXd score = VectorXd::Zero(k), u(k);
   for (const auto& gram : grams) {
     pick(gram, h, u);
@@ -107,7 +107,9 @@ HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Inde
   HeldOut out;
   for (const auto& gram : grams) {
     pick(gram, h, u);
-    const VectorXd size = (all - h).ldlt().solve(score - u);
+    const MatrixXd covariance = (all - h).ldlt().solve(MatrixXd::Identity(k, k));
+    VectorXd size = covariance * (score - u);
+    for (Index i = 0; i < k; ++i) size[i] *= std::max(0.0, 1.0 - covariance(i, i) / believed[i]);
     out.of_trial.push_back(2.0 * size.dot(u) - size.dot(h * size));
     out.gain += out.of_trial.back();
   }
@@ -126,7 +128,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
       Alternative alternative{c, choice, {}, {}};
       for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
         const auto& parameter = candidate.parameters[i];
-        if (!is_amplitude(parameter, i)) continue;
+        if (!is_amplitude(candidate.parameters, i)) continue;
         Hypothesis with = point.hypothesis;
         auto values = choice;
         const double step = std::min(candidate.probe(), parameter.high / parameter.typical);

@@ -23,13 +23,15 @@ struct GroupGain {
 GroupGain group_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns,
                      double prior_information);
 
-// Sum over trials of the drop of each trial's deviance when the sizes come from the other trials only.
+// Sum over trials of the drop of each trial's deviance when the sizes come from the other trials only, with
+// `prior_information`. A size counts by the share of its prior variance that the others took away: where they
+// say nothing, nothing is predicted.
 struct HeldOut {
   double gain = 0.0;
   std::vector<double> of_trial;
 };
 HeldOut held_out_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns,
-                      double prior_information);
+                      const Eigen::MatrixXd& prior_information);
 
 // Parameters of a candidate with its amplitudes off: shapes as typical, and once more for every value of the
 // shape that has a list of them.

@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
+constexpr double kTrialsToFlip = 6.0;   // that carry the information: 64 flips
+constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.08;
@@ -29,6 +31,7 @@ constexpr double kLinearError =
 // nearly cancel, both are many times their typical size.
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
+constexpr double kCaught = 3.0;         // of the deviance over the dispersion, above what a proposal promises
 constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
 
 constexpr FitOptions kRough{
@@ -55,7 +58,7 @@ double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::si
   const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
   double typicals = 0.0;
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (i == 0 || parameters[i].amplitude)
+    if (is_amplitude(parameters, i))
       typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
   return typicals;
 }
@@ -105,16 +108,17 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
 
 }  // namespace
 
-double Search::cost_of_an_effect() const {
-  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
-  return -2.0 * std::log(kPriorOfAnEffect) + std::log(trials);
+double Search::cost_of_an_effect() const { return -2.0 * std::log(kPriorOfAnEffect) + cost_of_a_parameter(); }
+
+double Search::cost_of_a_parameter() const {
+  return std::log(std::max<double>(3.0, static_cast<double>(problem_->trials.size())));
 }
 
 double Search::criterion(const SetFit& fit) const {
-  const double trials = std::max<double>(3.0, static_cast<double>(problem_->trials.size()));
-  return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) -
-         2.0 * static_cast<double>(fit.set.size()) * std::log(kPriorOfAnEffect) +
-         static_cast<double>(fit.fit.point.hypothesis.parameters()) * std::log(trials);
+  const auto effects = static_cast<double>(fit.set.size());
+  const auto parameters = static_cast<double>(fit.fit.point.hypothesis.parameters());
+  return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) +
+         effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter();
 }
 
 const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {
@@ -148,7 +152,7 @@ void Search::judge(SetFit& result) {
     std::vector<Index> amplitude_columns;
     for (Index i = 0; i < width; ++i) {
       const auto& p = candidate.parameters[static_cast<std::size_t>(i)];
-      if (i == 0 || p.amplitude) {
+      if (is_amplitude(candidate.parameters, static_cast<std::size_t>(i))) {
         amplitude_columns.push_back(first + i);
         amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
       }
@@ -217,7 +221,7 @@ void Search::judge(SetFit& result) {
     first += width;
   }
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
-  const double explained = null().fit.deviance - result.fit.deviance;
+  const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
   for (auto& evidence : result.evidence) {
     // Signs are flipped at the set without this effect, against all candidates there.
@@ -234,8 +238,9 @@ void Search::judge(SetFit& result) {
       evidence.flip_p_value = 0.0;
     }
     // Flips are made where the simulation is linear in nothing yet; what the trials say this clearly at the
-    // fit itself does not need them.
-    const bool beyond_doubt = evidence.p_value < kBeyondDoubt;
+    // fit itself does not need them. Nor can they say much where a few trials carry nearly all information.
+    const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
+    const bool beyond_doubt = evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
         evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
@@ -440,12 +445,17 @@ bool Search::try_proposals() {
        propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
     auto set = proposal.start.candidates;
     std::sort(set.begin(), set.end());
-    if (sets_.contains(set) || proposal.deviance > limit) continue;
+    if (proposal.deviance > limit) continue;
+    const auto before = sets_.find(set);
+    const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
+    // A fit that was tried may have been caught short of what it can explain.
+    if (before != sets_.end() && before->second.fit.deviance < promised + kCaught * dispersion_) continue;
     SetFit fit;
     fit.set = set;
     Point start = from;
     start.hypothesis = proposal.start;
     fit.fit = fit_at(start);
+    if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
     sets_[set] = std::move(fit);
     tried = true;
   }

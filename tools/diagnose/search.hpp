@@ -24,7 +24,7 @@ struct SetFit {
   Fit fit;
   std::vector<EffectEvidence> evidence;
   double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
-  bool rough = false;       // only tried: finished before it is judged
+  bool rough = false;       // only tried: finished before it can be the answer
   bool judged = false;
   bool needed = false;    // every effect stands on its own; known once judged
   bool hopeless = false;  // an effect is far from that
@@ -64,6 +64,7 @@ class Search {
 
  private:
   double cost_of_an_effect() const;  // of the criterion, with one parameter
+  double cost_of_a_parameter() const;
   const SetFit& evaluate(const SetFit& from, const Screened& added);
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);

@@ -25,7 +25,7 @@ SimpleAnswers simple_answers(const Problem& problem, const Point& null) {
     const auto& parameters = problem.candidates[c].parameters;
     std::vector<double> values;
     for (std::size_t i = 0; i < parameters.size(); ++i)
-      values.push_back(i > 0 && parameters[i].amplitude ? 0.0 : parameters[i].typical);
+      values.push_back(i > 0 && is_amplitude(parameters, i) ? 0.0 : parameters[i].typical);
     const double step = std::min(problem.candidates[c].probe(), parameters[0].high / parameters[0].typical);
     values[0] *= step;
     Hypothesis one{{c}, {values}};

@@ -81,6 +81,12 @@ double TrialEvidence::standard_error() const {
   return std::sqrt(variance) / information_sum;
 }
 
+double TrialEvidence::effective_trials() const {
+  double squares = 0.0;
+  for (const double i : information) squares += i * i;
+  return squares > 0.0 ? std::pow(sum(information), 2) / squares : 0.0;
+}
+
 double TrialEvidence::t() const { return size() / standard_error(); }
 double TrialEvidence::p_value() const { return student_t_two_sided(t(), degrees_of_freedom()); }
 

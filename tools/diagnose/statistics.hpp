@@ -22,8 +22,9 @@ struct TrialEvidence {
   double size() const;
   double t() const;  // of size / its error
   double degrees_of_freedom() const;
-  double p_value() const;         // one candidate alone
-  double standard_error() const;  // of size
+  double p_value() const;           // one candidate alone
+  double standard_error() const;    // of size
+  double effective_trials() const;  // (sum I)^2 / sum I^2
 };
 
 // Largest |sum s_t u_t| / sqrt(sum I_t) over candidates, for every choice of signs s_t (all of them up to

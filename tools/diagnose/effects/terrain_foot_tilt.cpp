@@ -5,14 +5,15 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 0.07 * c.scale("foot_radius_m", 0.04);
-  return {{.name = "tilt_depth_m", .typical = typical, .low = 0.0, .high = 8.0 * typical}};
+  return {{.name = "tilt_depth_m", .typical = typical, .low = 0.0, .high = 8.0 * typical},
+          {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0, .shapes = {1.0, 3.0}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double depth = v[0];
-  edits.law("ground.factor", [depth](const PortState& s) {
-    return depth > 1e-9 ? std::min(1.0, std::max(0.0, s.position) / depth) - 1.0 : 0.0;
+  const double depth = v[0], power = v[1];
+  edits.law("ground.factor", [=](const PortState& s) {
+    return depth > 1e-9 ? -std::exp(-std::pow(std::max(0.0, s.position) / depth, power)) : 0.0;
   });
 }
 
@@ -20,7 +21,7 @@ const EffectRegistration kEffect(
     {.id = "terrain.foot_tilt",
      .port = "ground",
      .statement = "The foot is tilted, so that it comes to bear only over some depth.",
-     .equation = "F_d -> F_d min(1, z / z_t)",
+     .equation = "F_d -> F_d (1 - exp(-(z / z_t)^p))",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

@@ -18,17 +18,20 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   (void)c;
   const double factor = v[0], onset = v.size() > 1 ? v[1] : 1e-5;
   edits.law("ground.force", [=](const PortState& s) {
-    return s.accel * factor * s.velocity * (1.0 - std::exp(-s.position / onset));
+    // Going down through its own crater the foot meets nothing.
+    const double speed = s.accel > 0.0 ? s.velocity : std::min(s.velocity, 0.0);
+    return factor * speed * (1.0 - std::exp(-s.position / onset));
   });
 }
 
-const EffectRegistration kEffect({.id = "terrain.viscous",
-                                  .port = "ground",
-                                  .statement = "The bed resists in proportion to the intrusion speed.",
-                                  .equation = "F += b v (1 - exp(-z / z_0)), v > 0",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.viscous",
+     .port = "ground",
+     .statement = "The bed resists in proportion to the speed, into it and out of it.",
+     .equation = "F += b v (1 - exp(-z / z_0)), F >= 0",
+     .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -35,7 +35,8 @@ BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, bool v
                         .extreme = c.max_depth_m,
                         .pushes = history_.pushes,
                         .wait_s = history_.wait_s,
-                        .bed_depth_m = history_.bed_depth_m};
+                        .bed_depth_m = history_.bed_depth_m,
+                        .since_touch_s = time_s_ - touched_s_};
   return {.force_N = sum_of(force_, state),
           .added_mass_kg = sum_of(mass_, state),
           .least_N = -sum_of(tension_, state)};

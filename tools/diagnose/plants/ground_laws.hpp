@@ -19,7 +19,8 @@ struct BedHistory {
 //   ground.mass     law times downward acceleration is added: an added mass
 //   ground.tension  how far below zero the force may go
 // `extreme` is the deepest point; `accel` is 1 on the virgin curve (new depth, going down), else 0; `load`
-// the quasi-static force at this depth; `time_s` that of the trial.
+// the quasi-static force at this depth; `time_s` that of the trial, `since_touch_s` from this contact's
+// beginning.
 //   ground.surface  law is added to the depth: the surface is lower by so much less
 class GroundLaws final : public BedExtension {
  public:
@@ -30,13 +31,19 @@ class GroundLaws final : public BedExtension {
 
   void at_time(double time_s) { time_s_ = time_s; }
   void pushed() { history_.pushes += 1.0; }
+  // Whether the foot is below the surface now.
+  void touching(bool now) {
+    if (now && !touching_) touched_s_ = time_s_;
+    touching_ = now;
+  }
   double deeper_m() const;
   bool empty() const { return factor_.empty() && force_.empty() && mass_.empty() && tension_.empty(); }
 
  private:
   std::vector<const Law*> factor_, force_, mass_, tension_, surface_;
   BedHistory history_;
-  double time_s_ = 0.0;
+  double time_s_ = 0.0, touched_s_ = 0.0;
+  bool touching_ = false;
 };
 
 BedParameters bed_parameters(const Belief& belief, const Edits& edits);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/diagnose/balance.hpp"
+#include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
@@ -187,12 +188,10 @@ class HopperTrial final : public TrialModel {
     add("load_cell_offset_N", std::max(s.load_cell_offset_N, 0.02), 0.05);
     add("sample_age_share", kAgeShareUnknown, 0.05);
     if (s.bed_fluctuation_relative > 0.0 && !world_.terrain.rigid) {
-      knot_spacing_m_ =
-          std::max(s.bed_fluctuation_length_m, kDeepest_m / static_cast<double>(kMostKnots - 1));
-      const double sd = s.bed_fluctuation_relative * std::sqrt(s.bed_fluctuation_length_m / knot_spacing_m_);
       const double deepest_m = std::min(kDeepest_m, kMargin * deepest_believed_m());
-      const auto needed = static_cast<std::size_t>(deepest_m / knot_spacing_m_) + 2;
-      for (knots_ = 0; knots_ < std::min(kMostKnots, needed); ++knots_) add("bed_fluctuation", sd, 1e-3);
+      grains_ = BedGrains(s.bed_fluctuation_relative, s.bed_fluctuation_length_m, deepest_m,
+                          kDeepest_m / static_cast<double>(kMostKnots - 1), kMostKnots);
+      for (std::size_t i = 0; i < grains_.count(); ++i) add("bed_fluctuation", grains_.sd(), 1e-3);
     }
     if (blocks > 1 || !course_.hops.front().at_rest)
       block_nuisances = {{"foot_z_m", 0.010, 1e-5},
@@ -223,11 +222,7 @@ class HopperTrial final : public TrialModel {
     run.cable_force_N = n[kCable];
     run.torque_constant_factor = 1.0 + n[kTorqueConstant];
     run.motor_temperature_C = motor_temperature_C_;
-    if (knots_ > 0) {
-      run.fluctuation.relative = 1.0;
-      run.fluctuation.spacing_m = knot_spacing_m_;
-      for (std::size_t i = 0; i < knots_; ++i) run.fluctuation.knots[i] = n[kFirstKnot + i];
-    }
+    if (grains_.count() > 0) run.fluctuation = grains_.fluctuation(n.subspan(kFirstKnot));
     const HopStart& hop = course_.hops[block];
     run.start = hop.state;
     run.crater_m = hop.crater_m;
@@ -422,8 +417,7 @@ class HopperTrial final : public TrialModel {
   HopperCourse course_;
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
   MeasuredLeg measured_;
-  std::size_t knots_ = 0;
-  double knot_spacing_m_ = 0.008;
+  BedGrains grains_;
   std::array<std::vector<Span>, kSources.size()> spans_;
   std::array<SensorBelief, kSources.size()> sensors_{};
   std::vector<double> times_, ages_s_;

@@ -243,6 +243,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     ground.at_time(t);
     ports.at_time(t);
     const PlantState& state = plant.state();
+    ground.touching(state.foot_z_m < 0.0);
     if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
     spring.follow(state.angular_velocity_radps);
     const double current_Nm = actuator.step(command_Nm, state.angular_velocity_radps);

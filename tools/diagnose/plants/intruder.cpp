@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -134,14 +135,8 @@ class IntruderTrial final : public TrialModel {
       parameters.stiffness_N_per_m *= factor;
       parameters.stiffness_per_area_N_per_m3 *= factor;
     }
-    BedFluctuation fluctuation;
-    if (knots_ > 0) {
-      fluctuation.relative = 1.0;
-      fluctuation.spacing_m = knot_spacing_m_;
-      for (std::size_t i = 0; i < knots_; ++i) fluctuation.knots[i] = nuisances[3 + i];
-    }
     GroundLaws laws(edits, history_);
-    Bed bed(parameters, edits.edited("foot.radius_m", radius_m_), fluctuation);
+    Bed bed(parameters, edits.edited("foot.radius_m", radius_m_), grains_.fluctuation(nuisances.subspan(3)));
     if (!laws.empty()) bed.extend(&laws);
     double compliance_m_per_N = 0.0;
     if (const double k = belief_.value("rig.stiffness_N_per_m"); k > 0.0) compliance_m_per_N = 1.0 / k;
@@ -162,6 +157,7 @@ class IntruderTrial final : public TrialModel {
       const double asked_m = read.depth_m(i) + surface_m + laws.deeper_m();
       if (touching && asked_m <= 0.0) laws.pushed();
       touching = asked_m > 0.0;
+      laws.touching(touching);
       BedContact contact{};
       BedReaction reaction;
       bool down = false;
@@ -206,7 +202,7 @@ class IntruderTrial final : public TrialModel {
     if (virgin) faster.speed_mps += kShift_mps;
     const double by_depth = (reaction.force_N - bed.reaction(shallower).force_N) / kShift_m;
     const double by_speed = (bed.reaction(faster).force_N - reaction.force_N) / kShift_mps;
-    const double grains_N = virgin ? between_knots_ * bed.quasi_static_force_N(at.depth_m) : 0.0;
+    const double grains_N = virgin ? grains_.between_knots() * bed.quasi_static_force_N(at.depth_m) : 0.0;
     return std::hypot(std::hypot(by_depth * motion_.depth_sd_m, by_speed * motion_.speed_sd_mps),
                       std::hypot(reaction.added_mass_kg * motion_.accel_sd_mps2, grains_N));
   }
@@ -216,15 +212,10 @@ class IntruderTrial final : public TrialModel {
   void add_knots() {
     double deepest_m = 0.0;
     for (const double d : motion_.depth_m) deepest_m = std::max(deepest_m, d);
-    const double relative = belief_.value("spread.bed_fluctuation_relative");
-    const double length_m = belief_.value("spread.bed_fluctuation_length_m", 0.002);
-    if (relative <= 0.0 || deepest_m <= 0.0) return;
-    knot_spacing_m_ = std::max(length_m, deepest_m / static_cast<double>(kMostKnots - 1));
-    knots_ = static_cast<std::size_t>(deepest_m / knot_spacing_m_) + 2;
-    const double sd = relative * std::sqrt(length_m / knot_spacing_m_);
-    // Of an exponentially correlated fluctuation, what lines between its values at the knots leave.
-    between_knots_ = relative * std::sqrt(std::min(1.0, knot_spacing_m_ / (3.0 * length_m)));
-    for (std::size_t i = 0; i < knots_; ++i) add_nuisance("bed_fluctuation", sd, 0.01);
+    grains_ = BedGrains(belief_.value("spread.bed_fluctuation_relative"),
+                        belief_.value("spread.bed_fluctuation_length_m", 0.002), deepest_m,
+                        deepest_m / static_cast<double>(kMostKnots - 1), kMostKnots + 1);
+    for (std::size_t i = 0; i < grains_.count(); ++i) add_nuisance("bed_fluctuation", grains_.sd(), 0.01);
   }
 
   void label_rows(double cell_sd_N) {
@@ -252,8 +243,7 @@ class IntruderTrial final : public TrialModel {
   double radius_m_ = 0.04, rest_speed_mps_ = 0.0;
   IntruderMotion motion_;
   BedHistory history_;
-  std::size_t knots_ = 0;
-  double knot_spacing_m_ = 0.002, between_knots_ = 0.0;
+  BedGrains grains_;
   std::vector<double> times_, ages_s_;
   std::size_t age_nuisance_ = 0;
   SensorBelief sensor_;
@@ -315,6 +305,8 @@ class Intruder final : public PlantModel {
                                   const Edits& /*edits*/) const override {
     return doable_intrusions(recorded, belief);
   }
+
+  bool motion_is_prescribed() const override { return true; }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
     return {{"ground.force", false, 0.1 * context.scale("force_N")}};
