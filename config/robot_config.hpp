@@ -6,6 +6,7 @@
 #include "config/calibration_record.hpp"
 #include "drivers/can/can_config.hpp"
 #include "firmware/controller_config.hpp"
+#include "firmware/log/log_config.hpp"
 #include "firmware/realtime.hpp"
 #include "firmware/watchdog/watchdog_config.hpp"
 
@@ -24,6 +25,7 @@ struct RobotConfig {
   SupervisionConfig supervision{};
   RealTimeConfig real_time{};
   WatchdogConfig watchdog{};
+  LogConfig log{};
   std::optional<RobotCalibrations> calibration{};
 
   template <class Self, class Visitor>
@@ -38,6 +40,7 @@ struct RobotConfig {
     visit("supervision", self.supervision);
     visit("real_time", self.real_time);
     visit("watchdog", self.watchdog);
+    visit("log", self.log);
     visit("calibration", self.calibration);
   }
 

@@ -1,5 +1,7 @@
 // hopperd: the daemon that runs the cycle on the robot, on the virtual bench, or with the simulated robot in
 // its own process (for latency measurements).
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -35,8 +37,8 @@ struct Options {
   std::string device_file;
   std::string log_file = "hopperd.mcap";
   std::string board = "linux";
-  std::uint64_t segment_MB = 0;
-  std::uint64_t quota_MB = 0;
+  std::optional<int> segment_MB;  // in place of the robot file's
+  std::optional<int> quota_MB;
   int status_Hz = 0;
   std::string sheet_file;
 };
@@ -57,11 +59,13 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"linux", "sim"}))
       ->capture_default_str();
   app.add_option("--segment-MB", options.segment_MB,
-                 "begin a new file LOG.part0002.mcap, … when one holds this much; 0: one file")
-      ->capture_default_str();
+                 "begin a new file LOG.part0002.mcap, … when one holds this much; 0: one file; default "
+                 "log.segment_MB of the robot file")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--quota-MB", options.quota_MB,
-                 "remove the oldest files of this log when all together hold more; 0: keep all")
-      ->capture_default_str();
+                 "remove the oldest files of this log when all together hold more; 0: keep all; default "
+                 "log.quota_MB of the robot file")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--sheet", options.sheet_file,
                  "trial sheet (TOML: who, bed, bed_preparation, release_height_m, payload_kg, notes) to be "
                  "kept in the log");
@@ -140,10 +144,23 @@ SessionResult run_session(const Session& s) {
   return result;
 }
 
-TrialLogOptions log_options(const Options& options, OperatorChannel& channel) {
-  constexpr std::uint64_t kMegabyte = 1'000'000;
+// What the command line says goes before the robot file, and the same rules hold for both together.
+void override_log(LogConfig& log, const Options& options) {
+  log.segment_MB = options.segment_MB.value_or(log.segment_MB);
+  log.quota_MB = options.quota_MB.value_or(log.quota_MB);
+  std::vector<ConfigProblem> problems;
+  log.check([&](std::string_view key, const std::string& text) {
+    problems.push_back({.file = "command line with the robot file",
+                        .position = {.line = 0, .column = 0},
+                        .key = std::string(key),
+                        .text = fmt::format("'log.{}' does not fit: {}", key, text)});
+  });
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+TrialLogOptions log_options(const LogConfig& config, const Options& options, OperatorChannel& channel) {
   TrialLogOptions log;
-  log.limits = {.segment_bytes = options.segment_MB * kMegabyte, .quota_bytes = options.quota_MB * kMegabyte};
+  log.limits = config.limits();
   log.say = [&channel](const std::string& text) { channel.tell_text("warning", text); };
   log.mcap_file = options.log_file;
   log.start_ns = monotonic_ns();
@@ -161,6 +178,7 @@ int run(const Options& options, OperatorChannel& channel) {
   // All of the configuration before the first file or device.
   const bool simulate = options.board == "sim";
   auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  override_log(robot.log, options);
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
       simulate ? LinuxBoardConfig{} : load_linux_board(file(options.device_file, board_file()), robot);
@@ -169,7 +187,7 @@ int run(const Options& options, OperatorChannel& channel) {
                          : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
   // Before the log: another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
-  TrialLogger logger(log_options(options, channel));
+  TrialLogger logger(log_options(robot.log, options, channel));
   describe_trial(logger, robot, options.board);
   if (!simulate) describe_devices(logger, devices);
   if (sheet) add_sheet(logger, *sheet);

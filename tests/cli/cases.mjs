@@ -38,6 +38,8 @@ export const configurations = [
     "key 'robot.lower_link_length_m' does not fit", 'expected more than upper_link_length_m + hip_offset_m (0.12)'),
   changed('angle limits crossed', 'robot.toml', 'leg_angle_min_rad = 0.15', 'leg_angle_min_rad = 2.9',
     'expected less than limits.leg_angle_max_rad (2.7), got 2.9'),
+  changed('quota less than two files', 'robot.toml', 'quota_MB = 4000', 'quota_MB = 150',
+    "key 'log.quota_MB' does not fit", 'write 400 or more', 'robot.toml:'),
   changed('leg longer than its links', 'robot.toml', 'extension_length_m = 0.34', 'extension_length_m = 0.50',
     'expected a length this leg reaches', '0.1260 to 0.3580 m, got 0.5'),
   changed('unknown sample window', 'robot.toml', 'window = "penetrating"', 'window = "all"',

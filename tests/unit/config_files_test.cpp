@@ -170,6 +170,19 @@ TEST(RobotConfigRules, BadSamplesAreNotTrustedMoreThanGoodOnes) {
               HasSubstr("'stiffness.weights.sigma_bad_N' does not fit"));
 }
 
+TEST(RobotConfigRules, AQuotaThatDoesNotHoldTwoFilesOfTheLogIsRefused) {
+  EXPECT_THAT(problem_when("399", "log", "quota_MB"),
+              AllOf(HasSubstr("robot.toml:"), HasSubstr("'log.quota_MB' does not fit: expected 0 (none) or"),
+                    HasSubstr("got 399; write 400 or more")));
+  EXPECT_EQ(problem_when("400", "log", "quota_MB"), "");
+  EXPECT_EQ(problem_when("0", "log", "quota_MB"), "");
+}
+
+TEST(RobotConfigRules, AQuotaOfALogInOneFileIsRefused) {
+  EXPECT_THAT(problem_when("0", "log", "segment_MB"),
+              AllOf(HasSubstr("'log.quota_MB' does not fit"), HasSubstr("set segment_MB, too")));
+}
+
 TEST(RobotConfigRules, MotorsNeedTheirOwnIds) {
   EXPECT_THAT(problem_when("2", "[motor]", "can_id"),
               HasSubstr("'motor[1].can_id' does not fit: both motors"));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "config/dump.hpp"
 #include "firmware/cycle.hpp"
 #include "firmware/log/trial_description.hpp"
 #include "tools/plant/sim_board.hpp"
@@ -15,7 +16,8 @@ namespace {
 constexpr std::uint64_t kCycles = 4000;
 
 // A trial whose log begins a new file whenever one holds 600 kB.
-void record(const std::filesystem::path& file) {
+// `robot_toml`: the configuration the log carries, in place of the whole one.
+void record(const std::filesystem::path& file, std::string_view robot_toml = {}) {
   const RobotConfig robot;
   TrialLogOptions options;
   options.mcap_file = file;
@@ -23,7 +25,10 @@ void record(const std::filesystem::path& file) {
   options.limits = {.segment_bytes = 600'000, .quota_bytes = 0};
   TrialLogger logger(options);
   const TrialTopics topics(logger);
-  describe_trial(logger, robot, "sim");
+  if (robot_toml.empty())
+    describe_trial(logger, robot, "sim");
+  else
+    logger.attach(kRobotAttachment, "application/toml", robot_toml);
   logger.start();
   World world(WorldConfig{}, {}, 0);
   SimBoard board(world);
@@ -53,6 +58,20 @@ TEST(Replay, ALogInSeveralFilesIsReplayedWhole) {
   EXPECT_EQ(result.strides, 3U);
   EXPECT_FALSE(result.mismatch) << result.mismatch->topic << " " << result.mismatch->record << " "
                                 << result.mismatch->field;
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Replay, ALogFromBeforeAConfigurationKeyHasItsDefault) {
+  const auto folder = std::filesystem::temp_directory_path() / ("replay_older." + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  auto older = to_toml(RobotConfig{});
+  const auto log_table = older.find("[log]");
+  ASSERT_NE(log_table, std::string::npos);
+  older.resize(log_table);
+  record(folder / "trial.mcap", older);
+  const auto result = replay_log(folder / "trial.mcap");
+  EXPECT_EQ(result.cycles, kCycles);
+  EXPECT_FALSE(result.mismatch);
   std::filesystem::remove_all(folder);
 }
 

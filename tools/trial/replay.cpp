@@ -24,7 +24,9 @@ RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file)
     if (attachment.name != kRobotAttachment) continue;
     const std::string_view text(reinterpret_cast<const char*>(attachment.data.data()),
                                 attachment.data.size());
-    return load_text<RobotConfig>(file.string() + ": " + std::string(kRobotAttachment), text);
+    // A key that the log's version did not know yet has its default.
+    return load_text<RobotConfig>(file.string() + ": " + std::string(kRobotAttachment), text,
+                                  MissingKeys::use_default);
   }
   throw mcap::Error(file.string() + ": has no attachment " + std::string(kRobotAttachment) +
                     ", so the cycle's configuration is not known; was it made by hopperd or `hop trial`?");

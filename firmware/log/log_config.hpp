@@ -1,0 +1,43 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "config/fields.hpp"
+#include "firmware/log/segmented_log.hpp"
+
+namespace sandhopper {
+
+// How hopperd divides a long log, and what that log may take of the disk. Megabytes are 10^6 bytes.
+struct LogConfig {
+  int segment_MB = 200;  // a new file is begun when one holds this much; 0: one file
+  int quota_MB = 4000;   // the oldest files of this log go when all together would hold more; 0: none goes
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("segment_MB", self.segment_MB, Range{0, 1000000});
+    visit("quota_MB", self.quota_MB, Range{0, 1000000});
+  }
+
+  // Only whole files go, and neither the one being written nor the one before it: two must fit.
+  template <class Report>
+  void check(Report&& report) const {
+    if (quota_MB == 0) return;
+    if (segment_MB == 0)
+      report("quota_MB", fmt::format("expected 0 (none) where segment_MB is 0, because a log in one file has "
+                                     "no older file to remove, got {}; set segment_MB, too",
+                                     quota_MB));
+    else if (quota_MB < 2 * segment_MB)
+      report("quota_MB", fmt::format("expected 0 (none) or at least two files of segment_MB ({}): the one "
+                                     "being written and the one before it, got {}; write {} or more",
+                                     segment_MB, quota_MB, 2 * segment_MB));
+  }
+
+  SegmentLimits limits() const {
+    constexpr std::uint64_t kMegabyte = 1'000'000;
+    return {.segment_bytes = kMegabyte * static_cast<std::uint64_t>(segment_MB),
+            .quota_bytes = kMegabyte * static_cast<std::uint64_t>(quota_MB)};
+  }
+};
+
+}  // namespace sandhopper
