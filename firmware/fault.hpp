@@ -62,9 +62,10 @@ enum class Fault : std::uint8_t {
   cycle_gap,
   cycle_overruns,
   watchdog_tripped,
+  estimate_diverged,
 };
 
-inline constexpr std::size_t kFaultCount = 50;
+inline constexpr std::size_t kFaultCount = 51;
 
 // What the robot does about a fault, gentlest first; a harsher one replaces a gentler one.
 //   stop: the next touchdown, or the present stance, becomes a soft stop
@@ -263,6 +264,12 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "find out what stopped the cycle: the log entry has for how many seconds; see the kernel's "
      "messages, "
      "`hop doctor`, and watchdog.cycle_stall_s"},
+    {Fault::estimate_diverged, "estimate_diverged", Reaction::damp, Latch::until_disarmed, 100,
+     "the estimated height and the time-of-flight sensor have parted: the filter's gate refused twenty "
+     "readings in a row",
+     "compare tof.height_m (/frame) with estimate.body_z_m (/output) in the log to see which went wrong: an "
+     "impact beyond accel_range_g of the IMUs (softer ground, lower release), an IMU whose zero moved since "
+     "arming, or something in the ToF sensor's beam"},
 }};
 
 template <>

@@ -21,6 +21,7 @@ constexpr double kLoadCellTime_s = 0.015;
 constexpr double kLoadCellShare = 0.5;  // of the force, on top of the limit
 constexpr int kLoadCellWrong = 5;
 constexpr int kEnergy_cycles = 5;
+constexpr int kHeightsRefused = 20;  // a sound filter refuses three in a row at most
 
 double followed(double value, double target, double dt_s, double time_s) noexcept {
   return value + std::clamp(dt_s / time_s, 0.0, 1.0) * (target - value);
@@ -36,10 +37,12 @@ void MotionCheck::see(const SensorFrame& frame, const Estimate& estimate, const 
   if (!context.estimating) {
     in_flight_ = false;
     load_cell_error_N_ = 0.0;
+    heights_refused_ = 0;
     return;
   }
   if (!strikes_end_stop(frame.imu_body, config_)) see_load_cell(estimate, context, findings);
   see_estimate(estimate, context, findings);
+  see_height(estimate, findings);
   see_energy(estimate, context, findings);
 }
 
@@ -141,6 +144,17 @@ void MotionCheck::see_estimate(const Estimate& e, const Context&, Findings& find
   findings.add_if(std::abs(e.body_velocity_mps) > s.body_speed_mps, Fault::body_speed_limit,
                   e.body_velocity_mps, s.body_speed_mps);
   findings.add_if(e.foot_z_m > s.foot_height_m, Fault::body_height_limit, e.foot_z_m, s.foot_height_m);
+}
+
+// Beyond its gate the filter takes no reading, so an estimate that is off by more goes on alone and gets
+// worse.
+void MotionCheck::see_height(const Estimate& e, Findings& findings) noexcept {
+  const double squared = e.normalised_innovation_squared[0];
+  if (!std::isfinite(squared)) return;  // no reading in this cycle
+  const double gate = config_.estimator.kalman.tof_gate_sigma;
+  heights_refused_ = squared > gate * gate ? heights_refused_ + 1 : 0;
+  findings.add_if(heights_refused_ >= kHeightsRefused, Fault::estimate_diverged, e.innovation[0],
+                  heights_refused_);
 }
 
 // Body and foot as two masses; the links' share is small against the limit.

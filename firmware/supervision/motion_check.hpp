@@ -32,6 +32,7 @@ class MotionCheck {
   void see_tof(const TofSample& tof, Findings& findings) noexcept;
   void see_load_cell(const Estimate& estimate, const Context& context, Findings& findings) noexcept;
   void see_estimate(const Estimate& estimate, const Context& context, Findings& findings) noexcept;
+  void see_height(const Estimate& estimate, Findings& findings) noexcept;
   void see_energy(const Estimate& estimate, const Context& context, Findings& findings) noexcept;
   double leg_rate_mps(const SensorFrame& frame) const noexcept;
 
@@ -56,6 +57,7 @@ class MotionCheck {
   int tof_outliers_ = 0;
   double load_cell_error_N_ = 0.0;
   int load_cell_wrong_ = 0;
+  int heights_refused_ = 0;
   double flight_energy_J_ = 0.0;
   bool in_flight_ = false;
   int too_energetic_ = 0;

@@ -65,8 +65,9 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
     case Device::computer:
       return;  // whoever turns the cycle
     case Device::robot:
-      if (!kind || kind == Kind::tilting || kind == Kind::lifted) imu_body_.set(kind, now_ns);
-      if (!kind || kind == Kind::lifted) imu_foot_.set(kind, now_ns);
+      if (!kind || kind == Kind::tilting || kind == Kind::lifted || kind == Kind::biased)
+        imu_body_.set(kind, now_ns);
+      if (!kind || kind == Kind::lifted || kind == Kind::biased) imu_foot_.set(kind, now_ns);
       return;
   }
 }

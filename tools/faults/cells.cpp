@@ -143,6 +143,13 @@ void add_system(Cells& cells) {
   cells.in_every_phase(Device::computer, Kind::watchdog, Fault::watchdog_tripped);
   cells.in_every_phase(Device::robot, Kind::tilting, Fault::tilt_limit);
   cells.add(Device::robot, Kind::lifted, Phase::flight, Fault::energy_implausible);
+  // From the first height that the filter refuses on.
+  for (const auto phase : {Phase::armed, Phase::flight, Phase::compression, Phase::extension})
+    cells.add(Device::robot, Kind::biased, phase, Fault::estimate_diverged).visible =
+        [](const SensorFrame&, const StepOutput& o, const Injected&) {
+          constexpr double kGate = 6.0;
+          return o.estimate.normalised_innovation_squared[0] > kGate * kGate;
+        };
 }
 
 // A sound robot and a limit drawn so close that it must be met; seen from the first cycle beyond it.

@@ -68,6 +68,7 @@ enum class Kind : std::uint8_t {
   // The robot, or a limit drawn so close that a sound robot meets it.
   tilting,
   lifted,  // both IMUs feel a push upward that is not there
+  biased,  // the same, weak: their zeros moved
   limit
 };
 
@@ -83,13 +84,13 @@ struct EnumNames<faults::Device> {
 };
 template <>
 struct EnumNames<faults::Kind> {
-  static constexpr std::array<std::string_view, 39> value{
+  static constexpr std::array<std::string_view, 40> value{
       "off",       "stuck",          "garbage",      "wrong",     "slow",       "delayed",     "intermittent",
       "saturated", "drifting",       "error",        "hot",       "current",    "overcurrent", "undervoltage",
       "future",    "backward",       "not_a_number", "cable_off", "blocked",    "refused",     "bus_off",
       "passive",   "no_acknowledge", "lost",         "late",      "duplicated", "foreign",     "malformed",
       "overflow",  "protocol_error", "pressed",      "tapped",    "wire_cut",   "stalled",     "overruns",
-      "watchdog",  "tilting",        "lifted",       "limit"};
+      "watchdog",  "tilting",        "lifted",       "biased",    "limit"};
 };
 
 }  // namespace sandhopper

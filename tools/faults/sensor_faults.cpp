@@ -35,6 +35,9 @@ void spoil(ImuSample& s, Kind kind, Random& random) {
     case Kind::lifted:
       s.accel_mps2[2] += 25.0;
       return;
+    case Kind::biased:
+      s.accel_mps2[2] += 4.0;
+      return;
     case Kind::saturated:
       s.accel_mps2[2] = kImuRange_mps2;
       return;
