@@ -117,6 +117,15 @@ expect(twice.status === 2 && twice.text.includes('is named twice'), `one recordi
 const blind = spawnSync(hop, ['calibrate', 'tof', '--config', believed, '--output', join(folder, 'blind')], { encoding: 'utf8', input: '' });
 expect(blind.status === 2 && blind.stderr.includes('--from'), `without a terminal: ${blind.stderr}`);
 
+// A drive whose velocity field has half the range that is configured.
+change(join(real, 'robot.toml'), ['velocity_range_radps = 50.0', 'velocity_range_radps = 25.0']);
+const robot = text_of('robot.toml');
+const ranged = calibrate('encoders');
+const refused = ranged.result.refusals?.[0] ?? {};
+expect(ranged.status === 1 && refused.reason === 'velocity_range_wrong' && refused.cure.includes('likely 25'), `half the velocity range: ${ranged.text}`);
+expect(text_of('robot.toml') === robot, 'a velocity range that is wrong leaves the zeros alone');
+console.log(`hop calibrate encoders: ${refused.found}: ${refused.cure}`);
+
 rmSync(folder, { recursive: true });
 console.log(`${failed} wrong`);
 process.exit(failed ? 1 : 0);

@@ -9,6 +9,12 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
+// Of the drive's output, per unit of what its reply says; between motors of one dialect only.
+double speed_unit(const CubeMarsConfig& motor) {
+  return motor.dialect == Dialect::mit ? motor.velocity_range_radps
+                                       : 1.0 / (motor.pole_pairs * motor.drive_reduction);
+}
+
 }  // namespace
 
 MotorSample converted(const MotorSample& sample, const CubeMarsConfig& from, const CubeMarsConfig& to) {
@@ -16,7 +22,8 @@ MotorSample converted(const MotorSample& sample, const CubeMarsConfig& from, con
   const double to_link = to.sign / to.gear_ratio;
   MotorSample out = sample;
   out.position_rad = to.zero_offset_rad + to_link * to_drive * (sample.position_rad - from.zero_offset_rad);
-  out.velocity_radps = to_link * to_drive * sample.velocity_radps;
+  const double speed = from.dialect == to.dialect ? speed_unit(to) / speed_unit(from) : 1.0;
+  out.velocity_radps = to_link * to_drive * speed * sample.velocity_radps;
   out.current_A = to.sign * from.sign * sample.current_A;
   out.time_ns += nanoseconds(to.state_delay_s - from.state_delay_s);
   return out;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "terrain/trial_statistics.hpp"
+#include "tools/calibrate/velocity_range.hpp"
 
 namespace sandhopper::calibrate {
 namespace {
@@ -125,10 +126,26 @@ StudySection section_of(const std::vector<Side>& sides, const std::vector<Zero>&
   return section;
 }
 
+StudySection section_of(const std::vector<Side>& sides, const std::vector<SpeedRatio>& speeds) {
+  StudySection section{.title = "The leg moved by hand"};
+  StudyTable table{.title = "Reported velocity over the slope of position; 1 where the ranges are right",
+                   .columns = {"motor", "recording", "ratio"}};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& speed = speeds[i];
+    for (std::size_t k = 0; k < speed.of_recording.size(); ++k)
+      table.rows.push_back(
+          {sides[i].name, std::to_string(k + 1), fmt::format("{:.4f}", speed.of_recording[k])});
+    table.rows.push_back({sides[i].name, "mean", fmt::format("{:.4f} +- {:.4f}", speed.value, speed.ci95)});
+  }
+  section.items = {table};
+  return section;
+}
+
 }  // namespace
 
-Outcome calibrate_encoders(const std::vector<PosePair>& pairs, const MotorConfigs& before, const Leg& leg,
+Outcome calibrate_encoders(const EncoderRecordings& recordings, const MotorConfigs& before, const Leg& leg,
                            const EncoderSetup& setup) {
+  const auto& pairs = recordings.pairs;
   Outcome out{.points = pairs.size(), .residual_unit = "rad"};
   if (pairs.size() < 3) {
     out.refusals.push_back({"too_few_points",
@@ -139,6 +156,9 @@ Outcome calibrate_encoders(const std::vector<PosePair>& pairs, const MotorConfig
   std::vector<Side> sides;
   for (std::size_t i = 0; i < static_cast<std::size_t>(leg.parameters().motor_count); ++i)
     sides.push_back(measure(pairs, i, before[i], out.refusals));
+  std::vector<SpeedRatio> speeds;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    speeds.push_back(check_velocity_range(recordings.moved, i, before[i], out.refusals));
   if (out.refusals.empty()) check_moves(sides, out.refusals);
   if (!out.refusals.empty()) return out;
   const double angle_rad = leg.angle_at_length(setup.known_length_m);
@@ -167,7 +187,7 @@ Outcome calibrate_encoders(const std::vector<PosePair>& pairs, const MotorConfig
   }
   out.residual_rms = std::sqrt(squares);
   out.targets = {target};
-  out.sections = {section_of(sides, zeros)};
+  out.sections = {section_of(sides, zeros), section_of(sides, speeds)};
   return out;
 }
 

@@ -19,6 +19,12 @@ struct EncoderSetup {
   double max_ci95_rad = 0.02;
 };
 
+// What the person does: the leg in its known pose, then shortened, several times; then moved to and fro.
+struct EncoderRecordings {
+  std::vector<PosePair> pairs;
+  std::vector<Recording> moved;
+};
+
 // Zero and sign of every motor's encoder. With u the drive's position over the gear ratio:
 //   sign' = sign of u_shortened - u_known (the link's angle grows as the leg shortens),
 //   zero' = angle(known length) - sign' . u_known, mean over the pairs.
@@ -27,8 +33,9 @@ struct EncoderSetup {
 //
 // Refused: fewer than three pairs (too_few_points), a pose that moves, drifts or slips, a position at the end
 // of its field (saturated), a leg that was hardly shortened (moved_too_little), sides that moved differently
-// (sides_disagree), pairs that disagree about sign or zero (repeats_disagree, interval_too_wide).
-Outcome calibrate_encoders(const std::vector<PosePair>& pairs, const MotorConfigs& before, const Leg& leg,
+// (sides_disagree), pairs that disagree about sign or zero (repeats_disagree, interval_too_wide), and a drive
+// whose velocity is not what its position does (velocity_range_wrong, see velocity_range.hpp).
+Outcome calibrate_encoders(const EncoderRecordings& recordings, const MotorConfigs& before, const Leg& leg,
                            const EncoderSetup& setup);
 
 }  // namespace sandhopper::calibrate

@@ -34,16 +34,26 @@ std::vector<calibrate::Step> steps(const Options& options, const CalibrationInpu
     out.push_back(known);
     out.push_back(shortened);
   }
+  for (int i = 0; i < options.repeats; ++i) {
+    calibrate::Step moved;
+    moved.prompt = "move the leg by hand from long to short and back, about once a second";
+    moved.during = "go on until the recording ends";
+    moved.fixture.leg_angle_rad = angle_rad;
+    moved.fixture.leg_swing_rad = 0.6;
+    moved.seconds = options.seconds;
+    out.push_back(moved);
+  }
   return out;
 }
 
 calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, const CalibrationInput& input,
                        const Options& options) {
-  std::vector<calibrate::PosePair> pairs;
-  for (std::size_t i = 0; i + 1 < recordings.size(); i += 2)
-    pairs.push_back({recordings[i], recordings[i + 1]});
+  calibrate::EncoderRecordings grouped;
+  const auto poses = 2 * static_cast<std::size_t>(options.repeats);
+  for (std::size_t i = 0; i < poses; i += 2) grouped.pairs.push_back({recordings[i], recordings[i + 1]});
+  grouped.moved.assign(recordings.begin() + static_cast<std::ptrdiff_t>(poses), recordings.end());
   return calibrate_encoders(
-      pairs, input.robot.motor, Leg(input.robot.robot),
+      grouped, input.robot.motor, Leg(input.robot.robot),
       {.known_length_m = known_length_m(options, input), .length_accuracy_m = options.length_accuracy_m});
 }
 
@@ -55,7 +65,10 @@ Calibration::Actions set_up(CLI::App& app) {
   app.add_option("--length-accuracy-m", options->length_accuracy_m, "how well that is known (95 %)")
       ->check(CLI::Range(0.0, 0.02))
       ->capture_default_str();
-  app.add_option("--repeats", options->repeats, "pairs of recordings: known pose, then leg shortened by hand")
+  app.add_option(
+         "--repeats", options->repeats,
+         "pairs of recordings: known pose, then leg shortened by hand; and after them as many with the "
+         "leg moved to and fro")
       ->check(CLI::Range(3, 50))
       ->capture_default_str();
   add_seconds(app, options->seconds);
@@ -64,9 +77,11 @@ Calibration::Actions set_up(CLI::App& app) {
                            const auto& input) { return fit(recordings, input, *options); }};
 }
 
-const CalibrationRegistration kEncoders({"encoders",
-                                         "zero and sign of both motors' encoders, in a known pose of the leg",
-                                         set_up});
+const CalibrationRegistration kEncoders(
+    {"encoders",
+     "zero and sign of both motors' encoders, in a known pose of the leg; "
+     "whether the drives' velocity range is right",
+     set_up});
 
 }  // namespace
 }  // namespace sandhopper::cli

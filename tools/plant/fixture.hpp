@@ -10,7 +10,10 @@ namespace sandhopper {
 // the robot laid on its side, taps, or foot and body clamped so that the motors press on the load cell.
 struct Fixture {
   double load_N = 0.0;
-  std::optional<double> leg_angle_rad{};   // not given: as it is
+  std::optional<double> leg_angle_rad{};  // not given: as it is
+  // From that angle to this much more and back, as a raised cosine.
+  double leg_swing_rad = 0.0;
+  double leg_swing_period_s = 1.0;
   std::optional<double> body_height_m{};   // of the hip axis over the surface; not given: as it is
   std::array<double, 3> body_up{0, 0, 1};  // the direction up in the robot's axes, as the body's IMU has them
   std::array<double, 3> foot_up{0, 0, 1};  // and the foot's
@@ -27,6 +30,8 @@ struct Fixture {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("load_N", self.load_N, Range{-1000.0, 1000.0});
     visit("leg_angle_rad", self.leg_angle_rad, Range{0.0, 3.1});
+    visit("leg_swing_rad", self.leg_swing_rad, Range{0.0, 3.0});
+    visit("leg_swing_period_s", self.leg_swing_period_s, Range{0.05, 60.0});
     visit("body_height_m", self.body_height_m, Range{0.0, 10.0});
     visit("body_up", self.body_up, Range{-1.0, 1.0});
     visit("foot_up", self.foot_up, Range{-1.0, 1.0});
@@ -40,6 +45,8 @@ struct Fixture {
 
   // 1 at the peak of a tap.
   double tap_at(double since_set_s) const noexcept;
+  // How far the leg is from where its swing began [rad].
+  double swing_at(double since_set_s) const noexcept;
 };
 
 // The torque that reaches the links of a clamped leg: it follows the motors' with the play of Coulomb

@@ -54,6 +54,7 @@ void World::hold(const Fixture& fixture) noexcept {
   fixture_ns_ = now_ns_;
   PlantState state = plant_.state();
   if (fixture.leg_angle_rad) state.angle_rad = *fixture.leg_angle_rad;
+  held_angle_rad_ = state.angle_rad;
   plant_.place(state);
   if (fixture.body_height_m) {
     state.foot_z_m += *fixture.body_height_m - plant_.motion(0.0).body_z_m;
@@ -81,7 +82,10 @@ void World::advance_to(std::int64_t time_ns) noexcept {
 
 void World::step() noexcept {
   for (auto& drive : drive_) drive.step();
-  if (truth_.released) plant_.step(motor_torque_Nm());
+  if (truth_.released)
+    plant_.step(motor_torque_Nm());
+  else if (fixture_.leg_swing_rad > 0.0)
+    swing_leg();
   const GridStep step{.from_ns = now_ns_, .to_ns = now_ns_ + kStep_ns};
   now_ns_ = step.to_ns;
   for (auto& drive : drive_) drive.measure(plant_.state().angle_rad);
@@ -105,6 +109,13 @@ void World::step() noexcept {
   truth_.mocap_time_ns = mocap_.frame().time_ns;
   truth_.mocap_body_z_m = mocap_.frame().body_z_m;
   truth_.mocap_foot_z_m = mocap_.frame().foot_z_m;
+}
+
+void World::swing_leg() noexcept {
+  PlantState state = plant_.state();
+  const double since_s = static_cast<double>(now_ns_ + kStep_ns - fixture_ns_) * 1e-9;
+  state.angle_rad = held_angle_rad_ + fixture_.swing_at(since_s);
+  plant_.place(state);
 }
 
 void World::take_truth() noexcept {

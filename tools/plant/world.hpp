@@ -78,6 +78,7 @@ class World {
 
   void step() noexcept;
   void take_truth() noexcept;
+  void swing_leg() noexcept;
   void take_held_truth() noexcept;
   double motor_torque_Nm() const noexcept;
 
@@ -90,6 +91,7 @@ class World {
   std::int64_t now_ns_;
   Fixture fixture_{};
   std::int64_t fixture_ns_ = 0;
+  double held_angle_rad_ = 0.0;
   PressedTorque pressed_{};
   Plant plant_;
   std::array<Drive, kMotorCount> drive_;
