@@ -1,6 +1,6 @@
 #include "terrain/joint_fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -82,13 +82,30 @@ struct Solution {
   Matrix covariance;
 };
 
+// Inverse of a positive definite matrix by Gauss-Jordan elimination, in plain loops: Eigen's inverse adds in
+// an order that depends on the processor, and a log has to replay to the same bits on another one.
+Matrix inverse_of(Matrix m) {
+  for (Eigen::Index k = 0; k < m.rows(); ++k) {
+    const double pivot = m(k, k);
+    m(k, k) = 1.0;
+    for (Eigen::Index j = 0; j < m.cols(); ++j) m(k, j) /= pivot;
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+      if (i == k) continue;
+      const double factor = m(i, k);
+      m(i, k) = 0.0;
+      for (Eigen::Index j = 0; j < m.cols(); ++j) m(i, j) -= factor * m(k, j);
+    }
+  }
+  return m;
+}
+
 // A term that physics forbids to be negative and that comes out so is held at zero.
 Solution solve_with(const Matrix& normal, const Vector& moment, Prior prior) {
   constexpr double kHeld = 1e12;
   Solution solution;
   for (int pass = 0; pass < 3; ++pass) {
     const Matrix information = normal + Matrix(prior.precision.asDiagonal());
-    solution.covariance = information.inverse();
+    solution.covariance = inverse_of(information);
     solution.value = solution.covariance * (moment + prior.precision.cwiseProduct(prior.mean));
     bool feasible = true;
     for (const auto term : {JointTerm::intercept, JointTerm::added_mass}) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "tests/unit/allocation_guard.hpp"
@@ -125,6 +127,38 @@ TEST(JointFit, RefusesWhatCannotTell) {
   JointConfig short_range;
   short_range.accel_range_mps2 = 20.0;
   EXPECT_EQ(solve_joint(sums_of({}, {.speed_mps = 1.2}, short_range), config).validity, Validity::saturated);
+}
+
+// Sums of plain arithmetic, without exp and tanh, which are the C library's.
+JointSums plain_sums() {
+  JointSums sums;
+  std::uint32_t state = 1;
+  for (int row = 0; row < 60; ++row) {
+    std::array<double, kJointTerms> x{};
+    double force_N = 0.0;
+    for (auto& term : x) {
+      state = 1664525U * state + 1013904223U;
+      term = state * 0x1p-32;
+      force_N += 1500.0 * term;
+    }
+    for (std::size_t i = 0; i < kJointTerms; ++i) {
+      for (std::size_t j = 0; j < kJointTerms; ++j) sums.normal[kJointTerms * i + j] += x[i] * x[j];
+      sums.moment[i] += x[i] * force_N;
+    }
+    sums.force_squared += force_N * force_N;
+  }
+  sums.observations = 60.0;
+  sums.samples = 60;
+  sums.depth_max_m = 0.02;
+  return sums;
+}
+
+TEST(JointFit, HasTheSameBitsOnEveryProcessor) {
+  const auto e = solve_joint(plain_sums(), {});
+  EXPECT_EQ(e.value_N_per_m, 0x1.84016a5e62d7ep+10) << std::hexfloat << e.value_N_per_m;
+  EXPECT_EQ(e.ci95_low_N_per_m, 0x1.52c26c7d125eap+10) << std::hexfloat << e.ci95_low_N_per_m;
+  EXPECT_EQ(e.added_mass_factor, 0x1.a24f06c4a6c6p+10) << std::hexfloat << e.added_mass_factor;
+  EXPECT_EQ(e.joint_friction_N, 0x1.5f2a363a604fp+9) << std::hexfloat << e.joint_friction_N;
 }
 
 TEST(JointFit, AccumulatesWithoutAllocating) {
