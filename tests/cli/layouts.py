@@ -1,8 +1,7 @@
 """The layouts of `hop export --layouts` against what viewers read and against a log:  layouts.py FOLDER LOG.mcap
 
-Every path leads through the log's schemas to a number. The rest is what the viewers' own sources take: Foxglove's panel
-settings (Plot, StateTransitions and RawMessages of its last public release; the key of a panel's title) and PlotJuggler's
-restoring of splitters, which counts children by attributes.
+Every path leads through the log's schemas to a number. The rest is what the viewers' own sources take: the settings of
+Foxglove's panels (as of its last public source) and PlotJuggler's splitters, which count their children by attributes.
 """
 import json
 import re
@@ -50,8 +49,9 @@ def types_of(name, text):
     types = {}
     for part in re.split(r"^=+\n", text, flags=re.M):
         own = re.match(r"MSG: (?:\w+/)?(?:msg/)?(\w+)", part)
-        fields = re.findall(r"^([a-z]+\d*|[A-Za-z_]+(?:/[A-Za-z_0-9]+)*)(?:\[(\d+)\])? ([a-z]\w*) *(?:#.*)?$", part, re.M)
-        types[own[1] if own else ""] = {field: (kind.split("/")[-1], int(size) if size else None) for kind, size, field in fields}
+        fields = re.findall(r"^([A-Za-z]\w*(?:/\w+)*)(?:\[(\d+)\])? ([a-z]\w*) *(?:#.*)?$", part, re.M)
+        types[own[1] if own else ""] = {
+            field: (kind.split("/")[-1], int(size) if size else None) for kind, size, field in fields}
     return types
 
 
@@ -63,7 +63,8 @@ def lead_to_a_number(topics, topic, steps):
         fields = topics[topic].get(kind)
         assert fields and name in fields, f"{topic} {steps}: no field {name}"
         kind, size = fields[name]
-        assert (index is None) == (size is None) and (size is None or int(index) < size), f"{topic} {steps}: index of {name}"
+        right = index is None if size is None else index is not None and int(index) < size
+        assert right, f"{topic} {steps}: index of {name}"
     assert NUMBER.match(kind), f"{topic} {steps}: {kind} is no number"
 
 
@@ -99,7 +100,7 @@ def check_plotjuggler(file, topics):
         assert splitter.get("orientation") in ("|", "-") and abs(sum(sizes) - 1.0) < 0.01, splitter.attrib
         assert int(splitter.get("count")) == len(sizes) == len(splitter), splitter.attrib
     for plot in root.iter("plot"):
-        assert plot.get("mode") == "TimeSeries" and plot.get("style") in ("Lines", "LinesAndDots", "Dots", "Steps"), plot.attrib
+        assert plot.get("mode") == "TimeSeries" and plot.get("style") in ("Lines", "LinesAndDots", "Dots"), plot.attrib
     curves = [curve.get("name") for curve in root.iter("curve")]
     for curve in curves:
         _, topic, *steps = curve.split("/")
