@@ -10,10 +10,12 @@ const root = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.met
 const hop = path.join(path.resolve(process.argv[2]), 'bin/hop');
 const guide = path.join(root, 'tools/docs/guide');
 const pages = [path.join(root, 'README.md'),
-  ...['index', 'wiring', 'computer', 'motors', 'safety', 'calibration', 'first_hops', 'tuning', 'results', 'versions', 'extending']
+  ...['index', 'wiring', 'computer', 'motors', 'safety', 'calibration', 'first_hops', 'tuning', 'results', 'benchmark', 'versions',
+    'extending']
     .map((name) => path.join(guide, `${name}.md`))];
 
 const needsTheRobot = /--board linux|hop doctor|hop calibrate (?!.*--board sim)/;
+const takesHours = /hop conceal benchmark/;
 const environment = { ...process.env, SANDHOPPER_CONFIG: path.join(root, 'config'), SANDHOPPER_NO_BUILD: '1' };
 
 const problems = [];
@@ -81,7 +83,8 @@ for (const page of pages) {
     if (at < 0) return;
     const rest = words.slice(at + 1);
     checkOptions(where, rest);
-    if (at > 0 || needsTheRobot.test(command) || rest.some((word) => /^[A-Z]+$/.test(word))) return;
+    if (at > 0 || needsTheRobot.test(command) || takesHours.test(command)) return;
+    if (rest.some((word) => /^[A-Z]+$/.test(word))) return;
     ++ran;
     run(where, rest);
   });
