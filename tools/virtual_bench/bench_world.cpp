@@ -8,6 +8,7 @@ namespace sandhopper::bench {
 
 BenchWorld::BenchWorld(EventLoop& loop, const WorldConfig& config, const TrialSetup& setup)
     : loop_(loop), config_(config) {
+  config_.sensors.imu_resolution_mps2 = 0.0;  // the emulated chip rounds, once and to its own grid
   reset(setup);
 }
 
