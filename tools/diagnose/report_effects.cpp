@@ -111,15 +111,21 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       }
     diagnosis.effects.push_back(std::move(found));
   }
-  std::sort(diagnosis.effects.begin(), diagnosis.effects.end(),
-            [](const FoundEffect& a, const FoundEffect& b) { return a.heldout_gain > b.heldout_gain; });
-  // Two that nearly cancel explain much one by one and little together.
-  double together = 1.0;
-  if (!best.evidence.empty()) {
-    const auto main = std::ranges::max_element(best.evidence, {}, &EffectEvidence::gain)->candidate;
-    if (const auto alone = search.sets().find({main}); alone != search.sets().end())
-      together = (alone->second.fit.deviance - best.fit.deviance) / explained;
-  }
+  // Two that nearly cancel seem to explain much one by one and explain little together: the first is what
+  // explains most alone, and the others are as sure as what all of them add.
+  const auto alone = [&](std::size_t candidate) {
+    const auto it = search.sets().find({candidate});
+    return it != search.sets().end() ? it->second.fit.deviance : search.null().fit.deviance;
+  };
+  const auto first = std::ranges::min_element(best.set, {}, alone);
+  const double together = first != best.set.end() ? (alone(*first) - best.fit.deviance) / explained : 1.0;
+  const auto leads = [&](const FoundEffect& f) {
+    return first != best.set.end() && f.id == problem.candidates[*first].effect->id &&
+           f.channel == problem.candidates[*first].channel;
+  };
+  std::ranges::sort(diagnosis.effects, [&](const FoundEffect& a, const FoundEffect& b) {
+    return leads(a) != leads(b) ? leads(a) : a.heldout_gain > b.heldout_gain;
+  });
   for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
     auto& beside = diagnosis.effects[i];
     if (!beside.id.starts_with("unknown@"))
