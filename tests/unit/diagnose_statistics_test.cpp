@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/noise_model.hpp"
 #include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/screen.hpp"
 #include "tools/diagnose/signal.hpp"
@@ -50,6 +51,26 @@ TEST(DiagnoseStatistics, WhatOtherTrialsSayNothingOfIsNotPredicted) {
   // Three that agree predict each other.
   const auto agree = held_out_gain({gram_of(90, 100), gram_of(100, 100), gram_of(110, 100)}, {1}, prior);
   for (const double gain : agree.of_trial) EXPECT_GT(gain, 70.0);
+}
+
+class RowsOnly final : public TrialModel {
+ public:
+  void predict(const Edits&, std::span<const double>, std::span<double>) const override {}
+};
+
+TEST(DiagnoseNoise, NoPastPredictsBetterThanTheSensorsOwnNoise) {
+  // A residual as smooth as a wave seems predictable to a thousandth; the sensor's noise of 0.1 is not.
+  RowsOnly trial;
+  constexpr std::size_t kRows = 2000;
+  Eigen::VectorXd residual(kRows);
+  for (std::size_t k = 0; k < kRows; ++k) {
+    trial.rows.push_back({.time_s = 1e-3 * static_cast<double>(k)});
+    residual[static_cast<Eigen::Index>(k)] = std::sin(0.01 * static_cast<double>(k));
+  }
+  const std::vector<double> floor{0.1};
+  const auto noise = estimate_noise({&trial}, {std::vector<std::uint8_t>(kRows, 1)}, {residual}, 1, floor);
+  const auto& channel = noise.channel(0);
+  EXPECT_NEAR(channel.correlation_of_phase[0].innovation_sd * channel.sd_of_phase[0], 0.1, 1e-6);
 }
 
 TEST(DiagnosePlants, GrainsMakeOfAWholePressWhatTheirCorrelationSays) {

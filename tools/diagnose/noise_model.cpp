@@ -179,9 +179,14 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
         }
       }
     }
-    for (const auto& of_one : products)
-      noise.correlation_of_phase.push_back(
-          (of_one.counts[0] >= kTooFewForCorrelation ? of_one : all_phases).autoregression());
+    for (std::size_t p = 0; p < phases; ++p) {
+      const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
+      auto correlation = (enough ? products[p] : all_phases).autoregression();
+      // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than that.
+      const double white = std::min(1.0, floor_sd[c] / noise.sd_of_phase[p]);
+      correlation.innovation_sd = std::max(correlation.innovation_sd, white);
+      noise.correlation_of_phase.push_back(std::move(correlation));
+    }
   }
   return NoiseModel(std::move(channels));
 }

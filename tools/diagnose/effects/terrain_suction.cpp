@@ -7,14 +7,16 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double radius = c.scale("foot_radius_m", 0.04);
   const double typical = 2.0 * std::pow(radius / 0.04, 2);
   return {{.name = "suction_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
-          {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}}};
+          {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}},
+          {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double force = v[0], depth = v[1];
+  const double force = v[0], depth = v[1], power = v[2];
   const Law pull = [=](const PortState& s) {
-    return s.velocity < -1e-4 ? force * std::min(1.0, s.position / depth) : 0.0;
+    return s.velocity < -1e-4 ? force * (1.0 - std::exp(-std::pow(std::max(0.0, s.position) / depth, power)))
+                              : 0.0;
   };
   edits.law("ground.force", [pull](const PortState& s) { return -pull(s); });
   edits.law("ground.tension", pull);
@@ -23,7 +25,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect({.id = "terrain.suction",
                                   .port = "ground",
                                   .statement = "The bed holds the foot back when it is withdrawn.",
-                                  .equation = "F += -F_s min(1, z / z_1), v < 0",
+                                  .equation = "F += -F_s (1 - exp(-(z / z_1)^p)), v < 0",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},
                                   .parameters = parameters,
                                   .apply = apply});

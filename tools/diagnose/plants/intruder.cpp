@@ -148,14 +148,19 @@ class IntruderTrial final : public TrialModel {
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
-    double deepest_m = 0.0, before_N = 0.0;
+    double deepest_m = 0.0, before_N = 0.0, deeper_m = laws.deeper_m();
     bool touching = false;
     for (std::size_t i = 0; i < count; ++i) {
       laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
       double force_N = before_N;
       double depth_m = 0.0;
-      const double asked_m = read.depth_m(i) + surface_m + laws.deeper_m();
-      if (touching && asked_m <= 0.0) laws.pushed();
+      const double asked_m = read.depth_m(i) + surface_m + deeper_m;
+      if (touching && asked_m <= 0.0) {
+        laws.pushed();
+        // Where the surface is lower now, the deepest point has not moved.
+        deepest_m += laws.deeper_m() - deeper_m;
+        deeper_m = laws.deeper_m();
+      }
       touching = asked_m > 0.0;
       laws.touching(touching);
       BedContact contact{};
