@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tools/diagnose/calibration.hpp"
 #include "tools/diagnose/report_parts.hpp"
@@ -54,6 +55,16 @@ std::string change_of(const std::string& name) {
   return name + "_change";
 }
 
+// Deviance that an effect of the best set takes away, as a fit without it has it: of two that nearly cancel
+// each seems to explain much, while without it the other shrinks, too.
+double lost_without(const Search& search, const EffectEvidence& evidence) {
+  auto rest = search.best().set;
+  std::erase(rest, evidence.candidate);
+  const auto it = search.sets().find(rest);
+  if (it == search.sets().end()) return evidence.gain;
+  return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, evidence.gain);
+}
+
 std::string filled(std::string text, const std::string& channel) {
   if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
   return text;
@@ -105,31 +116,17 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       }
     for (const auto& evidence : best.evidence)
       if (evidence.candidate == c) {
-        found.heldout_gain = std::min(1.0, evidence.gain / explained);
+        found.heldout_gain = std::min(1.0, lost_without(search, evidence) / explained);
         found.p_value = std::max(evidence.p_value, 1e-300);
         found.typicals = evidence.typicals;
       }
     diagnosis.effects.push_back(std::move(found));
   }
-  // Two that nearly cancel seem to explain much one by one and explain little together: the first is what
-  // explains most alone, and the others are as sure as what all of them add.
-  const auto alone = [&](std::size_t candidate) {
-    const auto it = search.sets().find({candidate});
-    return it != search.sets().end() ? it->second.fit.deviance : search.null().fit.deviance;
-  };
-  const auto first = std::ranges::min_element(best.set, {}, alone);
-  const double together = first != best.set.end() ? (alone(*first) - best.fit.deviance) / explained : 1.0;
-  const auto leads = [&](const FoundEffect& f) {
-    return first != best.set.end() && f.id == problem.candidates[*first].effect->id &&
-           f.channel == problem.candidates[*first].channel;
-  };
-  std::ranges::sort(diagnosis.effects, [&](const FoundEffect& a, const FoundEffect& b) {
-    return leads(a) != leads(b) ? leads(a) : a.heldout_gain > b.heldout_gain;
-  });
+  std::ranges::sort(diagnosis.effects, std::greater<>{}, &FoundEffect::heldout_gain);
   for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
     auto& beside = diagnosis.effects[i];
     if (!beside.id.starts_with("unknown@"))
-      beside.probability = calibrated_beside(beside.probability, std::min(beside.heldout_gain, together));
+      beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
   }
 }
 

@@ -106,6 +106,17 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
   });
 }
 
+// Several channels that are late by the same: none is, against the others.
+bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
+  std::map<std::string, double> delays;
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
+    for (const auto& [channel, delay_s] : delays_s(problem, hypothesis, e)) delays[channel] += delay_s;
+  if (delays.size() < 2) return false;
+  const double first_s = delays.begin()->second;
+  for (auto& [channel, delay_s] : delays) delay_s -= first_s;
+  return within_tolerance(problem, delays);
+}
+
 }  // namespace
 
 double Search::cost_of_an_effect() const { return -2.0 * std::log(kPriorOfAnEffect) + cost_of_a_parameter(); }
@@ -220,6 +231,7 @@ void Search::judge(SetFit& result) {
     result.evidence.push_back(std::move(evidence));
     first += width;
   }
+  if (late_together(*problem_, point.hypothesis)) result.needed = false;
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
