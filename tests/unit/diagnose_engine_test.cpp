@@ -47,6 +47,15 @@ TEST(Diagnose, FindsNothingOnAnAxisWhereNothingIsMissing) {
   EXPECT_TRUE(d.effects.empty());
 }
 
+// A drive that is off: what its torque sensor reads is noise and moves nothing.
+TEST(Diagnose, NoiseOfATorqueThatIsOffIsNoTorque) {
+  auto recordings = swings([](double, double, double torque) { return -torque; }, 3, 8);
+  Random random(9, 0);
+  for (auto& trial : recordings.trials)
+    for (double& torque : trial.channels["torque_Nm"]) torque = 0.1 * random.normal();
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+}
+
 TEST(Diagnose, NamesAirDragWithItsCoefficient) {
   // C_d 0.5, A 0.01 m^2, 1.2 kg/m^3
   const auto d =
