@@ -185,6 +185,20 @@ TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
   EXPECT_EQ(d.effects.front().channel, "accel_mps2");
 }
 
+// A torque in coarse steps repeats wherever it moves slowly; that it did not just around a stretch is chance.
+TEST(DiagnoseDataFaults, WhatRepeatsElsewhereIsNotStuck) {
+  auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
+  for (auto& trial : trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    for (std::size_t i = 0; i < torque.size(); ++i)
+      torque[i] = 0.01 * static_cast<double>(i / 2 % 40) - 0.5;  // every value twice
+  }
+  auto& torque = trials.front().channels["torque_Nm"];
+  for (std::size_t i = 260; i < 310; ++i) torque[i] = 0.01 * static_cast<double>(i % 7 * 5) - 0.4;
+  for (std::size_t i = 280; i < 290; ++i) torque[i] = -0.23;
+  EXPECT_TRUE(remove_data_faults(trials).empty());
+}
+
 // A speed counted from an encoder is zero, exactly, for as long as no count comes.
 TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
   auto recordings = swings([](double, double, double) { return 0.0; });

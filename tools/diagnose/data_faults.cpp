@@ -64,7 +64,8 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
 }
 
 std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
-                                    std::size_t shortest, std::size_t shortest_by_number) {
+                                    std::size_t shortest, std::size_t shortest_by_number,
+                                    double chance_anywhere) {
   std::vector<Stretch> found;
   double grid = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < v.size(); ++i)
@@ -76,7 +77,7 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     const bool inside = i > 0 && j + 1 < v.size();
     // A drive that reports exactly nothing rests.
     if (length >= shortest && inside && v[i] != 0.0) {
-      const double chance = repeats_around(v, i, j);
+      const double chance = std::max(repeats_around(v, i, j), chance_anywhere);
       if (chance < kMostRepeats &&
           (std::pow(chance, static_cast<double>(length - 1)) < kByChance || length >= shortest_by_number) &&
           quantity_went_on(v, i, j, grid))
@@ -132,6 +133,7 @@ bool position_went_along(const SampledChannel& speed, const std::string& channel
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
   const auto samples = sampled(trials, channel);
   std::map<std::size_t, double> runs;
+  double all_runs = 0.0;
   double repeated = 0.0, total = 0.0;
   double low = 1e300, high = -1e300;
   DataFault fault;
@@ -144,6 +146,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
       low = std::min(low, s.value[i]);
       high = std::max(high, s.value[i]);
       if (j > i) ++runs[j - i + 1];
+      ++all_runs;
       repeated += static_cast<double>(j - i);
       i = j + 1;
     }
@@ -155,6 +158,9 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   if (total < 20.0 || repeated > 0.5 * total) return;  // a slow sensor, held in the log
   const std::size_t by_number = shortest_by_number(runs);
   const std::size_t shortest = channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest;
+  // Of coarse steps two in a row are often the same, wherever few neighbours happen to be: a stretch that is
+  // held adds to the long runs, not to these.
+  const double chance = runs[2] / all_runs;
   std::vector<double> durations;
   std::size_t longest = 0, least = std::numeric_limits<std::size_t>::max();
   const auto take_out = [&](const SampledChannel& s, const Stretch& stretch) {
@@ -165,7 +171,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     ++fault.stretches;
   };
   for (const auto& s : samples)
-    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number)) {
+    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       if (position_went_along(s, channel, stretch)) continue;
