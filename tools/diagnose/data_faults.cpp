@@ -226,6 +226,7 @@ double value_grid(const std::vector<SampledChannel>& channel) {
 
 double own_noise(const std::vector<SampledChannel>& channel) {
   std::vector<double> of_trial;
+  of_trial.reserve(channel.size());
   for (const auto& s : channel) of_trial.push_back(fluctuation_rms({s.time_s, s.value}));
   if (of_trial.empty()) return 0.0;
   const auto middle = of_trial.begin() + static_cast<std::ptrdiff_t>(of_trial.size() / 2);

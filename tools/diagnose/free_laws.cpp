@@ -96,6 +96,7 @@ std::vector<Visited> visited(const Problem& problem, const Point& point, const s
 
 std::vector<double> uniform_knots(double low, double high, int count) {
   std::vector<double> knots;
+  knots.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) knots.push_back(low + (high - low) * k / (count - 1));
   return knots;
 }

@@ -182,7 +182,8 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
     for (std::size_t p = 0; p < phases; ++p) {
       const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
       auto correlation = (enough ? products[p] : all_phases).autoregression();
-      // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than that.
+      // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than
+      // that.
       const double white = std::min(1.0, floor_sd[c] / noise.sd_of_phase[p]);
       correlation.innovation_sd = std::max(correlation.innovation_sd, white);
       noise.correlation_of_phase.push_back(std::move(correlation));

@@ -27,6 +27,7 @@ struct Alternative {
 
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
   std::vector<double> typical;
+  typical.reserve(candidate.parameters.size());
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     typical.push_back(is_amplitude(candidate.parameters, i) ? 0.0 : candidate.parameters[i].typical);
   std::vector<std::vector<double>> choices{typical};
@@ -41,6 +42,7 @@ std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
 std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index first, Index count,
                                  const VectorXd& prior_information) {
   std::vector<MatrixXd> grams;
+  grams.reserve(trials.size());
   for (const auto& trial : trials) grams.push_back(trial.gram);
   if (count == 0) return grams;
   const Index width = grams.front().cols();

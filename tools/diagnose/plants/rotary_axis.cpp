@@ -90,8 +90,8 @@ class RotaryTrial final : public TrialModel {
     for (std::uint32_t b = 0; b < blocks; ++b) {
       const double from_s = block_s_ * b, to_s = block_s_ * (b + 1);
       simulate(f, laws, torque,
-               {from_s, to_s, starts_[b].first + nuisances[q + 2 * b],
-                starts_[b].second + nuisances[q + 2 * b + 1]},
+               {from_s, to_s, starts_[b].first + nuisances[q + 2 * std::size_t{b}],
+                starts_[b].second + nuisances[q + 2 * std::size_t{b} + 1]},
                position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
@@ -127,7 +127,7 @@ class RotaryTrial final : public TrialModel {
   }
 
   Signal acting_torque(const Edits& edits) const {
-    const Signal recorded = drive_;
+    const Signal& recorded = drive_;
     const auto count = recorded.values.size();
     bool edited = false;
     for (const auto& edit : edits.sensors) edited = edited || edit.channel == "actuator";
