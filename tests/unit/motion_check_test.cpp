@@ -147,26 +147,22 @@ TEST(MotionCheckHeight, AFilterThatRefusesTwentyReadingsInARowHasDiverged) {
   EXPECT_EQ(motion.found.values[0], -0.07);
 }
 
-TEST(MotionCheckHeight, OutliersAmongReadingsThatAreTakenAreNothing) {
+// After how many cycles the fault is named, where the reading of cycle i (from 1 on) is off by what
+// `squared_at` says.
+template <class Squared>
+int first_refused(int cycles, Squared&& squared_at) {
   Motion motion;
-  int reading = 0;
-  EXPECT_EQ(motion.first_fault(1000,
-                               [&](double) {
-                                 motion.estimate.normalised_innovation_squared[0] =
-                                     ++reading % 20 == 0 ? 0.5 : 400.0;
-                               }),
-            0);
+  int cycle = 0;
+  return motion.first_fault(
+      cycles, [&](double) { motion.estimate.normalised_innovation_squared[0] = squared_at(++cycle); });
+}
+
+TEST(MotionCheckHeight, OutliersAmongReadingsThatAreTakenAreNothing) {
+  EXPECT_EQ(first_refused(1000, [](int reading) { return reading % 20 == 0 ? 0.5 : 400.0; }), 0);
 }
 
 TEST(MotionCheckHeight, CyclesWithoutAReadingNeitherCountNorForgive) {
-  Motion motion;
-  int cycle = 0;
-  EXPECT_EQ(motion.first_fault(100,
-                               [&](double) {
-                                 motion.estimate.normalised_innovation_squared[0] =
-                                     ++cycle % 3 == 0 ? 37.0 : kNotMeasured;
-                               }),
-            60);
+  EXPECT_EQ(first_refused(100, [](int cycle) { return cycle % 3 == 0 ? 37.0 : kNotMeasured; }), 60);
 }
 
 TEST(MotionCheckHeight, TheGateIsTheFilters) {

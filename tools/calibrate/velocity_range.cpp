@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "terrain/trial_statistics.hpp"
+#include "tools/calibrate/line.hpp"
 
 namespace sandhopper::calibrate {
 namespace {
@@ -24,18 +25,14 @@ struct Stretch {
 };
 
 Stretch measure(const MotorSample* first, std::size_t count) {
-  const auto n = static_cast<double>(count);
-  double t = 0.0, p = 0.0, v = 0.0, tt = 0.0, tp = 0.0;
+  std::vector<double> times_s, positions_rad;
+  double velocity_radps = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double time_s = static_cast<double>(first[i].time_ns - first->time_ns) * 1e-9;
-    const double position = first[i].position_rad - first->position_rad;
-    t += time_s;
-    p += position;
-    v += first[i].velocity_radps;
-    tt += time_s * time_s;
-    tp += time_s * position;
+    times_s.push_back(static_cast<double>(first[i].time_ns - first->time_ns) * 1e-9);
+    positions_rad.push_back(first[i].position_rad - first->position_rad);
+    velocity_radps += first[i].velocity_radps / static_cast<double>(count);
   }
-  return {(n * tp - t * p) / (n * tt - t * t), v / n};
+  return {fit_line(times_s, positions_rad, 0.0).slope, velocity_radps};
 }
 
 // Nothing where the leg moved in too few stretches.

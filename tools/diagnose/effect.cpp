@@ -20,6 +20,10 @@ std::vector<Effect> known_effects() {
   return effects;
 }
 
+std::string port_on(PlantKind plant, const std::string& port) {
+  return port == "joint" && plant == PlantKind::rotary_axis ? "axis" : port;
+}
+
 std::string port_of(const Candidate& candidate) {
   if (!candidate.channel.empty()) return candidate.channel;
   if (candidate.effect->port != "sensor") return candidate.port;
@@ -33,9 +37,7 @@ std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const 
     const auto channels = effect.channels ? effect.channels(context) : std::vector<std::string>{""};
     for (const auto& channel : channels)
       if (auto parameters = effect.parameters(context, channel); !parameters.empty())
-        found.push_back(
-            {&effect, channel, std::move(parameters),
-             effect.port == "joint" && context.plant == PlantKind::rotary_axis ? "axis" : effect.port});
+        found.push_back({&effect, channel, std::move(parameters), port_on(context.plant, effect.port)});
   }
   return found;
 }

@@ -39,6 +39,9 @@ struct EffectParameter {
   }
 };
 
+// Where an effect of `port` acts on this plant: a rotary axis' only joint is the axis.
+std::string port_on(PlantKind plant, const std::string& port);
+
 // Whether zero switches it, or its part of the effect, off; the others are shapes.
 inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::size_t index) {
   return index == 0 || parameters[index].amplitude;
@@ -81,7 +84,7 @@ struct Candidate {
   const Effect* effect = nullptr;
   std::string channel;
   std::vector<EffectParameter> parameters;
-  std::string port{};  // the effect's; a rotary axis' only joint is the axis
+  std::string port{};  // where the effect acts on this plant
 
   // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
   // of time or reading by its tangent, or the steep edges of a signal hide it behind its own curvature.

@@ -141,7 +141,12 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
   // second look at the list would help.
   std::optional<FreeGain> balance;
-  if (misfit_of(problem, search).large) balance = law_of_balances(problem, clean);
+  bool balances_asked = false;  // no fit changes them
+  const auto ask_balances = [&] {
+    if (!balances_asked) balance = law_of_balances(problem, clean);
+    balances_asked = true;
+  };
+  if (misfit_of(problem, search).large) ask_balances();
   if (!search.best().set.empty() && !balance) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
@@ -179,7 +184,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
   std::vector<FreeGain> alone;
-  if (misfit.large && !balance) balance = law_of_balances(problem, clean);
+  if (misfit.large) ask_balances();
   if (balance) {
     diagnosis.log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
                                         balance->family.port, balance->family.variable,
@@ -198,7 +203,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // fitted to, the names are not it.
   bool outdone = false;
   if (!best.set.empty() && rest == nullptr && problem.context.plant != PlantKind::hopper) {
-    alone = free_gains(problem, search.null().fit.point);
+    if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
     for (const auto& gain : alone)
       if (rest == nullptr && gain.held_out > kOutdone * explained + least_gain &&
           gain.p_value < kMisfitSignificance && gain.trials_better >= 0.75)

@@ -159,8 +159,7 @@ void update_noise(Problem& problem, const Point& point) {
     edits.laws_key = 0;
     directions.push_back({std::move(edits), values[0] / parameters[0].typical});
   }
-  std::size_t rows = 0;
-  for (const auto& trial : problem.trials) rows += trial->rows.size();
+  const double rows = problem.rows();
   auto families = free_families(problem, point);
   // What a hopper's joint and ground could do, too, is so much that the noise itself would pass for it.
   if (problem.context.plant == PlantKind::hopper)
@@ -168,7 +167,7 @@ void update_noise(Problem& problem, const Point& point) {
   std::size_t terms = 0;
   for (const auto& family : families) terms += family.terms.size();
   // A short recording gives its noise away to so many columns.
-  if (rows > kRowsPerFreeTerm * terms)
+  if (rows > kRowsPerFreeTerm * static_cast<double>(terms))
     for (const auto& family : families)
       for (const auto& term : family.terms) directions.push_back({with_term(base, term, 0.3), 0.3});
 
@@ -191,8 +190,7 @@ void update_noise(Problem& problem, const Point& point) {
   find_noisy_trials(problem, residuals);
   problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
                                  problem.floor_sd);
-  const double n = static_cast<double>(rows);
-  problem.noise.widen(std::sqrt(n / std::max(0.25 * n, n - taken_up)));
+  problem.noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
   mark_outliers(problem, residuals);
   // A condition is met as closely as it says, whatever the recordings scatter.
   for (std::size_t c = 0; c < problem.channels.size(); ++c)

@@ -52,7 +52,7 @@ class Weigher {
     for (const auto& option : options_)
       if (option.own)
         for (std::size_t i = 0; i < option.columns.size(); ++i)
-          if (is_amplitude(option, i)) back[option.columns[i]] = in_typicals(option, i);
+          if (amplitude_at(option, i)) back[option.columns[i]] = in_typicals(option, i);
     const VectorXd column = gram_ * back;
     const double corner = back.dot(column);
     gram_.col(0) = column;
@@ -79,13 +79,13 @@ class Weigher {
       score[i] = gram_(a, 0);
       for (Index j = 0; j < k; ++j) information(i, j) = gram_(a, columns[static_cast<std::size_t>(j)]);
       const auto& [option, at] = which[static_cast<std::size_t>(i)];
-      information(i, i) += is_amplitude(*option, at) ? kPriorInformation : 1.0;
+      information(i, i) += amplitude_at(*option, at) ? kPriorInformation : 1.0;
     }
     set.size = information.ldlt().solve(score);
     set.deviance = gram_(0, 0) - score.dot(set.size);
     for (Index i = 0; i < k; ++i) {
       const auto& [option, at] = which[static_cast<std::size_t>(i)];
-      if (!is_amplitude(*option, at)) continue;
+      if (!amplitude_at(*option, at)) continue;
       const auto& p = parameter(*option, at);
       const double value = set.size[i] * p.typical;
       if (!(value >= p.low && value <= p.high)) return false;
@@ -103,7 +103,7 @@ class Weigher {
         const auto& p = parameter(option, i);
         double& value = values[option.parameters[i]];
         value =
-            std::clamp(is_amplitude(option, i) ? set.size[at] * p.typical : value + set.size[at] * p.typical,
+            std::clamp(amplitude_at(option, i) ? set.size[at] * p.typical : value + set.size[at] * p.typical,
                        p.low, p.high);
       }
       h.candidates.push_back(option.candidate);
@@ -116,9 +116,8 @@ class Weigher {
   const EffectParameter& parameter(const Option& option, std::size_t column) const {
     return problem_.candidates[option.candidate].parameters[option.parameters[column]];
   }
-  bool is_amplitude(const Option& option, std::size_t column) const {
-    return diagnose::is_amplitude(problem_.candidates[option.candidate].parameters,
-                                  option.parameters[column]);
+  bool amplitude_at(const Option& option, std::size_t column) const {
+    return is_amplitude(problem_.candidates[option.candidate].parameters, option.parameters[column]);
   }
   double in_typicals(const Option& option, std::size_t column) const {
     return option.values[option.parameters[column]] / parameter(option, column).typical;
@@ -143,7 +142,7 @@ class Weigher {
       for (const auto& choice : shape_choices(problem_.candidates[c])) {
         Option option{c, choice, {}, {}, false};
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-          if (!diagnose::is_amplitude(parameters, i)) continue;
+          if (!is_amplitude(parameters, i)) continue;
           Hypothesis with = point.hypothesis;
           auto values = choice;
           const double step =

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,19 @@ inline std::vector<std::string> accelerometers(const Context& context) {
 inline bool has_bed(const Context& context) {
   return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;
 }
+
+// How much of a law at the ground has come in at a depth: 0 at the surface, 1 far below `over_m`.
+inline double come_in(double depth_m, double over_m, double power = 1.0) {
+  return 1.0 - std::exp(-std::pow(std::max(0.0, depth_m) / over_m, power));
+}
+
+// Over which depth a law of speed comes in shows where the motion is prescribed and recorded.
+inline void add_onset(const Context& context, std::vector<EffectParameter>& parameters) {
+  if (context.plant == PlantKind::intruder)
+    parameters.push_back(
+        {.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
+}
+inline double onset_of(std::span<const double> values) { return values.size() > 1 ? values[1] : 1e-5; }
 
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);

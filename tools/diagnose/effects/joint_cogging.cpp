@@ -36,8 +36,7 @@ const EffectRegistration kEffect({.id = "joint.cogging",
                                   .apply = [](const Context& c, const std::string&, std::span<const double> v,
                                               Edits& edits) {
                                     const double a = v[0], b = v[1], h = v[2];
-                                    const char* port = c.plant == PlantKind::hopper ? "joint" : "axis";
-                                    edits.law(port, [=](const PortState& s) {
+                                    edits.law(port_on(c.plant, "joint"), [=](const PortState& s) {
                                       return a * std::sin(h * s.position) + b * std::cos(h * s.position);
                                     });
                                   }});

@@ -12,9 +12,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double depth = v[0], power = v[1];
-  edits.law("ground.factor", [=](const PortState& s) {
-    return depth > 1e-9 ? -std::exp(-std::pow(std::max(0.0, s.position) / depth, power)) : 0.0;
-  });
+  edits.law("ground.factor",
+            [=](const PortState& s) { return depth > 1e-9 ? come_in(s.position, depth, power) - 1.0 : 0.0; });
 }
 
 const EffectRegistration kEffect(

@@ -8,16 +8,14 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 5.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
   std::vector<EffectParameter> all{
       {.name = "quadratic_drag_N_s2_per_m2", .typical = typical, .low = 0.0, .high = 100.0 * typical}};
-  // Over which depth it comes in shows where the motion is prescribed and recorded.
-  if (c.plant == PlantKind::intruder)
-    all.push_back({.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
+  add_onset(c, all);
   return all;
 }
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double factor = v[0], onset = v.size() > 1 ? v[1] : 1e-5;
+  const double factor = v[0], onset = onset_of(v);
   edits.law("ground.force", [=](const PortState& s) {
-    return s.accel * factor * s.velocity * s.velocity * (1.0 - std::exp(-s.position / onset));
+    return s.accel * factor * s.velocity * s.velocity * come_in(s.position, onset);
   });
 }
 

@@ -15,8 +15,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   (void)c;
   const double force = v[0], depth = v[1], power = v[2];
   const Law pull = [=](const PortState& s) {
-    return s.velocity < -1e-4 ? force * (1.0 - std::exp(-std::pow(std::max(0.0, s.position) / depth, power)))
-                              : 0.0;
+    return s.velocity < -1e-4 ? force * come_in(s.position, depth, power) : 0.0;
   };
   edits.law("ground.force", [pull](const PortState& s) { return -pull(s); });
   edits.law("ground.tension", pull);
