@@ -26,10 +26,10 @@ set_tests_properties(bench.linux_board PROPERTIES LABELS bench TIMEOUT 600 ENVIR
 add_executable(spi_probe tests/bench/spi_probe.cpp)
 target_link_libraries(spi_probe PRIVATE sandhopper_options)
 set_target_properties(spi_probe PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
-foreach(name boot devices determinism calibrate)
+foreach(name boot devices determinism calibrate watchdog)
   add_test(NAME bench.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/${name})
   set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 900 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 endforeach()
 
-set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism bench.calibrate
+set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism bench.calibrate bench.watchdog
   PROPERTIES FIXTURES_REQUIRED bench_kernel)
