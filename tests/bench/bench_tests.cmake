@@ -1,5 +1,10 @@
 # Tests that need the virtual bench's kernel, which is built once and before all of them: some minutes that count
 # towards no test's own time limit.
+if(SANDHOPPER_SANITIZE MATCHES "address|thread")
+  message(WARNING "The tests on the bench are left out: AddressSanitizer and ThreadSanitizer map more than the 39 address "
+    "bits that a process has there. UBSan alone runs there: cmake --preset default -DSANDHOPPER_SANITIZE=undefined")
+  return()
+endif()
 add_test(NAME bench.kernel COMMAND ${PROJECT_SOURCE_DIR}/tools/virtual_bench/build_kernel)
 set_tests_properties(bench.kernel PROPERTIES LABELS bench TIMEOUT 3600 FIXTURES_SETUP bench_kernel)
 add_executable(can_playback tests/bench/can_playback.cpp)
@@ -31,5 +36,13 @@ foreach(name boot devices determinism calibrate watchdog)
   set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 900 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 endforeach()
 
-set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism bench.calibrate bench.watchdog
+# hopperd as a process, where it has a bus.
+add_test(NAME daemon.on_the_bus
+  COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 240 ${PROJECT_SOURCE_DIR}/tests/daemon/on_the_bus
+          ${CMAKE_BINARY_DIR}
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(daemon.on_the_bus PROPERTIES LABELS bench TIMEOUT 600 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+
+set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism
+  bench.calibrate bench.watchdog daemon.on_the_bus
   PROPERTIES FIXTURES_REQUIRED bench_kernel)

@@ -8,9 +8,3 @@ foreach(name signals overruns log_files)
   add_test(NAME daemon.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/daemon/${name} ${CMAKE_BINARY_DIR})
   set_tests_properties(daemon.${name} PROPERTIES LABELS daemon TIMEOUT 180 RUN_SERIAL ON)
 endforeach()
-add_test(NAME daemon.on_the_bus
-  COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 240 ${PROJECT_SOURCE_DIR}/tests/daemon/on_the_bus
-          ${CMAKE_BINARY_DIR}
-  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(daemon.on_the_bus PROPERTIES LABELS bench TIMEOUT 600 ENVIRONMENT SANDHOPPER_NO_BUILD=1
-  FIXTURES_REQUIRED bench_kernel)

@@ -58,7 +58,7 @@ execFileSync(hop, ['trial', '--no-report', '--output', made], { env: environment
 const someLog = path.join(made, fs.readdirSync(made).find((name) => name.endsWith('.mcap')));
 
 function run(where, words) {
-  const result = spawnSync(hop, words, { cwd: folder, encoding: 'utf8', env: environment, timeout: 240_000 });
+  const result = spawnSync(hop, words, { cwd: folder, encoding: 'utf8', env: environment, timeout: 1_500_000 });
   // 1: ran, and the answer is no; a diagnosis may say so.
   if (result.status !== 0 && !(result.status === 1 && words[0] !== 'replay'))
     problems.push(`${where}: 'hop ${words.join(' ')}' ended with ${result.status}\n${result.stderr.slice(-600)}`);

@@ -92,7 +92,9 @@ TEST(Soak, RandomFaultsAreAllNamedAndSoundTrialsAreLeftAlone) {
   const long growth_kB = memory_kB() - first_kB;
   std::printf("%.0f s of virtual time, %d trials, %d with a fault, %d sound; memory grew by %ld kB\n", time_s,
               trials, faults, sound, growth_kB);
-  EXPECT_LT(growth_kB, 2048);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(growth_kB, 2048);  // sanitizers hold freed memory back; they look for leaks themselves
+#endif
 }
 
 }  // namespace
