@@ -42,22 +42,25 @@ constexpr double kBalanceSignificance = 0.01;
 // How much the best set leaves beyond the noise.
 struct Misfit {
   double unexplained = 0.0, explained = 0.0;
+  std::size_t trials_left_far = 0;
   bool large = false;
+  bool noticeable = false;  // enough to ask the balances
 };
 Misfit misfit_of(const Problem& problem, const Search& search) {
   Misfit m;
   // Trials that are left far: a few whose simulations went astray are no physics that is missing.
-  std::size_t left_far = 0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const double rows = static_cast<double>(problem.trials[t]->rows.size());
-    left_far += search.best().fit.trial_deviance[t] - rows > kMisfitPerRow * rows;
+    m.trials_left_far += search.best().fit.trial_deviance[t] - rows > kMisfitPerRow * rows;
   }
   m.unexplained = search.best().fit.deviance - problem.rows();
   m.explained = search.null().fit.deviance - search.best().fit.deviance;
   const std::size_t enough = problem.plant->motion_is_prescribed() ? 2 : (problem.trials.size() + 1) / 2;
-  m.large = problem.trials.size() >= kTooFewTrials && left_far >= enough &&
-            m.unexplained > kMisfitPerRow * problem.rows() &&
-            m.unexplained > kMisfitOfExplained * m.explained;
+  const bool left_much =
+      problem.trials.size() >= kTooFewTrials && m.unexplained > kMisfitPerRow * problem.rows();
+  m.large = left_much && m.trials_left_far >= enough && m.unexplained > kMisfitOfExplained * m.explained;
+  // A hopper's own misfits are that large now and then.
+  m.noticeable = m.large || (left_much && problem.context.plant != PlantKind::hopper);
   return m;
 }
 
@@ -146,7 +149,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     if (!balances_asked) balance = law_of_balances(problem, clean);
     balances_asked = true;
   };
-  if (misfit_of(problem, search).large) ask_balances();
+  if (misfit_of(problem, search).noticeable) ask_balances();
   if (!search.best().set.empty() && !balance) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
@@ -184,7 +187,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
   std::vector<FreeGain> alone;
-  if (misfit.large) ask_balances();
+  if (misfit.noticeable) ask_balances();
   if (balance) {
     diagnosis.log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
                                         balance->family.port, balance->family.variable,
@@ -217,8 +220,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (!outdone && best.fit.deviance < rows && share_of(rest) <= kUnknownShare) rest = nullptr;
   const double remainder = rest ? rest->held_out : 0.0;
   const double share = share_of(rest);
-  diagnosis.log.push_back(fmt::format("explained {:.1f}, rest {:.1f} ({:.1f} %), {} rows", explained,
-                                      remainder, 100.0 * share, rows));
+  diagnosis.log.push_back(fmt::format(
+      "explained {:.1f}, left {:.1f} beyond the noise in {} of {} trials, rest {:.1f} ({:.1f} %), {} rows",
+      explained, misfit.unexplained, misfit.trials_left_far, problem.trials.size(), remainder, 100.0 * share,
+      rows));
 
   const Posterior belief = posterior(problem, search, remainder);
   const bool unknown =

@@ -1,14 +1,14 @@
 #include "tools/diagnose/plants/rotary_axis.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/ripple.hpp"
+#include "tools/diagnose/plants/rotary_balance.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -18,22 +18,6 @@ constexpr double kMostRows = 3000.0;    // of a channel
 constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
-
-struct Figures {
-  double inertia_kg_m2, gravity_torque_Nm, viscous_Nm_s, coulomb_Nm, switch_speed_radps, bottom_rad;
-
-  Figures(const Belief& belief, const Edits& edits) {
-    const auto read = [&](const char* key, double otherwise) {
-      return edits.edited(key, belief.value(key, otherwise));
-    };
-    inertia_kg_m2 = std::max(1e-9, read("axis.inertia_kg_m2", 1.0));
-    gravity_torque_Nm = read("axis.gravity_torque_Nm", 0.0);
-    bottom_rad = read("axis.bottom_rad", 0.0);
-    viscous_Nm_s = read("axis.viscous_friction_Nm_s", 0.0);
-    coulomb_Nm = read("axis.coulomb_friction_Nm", 0.0);
-    switch_speed_radps = std::max(1e-6, read("axis.friction_switch_speed_radps", 0.02));
-  }
-};
 
 // A drive that is off records its torque sensor's noise, which acts on nothing: where a torque scatters no
 // more than its white noise does, its mean stands for it, or zero where that is noise, too. Otherwise a
@@ -80,7 +64,7 @@ class RotaryTrial final : public TrialModel {
   }
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
-    const Figures f(belief_, edits);
+    const RotaryFigures f(belief_, edits);
     const auto laws = edits.at("axis");
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
@@ -196,8 +180,8 @@ class RotaryTrial final : public TrialModel {
     sensors_[1] = sensor_belief(belief_, of_encoder ? "encoder_velocity" : "velocity", "radps");
   }
 
-  void simulate(const Figures& f, const std::vector<const Law*>& laws, const Signal& torque, const Stretch& s,
-                Signal& position, Signal& velocity) const {
+  void simulate(const RotaryFigures& f, const std::vector<const Law*>& laws, const Signal& torque,
+                const Stretch& s, Signal& position, Signal& velocity) const {
     const auto count = static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
     position.start_s = velocity.start_s = s.from_s;
     position.values.resize(count);
@@ -246,44 +230,18 @@ class RotaryTrial final : public TrialModel {
   std::vector<double> times_;
 };
 
-// Orders of the ripple over the angle that the torque needed for the recorded motion shows besides the
-// believed one.
+// Orders of the ripple over the angle that the balance of torques shows, friction and drive taken out.
 std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr int kFirst = 3, kLast = 250;
-  constexpr std::size_t kMostSamples = 800;  // of a trial
-  const Figures f(belief, {});
+  constexpr std::size_t kLeastRows = 30;  // of a trial
   std::vector<double> angles, torques;
-  for (const auto& trial : trials) {
-    const auto position = samples_of(trial, "position_rad");
-    const auto torque = samples_of(trial, "torque_Nm");
-    if (position.value.size() < 50 || torque.value.size() < 50) continue;
-    const double step_s = median_step_s(position.time_s);
-    const auto half = static_cast<std::size_t>(std::clamp(0.012 / step_s, 2.0, 12.0));
-    const Smoothed at = smooth(position, half);
-    const Signal drive = on_grid(torque, 0.0, step_s, position.value.size() + 1, false);
-    const std::size_t stride = 1 + position.value.size() / kMostSamples;
-    std::vector<Eigen::Vector4d> basis;
-    std::vector<double> rest, angle;
-    for (std::size_t i = half; i + half < position.value.size(); i += stride) {
-      if (std::abs(at.rate[i]) < 2.0 * f.switch_speed_radps) continue;
-      const double needed = f.inertia_kg_m2 * at.curvature[i] + f.gravity_torque_Nm * std::sin(at.value[i]);
-      rest.push_back(needed - drive.at(position.time_s[i]));
-      angle.push_back(at.value[i]);
-      basis.emplace_back(1.0, std::copysign(1.0, at.rate[i]), at.rate[i], std::sin(at.value[i]));
+  for (const auto& trial : trials)
+    for (const auto& balance : balances_of_axis(trial, belief)) {
+      if (balance.rest.size() < kLeastRows) continue;
+      const auto rest = rest_without_known(balance);
+      torques.insert(torques.end(), rest.begin(), rest.end());
+      for (const auto& state : balance.states) angles.push_back(state.position);
     }
-    if (rest.size() < 30) continue;
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Identity() * 1e-9;
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      normal += basis[i] * basis[i].transpose();
-      right += basis[i] * rest[i];
-    }
-    const Eigen::Vector4d fit = normal.ldlt().solve(right);
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      torques.push_back(rest[i] - basis[i].dot(fit));
-      angles.push_back(angle[i]);
-    }
-  }
   if (torques.size() < 100) return {};
   return strongest_orders(angles, torques, kFirst, kLast);
 }
@@ -346,6 +304,10 @@ class RotaryAxis final : public PlantModel {
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
                                   const Edits& edits) const override {
     return doable_motions(recorded, belief, edits);
+  }
+
+  std::vector<Balance> balances(const Trial& trial, const Belief& belief) const override {
+    return balances_of_axis(trial, belief);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

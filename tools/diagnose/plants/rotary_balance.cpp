@@ -1,0 +1,61 @@
+#include "tools/diagnose/plants/rotary_balance.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kLeastSamples = 50;
+constexpr std::size_t kMostSamples = 800;  // of a trial
+constexpr double kSmoothing_s = 0.012;     // to each side
+constexpr double kMoves = 2.0;             // switch speeds; below, dry friction is what it must be
+
+}  // namespace
+
+std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) {
+  const RotaryFigures f(belief, {});
+  const auto position = samples_of(trial, "position_rad");
+  const auto torque = samples_of(trial, "torque_Nm");
+  const std::size_t count = position.value.size();
+  if (count < kLeastSamples || torque.value.size() < kLeastSamples) return {};
+  const double step_s = median_step_s(position.time_s);
+  const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / step_s, 2.0, 12.0));
+  const Smoothed at = smooth(position, half);
+  const Signal drive = on_grid(torque, position.time_s.front(), step_s, count + 1, false);
+  std::vector<double> drive_at;
+  for (const double t : position.time_s) drive_at.push_back(drive.at(t));
+  const Smoothed acting = smooth({position.time_s, std::move(drive_at)}, half);
+
+  Balance balance{"axis", {}, {}, {}};
+  const auto know = [&](std::initializer_list<double> shapes) {
+    balance.known.resize(shapes.size());
+    auto column = balance.known.begin();
+    for (const double shape : shapes) (column++)->push_back(shape);
+  };
+  const std::size_t stride = 1 + count / kMostSamples;
+  for (std::size_t i = half; i + half < count; i += stride) {
+    const double angle = at.value[i], speed = at.rate[i], tau = acting.value[i];
+    if (std::abs(speed) < kMoves * f.switch_speed_radps) continue;
+    const double needed = f.inertia_kg_m2 * at.curvature[i] +
+                          f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) + f.viscous_Nm_s * speed +
+                          f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
+    balance.rest.push_back(needed - tau);
+    balance.states.push_back(
+        {.time_s = position.time_s[i], .position = angle, .velocity = speed, .load = tau});
+    // Dry friction, with the load and near standstill too, friction with the speed and its square, gravity
+    // and where its bottom is, inertia, delay. The drive's constant scales all of these; the torque beside
+    // them would leave nothing.
+    const double sign = std::copysign(1.0, speed);
+    const auto near_rest = [&](double within_radps) {
+      return sign * std::exp(-std::pow(speed / within_radps, 2));
+    };
+    know({sign, sign * std::abs(tau), near_rest(0.1), near_rest(0.4), speed, speed * std::abs(speed),
+          std::sin(angle), std::cos(angle), at.curvature[i], acting.rate[i]});
+  }
+  return {std::move(balance)};
+}
+
+}  // namespace sandhopper::diagnose
