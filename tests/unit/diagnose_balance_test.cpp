@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_simulation.hpp"
+#include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/plant/random.hpp"
 
 namespace sandhopper::diagnose {
@@ -107,6 +109,51 @@ TEST(DiagnoseBalance, WithoutAccelerometersThereIsNone) {
   Trial trial = hop(belief, 0.05, {}, 1);
   trial.channels.erase("imu_foot_accel_z_mps2");
   EXPECT_TRUE(balances_of(trial, belief).empty());
+}
+
+std::vector<FreeGain> axis_laws_with(const AxisTorque& left_out) {
+  const auto recordings = swings(left_out, 2, 6);
+  Problem problem;
+  problem.plant = make_plant(PlantKind::rotary_axis);
+  problem.context.plant = PlantKind::rotary_axis;
+  std::vector<Balance> balances;
+  for (const auto& trial : recordings.trials)
+    for (auto& balance : balances_of_axis(trial, recordings.belief)) balances.push_back(std::move(balance));
+  auto laws = laws_of_balances(problem, balances);
+  // What the drive's constant would leave is not among the known shapes.
+  std::erase_if(laws, [](const FreeGain& law) { return law.family.variable == "torque_Nm"; });
+  return laws;
+}
+
+TEST(DiagnoseBalance, AnAxisThatRubsInASectorShowsThere) {
+  const auto laws = axis_laws_with([](double angle, double speed, double) {
+    return angle > 0.1 && angle < 0.3 ? -0.8 * std::tanh(speed / 0.02) : 0.0;
+  });
+  ASSERT_FALSE(laws.empty());
+  EXPECT_EQ(laws.front().family.variable, "position_rad, with the sign of velocity");
+  EXPECT_GT(laws.front().held_out, 0.25);
+  EXPECT_LT(laws.front().p_value, 1e-2);
+  EXPECT_NEAR(peak_at(laws.front()), 0.2, 0.1);
+}
+
+TEST(DiagnoseBalance, AnAxisThatAMagnetHoldsShowsItsAngle) {
+  const auto laws = axis_laws_with([](double angle, double, double) {
+    const double off = (angle - 0.2) / 0.25;
+    return -0.8 * off * std::exp(0.5 * (1.0 - off * off));
+  });
+  ASSERT_FALSE(laws.empty());
+  EXPECT_EQ(laws.front().family.variable, "position_rad");
+  EXPECT_GT(laws.front().held_out, 0.25);
+  EXPECT_LT(laws.front().p_value, 1e-2);
+}
+
+TEST(DiagnoseBalance, FrictionAndGravityOfAnAxisAreOnTheList) {
+  const AxisTorque friction = [](double, double v, double) { return -0.2 * std::tanh(v / 0.02) - 0.03 * v; };
+  const AxisTorque gravity = [](double q, double, double) { return 0.2 * std::cos(q) - 0.4 * std::sin(q); };
+  const AxisTorque nothing = [](double, double, double) { return 0.0; };
+  for (const auto& listed : {nothing, friction, gravity})
+    for (const auto& law : axis_laws_with(listed))
+      EXPECT_LT(law.held_out, 0.25) << law.family.variable;
 }
 
 }  // namespace

@@ -199,6 +199,28 @@ TEST(DiagnoseDataFaults, WhatRepeatsElsewhereIsNotStuck) {
   EXPECT_TRUE(remove_data_faults(trials).empty());
 }
 
+// Friction holds an axis: its encoder repeats itself, and its speed is the converter's noise, half a step
+// low.
+TEST(DiagnoseDataFaults, AnAxisThatStandsStillIsNotStuckButOneThatGoesOnIs) {
+  for (const bool stands : {true, false}) {
+    auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
+    auto& position = trials.front().channels["position_rad"];
+    auto& velocity = trials.front().channels["velocity_radps"];
+    Random random(11, 0);
+    ASSERT_GT(position.size(), 400u);
+    for (std::size_t i = 200; i < 280; ++i) {
+      position[i] = position[200];
+      if (stands) velocity[i] = 0.02 * std::floor(random.normal());
+    }
+    const auto faults = remove_data_faults(trials);
+    EXPECT_EQ(faults.size(), stands ? 0u : 1u);
+    if (!faults.empty()) {
+      EXPECT_EQ(faults.front().id, "data.stuck");
+      EXPECT_EQ(faults.front().channel, "position_rad");
+    }
+  }
+}
+
 // A speed counted from an encoder is zero, exactly, for as long as no count comes.
 TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
   auto recordings = swings([](double, double, double) { return 0.0; });

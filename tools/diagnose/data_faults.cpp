@@ -20,7 +20,7 @@ constexpr double kLong_s = 0.06;         // a shorter stretch may also be lost s
 constexpr std::size_t kShortest = 4;
 // A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
 constexpr std::size_t kShortestOfSpeed = 10;
-constexpr std::string_view kSpeed = "velocity_radps";
+constexpr std::string_view kPosition = "position_rad", kSpeed = "velocity_radps";
 
 struct Stretch {
   std::size_t first, last;  // of `rows`
@@ -122,11 +122,38 @@ bool position_went_along(const SampledChannel& speed, const std::string& channel
   constexpr double kAgree = 0.02;
   if (!channel.ends_with(kSpeed)) return false;
   const auto* position =
-      speed.trial->find(channel.substr(0, channel.size() - kSpeed.size()) + "position_rad");
+      speed.trial->find(channel.substr(0, channel.size() - kSpeed.size()).append(kPosition));
   if (position == nullptr) return false;
   const double moved = (*position)[speed.rows[stretch.last]] - (*position)[speed.rows[stretch.first]];
   const double said = speed.value[stretch.first] * stretch.duration_s;
   return std::abs(moved - said) < kAgree * std::abs(said);
+}
+
+// A position may stay the same, too: then its speed is nothing but noise about zero.
+bool speed_was_none(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
+  constexpr double kEnough = 8.0, kWhite = 2.0, kSigma = 4.0;
+  if (!channel.ends_with(kPosition)) return false;
+  const auto* speed =
+      position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
+  if (speed == nullptr) return false;
+  double n = 0.0, mean = 0.0, squares = 0.0, changes = 0.0, last = 0.0;
+  double step = std::numeric_limits<double>::infinity();  // rounding may be off by as much
+  for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
+    const double v = (*speed)[position.rows[k]];
+    if (!std::isfinite(v)) continue;
+    if (n > 0.0) changes += (v - last) * (v - last);
+    if (n > 0.0 && v != last) step = std::min(step, std::abs(v - last));
+    last = v;
+    ++n;
+    mean += v;
+    squares += v * v;
+  }
+  if (n < kEnough) return false;
+  mean /= n;
+  // White noise changes from sample to sample by twice its variance.
+  const double noise = changes / (2.0 * (n - 1.0)), scatter = squares / n - mean * mean;
+  const bool none = std::abs(mean) < step || n * mean * mean < kSigma * kSigma * noise;
+  return changes > 0.0 && none && scatter < kWhite * noise;
 }
 
 // Values held, in one channel.
@@ -174,7 +201,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
-      if (position_went_along(s, channel, stretch)) continue;
+      if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch)) continue;
       longest = std::max(longest, stretch.last - stretch.first + 1);
       least = std::min(least, stretch.last - stretch.first + 1);
       durations.push_back(stretch.duration_s);

@@ -23,8 +23,9 @@ constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kSmallestOfTypical = 0.08;
-constexpr double kSmallestShare = 0.002;   // of what all effects explain
-constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
+constexpr double kUnmistakablePerRow = 1.0;  // what gains the noise's own power is not too small to name
+constexpr double kSmallestShare = 0.002;     // of what all effects explain
+constexpr double kShareOfFormError = 0.2;    // that passes for an effect of its own
 constexpr double kLinearError =
     0.05;  // of what is explained: a proposal's estimate may be worse than its fit
 // Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
@@ -254,11 +255,11 @@ void Search::judge(SetFit& result) {
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
     const bool beyond_doubt = evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
+    const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
-        evidence.typicals < kSmallestOfTypical || evidence.at_bound ||
-        evidence.gain < least_share * explained)
+        evidence.typicals < smallest || evidence.at_bound || evidence.gain < least_share * explained)
       result.needed = false;
-    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * kSmallestOfTypical) result.hopeless = true;
+    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "estimation/kalman_filter.hpp"
 #include "tools/faults/cell.hpp"
 
 namespace sandhopper::faults {
@@ -147,8 +148,8 @@ void add_system(Cells& cells) {
   for (const auto phase : {Phase::armed, Phase::flight, Phase::compression, Phase::extension})
     cells.add(Device::robot, Kind::biased, phase, Fault::estimate_diverged).visible =
         [](const SensorFrame&, const StepOutput& o, const Injected&) {
-          constexpr double kGate = 6.0;
-          return o.estimate.normalised_innovation_squared[0] > kGate * kGate;
+          static const double gate = KalmanConfig{}.tof_gate_sigma;
+          return o.estimate.normalised_innovation_squared[0] > gate * gate;
         };
 }
 

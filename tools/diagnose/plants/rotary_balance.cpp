@@ -10,8 +10,29 @@ namespace {
 
 constexpr std::size_t kLeastSamples = 50;
 constexpr std::size_t kMostSamples = 800;  // of a trial
-constexpr double kSmoothing_s = 0.012;     // to each side
+constexpr double kSmoothing_s = 0.02;      // to each side
 constexpr double kMoves = 2.0;             // switch speeds; below, dry friction is what it must be
+
+// At the times of another channel, smoothed.
+Smoothed smoothed_at(const std::vector<double>& time_s, const Samples& samples, double step_s,
+                     std::size_t half_width) {
+  const Signal signal = on_grid(samples, time_s.front(), step_s, time_s.size() + 1, false);
+  Samples there{time_s, {}};
+  for (const double t : time_s) there.value.push_back(signal.at(t));
+  return smooth(there, half_width);
+}
+
+// Acceleration from the encoder's angle, or from its speed where that scatters less: the standard deviation
+// of a second derivative over n samples is sqrt(720/n^5), of a first sqrt(12/n^3) of that of a sample (fits
+// of a parabola).
+std::vector<double> accelerations(const Smoothed& position, double position_noise, const Samples& speed,
+                                  const std::vector<double>& time_s, double step_s, std::size_t half_width) {
+  if (speed.value.size() < kLeastSamples) return position.curvature;
+  const double n = 2.0 * static_cast<double>(half_width) + 1.0;
+  const double by_position = position_noise * std::sqrt(720.0 / std::pow(n, 5)) / (step_s * step_s);
+  const double by_speed = fluctuation_rms(speed) * std::sqrt(12.0 / std::pow(n, 3)) / step_s;
+  return by_position < by_speed ? position.curvature : smoothed_at(time_s, speed, step_s, half_width).rate;
+}
 
 }  // namespace
 
@@ -24,10 +45,9 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
   const double step_s = median_step_s(position.time_s);
   const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / step_s, 2.0, 12.0));
   const Smoothed at = smooth(position, half);
-  const Signal drive = on_grid(torque, position.time_s.front(), step_s, count + 1, false);
-  std::vector<double> drive_at;
-  for (const double t : position.time_s) drive_at.push_back(drive.at(t));
-  const Smoothed acting = smooth({position.time_s, std::move(drive_at)}, half);
+  const Smoothed acting = smoothed_at(position.time_s, torque, step_s, half);
+  const auto accel = accelerations(at, fluctuation_rms(position), samples_of(trial, "velocity_radps"),
+                                   position.time_s, step_s, half);
 
   Balance balance{"axis", {}, {}, {}};
   const auto know = [&](std::initializer_list<double> shapes) {
@@ -39,9 +59,8 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
   for (std::size_t i = half; i + half < count; i += stride) {
     const double angle = at.value[i], speed = at.rate[i], tau = acting.value[i];
     if (std::abs(speed) < kMoves * f.switch_speed_radps) continue;
-    const double needed = f.inertia_kg_m2 * at.curvature[i] +
-                          f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) + f.viscous_Nm_s * speed +
-                          f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
+    const double needed = f.inertia_kg_m2 * accel[i] + f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) +
+                          f.viscous_Nm_s * speed + f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
     balance.rest.push_back(needed - tau);
     balance.states.push_back(
         {.time_s = position.time_s[i], .position = angle, .velocity = speed, .load = tau});
@@ -53,7 +72,7 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
       return sign * std::exp(-std::pow(speed / within_radps, 2));
     };
     know({sign, sign * std::abs(tau), near_rest(0.1), near_rest(0.4), speed, speed * std::abs(speed),
-          std::sin(angle), std::cos(angle), at.curvature[i], acting.rate[i]});
+          std::sin(angle), std::cos(angle), accel[i], acting.rate[i]});
   }
   return {std::move(balance)};
 }
