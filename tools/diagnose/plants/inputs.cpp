@@ -159,11 +159,11 @@ std::vector<Group> slow_groups(const Samples& samples, std::size_t most, double 
 
 Samples means(const Samples& samples, const std::vector<Group>& groups) {
   Samples out;
-  for (const auto& [first, count] : groups) {
+  for (const auto& group : groups) {
     const auto mean = [&](const std::vector<double>& v) {
-      const auto from = v.begin() + static_cast<std::ptrdiff_t>(first);
-      return std::accumulate(from, from + static_cast<std::ptrdiff_t>(count), 0.0) /
-             static_cast<double>(count);
+      const auto from = v.begin() + static_cast<std::ptrdiff_t>(group.first);
+      return std::accumulate(from, from + static_cast<std::ptrdiff_t>(group.count), 0.0) /
+             static_cast<double>(group.count);
     };
     out.time_s.push_back(mean(samples.time_s));
     out.value.push_back(mean(samples.value));
