@@ -212,14 +212,14 @@ void Search::judge(SetFit& result) {
     evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
     evidence.p_value =
         std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
-    const auto& p = candidate.parameters[0];
-    const double value = point.hypothesis.values[e][0];
-    evidence.at_bound = value >= p.high - 1e-9 * std::abs(p.high) ||
-                        (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0);
-    for (std::size_t i = 1; i < candidate.parameters.size(); ++i)
-      evidence.at_bound =
-          evidence.at_bound || (candidate.parameters[i].other_law_above &&
-                                point.hypothesis.values[e][i] >= 0.99 * candidate.parameters[i].high);
+    for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
+      const auto& p = candidate.parameters[i];
+      const double value = point.hypothesis.values[e][i];
+      evidence.at_bound = evidence.at_bound || (p.other_law_above && value >= 0.99 * p.high) ||
+                          (is_amplitude(candidate.parameters, i) &&
+                           (value >= p.high - 1e-9 * std::abs(p.high) ||
+                            (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
+    }
     if (within_tolerance(*problem_, delays)) result.needed = false;
     const double model = std::max(1e-300, [&] {
       double s = 0.0;
