@@ -152,8 +152,7 @@ TEST(DiagnoseBalance, FrictionAndGravityOfAnAxisAreOnTheList) {
   const AxisTorque gravity = [](double q, double, double) { return 0.2 * std::cos(q) - 0.4 * std::sin(q); };
   const AxisTorque nothing = [](double, double, double) { return 0.0; };
   for (const auto& listed : {nothing, friction, gravity})
-    for (const auto& law : axis_laws_with(listed))
-      EXPECT_LT(law.held_out, 0.25) << law.family.variable;
+    for (const auto& law : axis_laws_with(listed)) EXPECT_LT(law.held_out, 0.25) << law.family.variable;
 }
 
 }  // namespace
