@@ -201,12 +201,17 @@ class Recovery {
                  Bytes data) const {
     Cursor in(data);
     in.take<std::uint32_t>();  // CDR's head
-    const auto time_ns = in.take<std::int64_t>();
-    const std::int64_t offset_ns = in.ok ? stamp.log_ns - time_ns : 0;
+    const auto own_ns = in.take<std::int64_t>();
+    const std::int64_t time_ns = in.ok ? own_ns : stamp.log_ns;
+    // A damaged log may hold times that lie farther apart than can be said.
+    std::int64_t since_last_ns = 0, first_ns = time_ns;
+    if (channel.met && (__builtin_sub_overflow(stamp.log_ns, channel.log_ns, &since_last_ns) ||
+                        __builtin_sub_overflow(time_ns, since_last_ns, &first_ns)))
+      first_ns = time_ns;
     writer.write(gap_channel_, stamp,
-                 LogGap{.time_ns = stamp.log_ns - offset_ns,
-                        .first_lost_ns = (channel.met ? channel.log_ns : stamp.log_ns) - offset_ns,
-                        .last_lost_ns = stamp.log_ns - offset_ns,
+                 LogGap{.time_ns = time_ns,
+                        .first_lost_ns = first_ns,
+                        .last_lost_ns = time_ns,
                         .lost = missing,
                         .cause = LossCause::damaged});
   }
