@@ -83,7 +83,10 @@ void Writer::write(std::uint16_t channel, Stamp stamp, Bytes data) {
 }
 
 void Writer::close_chunk_before(std::int64_t log_ns) {
-  if (chunk_messages_ > 0 && log_ns - chunk_first_.log_ns >= options_.chunk_span_ns) close_chunk();
+  std::int64_t since_first_ns = 0;  // a recovered log's times may lie farther apart than can be said
+  if (chunk_messages_ > 0 && (__builtin_sub_overflow(log_ns, chunk_first_.log_ns, &since_first_ns) ||
+                              since_first_ns >= options_.chunk_span_ns))
+    close_chunk();
 }
 
 std::byte* Writer::open_message(std::uint16_t number, Stamp stamp, std::size_t bytes) {
