@@ -76,6 +76,12 @@ void Writer::put_channel(Buffer& out, std::size_t number) const {
   out.close_record(content);
 }
 
+// A recovered log's times may lie farther apart than can be said.
+static bool passed(std::int64_t from_ns, std::int64_t to_ns, std::int64_t span_ns) {
+  std::int64_t since_ns = 0;
+  return __builtin_sub_overflow(to_ns, from_ns, &since_ns) || since_ns >= span_ns;
+}
+
 void Writer::write(std::uint16_t channel, Stamp stamp, Bytes data) {
   if (std::byte* place = open_message(channel, stamp, data.size()); !data.empty())
     std::memcpy(place, data.data(), data.size());
@@ -83,10 +89,7 @@ void Writer::write(std::uint16_t channel, Stamp stamp, Bytes data) {
 }
 
 void Writer::close_chunk_before(std::int64_t log_ns) {
-  std::int64_t since_first_ns = 0;  // a recovered log's times may lie farther apart than can be said
-  if (chunk_messages_ > 0 && (__builtin_sub_overflow(log_ns, chunk_first_.log_ns, &since_first_ns) ||
-                              since_first_ns >= options_.chunk_span_ns))
-    close_chunk();
+  if (chunk_messages_ > 0 && passed(chunk_first_.log_ns, log_ns, options_.chunk_span_ns)) close_chunk();
 }
 
 std::byte* Writer::open_message(std::uint16_t number, Stamp stamp, std::size_t bytes) {
@@ -172,7 +175,7 @@ void Writer::close_chunk() {
     return;
   }
   count_chunk();
-  if (options_.sync_span_ns > 0 && chunk_high_ns_ - synced_ns_ >= options_.sync_span_ns) sync();
+  if (options_.sync_span_ns > 0 && passed(synced_ns_, chunk_high_ns_, options_.sync_span_ns)) sync();
 }
 
 void Writer::count_chunk() {
