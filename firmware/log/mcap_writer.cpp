@@ -17,6 +17,12 @@ struct Group {
   std::size_t length;
 };
 
+// A recovered log's times may lie farther apart than can be said.
+bool passed(std::int64_t from_ns, std::int64_t to_ns, std::int64_t span_ns) {
+  std::int64_t since_ns = 0;
+  return __builtin_sub_overflow(to_ns, from_ns, &since_ns) || since_ns >= span_ns;
+}
+
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& file, WriterOptions options)
@@ -74,12 +80,6 @@ void Writer::put_channel(Buffer& out, std::size_t number) const {
   out.put_text("cdr");
   out.put(std::uint32_t{0});  // no metadata
   out.close_record(content);
-}
-
-// A recovered log's times may lie farther apart than can be said.
-static bool passed(std::int64_t from_ns, std::int64_t to_ns, std::int64_t span_ns) {
-  std::int64_t since_ns = 0;
-  return __builtin_sub_overflow(to_ns, from_ns, &since_ns) || since_ns >= span_ns;
 }
 
 void Writer::write(std::uint16_t channel, Stamp stamp, Bytes data) {

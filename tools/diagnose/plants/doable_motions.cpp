@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/rotary_figures.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -12,19 +13,11 @@ constexpr double kSmoothing_Hz = 4.0;  // no drive follows a corner
 constexpr double kPi = std::numbers::pi;
 
 struct Axis {
-  double inertia_kg_m2, gravity_Nm, viscous_Nm_s, coulomb_Nm, switch_radps;
+  RotaryFigures is;
   double gain = 1.0;  // of the torque that acts over the reported one
   std::vector<const Law*> laws;
 
-  Axis(const Belief& belief, const Edits& edits) : laws(edits.at("axis")) {
-    const auto read = [&](const char* key, double otherwise) {
-      return edits.edited(key, belief.value(key, otherwise));
-    };
-    inertia_kg_m2 = std::max(1e-9, read("axis.inertia_kg_m2", 1.0));
-    gravity_Nm = read("axis.gravity_torque_Nm", 0.0);
-    viscous_Nm_s = read("axis.viscous_friction_Nm_s", 0.0);
-    coulomb_Nm = read("axis.coulomb_friction_Nm", 0.0);
-    switch_radps = std::max(1e-6, read("axis.friction_switch_speed_radps", 0.02));
+  Axis(const Belief& belief, const Edits& edits) : is(belief, edits), laws(edits.at("axis")) {
     for (const auto& edit : edits.sensors)
       if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
   }
@@ -32,7 +25,8 @@ struct Axis {
   // What acts on the axis besides the drive; `drive_Nm` is what the laws see of the drive.
   double passive_Nm(double t_s, double angle, double speed, double drive_Nm) const {
     return sum_of(laws, {.time_s = t_s, .position = angle, .velocity = speed, .load = drive_Nm}) -
-           gravity_Nm * std::sin(angle) - viscous_Nm_s * speed - coulomb_Nm * std::tanh(speed / switch_radps);
+           is.gravity_torque_Nm * std::sin(angle - is.bottom_rad) - is.viscous_Nm_s * speed -
+           is.coulomb_Nm * std::tanh(speed / is.switch_speed_radps);
   }
 };
 
@@ -46,7 +40,7 @@ Motion followed(const Axis& axis, double duration_s, const std::function<double(
   double angle = target_rad(0.0), speed = 0.0, drive_Nm = 0.0;
   for (double t = 0.0; t <= duration_s; t += kStep_s) {
     const double accel = kPole * kPole * (target_rad(t) - angle) - 2.0 * kPole * speed;
-    drive_Nm = axis.inertia_kg_m2 * accel - axis.passive_Nm(t, angle, speed, drive_Nm);
+    drive_Nm = axis.is.inertia_kg_m2 * accel - axis.passive_Nm(t, angle, speed, drive_Nm);
     m.angle_rad.push_back(angle);
     m.speed_radps.push_back(speed);
     m.torque_Nm.push_back(drive_Nm / axis.gain);
@@ -65,7 +59,7 @@ Motion released(const Axis& axis, double duration_s, double from_rad) {
     m.speed_radps.push_back(speed);
     m.torque_Nm.push_back(0.0);
     for (int i = 0; i < kParts; ++i) {
-      speed += kStep_s / kParts * axis.passive_Nm(t, angle, speed, 0.0) / axis.inertia_kg_m2;
+      speed += kStep_s / kParts * axis.passive_Nm(t, angle, speed, 0.0) / axis.is.inertia_kg_m2;
       angle += kStep_s / kParts * speed;
     }
   }

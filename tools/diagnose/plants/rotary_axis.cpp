@@ -9,6 +9,7 @@
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
+#include "tools/diagnose/plants/rotary_figures.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/rotary_figures.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
