@@ -221,6 +221,31 @@ TEST(DiagnoseDataFaults, AnAxisThatStandsStillIsNotStuckButOneThatGoesOnIs) {
   }
 }
 
+// Where an axis turns round its encoder shows one count for a while, and its speed says that it went no
+// further; one that goes on meanwhile is stuck.
+TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
+  for (const bool turns : {true, false}) {
+    constexpr double kCount_rad = 2e-3;
+    Trial trial;
+    trial.name = "1";
+    for (std::size_t i = 0; i < 400; ++i) {
+      const double t = 1e-3 * static_cast<double>(i);
+      trial.time_s.push_back(t);
+      trial.channels["motor_left_position_rad"].push_back(kCount_rad *
+                                                          std::round(std::sin(20.0 * t) / kCount_rad));
+      trial.channels["motor_left_velocity_radps"].push_back(20.0 * std::cos(20.0 * t));
+    }
+    auto& position = trial.channels["motor_left_position_rad"];
+    if (!turns) std::fill(position.begin() + 300, position.begin() + 309, position[300]);
+    std::vector<Trial> trials{trial};
+    const auto faults = remove_data_faults(trials);
+    EXPECT_EQ(faults.size(), turns ? 0u : 1u);
+    EXPECT_EQ(std::ranges::all_of(trials.front().channels["motor_left_position_rad"],
+                                  [](double v) { return std::isfinite(v); }),
+              turns);
+  }
+}
+
 // A speed counted from an encoder is zero, exactly, for as long as no count comes.
 TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
   auto recordings = swings([](double, double, double) { return 0.0; });

@@ -41,39 +41,100 @@ TEST(Plant, RailFrictionCostsTheStatedSpeed) {
                 0.055 * d.speed_mps);
 }
 
+// What is stored in the moving parts, in the spring between toe and foot and in the teeth of the joint.
+double energy_J(const Plant& plant, const WorldRobotConfig& robot) {
+  const auto& s = plant.state();
+  const double toe_z_m = s.foot_z_m - s.series_m, toe_mps = s.foot_velocity_mps - s.series_mps;
+  double sum = mechanical_energy_J(plant.leg(), toe_z_m, toe_mps, s.angle_rad, s.angular_velocity_radps);
+  sum += robot.leg.foot_mass_kg *
+         (0.5 * (std::pow(s.foot_velocity_mps, 2) - std::pow(toe_mps, 2)) + kGravity_mps2 * s.series_m);
+  if (robot.series_compliance_m_per_N > 0.0)
+    sum += 0.5 * s.series_m * s.series_m / robot.series_compliance_m_per_N;
+  const double rotors_kg_m2 = 2.0 * robot.leg.rotor_inertia_kg_m2;
+  sum += 0.5 * rotors_kg_m2 * (std::pow(s.rotor_radps(), 2) - std::pow(s.angular_velocity_radps, 2));
+  const double pressed = std::max(0.0, std::abs(s.play_rad) - 0.5 * robot.joint_play_rad);
+  if (robot.joint_play_rad > 0.0)
+    sum += 0.5 * pressed * pressed / (robot.joint_give_relative * robot.joint_play_rad);
+  return sum;
+}
+
+// Of every force that is not stored: motors, friction, rail, ground, and what spring and teeth turn into
+// heat.
+double power_W(const Plant& plant, const WorldRobotConfig& robot, double torque_Nm) {
+  const auto& s = plant.state();
+  const auto m = plant.motion(torque_Nm);
+  double sum = m.contact_force_N * s.foot_velocity_mps + m.rail_force_N * m.body_velocity_mps +
+               torque_Nm * s.rotor_radps() + m.joint_torque_Nm * s.angular_velocity_radps;
+  if (robot.series_compliance_m_per_N > 0.0)
+    sum -= 2.0 * robot.series_damping_ratio *
+           std::sqrt(robot.leg.foot_mass_kg / robot.series_compliance_m_per_N) * s.series_mps * s.series_mps;
+  if (robot.joint_play_rad > 0.0 && std::abs(s.play_rad) > 0.5 * robot.joint_play_rad)
+    sum -=
+        std::sqrt(2.0 * robot.leg.rotor_inertia_kg_m2 / (robot.joint_give_relative * robot.joint_play_rad)) *
+        s.play_radps * s.play_radps;
+  return sum;
+}
+
 TEST(Plant, EnergyChangesByTheWorkOfEveryForce) {
-  const WorldConfig config;
-  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
-  plant.place({.foot_z_m = 0.03, .angle_rad = plant.leg().angle_at_length(0.30)});
-  NominalController controller(config.controller, 375.0);
-  const auto energy_J = [&] {
-    const auto& s = plant.state();
-    return mechanical_energy_J(plant.leg(), s.foot_z_m, s.foot_velocity_mps, s.angle_rad,
-                               s.angular_velocity_radps);
-  };
-  const auto power_W = [&](double torque_Nm) {
-    const auto m = plant.motion(torque_Nm);
-    return m.contact_force_N * plant.state().foot_velocity_mps + m.rail_force_N * m.body_velocity_mps +
-           (torque_Nm + m.joint_torque_Nm) * plant.state().angular_velocity_radps;
-  };
-  const double start_J = energy_J();
-  double work_J = 0.0, lost_in_bed_J = 0.0;
-  for (int ms = 0; ms < 500; ++ms) {
-    const auto& s = plant.state();
-    const double torque_Nm =
-        controller.step(plant.leg(), {s.foot_z_m, s.angle_rad, s.angular_velocity_radps});
-    for (int i = 0; i < 10; ++i) {
-      const double before_W = power_W(torque_Nm);
-      plant.step(torque_Nm);
-      work_J += 0.5 * Plant::kStep_s * (before_W + power_W(torque_Nm));
-      lost_in_bed_J -=
-          Plant::kStep_s * plant.motion(torque_Nm).contact_force_N * plant.state().foot_velocity_mps;
+  for (const auto& [compliance_m_per_N, play_rad] :
+       {std::pair{0.0, 0.0}, std::pair{2e-5, 0.0}, std::pair{0.0, 5e-3}, std::pair{2e-5, 5e-3}}) {
+    WorldConfig config;
+    config.robot.series_compliance_m_per_N = compliance_m_per_N;
+    config.robot.joint_play_rad = play_rad;
+    Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+    plant.place({.foot_z_m = 0.03, .angle_rad = plant.leg().angle_at_length(0.30)});
+    NominalController controller(config.controller, 375.0);
+    const double start_J = energy_J(plant, config.robot);
+    double work_J = 0.0, lost_in_bed_J = 0.0;
+    constexpr int kSteps = 40;  // to a cycle
+    constexpr double kStep_s = 1e-3 / kSteps;
+    for (int ms = 0; ms < 500; ++ms) {
+      const auto& s = plant.state();
+      const double torque_Nm = controller.step(plant.leg(), {s.foot_z_m, s.rotor_rad(), s.rotor_radps()});
+      for (int i = 0; i < kSteps; ++i) {
+        const double before_W = power_W(plant, config.robot, torque_Nm);
+        plant.step(torque_Nm, kStep_s);
+        work_J += 0.5 * kStep_s * (before_W + power_W(plant, config.robot, torque_Nm));
+        lost_in_bed_J -= kStep_s * plant.motion(torque_Nm).contact_force_N * plant.state().foot_velocity_mps;
+      }
     }
+    const double end_J = energy_J(plant, config.robot);
+    std::printf(
+        "compliance %g m/N, play %g rad: energy %.4f -> %.4f J, work %.4f J, lost in the bed %.3f J, "
+        "mismatch %.1e J\n",
+        compliance_m_per_N, play_rad, start_J, end_J, work_J, lost_in_bed_J, end_J - start_J - work_J);
+    EXPECT_NEAR(end_J - start_J, work_J, 2e-3);  // the sum over the steps is coarser than the integration
+    EXPECT_GT(lost_in_bed_J, 0.5);
   }
-  std::printf("energy %.4f -> %.4f J, work %.4f J, lost in the bed %.3f J, mismatch %.1e J\n", start_J,
-              energy_J(), work_J, lost_in_bed_J, energy_J() - start_J - work_J);
-  EXPECT_NEAR(energy_J() - start_J, work_J, 2e-3);  // the sum over 0.1 ms is coarser than the integration
-  EXPECT_GT(lost_in_bed_J, 0.5);
+}
+
+TEST(Plant, AStiffSpringAndLittlePlayAreNone) {
+  const auto deepest_m = [](double compliance_m_per_N, double play_rad) {
+    WorldConfig config;
+    config.robot.series_compliance_m_per_N = compliance_m_per_N;
+    config.robot.joint_play_rad = play_rad;
+    Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+    plant.place({.foot_z_m = 0.02, .angle_rad = plant.leg().angle_at_length(0.30)});
+    for (int i = 0; i < 1200; ++i) plant.advance(-0.8, 2.5e-4);
+    return plant.max_depth_m();
+  };
+  const double rigid_m = deepest_m(0.0, 0.0);
+  EXPECT_NEAR(deepest_m(1e-7, 0.0), rigid_m, 1e-5);
+  EXPECT_NEAR(deepest_m(0.0, 1e-5), rigid_m, 1e-5);
+  EXPECT_GT(std::abs(deepest_m(1e-4, 0.0) - rigid_m), 1e-4);
+}
+
+TEST(Plant, TheSpringAtTheFootCarriesTheLegAtRest) {
+  WorldConfig config = frictionless();
+  config.terrain.rigid = true;
+  config.robot.series_compliance_m_per_N = 5e-5;
+  Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+  const double angle_rad = plant.leg().angle_at_length(0.30);
+  plant.place({.foot_z_m = 0.005, .angle_rad = angle_rad});
+  for (int i = 0; i < 30000; ++i)
+    plant.step(60.0 * (angle_rad - plant.state().angle_rad) - 0.6 * plant.state().angular_velocity_radps);
+  const double carried_kg = plant.leg().total_mass_kg() - config.robot.leg.foot_mass_kg;
+  EXPECT_NEAR(plant.state().series_m, 5e-5 * carried_kg * kGravity_mps2, 1e-6);
 }
 
 TEST(Plant, MomentumChangesByWeightContactAndRail) {

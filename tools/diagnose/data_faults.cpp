@@ -156,6 +156,26 @@ bool speed_was_none(const SampledChannel& position, const std::string& channel, 
   return changes > 0.0 && none && scatter < kWhite * noise;
 }
 
+// At a turning point an encoder shows the same count for a while: its speed says that it went no further.
+bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
+  constexpr double kCounts = 2.5;  // the speed is late, too
+  if (!channel.ends_with(kPosition)) return false;
+  const auto* speed =
+      position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
+  if (speed == nullptr) return false;
+  double count = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < position.value.size(); ++i)
+    if (position.value[i] != position.value[i - 1])
+      count = std::min(count, std::abs(position.value[i] - position.value[i - 1]));
+  double moved = 0.0;
+  for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
+    const double v = (*speed)[position.rows[k]];
+    if (!std::isfinite(v)) return false;
+    moved += v / static_cast<double>(stretch.last - stretch.first + 1) * stretch.duration_s;
+  }
+  return std::abs(moved) < kCounts * count;
+}
+
 // Values held, in one channel.
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
   const auto samples = sampled(trials, channel);
@@ -201,7 +221,9 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
-      if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch)) continue;
+      if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch) ||
+          within_a_count(s, channel, stretch))
+        continue;
       longest = std::max(longest, stretch.last - stretch.first + 1);
       least = std::min(least, stretch.last - stretch.first + 1);
       durations.push_back(stretch.duration_s);

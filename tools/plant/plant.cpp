@@ -10,6 +10,9 @@ constexpr double kRailSwitchSpeed_mps = 0.01;
 constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
 constexpr double kNever_s = 1e9;
+constexpr double kTeethDampingRatio = 0.5;
+constexpr double kPhasePerPiece_rad = 0.5;  // of the quickest oscillation, in one midpoint step
+constexpr double kLeastFoot_kg = 1e-3;      // a spring needs a mass to act on
 
 }  // namespace
 
@@ -20,7 +23,18 @@ Plant::Plant(const WorldConfig& config, const Bed& bed, const Options& options)
       bed_(bed),
       options_(options),
       motors_(config.robot.leg.motor_count),
-      rigid_(config.terrain.rigid) {}
+      rigid_(config.terrain.rigid) {
+  const auto& leg = config.robot.leg;
+  if (robot_.series_compliance_m_per_N > 0.0 && leg.foot_mass_kg > kLeastFoot_kg) {
+    series_N_per_m_ = 1.0 / robot_.series_compliance_m_per_N;
+    series_N_s_per_m_ = 2.0 * robot_.series_damping_ratio * std::sqrt(series_N_per_m_ * leg.foot_mass_kg);
+  }
+  rotors_kg_m2_ = motors_ * leg.rotor_inertia_kg_m2 * leg.gear_ratio * leg.gear_ratio;
+  if (robot_.joint_play_rad > 0.0 && rotors_kg_m2_ > 0.0) {
+    teeth_Nm_per_rad_ = 1.0 / (robot_.joint_give_relative * robot_.joint_play_rad);
+    teeth_Nm_s_ = 2.0 * kTeethDampingRatio * std::sqrt(teeth_Nm_per_rad_ * rotors_kg_m2_);
+  }
+}
 
 void Plant::place(const PlantState& state) noexcept {
   state_ = state;
@@ -46,74 +60,110 @@ double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
   return friction + cogging + stops;
 }
 
-Plant::Rates Plant::rates(const PlantState& s, double torque_Nm) const noexcept {
+// What the teeth pass on from rotors to links.
+double Plant::transmitted_Nm(const PlantState& s) const noexcept {
+  const double half = 0.5 * robot_.joint_play_rad;
+  const double pressed = s.play_rad - std::clamp(s.play_rad, -half, half);
+  return pressed == 0.0 ? 0.0 : teeth_Nm_per_rad_ * pressed + teeth_Nm_s_ * s.play_radps;
+}
+
+// The leg's dynamics without the rotors' inertia, which is constant.
+void Plant::free_rotors(LegDynamics& d) const noexcept {
+  d.m22_kg_m2 -= rotors_kg_m2_;
+  const double gain = d.m12_kg_m / d.m22_kg_m2;
+  d.reduced_mass_kg = d.m11_kg - gain * d.m12_kg_m;
+  d.coriolis_N_s2_per_rad2 += 0.5 * (d.torque_gain_per_m - gain) * d.dm22_kg_m2_per_rad;
+  d.torque_gain_per_m = gain;
+}
+
+Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept {
   Rates r{};
   r.dynamics =
       options_.leg_table != nullptr ? options_.leg_table->dynamics(s.angle_rad) : leg_.dynamics(s.angle_rad);
-  const auto& d = r.dynamics;
+  auto& d = r.dynamics;
+  double torque_Nm = motors_Nm;
+  if (teeth_Nm_per_rad_ > 0.0) {
+    free_rotors(d);
+    torque_Nm = transmitted_Nm(s);
+    r.play_accel_radps2 = (motors_Nm - torque_Nm) / rotors_kg_m2_;
+  }
   const double spin2 = s.angular_velocity_radps * s.angular_velocity_radps;
-  const double body_velocity = s.foot_velocity_mps + d.leg.dlength_m_per_rad * s.angular_velocity_radps;
+  const double toe_velocity = s.foot_velocity_mps - s.series_mps;
+  const double body_velocity = toe_velocity + d.leg.dlength_m_per_rad * s.angular_velocity_radps;
   r.rail_force_N = -robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
   if (robot_.rail_coulomb_N != 0.0)
     r.rail_force_N -= robot_.rail_coulomb_N * std::tanh(body_velocity / kRailSwitchSpeed_mps);
   r.joint_torque_Nm = joint_torque_Nm(s);
   if (options_.extension != nullptr) {
-    const double body_z = s.foot_z_m + leg_.parameters().foot_height_m + d.leg.length_m;
+    const double body_z = s.foot_z_m - s.series_m + leg_.parameters().foot_height_m + d.leg.length_m;
     r.rail_force_N +=
         options_.extension->rail_force_N(body_z, body_velocity, torque_Nm / d.leg.dlength_m_per_rad);
     r.joint_torque_Nm += options_.extension->joint_torque_Nm(s, torque_Nm);
   }
   const double torque = torque_Nm + r.rail_force_N * d.leg.dlength_m_per_rad + r.joint_torque_Nm;
-  const double free_force = r.rail_force_N - d.torque_gain_per_m * torque - d.coriolis_N_s2_per_rad2 * spin2 -
-                            d.reduced_mass_kg * gravity_mps2_;
+  double free_force = r.rail_force_N - d.torque_gain_per_m * torque - d.coriolis_N_s2_per_rad2 * spin2 -
+                      d.reduced_mass_kg * gravity_mps2_;
+  double mass_kg = d.reduced_mass_kg, toe_accel_mps2 = 0.0;
+  if (series_N_per_m_ > 0.0) {
+    const double foot_kg = leg_.parameters().foot_mass_kg;
+    const double spring_N = series_N_per_m_ * s.series_m + series_N_s_per_m_ * s.series_mps;
+    toe_accel_mps2 = (free_force + foot_kg * gravity_mps2_ + spring_N) / (mass_kg - foot_kg);
+    free_force = -spring_N - foot_kg * gravity_mps2_;
+    mass_kg = foot_kg;
+  }
   if (standing_) {
     r.contact_force_N = -free_force;
   } else if (rigid_) {
-    r.foot_accel_mps2 = free_force / d.reduced_mass_kg;
+    r.foot_accel_mps2 = free_force / mass_kg;
   } else {
     const auto ground = bed_.reaction({.depth_m = std::max(0.0, -s.foot_z_m),
                                        .speed_mps = -s.foot_velocity_mps,
                                        .max_depth_m = max_depth_m_,
                                        .damping_mass_kg = d.reduced_mass_kg});
-    const double with_cone = (free_force + ground.force_N) / (d.reduced_mass_kg + ground.added_mass_kg);
+    const double with_cone = (free_force + ground.force_N) / (mass_kg + ground.added_mass_kg);
     r.contact_force_N = ground.at_acceleration(with_cone);
-    r.foot_accel_mps2 = (free_force + r.contact_force_N) / d.reduced_mass_kg;
+    r.foot_accel_mps2 = (free_force + r.contact_force_N) / mass_kg;
   }
+  if (series_N_per_m_ > 0.0)
+    r.series_accel_mps2 = r.foot_accel_mps2 - toe_accel_mps2;
+  else
+    toe_accel_mps2 = r.foot_accel_mps2;
   r.angular_accel_radps2 =
-      (torque - d.m12_kg_m * (r.foot_accel_mps2 + gravity_mps2_) - 0.5 * d.dm22_kg_m2_per_rad * spin2) /
+      (torque - d.m12_kg_m * (toe_accel_mps2 + gravity_mps2_) - 0.5 * d.dm22_kg_m2_per_rad * spin2) /
       d.m22_kg_m2;
+  if (teeth_Nm_per_rad_ > 0.0) r.play_accel_radps2 -= r.angular_accel_radps2;
   return r;
+}
+
+// `from`, `dt_s` later, at the speeds of `at` and these accelerations.
+PlantState Plant::moved(const PlantState& from, const PlantState& at, const Rates& r, double dt_s) noexcept {
+  return {.foot_z_m = from.foot_z_m + dt_s * at.foot_velocity_mps,
+          .foot_velocity_mps = from.foot_velocity_mps + dt_s * r.foot_accel_mps2,
+          .angle_rad = from.angle_rad + dt_s * at.angular_velocity_radps,
+          .angular_velocity_radps = from.angular_velocity_radps + dt_s * r.angular_accel_radps2,
+          .series_m = from.series_m + dt_s * at.series_mps,
+          .series_mps = from.series_mps + dt_s * r.series_accel_mps2,
+          .play_rad = from.play_rad + dt_s * at.play_radps,
+          .play_radps = from.play_radps + dt_s * r.play_accel_radps2};
 }
 
 void Plant::step(double torque_Nm, double step_s) noexcept {
   const double h = step_s;
   const PlantState s0 = state_;
-  const auto moved = [&s0](const PlantState& at, const Rates& rate, double dt) {
-    return PlantState{.foot_z_m = s0.foot_z_m + dt * at.foot_velocity_mps,
-                      .foot_velocity_mps = s0.foot_velocity_mps + dt * rate.foot_accel_mps2,
-                      .angle_rad = s0.angle_rad + dt * at.angular_velocity_radps,
-                      .angular_velocity_radps = s0.angular_velocity_radps + dt * rate.angular_accel_radps2};
-  };
-  const auto weighted = [](double a, double b, double c, double d) { return (a + 2.0 * (b + c) + d) / 6.0; };
-
   const Rates k1 = rates(s0, torque_Nm);
-  const PlantState s1 = moved(s0, k1, h / 2);
+  const PlantState s1 = moved(s0, s0, k1, h / 2);
   const Rates k2 = rates(s1, torque_Nm);
-  const PlantState s2 = moved(s1, k2, h / 2);
+  const PlantState s2 = moved(s0, s1, k2, h / 2);
   const Rates k3 = rates(s2, torque_Nm);
-  const PlantState s3 = moved(s2, k3, h);
+  const PlantState s3 = moved(s0, s2, k3, h);
   const Rates k4 = rates(s3, torque_Nm);
 
-  state_.foot_z_m +=
-      h * weighted(s0.foot_velocity_mps, s1.foot_velocity_mps, s2.foot_velocity_mps, s3.foot_velocity_mps);
-  state_.foot_velocity_mps +=
-      h * weighted(k1.foot_accel_mps2, k2.foot_accel_mps2, k3.foot_accel_mps2, k4.foot_accel_mps2);
-  state_.angle_rad += h * weighted(s0.angular_velocity_radps, s1.angular_velocity_radps,
-                                   s2.angular_velocity_radps, s3.angular_velocity_radps);
-  state_.angular_velocity_radps += h * weighted(k1.angular_accel_radps2, k2.angular_accel_radps2,
-                                                k3.angular_accel_radps2, k4.angular_accel_radps2);
+  PlantState next = moved(s0, s0, k1, h / 6);
+  next = moved(next, s1, k2, h / 3);
+  next = moved(next, s2, k3, h / 3);
+  state_ = moved(next, s3, k4, h / 6);
   contact_impulse_Ns_ +=
-      h * weighted(k1.contact_force_N, k2.contact_force_N, k3.contact_force_N, k4.contact_force_N);
+      h / 6 * (k1.contact_force_N + 2.0 * (k2.contact_force_N + k3.contact_force_N) + k4.contact_force_N);
 
   finish_step(torque_Nm);
 }
@@ -130,17 +180,34 @@ double Plant::next_event_s(double accel_mps2) const noexcept {
   return event_s > 0.0 ? event_s : kNever_s;
 }
 
+// Springs of the plant's own are quicker than a step.
+double Plant::longest_piece_s(double step_s) const noexcept {
+  double quickest = 0.0;  // rad^2/s^2
+  if (series_N_per_m_ > 0.0) {
+    const double foot_kg = leg_.parameters().foot_mass_kg;
+    const double leg_kg = leg_.dynamics(state_.angle_rad).reduced_mass_kg - foot_kg;
+    quickest = series_N_per_m_ * (1.0 / foot_kg + 1.0 / leg_kg);
+  }
+  if (teeth_Nm_per_rad_ > 0.0) {
+    const double links_kg_m2 = leg_.dynamics(state_.angle_rad).m22_kg_m2 - rotors_kg_m2_;
+    quickest = std::max(quickest, teeth_Nm_per_rad_ * (1.0 / rotors_kg_m2_ + 1.0 / links_kg_m2));
+  }
+  return quickest > 0.0 ? std::min(step_s, kPhasePerPiece_rad / std::sqrt(quickest)) : step_s;
+}
+
 PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
-  constexpr int kMostPieces = 6;
+  constexpr int kMostEvents = 6;
   constexpr double kLeastPiece_s = 1e-8;
+  const double longest_s = longest_piece_s(step_s);
+  const int most_pieces = kMostEvents + static_cast<int>(step_s / longest_s) - 1;
   Rates now = rates(state_, torque_Nm);
   const PlantMotion motion = motion_of(now);
   double left_s = step_s;
   for (int piece = 1;; ++piece) {
     const bool stiff = state_.foot_z_m <= 0.0 && state_.foot_z_m > -max_depth_m_;
-    double piece_s = stiff ? std::min(left_s, 0.5 * step_s) : left_s;
+    double piece_s = std::min({left_s, longest_s, stiff ? 0.5 * step_s : step_s});
     if (!rigid_) piece_s = std::min(piece_s, std::max(kLeastPiece_s, next_event_s(now.foot_accel_mps2)));
-    if (piece == kMostPieces || left_s - piece_s < kLeastPiece_s) piece_s = left_s;
+    if (piece == most_pieces || left_s - piece_s < kLeastPiece_s) piece_s = left_s;
     midpoint(now, torque_Nm, piece_s);
     left_s -= piece_s;
     if (left_s <= 0.0) return motion;
@@ -150,17 +217,9 @@ PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
 
 void Plant::midpoint(const Rates& k1, double torque_Nm, double step_s) noexcept {
   const PlantState s0 = state_;
-  const double half = 0.5 * step_s;
-  const PlantState middle{
-      .foot_z_m = s0.foot_z_m + half * s0.foot_velocity_mps,
-      .foot_velocity_mps = s0.foot_velocity_mps + half * k1.foot_accel_mps2,
-      .angle_rad = s0.angle_rad + half * s0.angular_velocity_radps,
-      .angular_velocity_radps = s0.angular_velocity_radps + half * k1.angular_accel_radps2};
+  const PlantState middle = moved(s0, s0, k1, 0.5 * step_s);
   const Rates k2 = rates(middle, torque_Nm);
-  state_.foot_z_m += step_s * middle.foot_velocity_mps;
-  state_.foot_velocity_mps += step_s * k2.foot_accel_mps2;
-  state_.angle_rad += step_s * middle.angular_velocity_radps;
-  state_.angular_velocity_radps += step_s * k2.angular_accel_radps2;
+  state_ = moved(s0, middle, k2, step_s);
   contact_impulse_Ns_ += step_s * k2.contact_force_N;
   finish_step(torque_Nm);
 }
@@ -181,9 +240,18 @@ void Plant::settle_on_rigid_ground(double torque_Nm) noexcept {
   if (standing_) {
     standing_ = rates(state_, torque_Nm).contact_force_N > 0.0;
   } else if (state_.foot_z_m <= 0.0 && state_.foot_velocity_mps < 0.0) {
-    const auto d = leg_.dynamics(state_.angle_rad);
-    state_.angular_velocity_radps += d.torque_gain_per_m * state_.foot_velocity_mps;
-    contact_impulse_Ns_ -= d.reduced_mass_kg * state_.foot_velocity_mps;
+    if (series_N_per_m_ > 0.0) {  // the spring keeps the blow from the leg
+      state_.series_mps -= state_.foot_velocity_mps;
+      contact_impulse_Ns_ -= leg_.parameters().foot_mass_kg * state_.foot_velocity_mps;
+    } else {
+      auto d = leg_.dynamics(state_.angle_rad);
+      if (teeth_Nm_per_rad_ > 0.0) {  // what the links' speed changes the rotors' does not
+        free_rotors(d);
+        state_.play_radps -= d.torque_gain_per_m * state_.foot_velocity_mps;
+      }
+      state_.angular_velocity_radps += d.torque_gain_per_m * state_.foot_velocity_mps;
+      contact_impulse_Ns_ -= d.reduced_mass_kg * state_.foot_velocity_mps;
+    }
     state_.foot_velocity_mps = 0.0;
     state_.foot_z_m = 0.0;
     standing_ = true;
@@ -197,9 +265,10 @@ PlantMotion Plant::motion_of(const Rates& r) const noexcept {
   const double spin = state_.angular_velocity_radps;
   return {.foot_accel_mps2 = r.foot_accel_mps2,
           .angular_accel_radps2 = r.angular_accel_radps2,
-          .body_z_m = state_.foot_z_m + leg_.parameters().foot_height_m + leg.length_m,
-          .body_velocity_mps = state_.foot_velocity_mps + leg.dlength_m_per_rad * spin,
-          .body_accel_mps2 = r.foot_accel_mps2 + leg.dlength_m_per_rad * r.angular_accel_radps2 +
+          .body_z_m = state_.foot_z_m - state_.series_m + leg_.parameters().foot_height_m + leg.length_m,
+          .body_velocity_mps = state_.foot_velocity_mps - state_.series_mps + leg.dlength_m_per_rad * spin,
+          .body_accel_mps2 = r.foot_accel_mps2 - r.series_accel_mps2 +
+                             leg.dlength_m_per_rad * r.angular_accel_radps2 +
                              leg.d2length_m_per_rad2 * spin * spin,
           .leg_length_m = leg.length_m,
           .contact_force_N = r.contact_force_N,

@@ -11,6 +11,14 @@ struct PlantState {
   double foot_velocity_mps = 0.0;
   double angle_rad = 0.0;  // upper link from straight down
   double angular_velocity_radps = 0.0;
+  double series_m = 0.0;  // how far the spring between toe and foot is compressed
+  double series_mps = 0.0;
+  double play_rad = 0.0;  // the rotors' angle beyond the links'
+  double play_radps = 0.0;
+
+  // What the motors' encoders turn with.
+  double rotor_rad() const noexcept { return angle_rad + play_rad; }
+  double rotor_radps() const noexcept { return angular_velocity_radps + play_radps; }
 };
 
 // What follows from the state and the motors' torque at one instant.
@@ -41,7 +49,13 @@ class PlantExtension {
 //   phidd from the second row of estimation/leg.hpp
 //   Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable
 //   Q2 = Q1 L' - n joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops
-// for n motors.
+// for n motors. With a spring in series, F_s = k s + c ds/dt between toe and foot (c = 2 zeta sqrt(k
+// m_foot)), the first row holds for the toe without the foot's mass, F_s in place of F_c, and the foot has
+// its own:
+//   m_foot a_f = F_c - F_s - m_foot g
+// With play in the joint the rotors, inertia J, turn on their own and the links get what the teeth transmit:
+//   J rotor'' = tau - tau_t,  tau_t = K (|p| - play/2) sign(p) + D dp/dt where they touch,  K = 1 N m / (give
+//   play)
 // F_c is the bed's (terrain/bed.hpp), solved together with a_f; the deepest point grows after each step and
 // stays for later strides, which land in the crater. On rigid ground the foot stops dead (plastic impact) and
 // stands until the force would be negative. Accurate to about 0.03 % of peak force at this step size.
@@ -85,7 +99,13 @@ class Plant {
   struct Rates {
     LegDynamics dynamics;
     double foot_accel_mps2, angular_accel_radps2, contact_force_N, rail_force_N, joint_torque_Nm;
+    double series_accel_mps2, play_accel_radps2;
   };
+  static PlantState moved(const PlantState& from, const PlantState& at, const Rates& rates,
+                          double dt_s) noexcept;
+  double transmitted_Nm(const PlantState& state) const noexcept;
+  void free_rotors(LegDynamics& dynamics) const noexcept;
+  double longest_piece_s(double step_s) const noexcept;
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
   PlantMotion motion_of(const Rates& rates) const noexcept;
@@ -101,6 +121,9 @@ class Plant {
   Options options_;
   double motors_;
   bool rigid_;
+  double series_N_per_m_ = 0.0, series_N_s_per_m_ = 0.0;  // 0: the toe is rigid
+  double rotors_kg_m2_ = 0.0;                             // on the links' side
+  double teeth_Nm_per_rad_ = 0.0, teeth_Nm_s_ = 0.0;      // 0: no play
 
   PlantState state_{};
   double max_depth_m_ = 0.0;

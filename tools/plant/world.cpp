@@ -88,7 +88,7 @@ void World::step() noexcept {
     swing_leg();
   const GridStep step{.from_ns = now_ns_, .to_ns = now_ns_ + kStep_ns};
   now_ns_ = step.to_ns;
-  for (auto& drive : drive_) drive.measure(plant_.state().angle_rad);
+  for (auto& drive : drive_) drive.measure(plant_.state().rotor_rad());
   take_truth();
 
   const bool released = truth_.released;

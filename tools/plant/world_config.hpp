@@ -17,6 +17,10 @@ struct WorldRobotConfig {
   double joint_coulomb_Nm = 0.015;
   double cogging_amplitude_Nm = 0.02;
   double cogging_periods_per_rev = 252.0;
+  double series_compliance_m_per_N = 0.0;  // between toe and foot
+  double series_damping_ratio = 0.1;       // of the foot on that spring
+  double joint_play_rad = 0.0;             // between rotors and links
+  double joint_give_relative = 0.3;        // of the play: how far 1 N m turns teeth that touch
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -26,6 +30,10 @@ struct WorldRobotConfig {
     visit("joint_coulomb_Nm", self.joint_coulomb_Nm, Range{0.0, 5.0});
     visit("cogging_amplitude_Nm", self.cogging_amplitude_Nm, Range{0.0, 5.0});
     visit("cogging_periods_per_rev", self.cogging_periods_per_rev, Range{0.0, 10000.0});
+    visit("series_compliance_m_per_N", self.series_compliance_m_per_N, Range{0.0, 1e-3});
+    visit("series_damping_ratio", self.series_damping_ratio, Range{0.0, 2.0});
+    visit("joint_play_rad", self.joint_play_rad, Range{0.0, 0.2});
+    visit("joint_give_relative", self.joint_give_relative, Range{0.01, 10.0});
   }
 };
 

@@ -159,12 +159,14 @@ class HopperTrial final : public TrialModel {
     const Signal angle = on_grid({measured_.time_s, smoothed.value}, 0.0, kTick_s, count, false);
     Signal rate = on_grid({measured_.time_s, smoothed.rate}, 0.0, kTick_s, count, false);
     rate.low_pass(1.0 / (2.0 * std::numbers::pi * world_.sensors.encoder_velocity_bandwidth_Hz));
-    residual_ = on_grid({measured_.time_s, measured_.command_Nm}, 0.0, kTick_s, count, false);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double t = kTick_s * static_cast<double>(i);
-      residual_.values[i] -= spring_torque_Nm(world_, compression_stiffness_, leg,
-                                              {phase_at(course_.phases, t), angle.values[i], rate.values[i]});
+    // Between two samples the difference is interpolated, not the command, which jumps with the phase.
+    Samples residual = commands_of(trial);
+    for (std::size_t i = 0; i < residual.value.size(); ++i) {
+      const double t = residual.time_s[i];
+      residual.value[i] -= spring_torque_Nm(world_, compression_stiffness_, leg,
+                                            {phase_at(course_.phases, t), angle.at(t), rate.at(t)});
     }
+    residual_ = on_grid(residual, 0.0, kTick_s, count, false);
   }
 
   void add_nuisances() {
@@ -325,6 +327,8 @@ class HopperTrial final : public TrialModel {
   void add_rows(const Trial& trial, std::size_t c) {
     sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
     spans_[c].assign(blocks, {});
+    // The believed controller is that of a hop: what holds a leg still is not written down.
+    if (trial.kind == "hold" && (c == kLeftCommand || c == kRightCommand)) return;
     const auto samples = samples_of(trial, kSources[c].channel);
     if (samples.value.size() < 10) return;
     auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));

@@ -109,17 +109,12 @@ MeasuredLeg measured_leg(const Trial& trial) {
     if (left == nullptr) return right == nullptr ? std::nan("") : (*right)[i];
     return right == nullptr ? (*left)[i] : 0.5 * ((*left)[i] + (*right)[i]);
   };
-  const auto* left = trial.find("command_left_torque_Nm");
-  const auto* right = trial.find("command_right_torque_Nm");
-  if (left == nullptr) return leg;
   for (std::size_t i = 0; i < trial.time_s.size(); ++i) {
     const double angle = mean("position_rad", i), rate = mean("velocity_radps", i);
-    const double command = (*left)[i] + (right == nullptr ? (*left)[i] : (*right)[i]);
-    if (!std::isfinite(angle) || !std::isfinite(rate) || !std::isfinite(command)) continue;
+    if (!std::isfinite(angle) || !std::isfinite(rate)) continue;
     leg.time_s.push_back(trial.time_s[i]);
     leg.angle_rad.push_back(angle);
     leg.rate_radps.push_back(rate);
-    leg.command_Nm.push_back(command);
   }
   return leg;
 }

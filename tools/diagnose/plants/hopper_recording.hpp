@@ -27,10 +27,9 @@ struct HopperCourse {
 // Both motors' commands together; empty where they were not recorded.
 Samples commands_of(const Trial& trial);
 
-// The leg as the controller measured it, each command's row.
+// The leg as the controller measured it.
 struct MeasuredLeg {
   std::vector<double> time_s, angle_rad, rate_radps;
-  std::vector<double> command_Nm;
 };
 MeasuredLeg measured_leg(const Trial& trial);
 

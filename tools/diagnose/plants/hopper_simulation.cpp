@@ -127,10 +127,9 @@ class MeasuredAngle {
     }
   }
   double operator()(const PlantState& s) const {
-    const double angle = gain_ * s.angle_rad + offset_;
-    return laws_.empty()
-               ? angle
-               : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = s.angular_velocity_radps});
+    const double angle = gain_ * s.rotor_rad() + offset_;
+    return laws_.empty() ? angle
+                         : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = s.rotor_radps()});
   }
 
  private:
@@ -221,10 +220,16 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   PlantState start = run.start;
   const double surface_m = run.surface_m + ground.deeper_m();
   start.foot_z_m -= surface_m;  // the plant's zero is the surface
-  plant.place_in_crater(start, run.crater_m);
   SpringLeg spring(run, plant.leg());
   Actuator actuator(edits, run);
   const MeasuredAngle measured(edits);
+  // Recorded is the rotors' angle; they lie at the side of the play to which the motors push.
+  const double play_rad = run.world.robot.joint_play_rad;
+  if (play_rad > 0.0) {
+    start.play_rad = std::copysign(0.5 * play_rad, spring.command_Nm(run.from_s, measured(start), start));
+    start.angle_rad -= start.play_rad;
+  }
+  plant.place_in_crater(start, run.crater_m);
 
   const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / kStep_s)) + 2;
   const double tick_s = 1.0 / run.world.controller.rate_Hz;
@@ -245,11 +250,11 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     const PlantState& state = plant.state();
     ground.touching(state.foot_z_m < 0.0);
     if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
-    spring.follow(state.angular_velocity_radps);
-    const double current_Nm = actuator.step(command_Nm, state.angular_velocity_radps);
+    spring.follow(state.rotor_radps());
+    const double current_Nm = actuator.step(command_Nm, state.rotor_radps());
     const double torque_Nm = actuator.torque_Nm(current_Nm, t);
-    traces.angle_rad.values[i] = state.angle_rad;
-    traces.rate_radps.values[i] = state.angular_velocity_radps;
+    traces.angle_rad.values[i] = state.rotor_rad();
+    traces.rate_radps.values[i] = state.rotor_radps();
     traces.current_torque_Nm.values[i] = current_Nm;
     traces.command_torque_Nm.values[i] = command_Nm;
     traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
