@@ -52,7 +52,7 @@ void apply(const Context& c, const std::string& channel, std::span<const double>
 std::vector<std::string> channels(const Context& c) {
   std::vector<std::string> found;
   for (const auto& [channel, scale] : c.channels)
-    if (!channel.starts_with("imu_")) found.push_back(channel);
+    if (!channel.starts_with("imu_") && !channel.starts_with("command_")) found.push_back(channel);
   return found;
 }
 
