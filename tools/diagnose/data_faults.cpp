@@ -129,12 +129,16 @@ bool position_went_along(const SampledChannel& speed, const std::string& channel
   return std::abs(moved - said) < kAgree * std::abs(said);
 }
 
+// Of the same encoder; null where this is no position.
+const std::vector<double>* speed_of(const SampledChannel& position, const std::string& channel) {
+  if (!channel.ends_with(kPosition)) return nullptr;
+  return position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
+}
+
 // A position may stay the same, too: then its speed is nothing but noise about zero.
 bool speed_was_none(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   constexpr double kEnough = 8.0, kWhite = 2.0, kSigma = 4.0;
-  if (!channel.ends_with(kPosition)) return false;
-  const auto* speed =
-      position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
+  const auto* speed = speed_of(position, channel);
   if (speed == nullptr) return false;
   double n = 0.0, mean = 0.0, squares = 0.0, changes = 0.0, last = 0.0;
   double step = std::numeric_limits<double>::infinity();  // rounding may be off by as much
@@ -159,9 +163,7 @@ bool speed_was_none(const SampledChannel& position, const std::string& channel, 
 // At a turning point an encoder shows the same count for a while: its speed says that it went no further.
 bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   constexpr double kCounts = 2.5;  // the speed is late, too
-  if (!channel.ends_with(kPosition)) return false;
-  const auto* speed =
-      position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
+  const auto* speed = speed_of(position, channel);
   if (speed == nullptr) return false;
   double count = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < position.value.size(); ++i)
