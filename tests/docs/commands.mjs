@@ -18,7 +18,7 @@ const needsTheRobot = /--board linux|hop doctor|hop calibrate (?!.*--board sim)/
 const takesHours = /hop conceal benchmark/;
 const environment = { ...process.env, SANDHOPPER_CONFIG: path.join(root, 'config'), SANDHOPPER_NO_BUILD: '1' };
 
-const limit_ms = 1000 * Number(process.env.SANDHOPPER_COMMAND_LIMIT_S ?? 240);
+const limit_ms = 1000 * Number(process.env.SANDHOPPER_COMMAND_LIMIT_S ?? 600);
 
 const problems = [];
 let folder = '';
