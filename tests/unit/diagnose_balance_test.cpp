@@ -3,50 +3,13 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
-#include "tools/diagnose/plants/hopper_belief.hpp"
-#include "tools/diagnose/plants/hopper_simulation.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
-#include "tools/plant/random.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
-
-// A hop with something at a port, as both accelerometers, encoder, current, load cell and height sensor would
-// record it.
-Trial hop(const Belief& belief, double release_m, const Edits& edits, std::uint64_t seed) {
-  HopperRun run;
-  run.world = world_of(belief, edits);
-  const Leg leg(run.world.robot.leg);
-  run.start.foot_z_m = release_m;
-  run.start.angle_rad = leg.angle_at_length(run.world.controller.compression_length_m);
-  run.to_s = 0.6;
-  const auto traces = simulate_hopper(run, edits);
-  Random random(seed, 0);
-  Trial trial;
-  trial.kind = "hop";
-  trial.setup["release_height_m"] = release_m;
-  for (std::size_t i = 0; i < 600; ++i) {
-    const double t = 1e-3 * static_cast<double>(i);
-    trial.time_s.push_back(t);
-    const auto put = [&](const char* channel, double value, double noise) {
-      trial.channels[channel].push_back(value + noise * random.normal());
-    };
-    const double g = run.world.gravity_mps2;
-    const double current_A = traces.current_torque_Nm.at(t) / run.world.robot.leg.motor_count /
-                             run.world.motor.torque_constant_Nm_per_A;
-    put("imu_body_accel_z_mps2", traces.body_accel_mps2.at(t) + g, 0.05);
-    put("imu_foot_accel_z_mps2", traces.foot_accel_mps2.at(t) + g, 0.05);
-    for (const char* motor : {"motor_left_", "motor_right_"}) {
-      put((std::string(motor) + "position_rad").c_str(), traces.angle_rad.at(t), 2e-4);
-      put((std::string(motor) + "current_A").c_str(), current_A, 0.05);
-    }
-    put("load_cell_force_N", traces.force_N.at(t), 0.1);
-    put("tof_height_m", traces.body_z_m.at(t), 2e-3);
-  }
-  return trial;
-}
 
 std::vector<FreeGain> laws_with(const Edits& edits) {
   Problem problem;
@@ -54,9 +17,11 @@ std::vector<FreeGain> laws_with(const Edits& edits) {
   problem.context.plant = PlantKind::hopper;
   const Belief belief;
   std::vector<Balance> balances;
-  for (std::uint64_t i = 0; i < 6; ++i)
-    for (auto& balance : balances_of(hop(belief, 0.03 + 0.01 * static_cast<double>(i), edits, i + 1), belief))
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const HopperRun run = hop_from(0.03 + 0.01 * static_cast<double>(i), 0.6, edits);
+    for (auto& balance : balances_of(recorded(run, edits, i + 1), belief))
       balances.push_back(std::move(balance));
+  }
   return laws_of_balances(problem, balances);
 }
 
@@ -106,7 +71,7 @@ TEST(DiagnoseBalance, WhatIsOnTheListOrNotThereIsNoLawOfItsOwn) {
 
 TEST(DiagnoseBalance, WithoutAccelerometersThereIsNone) {
   const Belief belief;
-  Trial trial = hop(belief, 0.05, {}, 1);
+  Trial trial = recorded(hop_from(0.05, 0.6), {}, 1);
   trial.channels.erase("imu_foot_accel_z_mps2");
   EXPECT_TRUE(balances_of(trial, belief).empty());
 }

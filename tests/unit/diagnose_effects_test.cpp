@@ -4,7 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "diagnose_campaigns.hpp"
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tests/unit/diagnose_effect_sizes.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/prepare.hpp"
@@ -26,39 +27,6 @@ Recordings recordings_of(PlantKind plant) {
   }
   if (plant == PlantKind::rotary_axis) return swings(none, 3, 4);
   return presses([](double, double) { return 0.0; }, 3, 6);
-}
-
-std::vector<double> values_of(const Candidate& candidate, double typicals) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-    const auto& p = candidate.parameters[i];
-    const bool amplitude = i == 0 || p.amplitude;
-    values.push_back(amplitude ? std::clamp(typicals * p.typical, p.low, p.high) : p.typical);
-  }
-  return values;
-}
-
-std::vector<double> predicted(const Problem& problem, std::size_t trial, std::size_t candidate,
-                              double typicals) {
-  const Hypothesis one{{candidate}, {values_of(problem.candidates[candidate], typicals)}};
-  const auto& model = *problem.trials[trial];
-  std::vector<double> out(model.rows.size());
-  model.predict(edits_for(problem, one, {}), std::vector<double>(model.nuisance_count(), 0.0), out);
-  return out;
-}
-
-// Largest change against nothing, in standard deviations of the channel's noise.
-double largest_change(const Problem& problem, std::size_t candidate, double typicals) {
-  double most = 0.0;
-  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    const auto& model = *problem.trials[t];
-    std::vector<double> plain(model.rows.size());
-    model.predict({}, std::vector<double>(model.nuisance_count(), 0.0), plain);
-    const auto changed = predicted(problem, t, candidate, typicals);
-    for (std::size_t k = 0; k < plain.size(); ++k)
-      most = std::max(most, std::abs(changed[k] - plain[k]) / problem.floor_sd[model.rows[k].channel]);
-  }
-  return most;
 }
 
 class EveryEffect : public ::testing::TestWithParam<PlantKind> {};
@@ -247,6 +215,15 @@ TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
 }
 
 // A speed counted from an encoder is zero, exactly, for as long as no count comes.
+// A single short repeat is no fault, and then its samples stay.
+TEST(DiagnoseDataFaults, NothingIsTakenOutWhereNoFaultIsFound) {
+  auto trials = drops([](double, double, double) { return 0.0; }).trials;
+  auto& accel = trials.front().channels["accel_mps2"];
+  std::fill(accel.begin() + 40, accel.begin() + 46, accel[40]);
+  EXPECT_TRUE(remove_data_faults(trials).empty());
+  EXPECT_TRUE(std::all_of(accel.begin(), accel.end(), [](double v) { return std::isfinite(v); }));
+}
+
 TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
   auto recordings = swings([](double, double, double) { return 0.0; });
   std::vector<Trial> trials = recordings.trials;

@@ -4,60 +4,25 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/diagnose/plants/hopper_belief.hpp"
-#include "tools/diagnose/plants/hopper_simulation.hpp"
+#include "tests/unit/diagnose_effect_sizes.hpp"
+#include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/prepare.hpp"
-#include "tools/plant/random.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kSwitch_s = 0.25;
 
-// A hop as it would be recorded, with its commands; phases are imposed. `seed` 0: without noise.
+// Its phases are imposed.
 Trial hop(std::uint64_t seed = 0, double release_m = 0.04) {
-  const std::vector<PhaseChange> phases{{0.0, HopperPhase::flight},
-                                        {0.09, HopperPhase::compression},
-                                        {kSwitch_s, HopperPhase::extension},
-                                        {0.36, HopperPhase::flight}};
-  const Belief belief;
-  HopperRun run;
-  run.world = world_of(belief, {});
-  const Leg leg(run.world.robot.leg);
-  run.start.foot_z_m = release_m;
-  run.start.angle_rad = leg.angle_at_length(run.world.controller.compression_length_m);
-  run.to_s = 0.45;
-  run.phases = &phases;
-  const auto traces = simulate_hopper(run, {});
-  Trial trial;
-  trial.kind = "hop";
-  trial.setup["release_height_m"] = run.start.foot_z_m;
-  const double motors = run.world.robot.leg.motor_count;
-  Random random(seed, 0);
-  const auto put = [&](const std::string& channel, double value, double noise) {
-    trial.channels[channel].push_back(value + (seed == 0 ? 0.0 : noise * random.normal()));
-  };
-  const double g = run.world.gravity_mps2;
-  for (std::size_t i = 0; i < 450; ++i) {
-    const double t = 1e-3 * static_cast<double>(i);
-    trial.time_s.push_back(t);
-    trial.channels["phase"].push_back(static_cast<double>(phase_at(phases, t)));
-    put("imu_body_accel_z_mps2", traces.body_accel_mps2.at(t) + g, 0.05);
-    put("imu_foot_accel_z_mps2", traces.foot_accel_mps2.at(t) + g, 0.05);
-    put("load_cell_force_N", traces.force_N.at(t), 0.3);
-    put("tof_height_m", traces.body_z_m.at(t), 3e-3);
-    for (const std::string side : {"left", "right"}) {
-      const std::string motor = "motor_" + side;
-      put(motor + "_position_rad", traces.angle_rad.at(t), 2e-4);
-      put(motor + "_velocity_radps", traces.rate_radps.at(t), 0.1);
-      put(motor + "_current_A",
-          traces.current_torque_Nm.at(t) / motors / run.world.motor.torque_constant_Nm_per_A, 0.1);
-      trial.channels[motor + "_temperature_C"].push_back(40.0 + 300.0 * release_m);
-      trial.channels["command_" + side + "_torque_Nm"].push_back(traces.command_torque_Nm.at(t) / motors);
-    }
-  }
-  return trial;
+  static const std::vector<PhaseChange> kPhases{{0.0, HopperPhase::flight},
+                                                {0.09, HopperPhase::compression},
+                                                {kSwitch_s, HopperPhase::extension},
+                                                {0.36, HopperPhase::flight}};
+  HopperRun run = hop_from(release_m, 0.45);
+  run.phases = &kPhases;
+  return recorded(run, {}, seed);
 }
 
 // Largest difference of a motor's current between recording and simulation.
@@ -112,32 +77,8 @@ TEST(DiagnoseHopper, EveryEffectActsAtItsTypicalSizeAndNothingActsAtNone) {
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     const auto& candidate = problem.candidates[c];
     compliant += candidate.effect->id == "joint.backlash" || candidate.effect->id == "leg.series_elasticity";
-    double off = 0.0, typical = 0.0;
-    for (const auto& model : problem.trials) {
-      const std::vector<double> nuisances(model->nuisance_count(), 0.0);
-      const auto with = [&](double typicals) {
-        std::vector<double> values;
-        for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-          const auto& p = candidate.parameters[i];
-          values.push_back(is_amplitude(candidate.parameters, i)
-                               ? std::clamp(typicals * p.typical, p.low, p.high)
-                               : std::clamp(p.typical, p.low, p.high));
-        }
-        std::vector<double> out(model->rows.size());
-        model->predict(edits_for(problem, {{c}, {values}}, {}), nuisances, out);
-        return out;
-      };
-      std::vector<double> plain(model->rows.size());
-      model->predict({}, nuisances, plain);
-      const auto none = with(0.0), some = with(1.0);
-      for (std::size_t k = 0; k < plain.size(); ++k) {
-        const double sd = problem.floor_sd[model->rows[k].channel];
-        off = std::max(off, std::abs(none[k] - plain[k]) / sd);
-        typical = std::max(typical, std::abs(some[k] - plain[k]) / sd);
-      }
-    }
-    EXPECT_LT(off, 1e-3) << candidate.label();
-    EXPECT_GT(typical, 0.05) << candidate.label();
+    EXPECT_LT(largest_change(problem, c, 0.0), 1e-3) << candidate.label();
+    EXPECT_GT(largest_change(problem, c, 1.0), 0.05) << candidate.label();
   }
   EXPECT_EQ(compliant, 2u);
 }

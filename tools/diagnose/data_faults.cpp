@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "tools/diagnose/data_fault_parts.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -211,6 +212,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   // held adds to the long runs, not to these.
   const double chance = runs[2] / all_runs;
   std::vector<double> durations;
+  std::vector<std::pair<const SampledChannel*, Stretch>> held;
   std::size_t longest = 0, least = std::numeric_limits<std::size_t>::max();
   const auto take_out = [&](const SampledChannel& s, const Stretch& stretch) {
     auto& values = s.trial->channels[channel];
@@ -229,11 +231,12 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
       longest = std::max(longest, stretch.last - stretch.first + 1);
       least = std::min(least, stretch.last - stretch.first + 1);
       durations.push_back(stretch.duration_s);
-      take_out(s, stretch);
+      held.emplace_back(&s, stretch);
     }
   // One stretch may be a pause of what moves the foot.
-  if (fault.stretches < 2 && (longest < 8 || channel == "foot_z_m")) return;
-  if (fault.stretches > 1)
+  if (held.size() < 2 && (longest < 8 || channel == "foot_z_m")) return;
+  for (const auto& [s, stretch] : held) take_out(*s, stretch);
+  if (held.size() > 1)
     for (const auto& s : samples)
       for (const auto& stretch : stretches_at_the_ends(s.value, s.time_s, std::max(kShortest, least / 2)))
         take_out(s, stretch);

@@ -181,26 +181,24 @@ double Plant::next_event_s(double accel_mps2) const noexcept {
 }
 
 // Springs of the plant's own are quicker than a step.
-double Plant::longest_piece_s(double step_s) const noexcept {
+double Plant::longest_piece_s(const LegDynamics& d, double step_s) const noexcept {
   double quickest = 0.0;  // rad^2/s^2
   if (series_N_per_m_ > 0.0) {
     const double foot_kg = leg_.parameters().foot_mass_kg;
-    const double leg_kg = leg_.dynamics(state_.angle_rad).reduced_mass_kg - foot_kg;
+    const double leg_kg = d.reduced_mass_kg - foot_kg;
     quickest = series_N_per_m_ * (1.0 / foot_kg + 1.0 / leg_kg);
   }
-  if (teeth_Nm_per_rad_ > 0.0) {
-    const double links_kg_m2 = leg_.dynamics(state_.angle_rad).m22_kg_m2 - rotors_kg_m2_;
-    quickest = std::max(quickest, teeth_Nm_per_rad_ * (1.0 / rotors_kg_m2_ + 1.0 / links_kg_m2));
-  }
+  if (teeth_Nm_per_rad_ > 0.0)
+    quickest = std::max(quickest, teeth_Nm_per_rad_ * (1.0 / rotors_kg_m2_ + 1.0 / d.m22_kg_m2));
   return quickest > 0.0 ? std::min(step_s, kPhasePerPiece_rad / std::sqrt(quickest)) : step_s;
 }
 
 PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
   constexpr int kMostEvents = 6;
   constexpr double kLeastPiece_s = 1e-8;
-  const double longest_s = longest_piece_s(step_s);
-  const int most_pieces = kMostEvents + static_cast<int>(step_s / longest_s) - 1;
   Rates now = rates(state_, torque_Nm);
+  const double longest_s = longest_piece_s(now.dynamics, step_s);
+  const int most_pieces = kMostEvents + static_cast<int>(step_s / longest_s) - 1;
   const PlantMotion motion = motion_of(now);
   double left_s = step_s;
   for (int piece = 1;; ++piece) {

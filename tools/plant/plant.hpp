@@ -105,7 +105,7 @@ class Plant {
                           double dt_s) noexcept;
   double transmitted_Nm(const PlantState& state) const noexcept;
   void free_rotors(LegDynamics& dynamics) const noexcept;
-  double longest_piece_s(double step_s) const noexcept;
+  double longest_piece_s(const LegDynamics& dynamics, double step_s) const noexcept;
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
   PlantMotion motion_of(const Rates& rates) const noexcept;

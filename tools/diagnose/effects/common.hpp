@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +58,26 @@ inline std::string unit_of(const std::string& channel) {
   for (const char* unit : {"mps2", "radps", "mps", "rad", "Nm", "N", "m", "Pa", "A"})
     if (channel.ends_with(std::string("_") + unit)) return unit;
   return "unit";
+}
+
+// A number of nominal.toml ("table.key"), or what it is where the file does not say.
+struct BelievedNumber {
+  const char* key;
+  double otherwise = 0.0;
+  double of(const Context& context) const { return context.belief.value(key, otherwise); }
+};
+
+// An effect whose parameters add to numbers of the belief, in their order.
+inline Effect adds_to(std::vector<BelievedNumber> numbers, Effect effect) {
+  effect.apply = [numbers](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) edits.add(numbers[i].key, v[i]);
+  };
+  effect.as_keys = [numbers](const Context& context, std::span<const double> v,
+                             std::map<std::string, double>& keys) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) keys[numbers[i].key] = numbers[i].of(context) + v[i];
+    return true;
+  };
+  return effect;
 }
 
 // A sensor that reads in proportion too much or too little, under the name its kind of sensor has.

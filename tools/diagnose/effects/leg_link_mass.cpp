@@ -4,8 +4,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr const char* kLower = "robot.lower_link_mass_kg";
-constexpr const char* kUpper = "robot.upper_link_mass_kg";
+constexpr BelievedNumber kLower{"robot.lower_link_mass_kg", LegParameters{}.lower_link_mass_kg};
+constexpr BelievedNumber kUpper{"robot.upper_link_mass_kg", LegParameters{}.upper_link_mass_kg};
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const auto link = [&](const char* name, double believed) {
@@ -17,30 +17,16 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                            .base = believed,
                            .amplitude = true};
   };
-  const LegParameters leg;
-  return {link("lower_link_mass_kg", c.belief.value(kLower, leg.lower_link_mass_kg)),
-          link("upper_link_mass_kg", c.belief.value(kUpper, leg.upper_link_mass_kg))};
+  return {link("lower_link_mass_kg", kLower.of(c)), link("upper_link_mass_kg", kUpper.of(c))};
 }
 
 const EffectRegistration kEffect(
-    {.id = "leg.link_mass",
-     .port = "inertia",
-     .statement = "The leg's links are heavier or lighter than believed.",
-     .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
-     .plants = {PlantKind::hopper},
-     .parameters = parameters,
-     .apply =
-         [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-           edits.add(kLower, v[0]);
-           edits.add(kUpper, v[1]);
-         },
-     .as_keys =
-         [](const Context& c, std::span<const double> v, std::map<std::string, double>& numbers) {
-           const auto now = parameters(c, "");
-           numbers[kLower] = now[0].reported(v[0]);
-           numbers[kUpper] = now[1].reported(v[1]);
-           return true;
-         }});
+    adds_to({kLower, kUpper}, {.id = "leg.link_mass",
+                               .port = "inertia",
+                               .statement = "The leg's links are heavier or lighter than believed.",
+                               .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
+                               .plants = {PlantKind::hopper},
+                               .parameters = parameters}));
 
 }  // namespace
 }  // namespace sandhopper::diagnose
