@@ -12,6 +12,7 @@
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/next_trial.hpp"
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
@@ -21,13 +22,10 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kTooFewTrials = 3;
 constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
 constexpr double kUnknownSignificance = 0.003;
 constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
-constexpr double kMisfitPerRow = 0.5;   // of a deviance of 1 a row, that of the noise
-constexpr double kMisfitOfExplained = 0.1;
 constexpr double kMisfitSignificance = 0.05;
 constexpr double kOutdone = 1.3;
 constexpr double kDoubtBesideUnknown = 0.3;  // none of 7 such names was right on seed 5600
@@ -39,29 +37,12 @@ constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticea
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
 
-// How much the best set leaves beyond the noise.
-struct Misfit {
-  double unexplained = 0.0, explained = 0.0;
-  std::size_t trials_left_far = 0;
-  bool large = false;
-  bool noticeable = false;  // enough to ask the balances
-};
 Misfit misfit_of(const Problem& problem, const Search& search) {
-  Misfit m;
-  // Trials that are left far: a few whose simulations went astray are no physics that is missing.
-  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    const double rows = static_cast<double>(problem.trials[t]->rows.size());
-    m.trials_left_far += search.best().fit.trial_deviance[t] - rows > kMisfitPerRow * rows;
-  }
-  m.unexplained = search.best().fit.deviance - problem.rows();
-  m.explained = search.null().fit.deviance - search.best().fit.deviance;
-  const std::size_t enough = problem.plant->motion_is_prescribed() ? 2 : (problem.trials.size() + 1) / 2;
-  const bool left_much =
-      problem.trials.size() >= kTooFewTrials && m.unexplained > kMisfitPerRow * problem.rows();
-  m.large = left_much && m.trials_left_far >= enough && m.unexplained > kMisfitOfExplained * m.explained;
-  // A hopper's own misfits are that large now and then.
-  m.noticeable = m.large || (left_much && problem.context.plant != PlantKind::hopper);
-  return m;
+  std::vector<TrialMisfit> trials;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    trials.push_back(
+        {search.best().fit.trial_deviance[t], static_cast<double>(problem.trials[t]->rows.size())});
+  return misfit_of(trials, search.null().fit.deviance, problem.plant->motion_is_prescribed());
 }
 
 // A law that the balances of the recordings show by themselves. Not one of the drive's torque: what the list
@@ -205,7 +186,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where a law of free form says more of trials it has not seen than the best names of those they were
   // fitted to, the names are not it.
   bool outdone = false;
-  if (!best.set.empty() && rest == nullptr && problem.context.plant != PlantKind::hopper) {
+  if (!best.set.empty() && rest == nullptr) {
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
     for (const auto& gain : alone)
       if (rest == nullptr && gain.held_out > kOutdone * explained + least_gain &&
@@ -220,10 +201,9 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (!outdone && best.fit.deviance < rows && share_of(rest) <= kUnknownShare) rest = nullptr;
   const double remainder = rest ? rest->held_out : 0.0;
   const double share = share_of(rest);
-  diagnosis.log.push_back(fmt::format(
-      "explained {:.1f}, left {:.1f} beyond the noise in {} of {} trials, rest {:.1f} ({:.1f} %), {} rows",
-      explained, misfit.unexplained, misfit.trials_left_far, problem.trials.size(), remainder, 100.0 * share,
-      rows));
+  diagnosis.log.push_back(
+      fmt::format("explained {:.1f}, left {:.1f} beyond the noise, rest {:.1f} ({:.1f} %), {} rows",
+                  explained, misfit.unexplained, remainder, 100.0 * share, rows));
 
   const Posterior belief = posterior(problem, search, remainder);
   const bool unknown =
@@ -231,13 +211,14 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest != nullptr ? "unknown_at_port" : "unknown_not_localised";
-    if (rest != nullptr) report_unknown(problem, *rest, share, diagnosis);
+    if (rest != nullptr) report_unknown(*rest, share, diagnosis);
     // What is on the list and explains most may be there beside it, or be what the unknown looks like.
     if (share <= kUnknownShare && !balance) {
       report_effects(problem, search, belief, diagnosis);
       for (auto& effect : diagnosis.effects)
         if (!effect.id.starts_with("unknown@"))
           effect.probability = std::min(effect.probability, kDoubtBesideUnknown);
+      if (rest == nullptr) report_unknown_near(explained / (explained + misfit.unexplained), diagnosis);
     }
   } else if (best.set.empty()) {
     diagnosis.verdict = problem.trials.size() < kTooFewTrials ? "insufficient_data" : "consistent";
@@ -248,7 +229,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     bool classes = false;
     for (const auto& effect : diagnosis.effects) classes = classes || !effect.indistinguishable_from.empty();
     diagnosis.detail = classes ? "one_of_class" : rest != nullptr ? "known_and_rest" : "known";
-    if (rest != nullptr) report_unknown(problem, *rest, share, diagnosis);
+    if (rest != nullptr) report_unknown(*rest, share, diagnosis);
   }
   report_data_faults(faults, diagnosis);
   const Residuals residuals =

@@ -13,7 +13,10 @@ namespace sandhopper::diagnose {
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis);
-void report_unknown(const Problem& problem, const FreeGain& gain, double share, Diagnosis& diagnosis);
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
+// Where no law of free form stands out: at the port of what explains most of those on the list, `share` of
+// what is there. After report_effects.
+void report_unknown_near(double share, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,

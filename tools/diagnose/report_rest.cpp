@@ -7,6 +7,11 @@
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
+
+}  // namespace
 
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
   for (const auto& text : prepared.left_out) diagnosis.notes.push_back("left out: " + text);
@@ -20,8 +25,7 @@ void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
         trials));
 }
 
-void report_unknown(const Problem& problem, const FreeGain& gain, double share, Diagnosis& diagnosis) {
-  (void)problem;
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   std::string port = gain.family.port;
   if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
   const char* acts = port == "axis" || port == "joint" || port == "actuator" ? "torque_Nm" : "force_N";
@@ -47,6 +51,26 @@ void report_unknown(const Problem& problem, const FreeGain& gain, double share, 
   effect.p_value = gain.p_value;
   diagnosis.effects.push_back(std::move(effect));
   diagnosis.unknown.push_back(std::move(unknown));
+}
+
+void report_unknown_near(double share, Diagnosis& diagnosis) {
+  const auto near = std::ranges::find_if(diagnosis.effects, [](const FoundEffect& effect) {
+    return effect.channel.empty() && effect.port != "clock";
+  });
+  if (near == diagnosis.effects.end()) return;
+  FoundEffect effect;
+  effect.id = "unknown@" + near->port;
+  effect.port = near->port;
+  effect.statement = fmt::format(
+      "Something that is on no list acts, as far as these recordings tell, at {}: {} comes nearest and "
+      "explains "
+      "{:.0f} % of it.",
+      near->port, near->id, 100.0 * share);
+  effect.equation = "not known";
+  effect.probability = kNearProbability;
+  effect.p_value = near->p_value;
+  effect.heldout_gain = share;
+  diagnosis.effects.push_back(std::move(effect));
 }
 
 namespace {

@@ -19,6 +19,9 @@ constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 constexpr double kSignificance = 0.01;  // family-wise
 constexpr double kTrialsToFlip = 6.0;   // that carry the information: 64 flips
+// Of the linear gain at the fit, by how much the fit without the effect is really worse; where a simulation
+// amplifies its smallest change, this is nothing while the derivative is huge.
+constexpr double kComesTrue = 0.05;
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
@@ -237,8 +240,11 @@ void Search::judge(SetFit& result) {
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
   for (auto& evidence : result.evidence) {
-    // Signs are flipped at the set without this effect, against all candidates there.
     const auto parent = without(result.set, evidence.candidate);
+    const auto fitted = sets_.find(parent);
+    const bool came_true = fitted == sets_.end() ||
+                           fitted->second.fit.deviance - result.fit.deviance > kComesTrue * evidence.gain;
+    // Signs are flipped at the set without this effect, against all candidates there.
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
       std::size_t chosen = 0;
@@ -257,7 +263,8 @@ void Search::judge(SetFit& result) {
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
-        evidence.typicals < smallest || evidence.at_bound || evidence.gain < least_share * explained)
+        evidence.typicals < smallest || evidence.at_bound || !came_true ||
+        evidence.gain < least_share * explained)
       result.needed = false;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }

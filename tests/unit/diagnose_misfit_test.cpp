@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include "tools/diagnose/misfit.hpp"
+#include "tools/diagnose/report_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+std::vector<TrialMisfit> trials_with(std::initializer_list<double> deviance_per_row) {
+  std::vector<TrialMisfit> trials;
+  for (const double d : deviance_per_row) trials.push_back({1000.0 * d, 1000.0});
+  return trials;
+}
+
+TEST(DiagnoseMisfit, NothingBeyondTheNoiseIsNoMisfit) {
+  const auto m = misfit_of(trials_with({1.0, 0.9, 1.05, 0.95}), 5000.0, false);
+  EXPECT_NEAR(m.unexplained, -100.0, 1e-9);
+  EXPECT_NEAR(m.explained, 1100.0, 1e-9);
+  EXPECT_FALSE(m.large);
+  EXPECT_FALSE(m.noticeable);
+}
+
+TEST(DiagnoseMisfit, MuchThatIsLeftIsLargeUnlessTenTimesAsMuchIsExplained) {
+  const auto trials = trials_with({1.7, 1.8, 1.7, 1.8});
+  EXPECT_TRUE(misfit_of(trials, 7000.0 + 20000.0, false).large);
+  EXPECT_FALSE(misfit_of(trials, 7000.0 + 40000.0, false).large);
+  EXPECT_TRUE(misfit_of(trials, 7000.0 + 40000.0, false).noticeable);
+}
+
+TEST(DiagnoseMisfit, LittleThatIsLeftIsLargeWhereTheNamesExplainLess) {
+  const auto trials = trials_with({1.2, 1.15, 1.12, 1.2});
+  EXPECT_TRUE(misfit_of(trials, 4670.0 + 400.0, false).large);
+  EXPECT_FALSE(misfit_of(trials, 4670.0 + 900.0, false).large);
+}
+
+TEST(DiagnoseMisfit, OneTrialThatWentAstrayIsNoMisfitOfAll) {
+  EXPECT_FALSE(misfit_of(trials_with({1.0, 1.0, 1.0, 9.0}), 12000.0, false).large);
+  EXPECT_TRUE(misfit_of(trials_with({1.0, 1.0, 5.0, 9.0}), 16000.0, false).large);
+  EXPECT_TRUE(misfit_of(trials_with({1.0, 1.0, 1.0, 1.0, 5.0, 9.0}), 18000.0, true).large);
+  EXPECT_FALSE(misfit_of(trials_with({1.0, 1.0, 1.0, 1.0, 5.0, 9.0}), 18000.0, false).large);
+  EXPECT_FALSE(misfit_of(trials_with({9.0, 9.0}), 18000.0, false).large);
+}
+
+TEST(DiagnoseMisfit, TheUnknownIsPlacedAtThePortOfTheNearestPhysicsNotOfASensor) {
+  const auto found = [](const std::string& id, const std::string& port, const std::string& channel = "") {
+    FoundEffect effect;
+    effect.id = id;
+    effect.port = port;
+    effect.channel = channel;
+    return effect;
+  };
+  Diagnosis d;
+  d.effects = {found("load_cell.lag", "load_cell_force_N", "load_cell_force_N"),
+               found("terrain.crust", "ground"), found("rail.viscous", "rail")};
+  report_unknown_near(0.13, d);
+  ASSERT_EQ(d.effects.size(), 4u);
+  EXPECT_EQ(d.effects.back().id, "unknown@ground");
+  EXPECT_LE(d.effects.back().probability, 0.5);
+  EXPECT_NE(d.effects.back().statement.find("terrain.crust comes nearest and explains 13 %"),
+            std::string::npos);
+  d.effects.resize(1);
+  report_unknown_near(0.13, d);
+  EXPECT_EQ(d.effects.size(), 1u);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
