@@ -215,6 +215,27 @@ TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
 }
 
 // A speed counted from an encoder is zero, exactly, for as long as no count comes.
+TEST(DiagnoseDataFaults, AnEncoderThatStandsWhileTheOtherMotorStandsIsNotStuck) {
+  for (const bool both : {true, false}) {
+    constexpr double kCount_rad = 4e-4;
+    Trial trial;
+    trial.name = "1";
+    for (std::size_t i = 0; i < 400; ++i) {
+      const double t = 1e-3 * static_cast<double>(i);
+      trial.time_s.push_back(t);
+      for (const char* side : {"left", "right"})
+        trial.channels[std::string("motor_") + side + "_position_rad"].push_back(
+            kCount_rad * std::round((t + 0.01 * std::sin(50.0 * t)) / kCount_rad));
+    }
+    auto& left = trial.channels["motor_left_position_rad"];
+    auto& right = trial.channels["motor_right_position_rad"];
+    std::fill(left.begin() + 300, left.begin() + 310, left[300]);
+    if (both) std::fill(right.begin() + 300, right.begin() + 310, right[301]);
+    std::vector<Trial> trials{trial};
+    EXPECT_EQ(remove_data_faults(trials).size(), both ? 0u : 1u);
+  }
+}
+
 // A single short repeat is no fault, and then its samples stay.
 TEST(DiagnoseDataFaults, NothingIsTakenOutWhereNoFaultIsFound) {
   auto trials = drops([](double, double, double) { return 0.0; }).trials;

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/diagnosis_json.hpp"
+#include "tools/diagnose/residuals_csv.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -157,6 +159,25 @@ TEST(Diagnose, TellsWhatAMissingChannelRulesOut) {
   const auto d = diagnose(recordings);
   EXPECT_EQ(d.verdict, "consistent");
   EXPECT_THAT(d.notes, Contains(::testing::HasSubstr("accel_mps2")));
+}
+
+// The rows say what the errors by channel sum up.
+TEST(Diagnose, ItsResidualsAreTheErrorsItReports) {
+  const auto d = diagnose(drops([](double, double, double v) { return -0.003 * std::abs(v) * v; }, 1, 6));
+  const auto lines = residuals_csv(d);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')), d.residuals.size() + 1);
+  ASSERT_FALSE(d.fits.empty());
+  for (const auto& fit : d.fits) {
+    double before = 0.0, after = 0.0, rows = 0.0;
+    for (const auto& r : d.residuals)
+      if (r.channel == fit.channel) {
+        before += r.before * r.before;
+        after += r.after * r.after;
+        ++rows;
+      }
+    EXPECT_NEAR(std::sqrt(before / rows), fit.heldout.before, 1e-9) << fit.channel;
+    EXPECT_NEAR(std::sqrt(after / rows), fit.heldout.after, 1e-9) << fit.channel;
+  }
 }
 
 TEST(DiagnosisJson, HasEveryKeyOfTheContract) {

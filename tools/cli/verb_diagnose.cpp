@@ -9,6 +9,7 @@
 #include "tools/diagnose/diagnosis_text.hpp"
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/page/diagnosis_page.hpp"
+#include "tools/diagnose/residuals_csv.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -17,6 +18,7 @@ struct Options {
   std::string campaign;
   std::string output;
   bool search = false;
+  bool residuals = false;
   bool report = true;
 };
 
@@ -51,6 +53,10 @@ ExitCode diagnose(Session& session, const Options& options) {
     write(folder / "corrected.toml", diagnosis.corrected_model_toml);
     session.say("corrected model: {}", (folder / "corrected.toml").string());
   }
+  if (options.residuals) {
+    write(folder / "residuals.csv", sandhopper::diagnose::residuals_csv(diagnosis));
+    session.say("residuals: {}", (folder / "residuals.csv").string());
+  }
   session.say("answer: {}", (folder / "diagnosis.json").string());
   if (options.report) {
     const auto page = folder / "diagnosis.html";
@@ -68,6 +74,8 @@ Run set_up(CLI::App& app) {
   app.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
   app.add_flag("!--no-report", options->report, "write no page");
   app.add_flag("--search", options->search, "also print what was tried");
+  app.add_flag("--residuals", options->residuals,
+               "also write residuals.csv: recorded minus simulated, before and after, of every row");
   return [options](Session& session) { return diagnose(session, *options); };
 }
 

@@ -161,22 +161,47 @@ bool speed_was_none(const SampledChannel& position, const std::string& channel, 
   return changes > 0.0 && none && scatter < kWhite * noise;
 }
 
-// At a turning point an encoder shows the same count for a while: its speed says that it went no further.
-bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
-  constexpr double kCounts = 2.5;  // the speed is late, too
-  const auto* speed = speed_of(position, channel);
-  if (speed == nullptr) return false;
+constexpr double kCounts = 2.5;  // of an encoder, that it may have gone on within its noise
+
+double count_of(const SampledChannel& position) {
   double count = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < position.value.size(); ++i)
     if (position.value[i] != position.value[i - 1])
       count = std::min(count, std::abs(position.value[i] - position.value[i - 1]));
+  return count;
+}
+
+// At a turning point an encoder shows the same count for a while: its speed says that it went no further.
+bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
+  const auto* speed = speed_of(position, channel);
+  if (speed == nullptr) return false;
   double moved = 0.0;
   for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
     const double v = (*speed)[position.rows[k]];
     if (!std::isfinite(v)) return false;
     moved += v / static_cast<double>(stretch.last - stretch.first + 1) * stretch.duration_s;
   }
-  return std::abs(moved) < kCounts * count;
+  return std::abs(moved) < kCounts * count_of(position);
+}
+
+// Two motors move one leg: while it stood still for one encoder it did for the other.
+bool other_motor_stood(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
+  if (!channel.ends_with(kPosition)) return false;
+  std::string other = channel;
+  if (const auto left = other.find("left"); left != std::string::npos)
+    other.replace(left, 4, "right");
+  else if (const auto right = other.find("right"); right != std::string::npos)
+    other.replace(right, 5, "left");
+  const auto* values = position.trial->find(other);
+  if (other == channel || values == nullptr) return false;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
+    const double v = (*values)[position.rows[k]];
+    if (!std::isfinite(v)) return false;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  return high - low < kCounts * count_of(position);
 }
 
 // Values held, in one channel.
@@ -226,7 +251,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch) ||
-          within_a_count(s, channel, stretch))
+          within_a_count(s, channel, stretch) || other_motor_stood(s, channel, stretch))
         continue;
       longest = std::max(longest, stretch.last - stretch.first + 1);
       least = std::min(least, stretch.last - stretch.first + 1);

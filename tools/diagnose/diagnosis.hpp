@@ -68,6 +68,14 @@ struct Trace {
   std::vector<double> time_s, measured, before, after;  // after: held out
 };
 
+// A row that was compared: recorded minus simulated.
+struct ResidualRow {
+  std::string trial, channel, phase;
+  double time_s = 0.0, before = 0.0;
+  double after = 0.0;  // held out
+  double noise_sd = 0.0;
+};
+
 struct Bound {  // of an effect that was looked for and not found
   std::string id;
   std::string parameter;
@@ -116,6 +124,7 @@ struct Diagnosis {
   std::vector<std::string> notes;  // missing channels, trials left out, weaker tests
   std::vector<PhaseError> phase_errors;
   std::vector<Trace> traces;
+  std::vector<ResidualRow> residuals;
   NextTrial next;
   SimpleAnswers simple;
   std::string corrected_model_toml;

@@ -235,6 +235,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const Residuals residuals =
       residuals_of(problem, search, diagnosis.unknown.empty() ? nullptr : &rest->family);
   report_errors(problem, residuals, diagnosis);
+  report_residuals(problem, residuals, diagnosis);
   report_absent(problem, search, diagnosis);
   report_where(problem, search, residuals, diagnosis);
   report_traces(problem, clean, residuals, diagnosis);

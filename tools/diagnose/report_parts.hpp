@@ -19,6 +19,7 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
 void report_unknown_near(double share, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);

@@ -154,7 +154,7 @@ void Search::judge(SetFit& result) {
   Index first = 1;
   result.evidence.clear();
   result.judged = true;
-  result.needed = true;
+  result.needed = result.sound = true;
   result.hopeless = false;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
@@ -223,7 +223,7 @@ void Search::judge(SetFit& result) {
                            (value >= p.high - 1e-9 * std::abs(p.high) ||
                             (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
     }
-    if (within_tolerance(*problem_, delays)) result.needed = false;
+    if (within_tolerance(*problem_, delays)) result.sound = false;
     const double model = std::max(1e-300, [&] {
       double s = 0.0;
       for (const double i : group.evidence.information) s += i;
@@ -235,7 +235,7 @@ void Search::judge(SetFit& result) {
     result.evidence.push_back(std::move(evidence));
     first += width;
   }
-  if (late_together(*problem_, point.hypothesis)) result.needed = false;
+  if (late_together(*problem_, point.hypothesis)) result.sound = false;
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
@@ -262,10 +262,11 @@ void Search::judge(SetFit& result) {
     const bool beyond_doubt = evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
-    if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed ||
-        evidence.typicals < smallest || evidence.at_bound || !came_true ||
-        evidence.gain < least_share * explained)
-      result.needed = false;
+    evidence.too_small = evidence.typicals < smallest;
+    if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
+        !came_true || evidence.gain < least_share * explained)
+      result.sound = false;
+    result.needed = result.needed && result.sound && !evidence.too_small;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }
 }
@@ -347,6 +348,18 @@ void Search::finish_rivals() {
       finish(fit);
 }
 
+namespace {
+
+std::vector<std::size_t> named_part(const SetFit& fit) {
+  std::vector<std::size_t> part;
+  for (const auto& evidence : fit.evidence)
+    if (!evidence.too_small) part.push_back(evidence.candidate);
+  std::ranges::sort(part);
+  return part;
+}
+
+}  // namespace
+
 void Search::choose_best() {
   // The closest fit first; only sets that can still win are judged.
   std::vector<SetFit*> order;
@@ -371,11 +384,19 @@ void Search::choose_best() {
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
   const auto before = best_;
-  for (auto* fit : order)
+  std::vector<std::vector<std::size_t>> trivial;  // better sets, without what is too small to be named
+  for (auto* fit : order) {
     if (needed(*fit)) {
       best_ = fit->set;
       break;
     }
+    if (fit->judged && fit->sound) trivial.push_back(named_part(*fit));
+  }
+  // What an effect too small to be named explains better is no finding.
+  for (const auto& part : trivial)
+    if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&
+        needed(sets_.at(part)))
+      best_ = part;
   if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
 

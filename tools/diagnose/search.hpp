@@ -17,6 +17,7 @@ struct EffectEvidence {
   double flip_p_value = 1.0;
   double typicals = 0.0;  // |size| of the first amplitude
   bool at_bound = false;
+  bool too_small = false;  // to be named, though it may be there
 };
 
 struct SetFit {
@@ -27,6 +28,7 @@ struct SetFit {
   bool rough = false;       // only tried: finished before it can be the answer
   bool judged = false;
   bool needed = false;    // every effect stands on its own; known once judged
+  bool sound = false;     // would be needed if none were too small
   bool hopeless = false;  // an effect is far from that
 };
 
