@@ -24,6 +24,8 @@ namespace {
 
 constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
 constexpr double kUnknownSignificance = 0.003;
+constexpr double kSmallestLaw =
+    0.1;  // of the port's scale, at its largest: what is smaller matters to nobody
 constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kMisfitSignificance = 0.05;
@@ -42,7 +44,9 @@ Misfit misfit_of(const Problem& problem, const Search& search) {
   for (std::size_t t = 0; t < problem.trials.size(); ++t)
     trials.push_back(
         {search.best().fit.trial_deviance[t], static_cast<double>(problem.trials[t]->rows.size())});
-  return misfit_of(trials, search.null().fit.deviance, problem.plant->motion_is_prescribed());
+  auto m = misfit_of(trials, search.null().fit.deviance, problem.plant->motion_is_prescribed());
+  if (m.outweighs && !search.best().set.empty()) m.large = m.noticeable = true;  // names that say little
+  return m;
 }
 
 // A law that the balances of the recordings show by themselves. Not one of the drive's torque: what the list
@@ -159,12 +163,14 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
                 std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
   for (const auto& gain : gains)
     if (rest == nullptr && problem.trials.size() >= kTooFewTrials && gain.held_out > least_gain &&
-        gain.p_value < kUnknownSignificance && gain.trials_better >= 0.75)
+        gain.p_value < kUnknownSignificance && gain.trials_better >= 0.75 &&
+        gain.size.cwiseAbs().maxCoeff() > kSmallestLaw)
       rest = &gain;
   for (std::size_t i = 0; i < gains.size() && i < 4; ++i)
     diagnosis.log.push_back(fmt::format(
-        "free law at {} of {}: held-out gain {:.1f}, p {:.1e}, better in {:.0f} %", gains[i].family.port,
-        gains[i].family.variable, gains[i].held_out, gains[i].p_value, 100.0 * gains[i].trials_better));
+        "free law at {} of {}: held-out gain {:.1f}, p {:.1e}, better in {:.0f} %, largest {:.3g}",
+        gains[i].family.port, gains[i].family.variable, gains[i].held_out, gains[i].p_value,
+        100.0 * gains[i].trials_better, gains[i].family.scale * gains[i].size.cwiseAbs().maxCoeff()));
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
   std::vector<FreeGain> alone;

@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kMuchPerRow = 0.5;
 constexpr double kMuchOfExplained = 0.1;
-constexpr double kLittlePerRow = 0.1;  // enough where it is more than the names explain
+constexpr double kLittlePerRow = 0.1;  // enough to be held against what is explained
 
 }  // namespace
 
@@ -26,8 +26,8 @@ Misfit misfit_of(const std::vector<TrialMisfit>& trials, double null_deviance, b
     for (const auto& trial : trials) far += trial.deviance > (1.0 + per_row) * trial.rows;
     return m.unexplained > per_row * rows && far >= enough;
   };
-  m.large = (left(kMuchPerRow) && m.unexplained > kMuchOfExplained * m.explained) ||
-            (left(kLittlePerRow) && m.unexplained > m.explained);
+  m.large = left(kMuchPerRow) && m.unexplained > kMuchOfExplained * m.explained;
+  m.outweighs = left(kLittlePerRow) && m.unexplained > m.explained;
   m.noticeable = m.large || m.unexplained > kMuchPerRow * rows;
   return m;
 }

@@ -9,7 +9,8 @@ inline constexpr std::size_t kTooFewTrials = 3;  // to say what holds for all
 // How much an explanation leaves beyond the noise, whose own deviance is 1 a row.
 struct Misfit {
   double unexplained = 0.0, explained = 0.0;
-  bool large = false;       // too much for its names to be trusted
+  bool large = false;       // too much for any name to be trusted
+  bool outweighs = false;   // more than is explained
   bool noticeable = false;  // enough to ask the balances
 };
 

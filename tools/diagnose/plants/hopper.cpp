@@ -324,6 +324,27 @@ class HopperTrial final : public TrialModel {
                             : 0.0;
   }
 
+  // A sensor that samples more often than rows are written, with a clock of its own, leaves no empty cells
+  // that would tell when: standard deviation of a sample's age.
+  double age_unknown_s(std::size_t c, double step_s) const {
+    if (c != kImuBody && c != kImuFoot) return 0.0;
+    const double rate_Hz = belief_.value("sensors.imu_rate_Hz");
+    return rate_Hz * step_s > 1.01 ? 1.0 / (rate_Hz * std::sqrt(12.0)) : 0.0;
+  }
+
+  // Standard deviation against that of a sample whose time is known.
+  static std::vector<double> unsure_of_time(const Samples& samples, double age_sd_s) {
+    const auto& [t, v] = samples;
+    std::vector<double> relative(v.size(), 1.0);
+    const double noise = fluctuation_rms(samples);
+    if (age_sd_s <= 0.0 || noise <= 0.0) return relative;
+    for (std::size_t i = 1; i < v.size(); ++i) {
+      const double moved = age_sd_s * std::abs(v[i] - v[i - 1]) / (t[i] - t[i - 1]) / noise;
+      for (const std::size_t k : {i - 1, i}) relative[k] = std::max(relative[k], std::hypot(1.0, moved));
+    }
+    return relative;
+  }
+
   void add_rows(const Trial& trial, std::size_t c) {
     sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
     spans_[c].assign(blocks, {});
@@ -333,8 +354,9 @@ class HopperTrial final : public TrialModel {
     if (samples.value.size() < 10) return;
     auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));
     if (ages.size() != samples.value.size()) ages.assign(samples.value.size(), 0.0);
-    const bool fast = median_step_s(samples.time_s) < 1.5e-3;
-    const std::size_t every = fast ? kSources[c].every : 1;
+    const double step_s = median_step_s(samples.time_s);
+    const std::size_t every = step_s < 1.5e-3 ? kSources[c].every : 1;
+    const auto unsure = unsure_of_time(samples, age_unknown_s(c, step_s));
     for (std::size_t i = 0; i < samples.value.size(); i += every) {
       const double t = samples.time_s[i];
       if (t < course_.hops.front().from_s || t > course_.end_s) continue;
@@ -344,7 +366,7 @@ class HopperTrial final : public TrialModel {
       if (span.count++ == 0) span.first = rows.size();
       times_.push_back(t);
       ages_s_.push_back(ages[i]);
-      rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i]});
+      rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i], unsure[i]});
     }
   }
 

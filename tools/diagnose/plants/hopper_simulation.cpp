@@ -68,9 +68,10 @@ class Actuator {
       }
     }
     loop_decay_ = decay(time_constant_s);
-    // The nominal loop acts at the start of its 0.1 ms steps: half a step ahead of the continuous one.
-    const double ahead = time_constant_s > 0.0 ? std::exp(-0.5 * Plant::kStep_s / time_constant_s) : 0.0;
-    loop_mean_ = time_constant_s > 0.0 ? ahead * (1.0 - loop_decay_) * time_constant_s / kStep_s : 0.0;
+    // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
+    // may be of either: between the two.
+    const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
+    loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / kStep_s;
     history_.fill(0.0);
   }
 
