@@ -384,19 +384,21 @@ void Search::choose_best() {
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
   const auto before = best_;
-  std::vector<std::vector<std::size_t>> trivial;  // better sets, without what is too small to be named
+  std::vector<const SetFit*> trivial;  // better sets, something in which is too small to be named
   for (auto* fit : order) {
     if (needed(*fit)) {
       best_ = fit->set;
       break;
     }
-    if (fit->judged && fit->sound) trivial.push_back(named_part(*fit));
+    if (fit->judged && fit->sound) trivial.push_back(fit);
   }
-  // What an effect too small to be named explains better is no finding.
-  for (const auto& part : trivial)
+  // What an effect too small to be named explains clearly better is no finding.
+  for (const auto* fit : trivial) {
+    const auto part = named_part(*fit);
     if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&
-        needed(sets_.at(part)))
+        criterion(*fit) + kWorthAFit < criterion(best()) && needed(sets_.at(part)))
       best_ = part;
+  }
   if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
 

@@ -1,0 +1,57 @@
+// The tables of the documentation's page from benchmarks of one plant each, as Markdown.
+//   node tools/benchmark/page.mjs FOLDER…        folders of `hop conceal benchmark`, each with its score.json
+import fs from 'node:fs';
+import path from 'node:path';
+
+const folders = process.argv.slice(2);
+if (folders.length === 0) {
+  console.error('usage: node tools/benchmark/page.mjs FOLDER…   (folders with a score.json)');
+  process.exit(2);
+}
+const plants = folders.map((folder) => {
+  const tools = JSON.parse(fs.readFileSync(path.join(folder, 'score.json'), 'utf8')).tools;
+  return { name: tools['hop diagnose'].cases[0].plant.replace('_', ' '), tools, own: tools['hop diagnose'] };
+});
+
+const percent = (share) => (100 * share).toFixed(1);
+const row = (cells) => `| ${cells.join(' | ')} |`;
+const table = (head, rows) => [row(head), row(head.map(() => '---')), ...rows.map(row), ''].join('\n');
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
+function shown(figure) {
+  if (figure.of === 0) return 'none';
+  const [low, high] = figure.wilson95;
+  const missed = figure.met ? '' : ', **missed**';
+  return `${percent(figure.value)} (${percent(low)} to ${percent(high)}) of ${figure.of}${missed}`;
+}
+
+const figures = plants[0].own.figures.map((figure, i) => [
+  figure.figure,
+  `${/alarm|confident/.test(figure.figure) ? 'at most' : 'at least'} ${100 * figure.must}`,
+  ...plants.map((plant) => shown(plant.own.figures[i])),
+]);
+figures.push(['mean class size of the right names', '2.5', ...plants.map((p) => p.own.mean_class_size.toFixed(2))]);
+figures.push(['expected calibration error', '0.05', ...plants.map((p) => p.own.expected_calibration_error.toFixed(3))]);
+console.log(table(['figure', 'must', ...plants.map((p) => p.name)], figures));
+
+console.log('The same campaigns through plainer methods: false alarms, right names, confident wrong names.\n');
+const plainer = Object.keys(plants[0].tools).filter((name) => name !== 'hop diagnose');
+console.log(table(['method', ...plants.map((p) => p.name)],
+  plainer.map((name) => [name, ...plants.map((p) => p.tools[name].figures.slice(0, 3).map((f) => percent(f.value ?? 0)).join(', '))])));
+
+console.log('## By size\nSingle effects, relative to their typical size: campaigns, noticed, right, confident wrong.\n');
+console.log(table(['size', ...plants.map((p) => p.name)],
+  plants[0].own.size_ladder.map((step, i) => [`${step.from} to ${Math.floor(100 * step.to) / 100}`,
+    ...plants.map((p) => { const s = p.own.size_ladder[i]; return [s.cases, s.noticed, s.right, s.confident_wrong].join(', '); })])));
+
+for (const plant of plants) {
+  console.log(`## ${capital(plant.name)}, by effect\nCampaigns in which it is the only thing hidden.\n`);
+  console.log(table(['effect', 'campaigns', 'right alone', 'right in a class', 'unknown', 'nothing missing', 'no answer', 'other names'],
+    Object.entries(plant.own.by_effect).map(([id, f]) => [`\`${id}\``, f.cases, f.right_alone, f.right_in_class, f.unknown, f.nothing_missing,
+      f.no_answer, Object.entries(f.other_names ?? {}).map(([name, count]) => `\`${name}\` ${count}`).join(', ')])));
+  console.log(`### ${capital(plant.name)}: every campaign that was not right`);
+  console.log('A number after a name is its probability; = stands before what it cannot be told from.\n');
+  console.log(table(['campaign', 'kind', 'hidden (times typical)', 'said'],
+    plant.own.cases.filter((c) => !c.right).map((c) => [c.campaign, c.kind,
+      c.hidden.map((e) => `\`${e.id}\` ${Number(e.size_relative.toPrecision(2))}`).join(', '), c.said])));
+}
