@@ -63,8 +63,7 @@ void report_unknown_near(double share, Diagnosis& diagnosis) {
   effect.port = near->port;
   effect.statement = fmt::format(
       "Something that is on no list acts, as far as these recordings tell, at {}: {} comes nearest and "
-      "explains "
-      "{:.0f} % of it.",
+      "explains {:.0f} % of it.",
       near->port, near->id, 100.0 * share);
   effect.equation = "not known";
   effect.probability = kNearProbability;
