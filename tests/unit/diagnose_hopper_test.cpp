@@ -7,6 +7,7 @@
 #include "tests/unit/diagnose_effect_sizes.hpp"
 #include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/recorded_controller.hpp"
 #include "tools/diagnose/prepare.hpp"
 
 namespace sandhopper::diagnose {
@@ -15,30 +16,32 @@ namespace {
 constexpr double kSwitch_s = 0.25;
 
 // Its phases are imposed.
-Trial hop(std::uint64_t seed = 0, double release_m = 0.04) {
-  static const std::vector<PhaseChange> kPhases{{0.0, HopperPhase::flight},
-                                                {0.09, HopperPhase::compression},
-                                                {kSwitch_s, HopperPhase::extension},
-                                                {0.36, HopperPhase::flight}};
+Trial hop(std::uint64_t seed = 0, double release_m = 0.04, double switch_s = kSwitch_s,
+          double compression_stiffness_N_per_m = 375.0) {
+  const std::vector<PhaseChange> phases{{0.0, HopperPhase::flight},
+                                        {0.09, HopperPhase::compression},
+                                        {switch_s, HopperPhase::extension},
+                                        {0.36, HopperPhase::flight}};
   HopperRun run = hop_from(release_m, 0.45);
-  run.phases = &kPhases;
+  run.phases = &phases;
+  run.compression_stiffness_N_per_m = compression_stiffness_N_per_m;
   return recorded(run, {}, seed);
 }
 
-// Largest difference of a motor's current between recording and simulation.
-double largest_error_A(const Trial& trial) {
+// Largest difference of a channel between recording and simulation.
+double largest_error(const Trial& trial, const std::string& channel, const Edits& edits = {}) {
   std::string why;
   const auto plant = make_plant(PlantKind::hopper);
   const auto channels = plant->channels();
-  const auto current = static_cast<std::uint32_t>(
-      std::find(channels.begin(), channels.end(), "motor_left_current_A") - channels.begin());
+  const auto index =
+      static_cast<std::uint32_t>(std::find(channels.begin(), channels.end(), channel) - channels.begin());
   const auto model = plant->trial(trial, Belief{}, why);
   EXPECT_NE(model, nullptr) << why;
   std::vector<double> predicted(model->rows.size());
-  model->predict({}, std::vector<double>(model->nuisance_count(), 0.0), predicted);
+  model->predict(edits, std::vector<double>(model->nuisance_count(), 0.0), predicted);
   double largest = 0.0;
   for (std::size_t i = 0; i < predicted.size(); ++i)
-    if (model->rows[i].channel == current)
+    if (model->rows[i].channel == index)
       largest = std::max(largest, std::abs(predicted[i] - model->rows[i].measured));
   return largest;
 }
@@ -47,15 +50,55 @@ double largest_error_A(const Trial& trial) {
 // same count at its turning point passes for stuck) the jump came gradually: several amperes off.
 TEST(DiagnoseHopper, AnglesThatAreMissingBeforeTheSwitchDoNotSmearTheCommand) {
   Trial trial = hop();
-  const double whole_A = largest_error_A(trial);
+  const double whole_A = largest_error(trial, "motor_left_current_A");
   for (std::size_t i = 0; i < trial.time_s.size(); ++i)
     if (trial.time_s[i] > kSwitch_s - 5.5e-3 && trial.time_s[i] < kSwitch_s - 0.5e-3)
       for (const char* side : {"motor_left_", "motor_right_"})
         trial.channels[std::string(side) + "position_rad"][i] = std::numeric_limits<double>::quiet_NaN();
-  const double without_A = largest_error_A(trial);
+  const double without_A = largest_error(trial, "motor_left_current_A");
   std::printf("current off by %.3f A at most, by %.3f A with five angles missing\n", whole_A, without_A);
   EXPECT_LT(whole_A, 0.5);
   EXPECT_LT(without_A, whole_A + 0.05);
+}
+
+// The simulated leg follows what was commanded, whatever the controller is believed to be; the commands
+// themselves tell which it was.
+TEST(DiagnoseHopper, AnotherStiffnessOfTheControllerShowsInTheCommandsAlone) {
+  const double factor = 1.12;
+  const Trial trial = hop(0, 0.04, kSwitch_s, factor * 375.0);
+  Edits true_stiffness;
+  true_stiffness.scale("controller.compression_stiffness_N_per_m", factor);
+  for (const char* channel : {"command_left_torque_Nm", "motor_left_current_A"})
+    std::printf("%s off by %.4f, with the true stiffness by %.4f\n", channel, largest_error(trial, channel),
+                largest_error(trial, channel, true_stiffness));
+  const double as_believed = largest_error(hop(), "command_left_torque_Nm");
+  EXPECT_GT(largest_error(trial, "command_left_torque_Nm"), 4.0 * as_believed);
+  EXPECT_NEAR(largest_error(trial, "command_left_torque_Nm", true_stiffness), as_believed, 0.1 * as_believed);
+  EXPECT_LT(largest_error(trial, "motor_left_current_A"), 0.5);
+  EXPECT_LT(largest_error(trial, "motor_left_current_A", true_stiffness), 0.5);
+}
+
+TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
+  const auto world = world_of(Belief{}, {});
+  const auto late = [&](double switch_s) {
+    const auto found = late_switches_s(hop(0, 0.04, switch_s), world);
+    EXPECT_EQ(found.size(), 1u);
+    return found.empty() ? 0.0 : found.front();
+  };
+  // Until the leg turns by itself the motion is the same.
+  const double due_s = kSwitch_s - late(kSwitch_s);
+  EXPECT_NEAR(late(kSwitch_s + 0.01) - late(kSwitch_s), 0.01, 1e-9);
+  const auto broken = [&](double later_s) {
+    std::vector<Trial> trials;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+      trials.push_back(hop(seed, 0.04, std::round(1e3 * (due_s + later_s)) * 1e-3));
+    return make_plant(PlantKind::hopper)->broken_rules(trials, std::vector<Belief>(trials.size()));
+  };
+  EXPECT_TRUE(broken(0.0).empty());
+  EXPECT_TRUE(broken(0.001).empty());
+  ASSERT_EQ(broken(0.008).size(), 1u);
+  EXPECT_EQ(broken(0.008).front().id, "controller.not_as_configured");
+  EXPECT_NEAR(broken(0.008).front().value, 0.008, 0.001);
 }
 
 // Whatever a hopper may have changes nothing when it is off, and something at its typical size.

@@ -34,6 +34,21 @@ TEST(DiagnoseStatistics, SignFlipsCannotSayMoreThanTheNumberOfTrialsAllows) {
   EXPECT_DOUBLE_EQ(sign_flip_p_value(all, 0, 1), 1.0 / 8.0);
 }
 
+// Against all choices of signs, counted out.
+TEST(DiagnoseStatistics, SignedRanksCountEverySign) {
+  const std::vector<double> all{3.0, 0.1, 40.0, 2.0, 5.0, 0.7, 9.0, 1.0};
+  EXPECT_DOUBLE_EQ(signed_rank_p_value(all), 1.0 / 256.0);
+  const std::vector<double> mixed{3.0, -0.1, 40.0, -2.0, 5.0};  // ranks 3, -1, 5, -2, 4
+  int reached = 0;
+  for (int signs = 0; signs < 32; ++signs) {
+    int sum = 0;
+    for (int rank = 1; rank <= 5; ++rank) sum += (signs >> (rank - 1)) & 1 ? rank : 0;
+    reached += sum >= 12;
+  }
+  EXPECT_DOUBLE_EQ(signed_rank_p_value(mixed), reached / 32.0);
+  EXPECT_DOUBLE_EQ(signed_rank_p_value({}), 1.0);
+}
+
 TEST(DiagnoseStatistics, EffectiveTrialsAreThoseThatCarryTheInformation) {
   EXPECT_DOUBLE_EQ((TrialEvidence{{1, 1, 1, 1}, {2, 2, 2, 2}}.effective_trials()), 4.0);
   EXPECT_NEAR((TrialEvidence{{1, 1, 1, 1}, {100, 1e-3, 1e-3, 1e-3}}.effective_trials()), 1.0, 1e-3);

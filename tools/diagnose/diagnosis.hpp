@@ -18,7 +18,7 @@ struct FoundParameter {
 struct FoundEffect {
   std::string id;
   std::string port;
-  std::string channel;
+  std::string channel{};
   std::string statement;
   std::string equation;
   std::vector<FoundParameter> parameters;
@@ -26,7 +26,7 @@ struct FoundEffect {
   double heldout_gain = 0.0;  // share of the held-out excess that goes with it
   double p_value = 1.0;
   double typicals = 0.0;
-  std::vector<std::string> indistinguishable_from;
+  std::vector<std::string> indistinguishable_from{};
 };
 
 struct Where {

@@ -33,6 +33,7 @@ constexpr double kOutdone = 1.3;
 constexpr double kDoubtBesideUnknown = 0.3;  // none of 7 such names was right on seed 5600
 constexpr std::size_t kSeeds = 14;
 constexpr std::size_t kSetsTold = 20;
+constexpr std::size_t kScreenedTold = 15;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
@@ -70,7 +71,12 @@ std::string set_text(const Problem& problem, const std::vector<std::size_t>& set
   return text;
 }
 
-void log_sets(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
+void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
+  const auto& screened = search.screened({});
+  for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
+    diagnosis.log.push_back(fmt::format("screen {}: linear gain {:.1f} at [{:.4g}]",
+                                        problem.candidates[screened[i].candidate].label(), screened[i].gain,
+                                        fmt::join(screened[i].values, ", ")));
   std::vector<const SetFit*> fits;
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
   std::sort(fits.begin(), fits.end(),
@@ -117,6 +123,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
   // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
+  search_options.straight = recordings.plant == PlantKind::hopper;
   if (recordings.plant != PlantKind::hopper) {
     search_options.fits_per_screen = 10;
     search_options.proposals = 10;
@@ -237,6 +244,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     diagnosis.detail = classes ? "one_of_class" : rest != nullptr ? "known_and_rest" : "known";
     if (rest != nullptr) report_unknown(*rest, share, diagnosis);
   }
+  report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);
   const Residuals residuals =
       residuals_of(problem, search, diagnosis.unknown.empty() ? nullptr : &rest->family);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tools/diagnose/rivals.hpp"
+#include "tools/diagnose/statistics.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -41,13 +42,6 @@ Choice best_of(const PlannedTrials& planned, const Worth& worth) {
       choice.worth = choice.all[i];
     }
   return choice;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void take(const DoableTrial& trial, NextTrial& next) {

@@ -86,6 +86,13 @@ struct DoableTrial {
   double cost = 0.0;  // trouble: 1 for something unusual, or twice what was done so far
 };
 
+// What the recordings contradict by themselves, whatever a simulation may say.
+struct BrokenRule {
+  std::string id, port, statement, equation;  // as of an effect
+  std::string parameter;
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
 // A plant is one file in plants/ that makes one of these.
 class PlantModel {
  public:
@@ -106,6 +113,10 @@ class PlantModel {
   virtual bool motion_is_prescribed() const { return false; }
   // Of one trial; none where this plant's recordings do not say enough.
   virtual std::vector<Balance> balances(const Trial& /*trial*/, const Belief& /*belief*/) const { return {}; }
+  virtual std::vector<BrokenRule> broken_rules(const std::vector<Trial>& /*trials*/,
+                                               const std::vector<Belief>& /*beliefs*/) const {
+    return {};
+  }
   // Trials like the recorded ones and around them; none where planning is not known.
   virtual std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
                                           const Edits& edits) const {

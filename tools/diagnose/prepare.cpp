@@ -8,6 +8,7 @@
 #include "tools/diagnose/free_laws.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -21,13 +22,6 @@ constexpr double kRowTolerance =
     0.5;                          // of a row's: a slower sensor's sample stands in the first row after it
 constexpr double kOutlier = 8.0;  // standard deviations
 constexpr std::size_t kRowsPerFreeTerm = 10;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // What a converter's grid is.
 double least_step(const std::vector<Trial>& trials, const std::string& channel) {

@@ -17,6 +17,7 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
 // Where no law of free form stands out: at the port of what explains most of those on the list, `share` of
 // what is there. After report_effects.
 void report_unknown_near(double share, Diagnosis& diagnosis);
+void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);

@@ -9,7 +9,14 @@
 namespace sandhopper::diagnose {
 namespace {
 
+constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
 constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
+
+void found_without_a_fit(Diagnosis& diagnosis, const char* detail) {
+  if (diagnosis.verdict != "consistent" && diagnosis.verdict != "insufficient_data") return;
+  diagnosis.verdict = "missing_physics";
+  diagnosis.detail = detail;
+}
 
 }  // namespace
 
@@ -85,6 +92,19 @@ std::string fault_statement(const DataFault& fault) {
 
 }  // namespace
 
+void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis) {
+  for (const auto& rule : rules) {
+    if (std::ranges::any_of(diagnosis.effects, [&](const auto& e) { return e.id == rule.id; })) continue;
+    diagnosis.effects.push_back({.id = rule.id,
+                                 .port = rule.port,
+                                 .statement = rule.statement,
+                                 .equation = rule.equation,
+                                 .parameters = {{rule.parameter, rule.value, rule.low, rule.high}},
+                                 .probability = kSeenDirectly});
+    found_without_a_fit(diagnosis, "known");
+  }
+}
+
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
   for (const auto& fault : faults) {
     FoundEffect effect;
@@ -92,7 +112,7 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     effect.port = fault.channel;
     effect.channel = fault.channel;
     effect.statement = fault_statement(fault);
-    effect.probability = 0.97;
+    effect.probability = kSeenDirectly;
     if (fault.limit != 0.0) {
       const double limit = std::abs(fault.limit);
       effect.equation = "y = min(x, limit)";
@@ -114,10 +134,7 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     }
     if (fault.borderline)
       effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};
-    if (diagnosis.verdict == "consistent" || diagnosis.verdict == "insufficient_data") {
-      diagnosis.verdict = "missing_physics";
-      diagnosis.detail = "data_fault";
-    }
+    found_without_a_fit(diagnosis, "data_fault");
     diagnosis.effects.push_back(std::move(effect));
   }
 }

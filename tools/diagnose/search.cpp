@@ -22,6 +22,7 @@ constexpr double kTrialsToFlip = 6.0;   // that carry the information: 64 flips
 // Of the linear gain at the fit, by how much the fit without the effect is really worse; where a simulation
 // amplifies its smallest change, this is nothing while the derivative is huge.
 constexpr double kComesTrue = 0.05;
+constexpr double kTrialsAgree = 0.01;
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
@@ -44,7 +45,9 @@ constexpr double kRival = 20.0;                                // of the criteri
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
-constexpr double kFreed = 0.02;  // of a drop that the null fit finds, too
+constexpr double kFreed = 0.02;      // of a drop that the null fit finds, too
+constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not what they are believed to be
+constexpr std::size_t kStraightFits = 3;
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
   set.push_back(candidate);
@@ -119,6 +122,16 @@ bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
   const double first_s = delays.begin()->second;
   for (auto& [channel, delay_s] : delays) delay_s -= first_s;
   return within_tolerance(problem, delays);
+}
+
+// Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
+// trial.
+bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
+  if (without.deviance - with.deviance > kComesTrue * linear_gain) return true;
+  std::vector<double> drops;
+  for (std::size_t t = 0; t < with.trial_deviance.size(); ++t)
+    drops.push_back(without.trial_deviance[t] - with.trial_deviance[t]);
+  return signed_rank_p_value(drops) < kTrialsAgree;
 }
 
 }  // namespace
@@ -242,8 +255,7 @@ void Search::judge(SetFit& result) {
   for (auto& evidence : result.evidence) {
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
-    const bool came_true = fitted == sets_.end() ||
-                           fitted->second.fit.deviance - result.fit.deviance > kComesTrue * evidence.gain;
+    const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
     // Signs are flipped at the set without this effect, against all candidates there.
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
@@ -271,9 +283,9 @@ void Search::judge(SetFit& result) {
   }
 }
 
-const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
+void Search::evaluate(const SetFit& from, const Screened& added) {
   const auto set = with(from.set, added.candidate);
-  if (const auto it = sets_.find(set); it != sets_.end()) return it->second;
+  if (sets_.contains(set)) return;
   Point start = from.fit.point;
   start.hypothesis.candidates.push_back(added.candidate);
   start.hypothesis.values.push_back(added.values);
@@ -306,7 +318,33 @@ const SetFit& Search::evaluate(const SetFit& from, const Screened& added) {
     Fit again = fit_at(start, kRough);
     if (again.deviance < result.fit.deviance) result.fit = std::move(again);
   }
-  return sets_[set] = std::move(result);
+  sets_[set] = std::move(result);
+}
+
+// Where much is missing, nuisances bend to it, and a derivative there says what bends them back, not what is
+// missing. With all nuisances as they are believed the simulation is further off, but off by what is missing.
+void Search::evaluate_straight(const SetFit& from, std::size_t fits) {
+  Point straight = null_point(*problem_);
+  straight.hypothesis = from.fit.point.hypothesis;
+  straight.tolerances = from.fit.point.tolerances;
+  const auto columns = columns_at(*problem_, straight);
+  const auto candidates = screen(*problem_, straight, &columns);
+  for (std::size_t i = 0; i < fits && i < candidates.size(); ++i) {
+    const auto& added = candidates[i];
+    SetFit result;
+    result.set = with(from.set, added.candidate);
+    result.rough = true;
+    Point start = straight;
+    start.hypothesis.candidates.push_back(added.candidate);
+    start.hypothesis.values.push_back(added.values);
+    FitOptions options = kRough;
+    options.columns = &columns;
+    options.tolerance *= dispersion_;
+    result.fit = fit_from(*problem_, start, options);
+    const auto known = sets_.find(result.set);
+    if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
+      sets_[result.set] = std::move(result);
+  }
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
@@ -320,6 +358,8 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
     evaluate(parent, s);
     ++done;
   }
+  if (options_.straight && parent.fit.deviance > kBentPerRow * problem_->rows())
+    evaluate_straight(parent, std::min(fits, kStraightFits));
 }
 
 // Derivatives by the nuisances as they are at the best set so far; without effects those of the null.

@@ -38,6 +38,7 @@ struct SearchOptions {
   std::size_t proposals = 0;  // sets from a linear approximation at the best point, tried at the end
   std::size_t fits_per_screen = 6;
   bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
+  bool straight = false;      // start from the believed nuisances, too
   double hopeless = 0.15;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
@@ -67,7 +68,8 @@ class Search {
  private:
   double cost_of_an_effect() const;  // of the criterion, with one parameter
   double cost_of_a_parameter() const;
-  const SetFit& evaluate(const SetFit& from, const Screened& added);
+  void evaluate(const SetFit& from, const Screened& added);
+  void evaluate_straight(const SetFit& from, std::size_t fits);
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void restart_null();

@@ -114,4 +114,32 @@ double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size
   return static_cast<double>(reached) / static_cast<double>(flips);
 }
 
+double signed_rank_p_value(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  std::ranges::stable_sort(sorted, {}, [](double v) { return std::abs(v); });
+  std::size_t positive = 0, all = 0;
+  std::vector<double> ways{1.0};  // probability of each sum of ranks
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const std::size_t rank = i + 1;
+    all += rank;
+    if (sorted[i] > 0.0) positive += rank;
+    std::vector<double> next(all + 1, 0.0);
+    for (std::size_t s = 0; s < ways.size(); ++s) {
+      next[s] += 0.5 * ways[s];
+      next[s + rank] += 0.5 * ways[s];
+    }
+    ways = std::move(next);
+  }
+  double p = 0.0;
+  for (std::size_t s = positive; s <= all; ++s) p += ways[s];
+  return p;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace sandhopper::diagnose

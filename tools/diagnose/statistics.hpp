@@ -32,4 +32,11 @@ struct TrialEvidence {
 // that trials agree by chance.
 double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed);
 
+// Wilcoxon's signed-rank test, exact, one-sided: how often the ranks of positive values sum to as much if
+// every sign is as likely as the other. Ties share no rank: the earlier one has the lower.
+double signed_rank_p_value(const std::vector<double>& values);
+
+// The upper of two in the middle; 0 of none.
+double median(std::vector<double> values);
+
 }  // namespace sandhopper::diagnose

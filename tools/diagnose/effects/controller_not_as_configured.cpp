@@ -3,23 +3,32 @@
 namespace sandhopper::diagnose {
 namespace {
 
+std::vector<EffectParameter> parameters(const Context&, const std::string&) {
+  const auto factor = [](const char* name) {
+    return EffectParameter{.name = name,
+                           .typical = 0.05,
+                           .low = -0.8,
+                           .high = 3.0,
+                           .either_sign = true,
+                           .base = 1.0,
+                           .amplitude = true};
+  };
+  return {factor("compression_stiffness_factor"), factor("extension_stiffness_factor")};
+}
+
 const EffectRegistration kEffect(
     {.id = "controller.not_as_configured",
      .port = "controller",
-     .statement = "The controller's leg spring pushes off with another stiffness than it was set to.",
-     .equation = "k_e -> (1 + e) k_e",
+     .statement =
+         "The controller's leg spring has another stiffness than it was set to, or it begins to push "
+         "off at another time than its rule says.",
+     .equation = "k_c -> (1 + c) k_c, k_e -> (1 + e) k_e",
      .plants = {PlantKind::hopper},
-     .parameters =
-         [](const Context&, const std::string&) {
-           return std::vector<EffectParameter>{{.name = "extension_stiffness_factor",
-                                                .typical = 0.05,
-                                                .low = -0.8,
-                                                .high = 3.0,
-                                                .either_sign = true,
-                                                .base = 1.0}};
-         },
-     .apply = [](const Context&, const std::string&, std::span<const double> v,
-                 Edits& edits) { edits.scale("controller.extension_stiffness_N_per_m", 1.0 + v[0]); }});
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+       edits.scale("controller.compression_stiffness_N_per_m", 1.0 + v[0]);
+       edits.scale("controller.extension_stiffness_N_per_m", 1.0 + v[1]);
+     }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -6,23 +6,25 @@
 #include <numbers>
 
 #include "tools/diagnose/balance.hpp"
+#include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
 #include "tools/diagnose/plants/hopper_runs.hpp"
+#include "tools/diagnose/plants/recorded_controller.hpp"
 #include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/standing_leg.hpp"
+#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kTick_s = 1e-3;
-constexpr std::size_t kSmoothing = 6;  // samples to each side
-constexpr double kDeepest_m = 0.048;   // that the knots cover
-constexpr double kMargin = 1.5;        // of the depth that the belief says the foot reaches
+constexpr double kDeepest_m = 0.048;  // that the knots cover
+constexpr double kMargin = 1.5;       // of the depth that the belief says the foot reaches
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
@@ -30,6 +32,9 @@ constexpr double kRoom_C = 25.0;
 constexpr double kNearEndStop_rad = 0.04;
 constexpr double kAloft_s = 0.02;  // a liftoff is over by then
 constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
+// By how much a change from compression to extension may miss its rule: the recorded one, and the middle one
+// of all trials.
+constexpr double kSwitchFar_s = 6e-3, kSwitchOff_s = 2.5e-3;
 
 enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
 
@@ -111,10 +116,12 @@ class HopperTrial final : public TrialModel {
     const auto temperature = mean_of_motors(trial, "temperature_C");
     for (const double t : temperature.value)
       motor_temperature_C_ += (t - kRoom_C) / static_cast<double>(temperature.value.size());
-    if (world_.terrain.rigid || course_.phases.empty())
+    if (world_.terrain.rigid || course_.phases.empty()) {
       take_commands(trial);
-    else
-      compare_commands(trial, leg);
+    } else {
+      controller_ = RecordedController(trial, leg, world_, course_.end_s);
+      residual_ = controller_.residual_Nm(world_, compression_stiffness_, course_.phases);
+    }
     blocks = static_cast<std::uint32_t>(course_.hops.size());
     add_nuisances();
     end_before_next_landing();
@@ -129,8 +136,7 @@ class HopperTrial final : public TrialModel {
       if (i < kTofBias || i >= kFirstKnot) plant_nuisances.push_back(n[i]);
     const auto key = HopperRuns::key(edits, plant_nuisances);
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      const HopperTraces& traces =
-          runs_.traces(key, b, [&] { return simulate_hopper(run_of(world, b, n), edits); });
+      const HopperTraces& traces = runs_.traces(key, b, [&] { return simulated(world, edits, b, n); });
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
         if (span.count > 0) read_channel(world, traces, edits, n, c, span, out);
@@ -147,26 +153,6 @@ class HopperTrial final : public TrialModel {
     const auto commands = commands_of(trial);
     if (commands.empty()) return;
     commands_ = on_grid(commands, 0.0, kTick_s, static_cast<std::size_t>(course_.end_s / kTick_s) + 2, true);
-  }
-
-  // The recorded command against what the believed controller makes of the leg as it was recorded, smoothed:
-  // what is left is the encoder's noise on its way through the controller.
-  void compare_commands(const Trial& trial, const Leg& leg) {
-    measured_ = measured_leg(trial);
-    if (measured_.time_s.size() < 50) return;
-    const Smoothed smoothed = smooth({measured_.time_s, measured_.angle_rad}, kSmoothing);
-    const auto count = static_cast<std::size_t>(course_.end_s / kTick_s) + 2;
-    const Signal angle = on_grid({measured_.time_s, smoothed.value}, 0.0, kTick_s, count, false);
-    Signal rate = on_grid({measured_.time_s, smoothed.rate}, 0.0, kTick_s, count, false);
-    rate.low_pass(1.0 / (2.0 * std::numbers::pi * world_.sensors.encoder_velocity_bandwidth_Hz));
-    // Between two samples the difference is interpolated, not the command, which jumps with the phase.
-    Samples residual = commands_of(trial);
-    for (std::size_t i = 0; i < residual.value.size(); ++i) {
-      const double t = residual.time_s[i];
-      residual.value[i] -= spring_torque_Nm(world_, compression_stiffness_, leg,
-                                            {phase_at(course_.phases, t), angle.at(t), rate.at(t)});
-    }
-    residual_ = on_grid(residual, 0.0, kTick_s, count, false);
   }
 
   void add_nuisances() {
@@ -201,6 +187,23 @@ class HopperTrial final : public TrialModel {
                          {"angle_rad", 0.02, 1e-4},
                          {"rate_radps", 1.0, 1e-3},
                          {"crater_depth_m", 0.005, 1e-5}};
+  }
+
+  // The run with another controller than is believed: what was commanded is held against that one.
+  HopperTraces simulated(const WorldConfig& world, const Edits& edits, std::uint32_t block,
+                         std::span<const double> n) const {
+    HopperRun run = run_of(world, block, n);
+    const bool other = std::ranges::any_of(
+        edits.belief, [](const BeliefEdit& edit) { return edit.key.starts_with("controller."); });
+    if (!other || run.command_residual_Nm == nullptr) return simulate_hopper(run, edits);
+    run.compression_stiffness_N_per_m = compression_stiffness_of(edits);
+    const Signal residual = controller_.residual_Nm(world, run.compression_stiffness_N_per_m, course_.phases);
+    run.command_residual_Nm = &residual;
+    return simulate_hopper(run, edits);
+  }
+
+  double compression_stiffness_of(const Edits& edits) const {
+    return edits.edited("controller.compression_stiffness_N_per_m", compression_stiffness_);
   }
 
   double deepest_believed_m() const {
@@ -263,7 +266,12 @@ class HopperTrial final : public TrialModel {
         break;
       case kLeftCommand:
       case kRightCommand:
-        if (predict_commands(world, span, out)) return;
+        if (controller_.measured()) {
+          controller_.commands_Nm(world, compression_stiffness_of(edits), course_.phases,
+                                  std::span(times_).subspan(span.first, span.count),
+                                  out.subspan(span.first, span.count));
+          return;
+        }
         for (double& v : signal.values) v /= motors;
         break;
       case kImuBody:
@@ -299,20 +307,6 @@ class HopperTrial final : public TrialModel {
     for (std::size_t i = 0; i < span.count; ++i)
       at_s[i] = times_[span.first + i] - age_share * ages_s_[span.first + i];
     return at_s;
-  }
-
-  // A command is what the controller makes of what it measured: nothing of the plant is in between.
-  bool predict_commands(const WorldConfig& world, const Span& span, std::span<double> out) const {
-    if (measured_.time_s.size() < 50) return false;
-    const Leg leg(world.robot.leg);
-    std::size_t k = 0;
-    for (std::size_t i = span.first; i < span.first + span.count; ++i) {
-      while (k + 1 < measured_.time_s.size() && measured_.time_s[k + 1] <= times_[i] + 1e-7) ++k;
-      const SpringState at{phase_at(course_.phases, times_[i]), measured_.angle_rad[k],
-                           measured_.rate_radps[k]};
-      out[i] = spring_torque_Nm(world, compression_stiffness_, leg, at) / world.robot.leg.motor_count;
-    }
-    return true;
   }
 
   // Of the sensors with a clock of their own.
@@ -360,14 +354,19 @@ class HopperTrial final : public TrialModel {
     for (std::size_t i = 0; i < samples.value.size(); i += every) {
       const double t = samples.time_s[i];
       if (t < course_.hops.front().from_s || t > course_.end_s) continue;
-      std::uint32_t block = 0;
-      while (block + 1 < blocks && t >= course_.hops[block + 1].from_s) ++block;
+      const std::uint32_t block = block_at(t);
       auto& span = spans_[c][block];
       if (span.count++ == 0) span.first = rows.size();
       times_.push_back(t);
       ages_s_.push_back(ages[i]);
       rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i], unsure[i]});
     }
+  }
+
+  std::uint32_t block_at(double t) const {
+    std::uint32_t block = 0;
+    while (block + 1 < blocks && t >= course_.hops[block + 1].from_s) ++block;
+    return block;
   }
 
   Phase window_at(double t) const {
@@ -442,7 +441,7 @@ class HopperTrial final : public TrialModel {
   BedHistory bed_history_;
   HopperCourse course_;
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
-  MeasuredLeg measured_;
+  RecordedController controller_;
   BedGrains grains_;
   std::array<std::vector<Span>, kSources.size()> spans_;
   std::array<SensorBelief, kSources.size()> sensors_{};
@@ -532,6 +531,32 @@ class Hopper final : public PlantModel {
   std::vector<Balance> balances(const Trial& trial, const Belief& belief) const override {
     if (!trial.kind.empty() && trial.kind != "hop") return {};
     return balances_of(trial, with_payload(belief, trial));
+  }
+
+  // A phase is imposed on the simulation, so that no fit can tell when it should have begun.
+  std::vector<BrokenRule> broken_rules(const std::vector<Trial>& trials,
+                                       const std::vector<Belief>& beliefs) const override {
+    std::vector<double> late_s;
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      if (trials[i].kind.empty() || trials[i].kind == "hop")
+        for (const double late : late_switches_s(trials[i], world_of(beliefs[i], {}))) late_s.push_back(late);
+    if (late_s.empty()) return {};
+    std::vector<double> far_s;
+    for (const double late : late_s)
+      if (std::abs(late) > kSwitchFar_s) far_s.push_back(late);
+    const bool some = far_s.size() >= 2 && 10 * far_s.size() >= late_s.size();
+    const bool all = late_s.size() >= kTooFewTrials && std::abs(median(late_s)) > kSwitchOff_s;
+    if (!some && !all) return {};
+    const auto& shown = all ? late_s : far_s;
+    const auto [low, high] = std::ranges::minmax(shown);
+    return {{.id = "controller.not_as_configured",
+             .port = "controller",
+             .statement = "The controller begins to push off at another time than its rule says.",
+             .equation = "t_switch -> t_switch + t_late",
+             .parameter = "switch_late_s",
+             .value = median(shown),
+             .low = low,
+             .high = high}};
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

@@ -8,16 +8,6 @@ namespace {
 
 constexpr double kFreeFall_mps2 = 5.0;  // the body feels less than this once it is released
 
-std::vector<PhaseChange> changes(const Trial& trial) {
-  std::vector<PhaseChange> phases;
-  const auto recorded = samples_of(trial, "phase");
-  for (std::size_t i = 0; i < recorded.value.size(); ++i) {
-    const auto phase = static_cast<HopperPhase>(std::clamp(std::lround(recorded.value[i]), 0L, 2L));
-    if (phases.empty() || phases.back().phase != phase) phases.push_back({recorded.time_s[i], phase});
-  }
-  return phases;
-}
-
 double release_time_s(const Trial& trial) {
   const auto body = samples_of(trial, "imu_body_accel_z_mps2");
   for (std::size_t i = 2; i < body.value.size(); ++i)
@@ -83,6 +73,16 @@ HopStart start_from_data(const Trial& trial, const Leg& leg, double time_s) {
 
 }  // namespace
 
+std::vector<PhaseChange> phase_changes(const Trial& trial) {
+  std::vector<PhaseChange> phases;
+  const auto recorded = samples_of(trial, "phase");
+  for (std::size_t i = 0; i < recorded.value.size(); ++i) {
+    const auto phase = static_cast<HopperPhase>(std::clamp(std::lround(recorded.value[i]), 0L, 2L));
+    if (phases.empty() || phases.back().phase != phase) phases.push_back({recorded.time_s[i], phase});
+  }
+  return phases;
+}
+
 Samples mean_of_motors(const Trial& trial, const std::string& quantity) {
   const auto left = samples_of(trial, "motor_left_" + quantity);
   const auto right = samples_of(trial, "motor_right_" + quantity);
@@ -122,7 +122,7 @@ MeasuredLeg measured_leg(const Trial& trial) {
 HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_m) {
   HopperCourse course;
   if (trial.time_s.empty()) return course;
-  course.phases = changes(trial);
+  course.phases = phase_changes(trial);
   course.end_s = trial.time_s.back();
   const bool released = trial.setup.contains("release_height_m") &&
                         (course.phases.empty() || course.phases.front().phase == HopperPhase::flight);

@@ -24,6 +24,8 @@ struct HopperCourse {
   double end_s = 0.0;
 };
 
+std::vector<PhaseChange> phase_changes(const Trial& trial);
+
 // Both motors' commands together; empty where they were not recorded.
 Samples commands_of(const Trial& trial);
 

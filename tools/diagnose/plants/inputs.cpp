@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "tools/diagnose/statistics.hpp"
+
 namespace sandhopper::diagnose {
 
 Samples samples_of(const Trial& trial, const std::string& channel) {
@@ -35,9 +37,7 @@ double median_step_s(std::span<const double> time_s) {
   if (time_s.size() < 2) return 1e-3;
   std::vector<double> steps;
   for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::max(*middle, 1e-6);
+  return std::max(median(std::move(steps)), 1e-6);
 }
 
 Smoothed smooth(const Samples& s, std::size_t half_width) {
