@@ -64,6 +64,17 @@ std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings
   return std::nullopt;
 }
 
+// How far the noise is above the sensors' own, over channels (geometric mean): what no fit explained.
+double noise_over_sensors(const Problem& problem) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (problem.context.channels.contains(problem.channels[c])) {
+      sum += std::log(problem.noise.channel(c).sd() / problem.floor_sd[c]);
+      ++count;
+    }
+  return count > 0.0 ? std::exp(sum / count) : 1.0;
+}
+
 std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
   if (set.empty()) return "nothing";
   std::string text;
@@ -131,6 +142,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   Search search(problem, search_options);
+  const double noise_at_first = noise_over_sensors(problem);
+  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_at_first));
   search.run(point);
   log_sets(problem, search, diagnosis);
   // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
@@ -146,6 +159,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
     update_noise(problem, search.best().fit.point);
+    diagnosis.log.push_back(
+        fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
     keep_columns(problem, search.best().fit.point);
     const Point again = search.null().fit.point;
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };

@@ -5,7 +5,8 @@ namespace {
 
 constexpr double kMuchPerRow = 0.5;
 constexpr double kMuchOfExplained = 0.1;
-constexpr double kLittlePerRow = 0.1;  // enough to be held against what is explained
+constexpr double kLittlePerRow = 0.05;   // enough to be held against what is explained
+constexpr double kNoMatterOfForm = 0.3;  // of it: a true effect under another law leaves less
 
 }  // namespace
 
@@ -27,7 +28,7 @@ Misfit misfit_of(const std::vector<TrialMisfit>& trials, double null_deviance, b
     return m.unexplained > per_row * rows && far >= enough;
   };
   m.large = left(kMuchPerRow) && m.unexplained > kMuchOfExplained * m.explained;
-  m.outweighs = left(kLittlePerRow) && m.unexplained > m.explained;
+  m.outweighs = left(kLittlePerRow) && m.unexplained > kNoMatterOfForm * m.explained;
   m.noticeable = m.large || m.unexplained > kMuchPerRow * rows;
   return m;
 }

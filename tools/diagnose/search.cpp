@@ -442,9 +442,16 @@ void Search::choose_best() {
   if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
 
-// A set's fit with only `part` of its effects; a set that was tried stays as it is.
+// A set's fit with only `part` of its effects; one that was tried stays as it is, unless what the others gain
+// cannot account for how much worse it is: then it was caught short, and starts again from here.
 bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
-  if (sets_.contains(part)) return false;
+  const auto known = sets_.find(part);
+  if (known != sets_.end()) {
+    double others = kWorthAFit * dispersion_;
+    for (const auto& evidence : whole.evidence)
+      if (!std::ranges::binary_search(part, evidence.candidate)) others += kPromiseShort * evidence.gain;
+    if (!whole.judged || known->second.fit.deviance <= whole.fit.deviance + others) return false;
+  }
   SetFit fit;
   fit.set = part;
   Point start = whole.fit.point;
@@ -456,6 +463,7 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
     }
   start.hypothesis = h;
   fit.fit = fit_at(start);
+  if (known != sets_.end() && known->second.fit.deviance <= fit.fit.deviance) return false;
   sets_[part] = std::move(fit);
   return true;
 }
@@ -464,17 +472,20 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
 // answer, although no forward step led there.
 void Search::prune() {
   for (int round = 0; round < 3; ++round) {
-    std::vector<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> parts;
-    for (const auto& [set, fit] : sets_) {
-      if (!fit.judged || fit.needed || fit.fit.deviance > best().fit.deviance) continue;
+    std::vector<const SetFit*> order;
+    for (const auto& [set, fit] : sets_)
+      if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
+    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
+    std::map<std::vector<std::size_t>, SetFit> wholes;  // the closest that holds each part
+    for (const auto* fit : order) {
       std::vector<std::size_t> part;
-      for (const auto& evidence : fit.evidence)
-        if (evidence.p_value < kSignificance) part.push_back(evidence.candidate);
+      for (const auto& evidence : fit->evidence)
+        if (evidence.p_value < kSignificance && !evidence.too_small) part.push_back(evidence.candidate);
       std::sort(part.begin(), part.end());
-      if (!part.empty() && part.size() < set.size()) parts.emplace_back(set, part);
+      if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
     }
     bool tried = false;
-    for (const auto& [set, part] : parts) tried = fit_part(SetFit(sets_.at(set)), part) || tried;
+    for (const auto& [part, whole] : wholes) tried = fit_part(whole, part) || tried;
     if (!tried) return;
     choose_best();
   }
