@@ -27,11 +27,12 @@ TEST(DiagnoseMisfit, MuchThatIsLeftIsLargeUnlessTenTimesAsMuchIsExplained) {
   EXPECT_TRUE(misfit_of(trials, 7000.0 + 40000.0, false).noticeable);
 }
 
-TEST(DiagnoseMisfit, LittleThatIsLeftOutweighsWhatExplainsLess) {
+TEST(DiagnoseMisfit, LittleThatIsLeftOutweighsWhatExplainsNotMuchMore) {
   const auto trials = trials_with({1.2, 1.15, 1.12, 1.2});
   EXPECT_TRUE(misfit_of(trials, 4670.0 + 400.0, false).outweighs);
   EXPECT_FALSE(misfit_of(trials, 4670.0 + 400.0, false).large);
-  EXPECT_FALSE(misfit_of(trials, 4670.0 + 900.0, false).outweighs);
+  EXPECT_TRUE(misfit_of(trials, 4670.0 + 2000.0, false).outweighs);
+  EXPECT_FALSE(misfit_of(trials, 4670.0 + 2500.0, false).outweighs);
   EXPECT_FALSE(misfit_of(trials_with({1.05, 1.0, 1.1, 1.0}), 4160.0, false).outweighs);
 }
 

@@ -10,7 +10,7 @@ inline constexpr std::size_t kTooFewTrials = 3;  // to say what holds for all
 struct Misfit {
   double unexplained = 0.0, explained = 0.0;
   bool large = false;       // too much for any name to be trusted
-  bool outweighs = false;   // more than is explained
+  bool outweighs = false;   // more than a true effect under another law would leave of what is explained
   bool noticeable = false;  // enough to ask the balances
 };
 

@@ -6,8 +6,8 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "load_cell.inertia",
      .port = "sensor",
-     .statement = "A mass between load cell and contact adds its inertia to what the load cell reads.",
-     .equation = "y = F + m a",
+     .statement = "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
+     .equation = "y = F - m a",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =
@@ -18,7 +18,7 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double mass = v[0];
-           edits.law("load_cell", [mass](const PortState& s) { return mass * s.accel; });
+           edits.law("load_cell", [mass](const PortState& s) { return -mass * s.accel; });
          }});
 
 }  // namespace
