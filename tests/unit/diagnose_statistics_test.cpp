@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/noise_model.hpp"
 #include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/screen.hpp"
@@ -66,6 +67,18 @@ TEST(DiagnoseStatistics, WhatOtherTrialsSayNothingOfIsNotPredicted) {
   // Three that agree predict each other.
   const auto agree = held_out_gain({gram_of(90, 100), gram_of(100, 100), gram_of(110, 100)}, {1}, prior);
   for (const double gain : agree.of_trial) EXPECT_GT(gain, 70.0);
+}
+
+// What is screened beside a tolerance that has gone as far as it may is not held against where it would go.
+TEST(DiagnoseFit, AToleranceAtItsLimitIsHeld) {
+  Problem problem;
+  problem.tolerances = {{"time of a channel", 1e-4, "height_m"}, {"time of another", 1e-4, "force_N"}};
+  Point point;
+  point.tolerances = {kMostTolerance, -0.9 * kMostTolerance};
+  const auto prior = prior_information(problem, point);
+  ASSERT_EQ(prior.size(), 2);
+  EXPECT_GT(prior[0], 1e9);
+  EXPECT_DOUBLE_EQ(prior[1], 1.0);
 }
 
 class RowsOnly final : public TrialModel {

@@ -159,8 +159,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     // With what was found in place the noise shows better; everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
     update_noise(problem, search.best().fit.point);
-    diagnosis.log.push_back(
-        fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
+    diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
     keep_columns(problem, search.best().fit.point);
     const Point again = search.null().fit.point;
     search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };

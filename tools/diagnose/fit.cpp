@@ -257,6 +257,16 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
   return directions;
 }
 
+VectorXd prior_information(const Problem& problem, const Point& point) {
+  constexpr double kHeld = 1e12;
+  const auto own = static_cast<Index>(point.hypothesis.parameters());
+  const auto tolerances = static_cast<Index>(problem.tolerances.size());
+  VectorXd prior = VectorXd::Constant(own + tolerances, 1.0 / (kPriorTypicals * kPriorTypicals));
+  for (Index i = 0; i < tolerances; ++i)
+    prior[own + i] = std::abs(point.tolerances[static_cast<std::size_t>(i)]) < kMostTolerance ? 1.0 : kHeld;
+  return prior;
+}
+
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
   Fitter fitter(problem, start, options.columns);
   Fit fit;

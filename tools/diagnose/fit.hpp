@@ -36,5 +36,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
 
 // Directions of the free parameters of a point, each scaled by its typical size, then tolerances.
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);
+// Their information beforehand. A tolerance that has gone as far as it may is none any more: it is held.
+Eigen::VectorXd prior_information(const Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -1,6 +1,8 @@
 #include "tools/diagnose/linearise.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <numeric>
 
 #include "tools/experiment/parallel.hpp"
 
@@ -226,6 +228,22 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
     out[t] = linearise(problem, t, base, point.nuisances[t], directions, options);
   });
   return out;
+}
+
+double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels) {
+  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<double> of_trial(problem.trials.size(), 0.0);
+  parallel_for(of_trial.size(), [&](std::size_t t) {
+    const TrialModel& trial = *problem.trials[t];
+    VectorXd r = predicted(problem, trial, edits, point.nuisances[t]);
+    for (Index k = 0; k < r.size(); ++k) r[k] = trial.rows[static_cast<std::size_t>(k)].measured - r[k];
+    problem.noise.whiten(trial, problem.used[t], r);
+    for (Index k = 0; k < r.size(); ++k) {
+      const auto& channel = problem.channels[trial.rows[static_cast<std::size_t>(k)].channel];
+      if (std::ranges::find(channels, channel) != channels.end()) of_trial[t] += r[k] * r[k];
+    }
+  });
+  return std::accumulate(of_trial.begin(), of_trial.end(), 0.0);
 }
 
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "tools/diagnose/problem.hpp"
@@ -45,6 +46,9 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
 // One trial's prediction; where it is not finite, a number that is far from everything.
 Eigen::VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
                           const std::vector<double>& nuisances);
+
+// What the rows of these channels have of the deviance at this point.
+double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels);
 
 // The derivatives by nuisances and tolerances at this point, whitened with the noise model as it is now.
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point);

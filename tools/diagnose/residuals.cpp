@@ -27,7 +27,7 @@ Columns columns_of(const Problem& problem, const Point& point, const FreeFamily*
       columns.directions.push_back({with_term(base, term, kProbe), kProbe});
   }
   columns.prior = VectorXd::Constant(static_cast<Index>(columns.directions.size()), kFreeLawInformation);
-  columns.prior.head(own).setConstant(0.01);
+  columns.prior.head(own) = prior_information(problem, point);
   return columns;
 }
 

@@ -145,9 +145,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
     }
   }
   const auto linear = linearise_all(problem, point, directions, {.columns = columns});
-  VectorXd prior = VectorXd::Constant(own, kPriorInformation);
-  prior.tail(static_cast<Index>(point.tolerances.size())).setOnes();
-  const auto grams = eliminated(linear, 1, own, prior);
+  const auto grams = eliminated(linear, 1, own, prior_information(problem, point));
 
   std::vector<Screened> found;
   for (const auto& alternative : alternatives) {

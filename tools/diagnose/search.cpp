@@ -103,6 +103,8 @@ std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis&
 // as unsure as that of the channel whose samples come slowest.
 bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
   if (delays.empty() || problem.tolerances.empty()) return false;
+  // A hopper's drive is simulated from the command: it is no recorded input.
+  if (problem.context.plant == PlantKind::hopper && delays.contains("actuator")) return false;
   double slowest_s = 0.0;
   for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.scale);
   return std::ranges::all_of(delays, [&](const auto& delay) {
@@ -122,6 +124,20 @@ bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
   const double first_s = delays.begin()->second;
   for (auto& [channel, delay_s] : delays) delay_s -= first_s;
   return within_tolerance(problem, delays);
+}
+
+// Channels whose readings it changes; empty where it changes what happens, too.
+std::vector<std::string> channels_read(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
+  Edits edits;
+  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  std::vector<std::string> channels;
+  for (const auto& edit : edits.sensors) {
+    if (!problem.context.channels.contains(edit.channel) || edit.channel.ends_with("position_rad")) return {};
+    channels.push_back(edit.channel);
+  }
+  if (!edits.belief.empty() || !edits.laws.empty()) channels.clear();
+  return channels;
 }
 
 // Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
@@ -161,8 +177,7 @@ void Search::judge(SetFit& result) {
   const auto linear = linearise_all(*problem_, point, directions, {.columns = columns_for(result.set)});
   const auto k = static_cast<Index>(directions.size());
   const auto parameters = static_cast<Index>(point.hypothesis.parameters());
-  VectorXd prior = VectorXd::Constant(k, 0.01);
-  prior.tail(k - parameters).setOnes();
+  const VectorXd prior = prior_information(*problem_, point);
   double dispersion = 0.0, count = 0.0;
   Index first = 1;
   result.evidence.clear();
@@ -252,7 +267,8 @@ void Search::judge(SetFit& result) {
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
-  for (auto& evidence : result.evidence) {
+  for (std::size_t e = 0; e < result.evidence.size(); ++e) {
+    auto& evidence = result.evidence[e];
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
@@ -276,8 +292,17 @@ void Search::judge(SetFit& result) {
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     evidence.too_small = evidence.typicals < smallest;
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
-        !came_true || evidence.gain < least_share * explained)
+        !came_true)
       result.sound = false;
+    // A law of another form may leave as much; where only readings change, of what those channels show.
+    if (result.sound && evidence.gain < least_share * explained) {
+      const auto read = channels_read(*problem_, point.hypothesis, e);
+      result.sound =
+          !read.empty() &&
+          evidence.gain >= least_share * with_form_unnoticed(
+                                             *problem_, deviance_of(*problem_, null().fit.point, read) -
+                                                            deviance_of(*problem_, result.fit.point, read));
+    }
     result.needed = result.needed && result.sound && !evidence.too_small;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }
