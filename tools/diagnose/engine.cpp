@@ -133,8 +133,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   diagnosis.simple = simple_answers(problem, point);
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
-  // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
   search_options.straight = recordings.plant == PlantKind::hopper;
+  // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
   if (recordings.plant != PlantKind::hopper) {
     search_options.fits_per_screen = 10;
     search_options.proposals = 10;
@@ -142,8 +142,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   Search search(problem, search_options);
-  const double noise_at_first = noise_over_sensors(problem);
-  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_at_first));
+  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
   search.run(point);
   log_sets(problem, search, diagnosis);
   // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
