@@ -349,6 +349,10 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
 // Where much is missing, nuisances bend to it, and a derivative there says what bends them back, not what is
 // missing. With all nuisances as they are believed the simulation is further off, but off by what is missing.
 void Search::evaluate_straight(const SetFit& from, std::size_t fits) {
+  auto& [deviance, done] = straight_[from.set];
+  if (deviance == from.fit.deviance && done >= fits) return;
+  deviance = from.fit.deviance;
+  done = fits;
   Point straight = null_point(*problem_);
   straight.hypothesis = from.fit.point.hypothesis;
   straight.tolerances = from.fit.point.tolerances;
@@ -364,8 +368,7 @@ void Search::evaluate_straight(const SetFit& from, std::size_t fits) {
     start.hypothesis.values.push_back(added.values);
     FitOptions options = kRough;
     options.columns = &columns;
-    options.tolerance *= dispersion_;
-    result.fit = fit_from(*problem_, start, options);
+    result.fit = fit_at(start, options);
     const auto known = sets_.find(result.set);
     if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
       sets_[result.set] = std::move(result);
@@ -393,7 +396,7 @@ const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_
 }
 
 Fit Search::fit_at(const Point& start, FitOptions options) const {
-  options.columns = columns_for(start.hypothesis.candidates);
+  if (options.columns == nullptr) options.columns = columns_for(start.hypothesis.candidates);
   options.tolerance *= dispersion_;  // a gain counts by what it is between trials
   return fit_from(*problem_, start, options);
 }
@@ -548,6 +551,7 @@ void Search::restart_null() {
     freed.fit = std::move(again);
     sets_.clear();
     screens_.clear();
+    straight_.clear();
     sets_[{}] = std::move(freed);
   }
 }
@@ -596,6 +600,7 @@ std::vector<Point> Search::best_points(std::size_t count) const {
 const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   sets_.clear();
   screens_.clear();
+  straight_.clear();
   SetFit null;
   null.fit = fit_at(start);
   null.needed = null.judged = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "tools/diagnose/fit.hpp"
@@ -87,6 +88,8 @@ class Search {
   SearchOptions options_;
   std::map<std::vector<std::size_t>, SetFit> sets_;
   std::map<std::vector<std::size_t>, std::vector<Screened>> screens_;
+  // Sets from which effects were tried at the believed nuisances: deviance there, fits made.
+  std::map<std::vector<std::size_t>, std::pair<double, std::size_t>> straight_;
   std::vector<std::size_t> best_;
   std::vector<KeptColumns> columns_;  // at the best set; empty: it is the null
   double dispersion_ = 1.0;

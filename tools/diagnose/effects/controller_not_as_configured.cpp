@@ -19,9 +19,7 @@ std::vector<EffectParameter> parameters(const Context&, const std::string&) {
 const EffectRegistration kEffect(
     {.id = "controller.not_as_configured",
      .port = "controller",
-     .statement =
-         "The controller's leg spring has another stiffness than it was set to, or it begins to push "
-         "off at another time than its rule says.",
+     .statement = "The controller's leg spring has another stiffness than it was set to.",
      .equation = "k_c -> (1 + c) k_c, k_e -> (1 + e) k_e",
      .plants = {PlantKind::hopper},
      .parameters = parameters,

@@ -6,7 +6,8 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "load_cell.inertia",
      .port = "sensor",
-     .statement = "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
+     .statement =
+         "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
      .equation = "y = F - m a",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
