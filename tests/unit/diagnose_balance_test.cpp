@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/hopper_balance.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
 
 namespace sandhopper::diagnose {
@@ -110,6 +112,29 @@ TEST(DiagnoseBalance, AnAxisThatAMagnetHoldsShowsItsAngle) {
   EXPECT_EQ(laws.front().family.variable, "position_rad");
   EXPECT_GT(laws.front().held_out, 0.25);
   EXPECT_LT(laws.front().p_value, 1e-2);
+}
+
+// A spring that yields: after each turn it gives way by twice its yield before it drags.
+TEST(DiagnoseBalance, AnAxisOnASpringThatYieldsShowsTheAngleSinceItTurned) {
+  constexpr double kYield_rad = 0.1, kStiffness_Nm_per_rad = 5.0;
+  double stretch_rad = 0.0, last_rad = 0.0;
+  const auto laws = axis_laws_with([=](double angle, double, double) mutable {
+    stretch_rad = std::clamp(stretch_rad + angle - last_rad, -kYield_rad, kYield_rad);
+    last_rad = angle;
+    return -kStiffness_Nm_per_rad * stretch_rad;
+  });
+  ASSERT_FALSE(laws.empty());
+  EXPECT_EQ(laws.front().family.variable, "angle since the last turn, rad, with the sign of velocity");
+  EXPECT_GT(laws.front().held_out, 0.25);
+  EXPECT_LT(laws.front().p_value, 1e-2);
+}
+
+TEST(DiagnoseBalance, AMotionTurnsWhereItComesBackByMoreThanItsNoise) {
+  const std::vector<double> angle{0.0, 0.1, 0.2, 0.5, 0.49, 0.51, 0.3, 0.1, -0.2, -0.1, 0.0};
+  const std::vector<double> turns{0.0, 0.0, 0.0, 0.0, 0.0, 0.51, 0.51, 0.51, -0.2, -0.2, -0.2};
+  const auto found = last_turns(angle, 0.05);
+  ASSERT_EQ(found.size(), turns.size());
+  for (std::size_t i = 0; i < turns.size(); ++i) EXPECT_DOUBLE_EQ(found[i], turns[i]) << i;
 }
 
 TEST(DiagnoseBalance, FrictionAndGravityOfAnAxisAreOnTheList) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/diagnosis_json.hpp"
@@ -87,6 +88,63 @@ TEST(Diagnose, NamesViscousFrictionOfAnAxis) {
 TEST(Diagnose, NamesATorqueScale) {
   const auto d = diagnose(swings([](double, double, double torque) { return 0.06 * torque; }));
   expect_alone(d, "axis.torque_scale", 0.055, 0.065);
+}
+
+// Of up to 2 N m a fifth is lost at 1 N m, and no more of it above.
+TEST(Diagnose, NamesASaturationAndTheTorqueWhereItEnds) {
+  const auto d = diagnose(
+      swings([](double, double, double torque) { return -0.2 * std::min(1.0, torque * torque) * torque; }));
+  expect_alone(d, "actuator.saturation", 0.18, 0.22);
+  const auto& parameters = d.effects.front().parameters;
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(parameters[1].name, "reference_Nm");
+  EXPECT_NEAR(parameters[1].value, 1.0, 0.1);
+}
+
+// A drive that filters its speed once a row is not late, nor is it early, by the half row that this leaves.
+TEST(Diagnose, ALowPassThatRunsOnceARowIsNoSkew) {
+  constexpr double kBandwidth_Hz = 20.0;
+  auto recordings = swings([](double, double, double) { return 0.0; }, 1, 8);
+  recordings.belief.numbers["sensors.encoder_velocity_bandwidth_Hz"] = kBandwidth_Hz;
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  for (auto& trial : recordings.trials) {
+    const double row_s = trial.time_s[1] - trial.time_s[0];
+    const double keep = std::exp(-2.0 * std::numbers::pi * kBandwidth_Hz * row_s);
+    auto& velocity = trial.channels["velocity_radps"];
+    double filtered = velocity.front();
+    for (std::size_t i = 1; i < velocity.size(); ++i) {
+      filtered = keep * filtered + (1.0 - keep) * velocity[i];
+      velocity[i] = filtered;
+    }
+  }
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+}
+
+// An axis is simulated in stretches. A reading that is late shows at the start of one what was before.
+TEST(Diagnose, ALateReadingOfAnAxisShowsWhatWasBeforeAStretch) {
+  const auto recordings = swings([](double, double, double) { return 0.0; }, 1, 1);
+  std::string why;
+  const auto trial = make_plant(PlantKind::rotary_axis)->trial(recordings.trials[0], recordings.belief, why);
+  ASSERT_NE(trial, nullptr) << why;
+  const auto rows = trial->rows.size(), half = rows / 2;  // positions, then velocities
+  const double late_s = trial->rows[1].time_s - trial->rows[0].time_s;
+  Edits edits;
+  edits.sensor("position_rad", SensorEdit::Kind::delay_s, late_s);
+  std::vector<double> nuisances(trial->nuisance_count(), 0.0), on_time(rows), late(rows);
+  trial->predict({}, nuisances, on_time);
+  trial->predict(edits, nuisances, late);
+  std::size_t stretches = 0;
+  double swiftest = 0.0;
+  for (std::size_t k = 1; k < half; ++k) {
+    if (trial->rows[k].block == trial->rows[k - 1].block) continue;
+    ASSERT_EQ(trial->rows[half + k].time_s, trial->rows[k].time_s);
+    const double speed = on_time[half + k];
+    EXPECT_NEAR(late[k], on_time[k] - late_s * speed, 3e-4) << k;
+    swiftest = std::max(swiftest, late_s * std::abs(speed));
+    ++stretches;
+  }
+  EXPECT_GE(stretches, 3u);
+  EXPECT_GT(swiftest, 3e-3);
 }
 
 TEST(Diagnose, StatesTheClassWhereAConstantForceHasTwoExplanations) {

@@ -9,9 +9,9 @@
 namespace sandhopper::diagnose {
 
 // What a port shows to a law that acts there. Falling body, rail: height or position and velocity, up
-// positive. Axis, joint: angle and angular velocity; `load` the torque of the drive. Ground: depth, downward
-// speed and acceleration; `load` the quasi-static force, `extreme` the deepest point, and of the bed how
-// often it was pushed and how long it waited since it was prepared and how deep it is (0: not told);
+// positive. Axis, joint: angle and angular velocity; `load` the drive's torque, `extreme` where an axis last
+// turned. Ground: depth, downward speed and acceleration; `load` the quasi-static force, `extreme` the
+// deepest point; of the bed how often pushed, how long it waited since prepared, how deep (0: not told);
 // "foot.size" the plate's radius as position, its law the logarithm of a factor on the depth law. Sensor: the
 // value as position, its rate as velocity. Actuator: the current's torque as position, the motors'
 // temperature.

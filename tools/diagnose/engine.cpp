@@ -39,6 +39,8 @@ constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
+// Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.
+constexpr double kNoiseHidesMuch = 1.3;
 
 Misfit misfit_of(const Problem& problem, const Search& search) {
   std::vector<TrialMisfit> trials;
@@ -88,6 +90,10 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
     diagnosis.log.push_back(fmt::format("screen {}: linear gain {:.1f} at [{:.4g}]",
                                         problem.candidates[screened[i].candidate].label(), screened[i].gain,
                                         fmt::join(screened[i].values, ", ")));
+  for (std::size_t i = 0; i < problem.tolerances.size(); ++i)
+    diagnosis.log.push_back(fmt::format("{}: {:.2f} times what is unsure, {:.2f} with the best",
+                                        problem.tolerances[i].name, search.null().fit.point.tolerances[i],
+                                        search.best().fit.point.tolerances[i]));
   std::vector<const SetFit*> fits;
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
   std::sort(fits.begin(), fits.end(),
@@ -194,7 +200,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
   std::vector<FreeGain> alone;
-  if (misfit.noticeable) ask_balances();
+  if (misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) ask_balances();
   if (balance) {
     diagnosis.log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
                                         balance->family.port, balance->family.variable,
@@ -233,7 +239,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
 
   const Posterior belief = posterior(problem, search, remainder);
   const bool unknown =
-      misfit.large || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
+      misfit.large || balance || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest != nullptr ? "unknown_at_port" : "unknown_not_localised";

@@ -23,6 +23,7 @@ double time_of(const PortState& s) { return s.time_s; }
 double position_of(const PortState& s) { return s.position; }
 double velocity_of(const PortState& s) { return s.velocity; }
 double fallen_of(const PortState& s) { return s.extreme - s.position; }
+double since_turn_of(const PortState& s) { return std::abs(s.position - s.extreme); }
 double load_of(const PortState& s) { return s.load; }
 double direction_of(const PortState& s) { return std::tanh(s.velocity / 0.02); }
 double virgin(const PortState& s) { return s.accel; }
@@ -50,6 +51,7 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
     return {{"velocity_radps", velocity_of, one},
             {"position_rad", position_of, one},
             {"position_rad, with the sign of velocity", position_of, direction_of},
+            {"angle since the last turn, rad, with the sign of velocity", since_turn_of, direction_of},
             {"torque_Nm", load_of, one},
             {"t_s", time_of, one}};
   if (port == "joint")

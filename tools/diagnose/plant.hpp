@@ -103,6 +103,10 @@ class PlantModel {
   virtual double form_error() const { return 0.05; }
   // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
+  // Whether a channel is low-passed by what records it, perhaps no more often than it is recorded.
+  virtual bool filtered_in_rows(const std::string& /*channel*/, const Belief& /*belief*/) const {
+    return false;
+  }
   // Null where the trial has nothing that can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;

@@ -19,7 +19,9 @@ using Eigen::VectorXd;
 
 constexpr double kClockTolerance = 0.15;  // of a sample's period
 constexpr double kRowTolerance =
-    0.5;                          // of a row's: a slower sensor's sample stands in the first row after it
+    0.5;  // of a row's: a slower sensor's sample stands in the first row after it
+// A low pass that runs once a row is early or late by up to half of one, as it is written.
+constexpr double kFilterTolerance = 0.29;
 constexpr double kOutlier = 8.0;  // standard deviations
 constexpr std::size_t kRowsPerFreeTerm = 10;
 
@@ -244,8 +246,11 @@ Prepared prepare(const Recordings& recordings) {
   for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
   const double row_s = median(row_steps);
   for (const auto& [channel, scale] : problem.context.channels) {
+    const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
+    const double filter_s =
+        problem.plant->filtered_in_rows(channel, problem.context.belief) ? kFilterTolerance * row_s : 0.0;
     problem.tolerances.push_back(
-        {"time of " + channel, std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s), channel});
+        {"time of " + channel, std::hypot(sampling_s, filter_s), channel, sampling_s});
   }
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)

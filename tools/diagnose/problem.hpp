@@ -16,8 +16,9 @@ namespace sandhopper::diagnose {
 // time. Always fitted, with a narrow prior of unit variance on value / scale.
 struct Tolerance {
   std::string name;
-  double scale = 1.0;
+  double scale = 1.0;  // s
   std::string channel;
+  double of_sampling = 1.0;  // as much of it as instants of sampling leave unsure, s
 };
 // In its scales. What is further off is no tolerance any more: only an effect may explain it, or a fault of
 // thirty scales would be paid for once and leave no trial in disagreement. What is less is no effect.

@@ -106,7 +106,7 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
   // A hopper's drive is simulated from the command: it is no recorded input.
   if (problem.context.plant == PlantKind::hopper && delays.contains("actuator")) return false;
   double slowest_s = 0.0;
-  for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.scale);
+  for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.of_sampling);
   return std::ranges::all_of(delays, [&](const auto& delay) {
     double scale_s = slowest_s;
     for (const auto& tolerance : problem.tolerances)

@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Of the largest torque seen.
+// Beyond this torque no more of it is lost.
 double reference_of(const Context& c) {
   return c.plant == PlantKind::hopper ? c.belief.value("motor.torque_limit_Nm", 2.8) * 2.0
                                       : 3.0 * c.scale("torque_Nm");
@@ -16,13 +16,21 @@ const EffectRegistration kEffect(
      .equation = "torque = reported (1 - s (reported / reference)^2)",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters =
-         [](const Context&, const std::string&) {
-           return std::vector<EffectParameter>{
-               {.name = "saturation", .typical = 0.15, .low = 0.0, .high = 0.9}};
+         [](const Context& c, const std::string&) {
+           std::vector<EffectParameter> all{{.name = "saturation", .typical = 0.15, .low = 0.0, .high = 0.9}};
+           // A hopper's limit is believed; of a drive that is only read, nothing is.
+           if (c.plant == PlantKind::hopper) return all;
+           const double reference_Nm = reference_of(c);
+           all.push_back({.name = "reference_Nm",
+                          .typical = reference_Nm,
+                          .low = 0.2 * reference_Nm,
+                          .high = 2.0 * reference_Nm,
+                          .shapes = {0.5 * reference_Nm}});
+           return all;
          },
      .apply =
          [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-           const double s = v[0], reference = reference_of(c);
+           const double s = v[0], reference = v.size() > 1 ? v[1] : reference_of(c);
            edits.sensor_law("actuator", [=](const PortState& at) {
              const double u = std::min(1.0, std::abs(at.position) / reference);
              return -s * u * u * at.position;

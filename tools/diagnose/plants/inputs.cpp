@@ -33,6 +33,28 @@ double fluctuation_rms(const Samples& s) {
   return 1.4826 * *middle / std::sqrt(20.0);  // variance of a third difference is 20 times a sample's
 }
 
+std::vector<double> last_turns(std::span<const double> position, double least) {
+  std::vector<double> turns(position.size());
+  std::size_t turn = 0, furthest = 0, done = 0;
+  double sign = 0.0;  // of the motion; 0: none yet
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const double moved = position[i] - position[furthest];
+    if (sign == 0.0) {
+      if (std::abs(moved) > least) sign = std::copysign(1.0, moved);
+      if (sign != 0.0) furthest = i;
+    } else if (sign * moved >= 0.0) {
+      furthest = i;
+    } else if (-sign * moved > least) {
+      while (done < furthest) turns[done++] = position[turn];
+      turn = furthest;
+      furthest = i;
+      sign = -sign;
+    }
+  }
+  while (done < position.size()) turns[done++] = position[turn];
+  return turns;
+}
+
 double median_step_s(std::span<const double> time_s) {
   if (time_s.size() < 2) return 1e-3;
   std::vector<double> steps;

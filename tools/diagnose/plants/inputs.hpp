@@ -27,6 +27,10 @@ struct Smoothed {
 };
 Smoothed smooth(const Samples& samples, std::size_t half_width);
 
+// Where the motion last turned, at each sample: the last extreme from which it came back by more than
+// `least`; before the first one, where it began.
+std::vector<double> last_turns(std::span<const double> position, double least);
+
 double median_step_s(std::span<const double> time_s);
 
 // Held values of a slow sensor logged again and again count once; the rest is returned.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "tools/diagnose/balance.hpp"
@@ -18,6 +19,8 @@ constexpr double kBlock_s = 0.5;
 constexpr double kMostRows = 3000.0;    // of a channel
 constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
+constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
+constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
 // A drive that is off records its torque sensor's noise, which acts on nothing: where a torque scatters no
@@ -34,6 +37,11 @@ Samples without_noise_alone(Samples torque) {
   if (sd > kNoiseAlone * fluctuation_rms(torque)) return torque;
   std::ranges::fill(torque.value, std::abs(mean) < 3.0 * sd / std::sqrt(n) ? 0.0 : mean);
   return torque;
+}
+
+// Whether a speed is an encoder's own estimate, or of whatever else measures it.
+bool speed_of_encoder(const Belief& belief) {
+  return belief.value("sensors.encoder_velocity_bandwidth_Hz") > 0.0;
 }
 
 // J th'' = torque - G sin th - c tanh(th'/v_s) - b th' + laws
@@ -156,6 +164,8 @@ class RotaryTrial final : public TrialModel {
       }
     }
     const auto count = static_cast<std::size_t>(std::ceil(block_s_ * blocks / step_s_)) + 2;
+    const Samples turns{position.time_s, last_turns(position.value, kTurn_rad)};
+    turned_at_ = on_grid(turns, 0.0, step_s_, count, true);
     const Signal angle = on_grid(position, 0.0, step_s_, count, false);
     const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
     for (std::uint32_t b = 0; b < blocks; ++b)
@@ -176,15 +186,17 @@ class RotaryTrial final : public TrialModel {
     }
     coordinates = {std::move(v), std::move(p), std::move(torque), std::move(time)};
     sensors_[0] = sensor_belief(belief_, "position", "rad");
-    // Of an encoder's own estimate of speed, or of whatever else measures it.
-    const bool of_encoder = belief_.value("sensors.encoder_velocity_bandwidth_Hz") > 0.0;
-    sensors_[1] = sensor_belief(belief_, of_encoder ? "encoder_velocity" : "velocity", "radps");
+    sensors_[1] =
+        sensor_belief(belief_, speed_of_encoder(belief_) ? "encoder_velocity" : "velocity", "radps");
+    if (const double bandwidth_Hz = sensors_[1].bandwidth_Hz; bandwidth_Hz > 0.0)
+      lead_in_s_ = std::max(kLeadIn_s, kTimeConstants / (2.0 * std::numbers::pi * bandwidth_Hz));
   }
 
   void simulate(const RotaryFigures& f, const std::vector<const Law*>& laws, const Signal& torque,
                 const Stretch& s, Signal& position, Signal& velocity) const {
-    const auto count = static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
-    position.start_s = velocity.start_s = s.from_s;
+    const auto lead_in = static_cast<std::size_t>(std::ceil(lead_in_s_ / step_s_));
+    const auto count = lead_in + static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
+    position.start_s = velocity.start_s = s.from_s - step_s_ * static_cast<double>(lead_in);
     position.values.resize(count);
     velocity.values.resize(count);
     double th = s.position, w = s.velocity;
@@ -195,15 +207,27 @@ class RotaryTrial final : public TrialModel {
       double sum = torque_Nm - f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
       if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
       if (!laws.empty())
-        sum += sum_of(laws, {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm});
+        sum += sum_of(
+            laws,
+            {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm, .extreme = turned_at(t)});
       return sum / f.inertia_kg_m2;
     };
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto torque_at = [&](double t) {
+      return torque.values[std::min(torque.values.size() - 1,
+                                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))))];
+    };
+    // A reading that is late shows at first what was before: what a steady acceleration leads there from.
+    const double first = accel(s.from_s, torque_at(s.from_s), th, w);
+    for (std::size_t i = 0; i < lead_in; ++i) {
+      const double t = -step_s_ * static_cast<double>(lead_in - i);
+      position.values[i] = th + t * (w + 0.5 * t * first);
+      velocity.values[i] = w + t * first;
+    }
+    for (std::size_t i = lead_in; i < count; ++i) {
       position.values[i] = th;
       velocity.values[i] = w;
-      const double t0 = s.from_s + step_s_ * static_cast<double>(i);
-      const double tau = torque.values[std::min(
-          torque.values.size() - 1, static_cast<std::size_t>(std::max(0.0, std::round(t0 / step_s_))))];
+      const double t0 = s.from_s + step_s_ * static_cast<double>(i - lead_in);
+      const double tau = torque_at(t0);
       const bool near_rest = std::abs(w) < 8.0 * f.switch_speed_radps;
       const int parts =
           static_cast<int>(std::clamp(near_rest ? slow_steps : 1.0, !laws.empty() ? 2.0 : 1.0, 40.0));
@@ -221,10 +245,15 @@ class RotaryTrial final : public TrialModel {
     }
   }
 
+  double turned_at(double t) const {
+    return turned_at_
+        .values[std::min(turned_at_.values.size() - 1, static_cast<std::size_t>(std::max(0.0, t / step_s_)))];
+  }
+
   Belief belief_;
   Samples torque_;
-  Signal drive_;
-  double step_s_ = 1e-3, block_s_ = 0.5;
+  Signal drive_, turned_at_;
+  double step_s_ = 1e-3, block_s_ = 0.5, lead_in_s_ = kLeadIn_s;
   std::vector<std::pair<double, double>> starts_;
   std::vector<std::array<Span, 2>> spans_;
   std::array<SensorBelief, 2> sensors_{};
@@ -252,6 +281,9 @@ class RotaryAxis final : public PlantModel {
   std::vector<std::string> channels() const override { return {"position_rad", "velocity_radps"}; }
   double form_error() const override { return 0.01; }
   std::vector<std::string> phases() const override { return {"rest", "slow", "fast"}; }
+  bool filtered_in_rows(const std::string& channel, const Belief& belief) const override {
+    return channel == "velocity_radps" && speed_of_encoder(belief);
+  }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {

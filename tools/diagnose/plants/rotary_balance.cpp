@@ -50,6 +50,7 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
   const auto accel = accelerations(at, fluctuation_rms(position), samples_of(trial, "velocity_radps"),
                                    position.time_s, step_s, half);
 
+  const auto turned = last_turns(at.value, kTurn_rad);
   Balance balance{"axis", {}, {}, {}};
   const auto know = [&](std::initializer_list<double> shapes) {
     balance.known.resize(shapes.size());
@@ -63,8 +64,11 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
     const double needed = f.inertia_kg_m2 * accel[i] + f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) +
                           f.viscous_Nm_s * speed + f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
     balance.rest.push_back(needed - tau);
-    balance.states.push_back(
-        {.time_s = position.time_s[i], .position = angle, .velocity = speed, .load = tau});
+    balance.states.push_back({.time_s = position.time_s[i],
+                              .position = angle,
+                              .velocity = speed,
+                              .load = tau,
+                              .extreme = turned[i]});
     // Dry friction, with the load and near standstill too, friction with the speed and its square, gravity
     // and where its bottom is, inertia, delay. The drive's constant scales all of these; the torque beside
     // them would leave nothing.
