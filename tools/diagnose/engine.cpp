@@ -39,6 +39,7 @@ constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
+constexpr double kSameNoise = 0.03;
 // Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.
 constexpr double kNoiseHidesMuch = 1.3;
 
@@ -75,6 +76,23 @@ double noise_over_sensors(const Problem& problem) {
       ++count;
     }
   return count > 0.0 ? std::exp(sum / count) : 1.0;
+}
+
+// By how much standard deviations and those of what is new in each sample differ (root mean square of the
+// logarithms over samples).
+double change_of(const NoiseModel& before, const NoiseModel& now) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < now.channels(); ++c) {
+    const auto &a = before.channel(c), &b = now.channel(c);
+    for (std::size_t p = 0; p < b.samples_of_phase.size(); ++p) {
+      const double sd = b.sd_of_phase[p] / a.sd_of_phase[p];
+      const double share_new =
+          b.correlation_of_phase[p].innovation_sd / a.correlation_of_phase[p].innovation_sd;
+      sum += b.samples_of_phase[p] * (std::pow(std::log(sd), 2) + std::pow(std::log(sd * share_new), 2));
+      count += b.samples_of_phase[p];
+    }
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
@@ -161,21 +179,30 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   };
   if (misfit_of(problem, search).noticeable) ask_balances();
   if (!search.best().set.empty() && !balance) {
-    // With what was found in place the noise shows better; everything is weighed again.
+    // With what was found in place the noise may show better; then everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
+    const NoiseModel noise = problem.noise;
+    const auto used = problem.used;
     update_noise(problem, search.best().fit.point);
-    diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
-    keep_columns(problem, search.best().fit.point);
-    const Point again = search.null().fit.point;
-    search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
-    // What came near already needs no search, but another fit.
-    const auto seeds = search.best_points(kSeeds);
-    search_options.fits_per_screen = 3;
-    Search second(problem, search_options);
-    second.run(again, seeds);
-    search = std::move(second);
-    diagnosis.log.emplace_back("second round");
-    log_sets(problem, search, diagnosis);
+    const double change = change_of(noise, problem.noise);
+    diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own, changed by {:.3f}",
+                                        noise_over_sensors(problem), change));
+    if (change < kSameNoise) {
+      problem.noise = noise;
+      problem.used = used;
+    } else {
+      keep_columns(problem, search.best().fit.point);
+      const Point again = search.null().fit.point;
+      search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
+      // What came near already needs no search, but another fit.
+      const auto seeds = search.best_points(kSeeds);
+      search_options.fits_per_screen = 3;
+      Search second(problem, search_options);
+      second.run(again, seeds);
+      search = std::move(second);
+      diagnosis.log.emplace_back("second round");
+      log_sets(problem, search, diagnosis);
+    }
   }
   options.progress(0.9, "");
   const SetFit& best = search.best();
@@ -238,8 +265,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
                   explained, misfit.unexplained, remainder, 100.0 * share, rows));
 
   const Posterior belief = posterior(problem, search, remainder);
-  const bool unknown =
-      misfit.large || balance || (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
+  const bool unknown = misfit.large || balance ||
+                       (rest != nullptr && (share > kUnknownShare || remainder > kUnknownPerRow * rows));
   if (unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest != nullptr ? "unknown_at_port" : "unknown_not_localised";

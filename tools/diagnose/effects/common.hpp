@@ -42,7 +42,7 @@ inline double come_in(double depth_m, double over_m, double power = 1.0) {
 
 // Over which depth a law of speed comes in shows where the motion is prescribed and recorded.
 inline void add_onset(const Context& context, std::vector<EffectParameter>& parameters) {
-  if (context.plant == PlantKind::intruder)
+  if (context.plant == PlantKind::intruder || context.plant == PlantKind::hopper)
     parameters.push_back(
         {.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
 }

@@ -7,6 +7,8 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kFreeFall_mps2 = 5.0;  // the body feels less than this once it is released
+constexpr double kBegins_s = 0.005;
+constexpr double kAboutAtSurface_m = 0.008;
 
 double release_time_s(const Trial& trial) {
   const auto body = samples_of(trial, "imu_body_accel_z_mps2");
@@ -69,6 +71,22 @@ HopStart start_from_data(const Trial& trial, const Leg& leg, double time_s) {
   start.state.foot_z_m = body.known ? body.value - toe_to_hip_m : 0.0;
   start.state.foot_velocity_mps = body.known ? body.rate - kinematics.dlength_m_per_rad * angle.rate : 0.0;
   return start;
+}
+
+// A leg that is to be held and falls as its record begins was let go there, where the ground carried it not
+// yet: it is at rest, and a foot that is about at the surface is on it. Heights alone tell that only to
+// within millimetres and decimetres per second.
+void let_go_where_it_begins(const Trial& trial, HopStart& start) {
+  if (trial.kind != "hold") return;
+  const auto body = samples_of(trial, "imu_body_accel_z_mps2");
+  std::size_t falling = 0;
+  while (falling < body.value.size() && body.time_s[falling] < start.from_s + kBegins_s &&
+         body.value[falling] < kFreeFall_mps2)
+    ++falling;
+  const bool all =
+      falling > 0 && (falling == body.value.size() || body.time_s[falling] >= start.from_s + kBegins_s);
+  if (!all || std::abs(start.state.foot_z_m) > kAboutAtSurface_m) return;
+  start.state.foot_z_m = start.state.foot_velocity_mps = start.state.angular_velocity_radps = 0.0;
 }
 
 }  // namespace
@@ -135,6 +153,7 @@ HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_
     course.hops.push_back(start);
   } else {
     course.hops.push_back(start_from_data(trial, leg, trial.time_s.front()));
+    let_go_where_it_begins(trial, course.hops.back());
   }
   // A later landing meets the crater's unloading line: an impact whose height depends on tenths of a
   // millimetre.
