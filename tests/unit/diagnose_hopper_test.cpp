@@ -6,6 +6,7 @@
 
 #include "tests/unit/diagnose_effect_sizes.hpp"
 #include "tests/unit/diagnose_hops.hpp"
+#include "tools/diagnose/plants/hopper_recording.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/recorded_controller.hpp"
 #include "tools/diagnose/prepare.hpp"
@@ -102,6 +103,27 @@ TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
 }
 
 // Whatever a hopper may have changes nothing when it is off, and something at its typical size.
+// A height that is 4 mm off would have it fall further, or begin inside the ground.
+TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
+  constexpr double kOff_m = 0.004;
+  const std::vector<PhaseChange> phases{{0.0, HopperPhase::compression}};
+  HopperRun run = hop_from(0.0, 0.3);
+  run.phases = &phases;
+  Trial trial = recorded(run, {}, 0);
+  trial.kind = "hold";
+  trial.setup.erase("release_height_m");
+  for (const char* channel : {"mocap_body_z_m", "mocap_foot_z_m"}) trial.channels.erase(channel);
+  for (double& z : trial.channels.at("tof_height_m")) z += kOff_m;
+  const Leg leg{LegParameters{}};
+  const auto let_go = course_of(trial, leg, 0.3).hops.front().state;
+  EXPECT_EQ(let_go.foot_z_m, 0.0);
+  EXPECT_EQ(let_go.foot_velocity_mps, 0.0);
+  EXPECT_EQ(let_go.angular_velocity_radps, 0.0);
+  // One that stands is where the height says.
+  for (double& a : trial.channels.at("imu_body_accel_z_mps2")) a = 9.81;
+  EXPECT_NEAR(course_of(trial, leg, 0.3).hops.front().state.foot_z_m, kOff_m, 2e-3);
+}
+
 TEST(DiagnoseHopper, EveryEffectActsAtItsTypicalSizeAndNothingActsAtNone) {
   Recordings r;
   r.plant = PlantKind::hopper;
