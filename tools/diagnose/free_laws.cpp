@@ -159,7 +159,7 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
       const auto knots = knots_by_share(all[v], kKnots);
       const double low = all[v].values.front().first, high = all[v].values.back().first;
       if (!(high > low)) continue;
-      const bool quick = problem.context.plant != PlantKind::hopper;
+      const bool quick = !problem.plant->is_costly();
       families.push_back(family_of(port, variables[v], knots));
       if (variables[v].ripples && quick)
         families.push_back(family_of(port, variables[v], uniform_knots(low, high, kFineKnots)));

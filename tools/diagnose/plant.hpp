@@ -63,6 +63,8 @@ struct FreePort {
   std::string port;  // of Edits::laws, or a channel for a sensor
   bool sensor = false;
   double scale = 1.0;  // of the force, torque or reading
+  // So much can be done here that noise itself would pass for it: no part of how large the noise is.
+  bool takes_up_noise = false;
 };
 
 // What the recorded motion and the belief leave over of one force or torque of one trial, instant by instant,
@@ -113,6 +115,12 @@ class PlantModel {
   // Scales and whatever else the effects ask for.
   virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
   virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
+  // Whether a simulation takes long: what a screen puts first is tried, not all, and laws with few knots.
+  virtual bool is_costly() const { return false; }
+  // Whether trials can be simulated with their nuisances as they are believed, before anything is fitted.
+  virtual bool starts_as_believed() const { return false; }
+  // Whether the drive's torque is a recorded input, whose time is as unsure as that of what is recorded.
+  virtual bool drive_is_recorded() const { return true; }
   // Motion is recorded, not simulated: no trial's simulation can go astray.
   virtual bool motion_is_prescribed() const { return false; }
   // Of one trial; none where this plant's recordings do not say enough.

@@ -157,9 +157,9 @@ void update_noise(Problem& problem, const Point& point) {
   }
   const double rows = problem.rows();
   auto families = free_families(problem, point);
-  // What a hopper's joint and ground could do, too, is so much that the noise itself would pass for it.
-  if (problem.context.plant == PlantKind::hopper)
-    std::erase_if(families, [](const FreeFamily& f) { return !f.sensor && f.port != "rail"; });
+  for (const auto& port : problem.plant->free_ports(problem.context))
+    if (port.takes_up_noise)
+      std::erase_if(families, [&](const FreeFamily& f) { return f.port == port.port; });
   std::size_t terms = 0;
   for (const auto& family : families) terms += family.terms.size();
   // A short recording gives its noise away to so many columns.

@@ -103,8 +103,7 @@ std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis&
 // as unsure as that of the channel whose samples come slowest.
 bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
   if (delays.empty() || problem.tolerances.empty()) return false;
-  // A hopper's drive is simulated from the command: it is no recorded input.
-  if (problem.context.plant == PlantKind::hopper && delays.contains("actuator")) return false;
+  if (!problem.plant->drive_is_recorded() && delays.contains("actuator")) return false;
   double slowest_s = 0.0;
   for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.of_sampling);
   return std::ranges::all_of(delays, [&](const auto& delay) {

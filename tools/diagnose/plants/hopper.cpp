@@ -480,6 +480,9 @@ class Hopper final : public PlantModel {
   std::vector<std::string> phases() const override {
     return {"flight", "touchdown", "compression", "switch", "extension", "liftoff"};
   }
+  bool is_costly() const override { return true; }
+  bool starts_as_believed() const override { return true; }
+  bool drive_is_recorded() const override { return false; }  // it follows from the command
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
@@ -566,8 +569,8 @@ class Hopper final : public PlantModel {
 
   std::vector<FreePort> free_ports(const Context& context) const override {
     return {{"rail", false, 0.05 * context.scale("weight_N")},
-            {"joint", false, 0.05 * context.scale("torque_Nm")},
-            {"ground.force", false, 0.1 * context.scale("force_N")},
+            {"joint", false, 0.05 * context.scale("torque_Nm"), true},
+            {"ground.force", false, 0.1 * context.scale("force_N"), true},
             {"actuator", true, 0.1 * context.scale("torque_Nm")}};
   }
 };
