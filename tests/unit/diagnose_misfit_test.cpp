@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/misfit.hpp"
+#include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {
@@ -64,6 +70,39 @@ TEST(DiagnoseMisfit, TheUnknownIsPlacedAtThePortOfTheNearestPhysicsNotOfASensor)
   d.effects.resize(1);
   report_unknown_near(0.13, d);
   EXPECT_EQ(d.effects.size(), 1u);
+}
+
+// A tether that tightens below 3 m.
+double tether(double, double height_m, double) { return 0.4 * std::max(0.0, 3.0 - height_m); }
+double nothing(double, double, double) { return 0.0; }
+
+double left_of(const Recordings& recordings) {
+  auto prepared = prepare(recordings);
+  Problem& problem = prepared.problem;
+  const auto fit = fit_from(problem, null_point(problem));
+  update_noise(problem, fit.point);
+  return left_over_noise(problem, fit_from(problem, fit.point));
+}
+
+TEST(DiagnoseMisfit, MoreThanTheNoiseIsLeftWhereSomethingIsMissing) {
+  EXPECT_LT(left_of(drops(nothing)), 1.2);
+  EXPECT_GT(left_of(drops(tether)), 1.5);
+}
+
+TEST(DiagnoseMisfit, OfSensorsThatNobodyDescribedItIsNotSaid) {
+  auto recordings = drops(tether);
+  for (const char* key : {"sensors.height_noise_m", "sensors.accel_noise_mps2"}) {
+    recordings.belief.numbers.erase(key);
+    for (auto& belief : recordings.beliefs) belief.numbers.erase(key);
+  }
+  EXPECT_EQ(left_of(recordings), 0.0);
+}
+
+TEST(DiagnoseMisfit, TheChangeOfANoiseIsThatOfItsLogarithm) {
+  const std::vector<double> sd{0.1, 2.0}, larger{0.11, 2.2};
+  const auto before = white_noise(sd, 3);
+  EXPECT_EQ(noise_change(before, before), 0.0);
+  EXPECT_NEAR(noise_change(before, white_noise(larger, 3)), std::sqrt(2.0) * std::log(1.1), 1e-12);
 }
 
 }  // namespace

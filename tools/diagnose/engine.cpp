@@ -6,20 +6,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/next_trial.hpp"
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/report_parts.hpp"
 #include "tools/diagnose/search.hpp"
-#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -68,74 +67,6 @@ std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings
         gain.held_out > kBalanceShare && gain.p_value < kBalanceSignificance && gain.trials_better >= 0.75)
       return std::move(gain);
   return std::nullopt;
-}
-
-// How far the noise is above the sensors' own, over channels (geometric mean): what no fit explained.
-double noise_over_sensors(const Problem& problem) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c)
-    if (problem.context.channels.contains(problem.channels[c])) {
-      sum += std::log(problem.noise.channel(c).sd() / problem.floor_sd[c]);
-      ++count;
-    }
-  return count > 0.0 ? std::exp(sum / count) : 1.0;
-}
-
-// Whether the belief says how large the noise of this channel's sensor is: then what is more is no noise.
-bool noise_is_stated(const Belief& belief, const std::string& channel) {
-  static const std::map<std::string, std::string> kKeys{{"height_m", "height_noise_m"},
-                                                        {"accel_mps2", "accel_noise_mps2"},
-                                                        {"position_rad", "position_noise_rad"},
-                                                        {"force_N", "load_cell_noise_N"},
-                                                        {"motor_left_position_rad", "encoder_noise_rad"},
-                                                        {"motor_right_position_rad", "encoder_noise_rad"},
-                                                        {"imu_body_accel_z_mps2", "imu_noise_mps2"},
-                                                        {"imu_foot_accel_z_mps2", "imu_noise_mps2"},
-                                                        {"load_cell_force_N", "load_cell_noise_N"}};
-  const auto it = kKeys.find(channel);
-  return it != kKeys.end() && belief.value("sensors." + it->second) > 0.0;
-}
-
-// What a fit leaves over what the noise would, sample by sample (root mean square), of the middle trial and
-// the channel that shows most. Whitening hides what changes slowly; this does not.
-double left_over_noise(const Problem& problem, const Fit& fit) {
-  const Edits edits = edits_for(problem, fit.point.hypothesis, fit.point.tolerances);
-  std::vector<std::vector<double>> ratios(problem.channels.size());
-  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    const TrialModel& trial = *problem.trials[t];
-    const auto prediction = predicted(problem, trial, edits, fit.point.nuisances[t]);
-    std::vector<double> left(ratios.size(), 0.0), noise(ratios.size(), 0.0);
-    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-      if (!problem.used[t][k]) continue;
-      const Row& row = trial.rows[k];
-      left[row.channel] += std::pow(row.measured - prediction[static_cast<Eigen::Index>(k)], 2);
-      noise[row.channel] += std::pow(problem.noise.sd(trial, row), 2);
-    }
-    for (std::size_t c = 0; c < ratios.size(); ++c)
-      if (noise[c] > 0.0 && noise_is_stated(problem.context.belief, problem.channels[c]))
-        ratios[c].push_back(std::sqrt(left[c] / noise[c]));
-  }
-  double most = 0.0;
-  for (const auto& of_channel : ratios)
-    if (of_channel.size() >= kTooFewTrials) most = std::max(most, median(of_channel));
-  return most;
-}
-
-// By how much standard deviations and those of what is new in each sample differ (root mean square of the
-// logarithms over samples).
-double change_of(const NoiseModel& before, const NoiseModel& now) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t c = 0; c < now.channels(); ++c) {
-    const auto &a = before.channel(c), &b = now.channel(c);
-    for (std::size_t p = 0; p < b.samples_of_phase.size(); ++p) {
-      const double sd = b.sd_of_phase[p] / a.sd_of_phase[p];
-      const double share_new =
-          b.correlation_of_phase[p].innovation_sd / a.correlation_of_phase[p].innovation_sd;
-      sum += b.samples_of_phase[p] * (std::pow(std::log(sd), 2) + std::pow(std::log(sd * share_new), 2));
-      count += b.samples_of_phase[p];
-    }
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
@@ -227,7 +158,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     const NoiseModel noise = problem.noise;
     const auto used = problem.used;
     update_noise(problem, search.best().fit.point);
-    const double change = change_of(noise, problem.noise);
+    const double change = noise_change(noise, problem.noise);
     diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own, changed by {:.3f}",
                                         noise_over_sensors(problem), change));
     if (change < kSameNoise) {

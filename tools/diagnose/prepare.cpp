@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/statistics.hpp"
@@ -80,15 +81,6 @@ bool can_be_simulated(const TrialModel& trial) {
   std::vector<double> out(trial.rows.size());
   trial.predict({}, nothing, out);
   return std::all_of(out.begin(), out.end(), [](double v) { return std::isfinite(v); });
-}
-
-double believed_noise(const Belief& belief, const std::string& channel) {
-  static const std::map<std::string, std::string> kKeys{
-      {"height_m", "height_noise_m"},         {"accel_mps2", "accel_noise_mps2"},
-      {"position_rad", "position_noise_rad"}, {"velocity_radps", "velocity_noise_radps"},
-      {"force_N", "load_cell_noise_N"},       {"load_cell_force_N", "load_cell_noise_N"}};
-  const auto it = kKeys.find(channel);
-  return it == kKeys.end() ? 0.0 : belief.value("sensors." + it->second);
 }
 
 void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {

@@ -1,0 +1,77 @@
+#include "tools/diagnose/left_over.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/misfit.hpp"
+#include "tools/diagnose/statistics.hpp"
+
+namespace sandhopper::diagnose {
+
+double believed_noise(const Belief& belief, const std::string& channel) {
+  static const std::map<std::string, std::string> kKeys{{"height_m", "height_noise_m"},
+                                                        {"accel_mps2", "accel_noise_mps2"},
+                                                        {"position_rad", "position_noise_rad"},
+                                                        {"velocity_radps", "velocity_noise_radps"},
+                                                        {"force_N", "load_cell_noise_N"},
+                                                        {"motor_left_position_rad", "encoder_noise_rad"},
+                                                        {"motor_right_position_rad", "encoder_noise_rad"},
+                                                        {"imu_body_accel_z_mps2", "imu_noise_mps2"},
+                                                        {"imu_foot_accel_z_mps2", "imu_noise_mps2"},
+                                                        {"load_cell_force_N", "load_cell_noise_N"}};
+  const auto it = kKeys.find(channel);
+  return it == kKeys.end() ? 0.0 : belief.value("sensors." + it->second);
+}
+
+double noise_over_sensors(const Problem& problem) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (problem.context.channels.contains(problem.channels[c])) {
+      sum += std::log(problem.noise.channel(c).sd() / problem.floor_sd[c]);
+      ++count;
+    }
+  return count > 0.0 ? std::exp(sum / count) : 1.0;
+}
+
+double left_over_noise(const Problem& problem, const Fit& fit) {
+  const Edits edits = edits_for(problem, fit.point.hypothesis, fit.point.tolerances);
+  std::vector<std::vector<double>> ratios(problem.channels.size());
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const TrialModel& trial = *problem.trials[t];
+    const auto prediction = predicted(problem, trial, edits, fit.point.nuisances[t]);
+    std::vector<double> left(ratios.size(), 0.0), noise(ratios.size(), 0.0);
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      if (!problem.used[t][k]) continue;
+      const Row& row = trial.rows[k];
+      left[row.channel] += std::pow(row.measured - prediction[static_cast<Eigen::Index>(k)], 2);
+      noise[row.channel] += std::pow(problem.noise.sd(trial, row), 2);
+    }
+    for (std::size_t c = 0; c < ratios.size(); ++c)
+      if (noise[c] > 0.0 && believed_noise(problem.context.belief, problem.channels[c]) > 0.0)
+        ratios[c].push_back(std::sqrt(left[c] / noise[c]));
+  }
+  double most = 0.0;
+  for (const auto& of_channel : ratios)
+    if (of_channel.size() >= kTooFewTrials) most = std::max(most, median(of_channel));
+  return most;
+}
+
+double noise_change(const NoiseModel& before, const NoiseModel& now) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < now.channels(); ++c) {
+    const auto &a = before.channel(c), &b = now.channel(c);
+    for (std::size_t p = 0; p < b.samples_of_phase.size(); ++p) {
+      const double sd = b.sd_of_phase[p] / a.sd_of_phase[p];
+      const double share_new =
+          b.correlation_of_phase[p].innovation_sd / a.correlation_of_phase[p].innovation_sd;
+      sum += b.samples_of_phase[p] * (std::pow(std::log(sd), 2) + std::pow(std::log(sd * share_new), 2));
+      count += b.samples_of_phase[p];
+    }
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace sandhopper::diagnose
