@@ -75,8 +75,10 @@ TEST_P(EveryEffect, StandsFirstOnTheScreenWhenAlone) {
     const auto own =
         std::find_if(found.begin(), found.end(), [&](const Screened& s) { return s.candidate == c; });
     ASSERT_NE(own, found.end());
-    // Others may look the same; none looks much better.
-    EXPECT_GT(own->gain, 0.9 * found.front().gain)
+    // Others may look the same; none looks much better, where the tolerance of a channel's time does not say
+    // all of it.
+    constexpr double kNothing = 0.01;  // of the deviance
+    EXPECT_GT(own->gain, 0.9 * found.front().gain - kNothing)
         << problem.candidates[c].label() << " behind " << problem.candidates[found.front().candidate].label();
   }
 }
