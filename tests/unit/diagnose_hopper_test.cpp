@@ -102,7 +102,6 @@ TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
   EXPECT_NEAR(broken(0.008).front().value, 0.008, 0.001);
 }
 
-// Whatever a hopper may have changes nothing when it is off, and something at its typical size.
 // A height that is 4 mm off would have it fall further, or begin inside the ground.
 TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
   constexpr double kOff_m = 0.004;
@@ -124,6 +123,7 @@ TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
   EXPECT_NEAR(course_of(trial, leg, 0.3).hops.front().state.foot_z_m, kOff_m, 2e-3);
 }
 
+// Whatever a hopper may have changes nothing when it is off, and something at its typical size.
 TEST(DiagnoseHopper, EveryEffectActsAtItsTypicalSizeAndNothingActsAtNone) {
   Recordings r;
   r.plant = PlantKind::hopper;

@@ -40,9 +40,9 @@ inline double come_in(double depth_m, double over_m, double power = 1.0) {
   return 1.0 - std::exp(-std::pow(std::max(0.0, depth_m) / over_m, power));
 }
 
-// Over which depth a law of speed comes in shows where the motion is prescribed and recorded.
+// Over which depth a law of speed comes in. A body that falls onto a bed is not recorded well enough there.
 inline void add_onset(const Context& context, std::vector<EffectParameter>& parameters) {
-  if (context.plant == PlantKind::intruder || context.plant == PlantKind::hopper)
+  if (context.plant != PlantKind::falling_body)
     parameters.push_back(
         {.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
 }
