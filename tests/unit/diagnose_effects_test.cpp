@@ -30,6 +30,17 @@ Recordings recordings_of(PlantKind plant) {
   return presses([](double, double) { return 0.0; }, 3, 6);
 }
 
+TEST(EffectParameters, AreFittedInOneScaleAndReportedInAnother) {
+  const EffectParameter tilt{.typical = 0.01, .power = 0.5};
+  EXPECT_NEAR(tilt.reported(0.04), 0.2, 1e-12);
+  EXPECT_NEAR(tilt.value_of(0.2), 0.04, 1e-12);
+  EXPECT_NEAR(tilt.typicals(0.04), 2.0, 1e-12);
+  const EffectParameter stiffness{.typical = 1e-5, .power = -1.0};
+  EXPECT_NEAR(stiffness.reported(2e-5), 5e4, 1e-6);
+  EXPECT_NEAR(stiffness.value_of(5e4), 2e-5, 1e-15);
+  EXPECT_NEAR(stiffness.typicals(2e-5), 2.0, 1e-12);
+}
+
 class EveryEffect : public ::testing::TestWithParam<PlantKind> {};
 
 TEST_P(EveryEffect, ChangesNothingWhenOffAndSomethingAtItsTypicalSize) {

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "tests/unit/diagnose_effect_sizes.hpp"
 #include "tests/unit/diagnose_hops.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/plants/hopper_recording.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/recorded_controller.hpp"
 #include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/search.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -121,6 +125,69 @@ TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
   // One that stands is where the height says.
   for (double& a : trial.channels.at("imu_body_accel_z_mps2")) a = 9.81;
   EXPECT_NEAR(course_of(trial, leg, 0.3).hops.front().state.foot_z_m, kOff_m, 2e-3);
+}
+
+// Beds of another stiffness in every trial, as stiff grains as fluctuate, and what `hidden` does to the
+// ground.
+Recordings hops_on_sand(const std::function<void(Edits&)>& hidden) {
+  constexpr double kStiffness[]{-0.03, 0.02, 0.04, -0.01, 0.03, -0.05};
+  Recordings r;
+  r.plant = PlantKind::hopper;
+  r.belief.numbers = {{"spread.bed_stiffness_relative", 0.03},   {"spread.bed_fluctuation_relative", 0.02},
+                      {"spread.surface_height_m", 5e-4},         {"spread.release_height_m", 5e-4},
+                      {"terrain.stiffness_N_per_m", 1500.0},     {"terrain.intercept_depth_m", 3e-3},
+                      {"terrain.intercept_growth_depth_m", 3e-3}};
+  const std::vector<PhaseChange> phases{
+      {0.0, HopperPhase::flight}, {0.09, HopperPhase::compression}, {kSwitch_s, HopperPhase::extension}};
+  for (std::size_t i = 0; i < std::size(kStiffness); ++i) {
+    Edits edits;
+    edits.scale("terrain.stiffness_N_per_m", 1.0 + kStiffness[i]);
+    hidden(edits);
+    HopperRun run = hop_from(0.02 + 0.01 * static_cast<double>(i), 0.4);
+    run.world = world_of(r.belief, edits);
+    run.phases = &phases;
+    r.trials.push_back(recorded(run, edits, i + 1));
+    r.beliefs.push_back(r.belief);
+  }
+  return r;
+}
+
+// What differs from trial to trial bends to a law that is missing: a foot that bears only over some depth is
+// taken for a surface and for grains that are the same in all trials. No deviance shows it, the lean does,
+// and only beside the believed nuisances a search sees what bends them.
+TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
+  const auto tilted = [](Edits& edits) {
+    edits.law("ground.factor", [](const PortState& s) { return -std::exp(-s.position / 5e-3); });
+  };
+  const auto found = [](const Recordings& recordings) {
+    Prepared prepared = prepare(recordings);
+    Problem& problem = prepared.problem;
+    Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
+    update_noise(problem, point);
+    keep_columns(problem, point);
+    point = fit_from(problem, point).point;
+    keep_columns(problem, point);
+    SearchOptions options;
+    options.straight = true;
+    options.most_effects = 1;
+    Search search(problem, options);
+    const auto& best = search.run(point);
+    struct Found {
+      double lean, left;
+      std::vector<std::string> names;
+    } out{std::abs(largest_lean(problem, search.null().fit.point).z),
+          std::abs(largest_lean(problem, best.fit.point).z),
+          {}};
+    for (const auto c : best.set) out.names.push_back(problem.candidates[c].label());
+    return out;
+  };
+  const auto nothing = found(hops_on_sand([](Edits&) {}));
+  EXPECT_LT(nothing.lean, 4.0);
+  EXPECT_TRUE(nothing.names.empty());
+  const auto tilt = found(hops_on_sand(tilted));
+  EXPECT_GT(tilt.lean, 4.5);
+  EXPECT_EQ(tilt.names, std::vector<std::string>{"terrain.foot_tilt"});
+  EXPECT_LT(tilt.left, 4.0);
 }
 
 // Whatever a hopper may have changes nothing when it is off, and something at its typical size.

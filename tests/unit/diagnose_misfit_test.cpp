@@ -98,6 +98,35 @@ TEST(DiagnoseMisfit, OfSensorsThatNobodyDescribedItIsNotSaid) {
   EXPECT_EQ(left_of(recordings), 0.0);
 }
 
+TEST(DiagnoseMisfit, TrialsLeanByWhatTheyHaveInCommon) {
+  const auto prepared = prepare(drops(nothing));
+  const auto& problem = prepared.problem;
+  const auto& first = problem.trials.front()->trial_nuisances;
+  ASSERT_GE(first.size(), 2u);
+  ASSERT_GE(problem.trials.size(), 4u);
+  const auto trials = static_cast<double>(problem.trials.size());
+  Point point = null_point(problem);
+  EXPECT_EQ(largest_lean(problem, point).z, 0.0);
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    point.nuisances[t][0] = -1.5 * problem.trials[t]->trial_nuisances[0].sd;                       // alike
+    point.nuisances[t][1] = (t % 2 == 0 ? 5.0 : -5.0) * problem.trials[t]->trial_nuisances[1].sd;  // not
+  }
+  const auto lean = largest_lean(problem, point);
+  EXPECT_EQ(lean.nuisance, first[0].name);
+  EXPECT_NEAR(lean.z, -1.5 * std::sqrt(trials), 1e-12);
+}
+
+TEST(DiagnoseMisfit, WhatLeansIsUnknownWhereItActs) {
+  Diagnosis d;
+  report_unknown_leaning({"release_height_m", "", 9.0}, d);
+  EXPECT_TRUE(d.effects.empty());
+  report_unknown_leaning({"bed_fluctuation", "ground", -9.0}, d);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "unknown@ground");
+  EXPECT_NE(d.effects.front().statement.find("bed_fluctuation"), std::string::npos);
+  EXPECT_NE(d.effects.front().statement.find("9.0 standard errors"), std::string::npos);
+}
+
 TEST(DiagnoseMisfit, TheChangeOfANoiseIsThatOfItsLogarithm) {
   const std::vector<double> sd{0.1, 2.0}, larger{0.11, 2.2};
   const auto before = white_noise(sd, 3);

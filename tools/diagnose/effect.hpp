@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -24,18 +25,23 @@ struct EffectParameter {
   double scale = 1.0;            // 0: read off the data and not fitted, to within
   double resolution = 0.0;       //   this
   bool amplitude = false;        // besides the first: zero switches this part off, too
-  bool reciprocal = false;       // reported as 1 / (base + scale * value)
+  double power = 1.0;            // reported as (base + scale * value)^power
   bool other_law_above = false;  // at its upper bound this is not the effect any more
   std::vector<double> shapes{};  // of a shape: values worth a start of their own
 
   double reported(double value) const {
     const double plain = base + scale * value;
-    return reciprocal ? 1.0 / plain : plain;
+    return power == 1.0 ? plain : std::pow(plain, power);
   }
   // The other way; a limit that is read off the data is in place or not.
   double value_of(double reported) const {
     if (scale == 0.0) return typical;
-    return ((reciprocal ? 1.0 / reported : reported) - base) / scale;
+    return ((power == 1.0 ? reported : std::pow(reported, 1.0 / power)) - base) / scale;
+  }
+  // How many typical sizes a value is.
+  double typicals(double value) const {
+    const double plain = std::abs(value) / typical;
+    return power > 0.0 && power != 1.0 ? std::pow(plain, power) : plain;
   }
 };
 
@@ -56,6 +62,7 @@ struct Effect {
       port{};  // rail joint ground inertia actuator controller clock geometry solver body axis, or sensor
   std::string statement{};  // one sentence; {channel} stands for the channel of a sensor's fault
   std::string equation{};
+  std::vector<std::string> same_as{};  // other names of what does just this to the recordings
   std::vector<PlantKind> plants{};
   // Channels whose sensor may have it, each a candidate of its own; null for physics.
   std::function<std::vector<std::string>(const Context&)> channels{};

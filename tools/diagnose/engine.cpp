@@ -35,15 +35,19 @@ constexpr double kDoubtBesideUnknown = 0.3;  // none of 7 such names was right o
 constexpr std::size_t kSeeds = 14;
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
+constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
 constexpr double kSameNoise = 0.03;
+// Of trials that lean alike, beside names (with the right ones up to 3.4) and without any (nulls up to 3.4).
+constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
 constexpr double kMoreThanNoise = 1.35;  // of it left; nulls of seed 9023 up to 1.00, of 9025 up to 1.13
 // Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.
 constexpr double kNoiseHidesMuch = 1.3;
+constexpr double kNoiseHidesAll = 4.0;
 
 Misfit misfit_of(const Problem& problem, const Search& search) {
   std::vector<TrialMisfit> trials;
@@ -86,6 +90,12 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
     diagnosis.log.push_back(fmt::format("{}: {:.2f} times what is unsure, {:.2f} with the best",
                                         problem.tolerances[i].name, search.null().fit.point.tolerances[i],
                                         search.best().fit.point.tolerances[i]));
+  for (const auto* fit : {&search.null(), &search.best()}) {
+    const auto leans = leans_of(problem, fit->fit.point);
+    for (std::size_t i = 0; i < leans.size() && i < kLeansTold; ++i)
+      diagnosis.log.push_back(fmt::format("all trials lean alike with {}: {} by {:.1f}",
+                                          set_text(problem, fit->set), leans[i].nuisance, leans[i].z));
+  }
   std::vector<const SetFit*> fits;
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
   std::sort(fits.begin(), fits.end(),
@@ -136,21 +146,26 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (!problem.plant->is_costly()) {
     search_options.fits_per_screen = 10;
     search_options.proposals = 10;
-    search_options.hopeless = 0.03;
   }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
-  Search search(problem, search_options);
-  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
-  search.run(point);
-  log_sets(problem, search, diagnosis);
   // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
-  // second look at the list would help.
+  // second look at the list would help, nor, where next to nothing else is seen, a long first one.
   std::optional<FreeGain> balance;
   bool balances_asked = false;  // no fit changes them
   const auto ask_balances = [&] {
     if (!balances_asked) balance = law_of_balances(problem, clean);
     balances_asked = true;
   };
+  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
+  if (noise_over_sensors(problem) > kNoiseHidesAll) ask_balances();
+  if (balance) {
+    search_options.most_effects = 1;
+    search_options.straight = false;
+    search_options.fits_of_singles = search_options.fits_per_screen;
+  }
+  Search search(problem, search_options);
+  search.run(point);
+  log_sets(problem, search, diagnosis);
   if (misfit_of(problem, search).noticeable) ask_balances();
   if (!search.best().set.empty() && !balance) {
     // With what was found in place the noise may show better; then everything is weighed again.
@@ -171,6 +186,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
       // What came near already needs no search, but another fit.
       const auto seeds = search.best_points(kSeeds);
       search_options.fits_per_screen = 3;
+      search_options.straight = false;
       Search second(problem, search_options);
       second.run(again, seeds);
       search = std::move(second);
@@ -232,11 +248,18 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   };
   // Where the sensors are known and more is left than their noise, that is something, whatever it is.
   const double left = left_over_noise(problem, best.fit);
-  const bool more_than_noise = faults.empty() && left > kMoreThanNoise;
-  diagnosis.log.push_back(fmt::format("left: {:.2f} times the noise", left));
+  // The same where it bends what differs from trial to trial by so much in all of them.
+  const Lean lean =
+      problem.plant->says_how_trials_differ(clean.belief) ? largest_lean(problem, best.fit.point) : Lean{};
+  const bool leans = std::abs(lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
+  const bool more_than_noise = faults.empty() && (left > kMoreThanNoise || leans);
+  diagnosis.log.push_back(
+      fmt::format("left: {:.2f} times the noise; all trials lean by {:.1f} {}", left, lean.z, lean.nuisance));
   if (more_than_noise && best.set.empty() && rest == nullptr)
     for (const auto& gain : gains)
-      if (rest == nullptr && !gain.family.sensor && gain.held_out > least_gain) rest = &gain;
+      if (rest == nullptr && !gain.family.sensor && gain.held_out > least_gain &&
+          (left > kMoreThanNoise || gain.family.port.starts_with(lean.port)))
+        rest = &gain;
   // What lies within the noise and is little beside what was found is nothing unknown.
   if (!outdone && !more_than_noise && best.fit.deviance < rows && share_of(rest) <= kUnknownShare)
     rest = nullptr;
@@ -259,8 +282,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
       for (auto& effect : diagnosis.effects)
         if (!effect.id.starts_with("unknown@"))
           effect.probability = std::min(effect.probability, kDoubtBesideUnknown);
-      const double unexplained = std::max(misfit.unexplained, (left * left - 1.0) * rows);
+      const double unexplained =
+          std::max({misfit.unexplained, (left * left - 1.0) * rows, leans ? lean.z * lean.z : 0.0});
       if (rest == nullptr) report_unknown_near(explained / (explained + unexplained), diagnosis);
+      if (diagnosis.effects.empty()) report_unknown_leaning(lean, diagnosis);
     }
   } else if (best.set.empty()) {
     diagnosis.verdict = problem.trials.size() < kTooFewTrials ? "insufficient_data" : "consistent";

@@ -59,6 +59,30 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
   return most;
 }
 
+std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
+  std::vector<Lean> leans;
+  if (problem.trials.empty()) return leans;
+  const auto trials = static_cast<double>(problem.trials.size());
+  const auto& names = problem.trials.front()->trial_nuisances;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    double sum = 0.0;
+    bool everywhere = true;
+    for (std::size_t t = 0; t < problem.trials.size() && everywhere; ++t) {
+      const auto& own = problem.trials[t]->trial_nuisances;
+      everywhere = own.size() > i && own[i].name == names[i].name;
+      if (everywhere) sum += point.nuisances[t][i] / own[i].sd;
+    }
+    if (everywhere) leans.push_back({names[i].name, names[i].port, sum / std::sqrt(trials)});
+  }
+  std::ranges::sort(leans, [](const Lean& a, const Lean& b) { return std::abs(a.z) > std::abs(b.z); });
+  return leans;
+}
+
+Lean largest_lean(const Problem& problem, const Point& point) {
+  const auto leans = leans_of(problem, point);
+  return leans.empty() ? Lean{} : leans.front();
+}
+
 double noise_change(const NoiseModel& before, const NoiseModel& now) {
   double sum = 0.0, count = 0.0;
   for (std::size_t c = 0; c < now.channels(); ++c) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/problem.hpp"
@@ -18,6 +19,16 @@ double noise_over_sensors(const Problem& problem);
 // hides what changes slowly): of the middle trial, and of the channel that shows most among those whose noise
 // the belief states. 0 where it states none, or for fewer than three trials.
 double left_over_noise(const Problem& problem, const Fit& fit);
+
+// A nuisance that all trials move alike.
+struct Lean {
+  std::string nuisance, port;
+  double z = 0.0;  // sum of value / sd over the trials, over the square root of their number
+};
+// Nuisances differ from trial to trial by what they are; one that is off by the same in all trials is no
+// nuisance but something that is missing, and no deviance says so. The one that leans most first.
+std::vector<Lean> leans_of(const Problem& problem, const Point& point);
+Lean largest_lean(const Problem& problem, const Point& point);
 
 // By how much standard deviations, and those of what is new in each sample, differ: root mean square of both
 // logarithms over samples.

@@ -27,6 +27,7 @@ struct Nuisance {
   std::string name;
   double sd = 1.0;
   double step = 0.01;  // of numerical derivatives
+  std::string port{};  // where it acts, if what moves it in all trials alike can be placed by that
 };
 
 // What can be told about a row besides its value: the axes on which a mismatch is placed.
@@ -119,6 +120,9 @@ class PlantModel {
   virtual bool is_costly() const { return false; }
   // Whether trials can be simulated with their nuisances as they are believed, before anything is fitted.
   virtual bool starts_as_believed() const { return false; }
+  // Whether this belief says how far its nuisances differ from trial to trial, and not only that nobody knows
+  // them: then what is off by the same in all trials is something.
+  virtual bool says_how_trials_differ(const Belief&) const { return false; }
   // Whether the drive's torque is a recorded input, whose time is as unsure as that of what is recorded.
   virtual bool drive_is_recorded() const { return true; }
   // Motion is recorded, not simulated: no trial's simulation can go astray.

@@ -103,11 +103,12 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       if (out.low > out.high) std::swap(out.low, out.high);
       found.parameters.push_back(out);
       // What was added to the belief, where that held something already.
-      if (p.base != 0.0 && p.scale != 0.0 && !p.reciprocal)
+      if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
         found.parameters.push_back(
             {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base});
     }
     found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
+    found.indistinguishable_from = candidate.effect->same_as;
     if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
       for (const auto other : it->second) {
         const auto& id = problem.candidates[other].effect->id;

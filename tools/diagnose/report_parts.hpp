@@ -1,6 +1,7 @@
 #pragma once
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/diagnosis.hpp"
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/prepare.hpp"
@@ -17,6 +18,8 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
 // Where no law of free form stands out: at the port of what explains most of those on the list, `share` of
 // what is there. After report_effects.
 void report_unknown_near(double share, Diagnosis& diagnosis);
+// Where nothing is on the list but all trials lean alike: at the port of what leans.
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);

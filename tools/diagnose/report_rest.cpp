@@ -79,6 +79,19 @@ void report_unknown_near(double share, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(std::move(effect));
 }
 
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
+  if (lean.port.empty()) return;
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + lean.port,
+       .port = lean.port,
+       .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
+                                "trial, is off by the same in all, by {:.1f} standard errors.",
+                                lean.port, lean.nuisance, std::abs(lean.z)),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
 namespace {
 
 std::string fault_statement(const DataFault& fault) {
@@ -153,7 +166,7 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
     if (!(error < 1e6)) continue;
     const double bound =
         (std::abs(s.evidence.size()) + 2.0 * error) * p.typical * std::max(std::abs(p.scale), 1e-300);
-    diagnosis.absent.push_back({candidate.label(), p.name, p.reciprocal ? 1.0 / bound : bound,
+    diagnosis.absent.push_back({candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power),
                                 std::abs(s.evidence.size()) + 2.0 * error});
   }
   std::sort(diagnosis.absent.begin(), diagnosis.absent.end(),

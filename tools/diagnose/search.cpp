@@ -2,10 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "tools/diagnose/left_over.hpp"
+#include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/proposals.hpp"
 
 namespace sandhopper::diagnose {
@@ -23,6 +26,7 @@ constexpr double kTrialsToFlip = 6.0;   // that carry the information: 64 flips
 // amplifies its smallest change, this is nothing while the derivative is huge.
 constexpr double kComesTrue = 0.05;
 constexpr double kTrialsAgree = 0.01;
+constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
@@ -47,7 +51,10 @@ constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;      // of a drop that the null fit finds, too
 constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not what they are believed to be
+constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 3.4
+constexpr double kUnbent = 0.6;      // of a lean that is left
 constexpr std::size_t kStraightFits = 3;
+constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
   set.push_back(candidate);
@@ -66,7 +73,7 @@ double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::si
   double typicals = 0.0;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (is_amplitude(parameters, i))
-      typicals = std::max(typicals, std::abs(hypothesis.values[e][i]) / parameters[i].typical);
+      typicals = std::max(typicals, parameters[i].typicals(hypothesis.values[e][i]));
   return typicals;
 }
 
@@ -286,7 +293,10 @@ void Search::judge(SetFit& result) {
     // Flips are made where the simulation is linear in nothing yet; what the trials say this clearly at the
     // fit itself does not need them. Nor can they say much where a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
-    const bool beyond_doubt = evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips);
+    const bool beyond_doubt =
+        evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
+        (fitted == sets_.end() || unbends(fitted->second.fit, result.fit) ||
+         fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     evidence.too_small = evidence.typicals < smallest;
@@ -346,32 +356,65 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
 }
 
 // Where much is missing, nuisances bend to it, and a derivative there says what bends them back, not what is
-// missing. With all nuisances as they are believed the simulation is further off, but off by what is missing.
-void Search::evaluate_straight(const SetFit& from, std::size_t fits) {
-  auto& [deviance, done] = straight_[from.set];
-  if (deviance == from.fit.deviance && done >= fits) return;
-  deviance = from.fit.deviance;
-  done = fits;
+// missing. With all nuisances as they are believed the simulation is further off, but off by what is missing:
+// there every candidate is held against the recordings at sizes that are common, and those that come nearest
+// are fitted.
+void Search::evaluate_straight(const SetFit& from) {
+  const auto before = straight_.find(from.set);
+  if (before != straight_.end() && before->second == from.fit.deviance) return;
+  straight_[from.set] = from.fit.deviance;
   Point straight = null_point(*problem_);
   straight.hypothesis = from.fit.point.hypothesis;
   straight.tolerances = from.fit.point.tolerances;
   const auto columns = columns_at(*problem_, straight);
-  const auto candidates = screen(*problem_, straight, &columns);
-  for (std::size_t i = 0; i < fits && i < candidates.size(); ++i) {
-    const auto& added = candidates[i];
+  struct Nearest {
+    Point start;
+    double deviance = 0.0;  // with the nuisances as a linear approximation has them
+  };
+  std::map<std::size_t, Nearest> nearest;  // of each candidate
+  const auto hold = [&](std::size_t candidate, const std::vector<double>& values) {
+    Nearest one{straight, 0.0};
+    one.start.hypothesis.candidates.push_back(candidate);
+    one.start.hypothesis.values.push_back(values);
+    for (const auto& trial : linearise_all(*problem_, one.start, {}, {.columns = &columns}))
+      one.deviance += trial.gram(0, 0);
+    const auto known = nearest.find(candidate);
+    if (known == nearest.end() || one.deviance < known->second.deviance)
+      nearest.insert_or_assign(candidate, std::move(one));
+  };
+  for (const auto& added : screen(*problem_, straight, &columns)) hold(added.candidate, added.values);
+  for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
+    if (straight.hypothesis.contains(c)) continue;
+    const auto& p = problem_->candidates[c].parameters[0];
+    for (auto values : shape_choices(problem_->candidates[c]))
+      for (const double typicals : kCommonSizes) {
+        values[0] = typicals * p.typical;
+        if ((typicals > 0.0 || p.either_sign) && values[0] >= p.low && values[0] <= p.high) hold(c, values);
+      }
+  }
+  std::vector<const Nearest*> order;
+  for (const auto& [candidate, one] : nearest) order.push_back(&one);
+  std::ranges::sort(order, {}, &Nearest::deviance);
+  for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i) {
     SetFit result;
-    result.set = with(from.set, added.candidate);
-    result.rough = true;
-    Point start = straight;
-    start.hypothesis.candidates.push_back(added.candidate);
-    start.hypothesis.values.push_back(added.values);
-    FitOptions options = kRough;
-    options.columns = &columns;
-    result.fit = fit_at(start, options);
+    result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
+    result.fit = fit_at(order[i]->start, {.columns = &columns});  // nuisances have far to go: no rough fit
     const auto known = sets_.find(result.set);
     if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
       sets_[result.set] = std::move(result);
   }
+}
+
+// Whether nuisances have taken up what is missing.
+bool Search::is_bent(const Fit& fit) const {
+  return fit.deviance > kBentPerRow * problem_->rows() ||
+         std::abs(largest_lean(*problem_, fit.point).z) > kBentLean;
+}
+
+// Whether nuisances that all trials bent alike need not be with an effect.
+bool Search::unbends(const Fit& without, const Fit& with) const {
+  const double before = std::abs(largest_lean(*problem_, without.point).z);
+  return before > kBentLean && std::abs(largest_lean(*problem_, with.point).z) < kUnbent * before;
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
@@ -385,8 +428,6 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
     evaluate(parent, s);
     ++done;
   }
-  if (options_.straight && parent.fit.deviance > kBentPerRow * problem_->rows())
-    evaluate_straight(parent, std::min(fits, kStraightFits));
 }
 
 // Derivatives by the nuisances as they are at the best set so far; without effects those of the null.
@@ -538,6 +579,7 @@ void Search::restart_null() {
   for (int round = 0; round < kNullRestarts; ++round) {
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
+    if (options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
     const SetFit* closest = nullptr;
     for (const auto& [set, fit] : sets_)
       if (set.size() == 1 && (closest == nullptr || fit.fit.deviance < closest->fit.deviance)) closest = &fit;
@@ -615,12 +657,15 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   }
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
+    // Only beside what comes nearest: it takes as long as a screen and all its fits.
+    const SetFit nearest = sets_.at(front.front());
+    if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
     for (std::size_t i = 0; i < front.size(); ++i) {
       options_.progress(
           (static_cast<double>(size - 1) + static_cast<double>(i) / static_cast<double>(front.size())) /
               static_cast<double>(options_.most_effects + 1),
           "trying effects");
-      expand(front[i], options_.fits_per_screen);
+      expand(front[i], size == 1 ? options_.fits_of_singles : options_.fits_per_screen);
     }
     std::vector<const SetFit*> grown;
     for (const auto& [set, fit] : sets_)

@@ -38,9 +38,10 @@ struct SearchOptions {
   std::size_t beam = 2;
   std::size_t proposals = 0;  // sets from a linear approximation at the best point, tried at the end
   std::size_t fits_per_screen = 6;
+  std::size_t fits_of_singles = 20;  // of the first screen: what it says of hoppers is often far off
   bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
   bool straight = false;      // start from the believed nuisances, too
-  double hopeless = 0.15;  // of the largest gain on the screen: less is not fitted, but for the first three
+  double hopeless = 0.03;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
 
@@ -70,7 +71,9 @@ class Search {
   double cost_of_an_effect() const;  // of the criterion, with one parameter
   double cost_of_a_parameter() const;
   void evaluate(const SetFit& from, const Screened& added);
-  void evaluate_straight(const SetFit& from, std::size_t fits);
+  void evaluate_straight(const SetFit& from);
+  bool is_bent(const Fit& fit) const;
+  bool unbends(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void restart_null();
@@ -88,8 +91,8 @@ class Search {
   SearchOptions options_;
   std::map<std::vector<std::size_t>, SetFit> sets_;
   std::map<std::vector<std::size_t>, std::vector<Screened>> screens_;
-  // Sets from which effects were tried at the believed nuisances: deviance there, fits made.
-  std::map<std::vector<std::size_t>, std::pair<double, std::size_t>> straight_;
+  // Sets from which effects were tried at the believed nuisances, with their deviance then.
+  std::map<std::vector<std::size_t>, double> straight_;
   std::vector<std::size_t> best_;
   std::vector<KeptColumns> columns_;  // at the best set; empty: it is the null
   double dispersion_ = 1.0;

@@ -9,12 +9,12 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .typical = 1.0 / limit,
            .low = 0.0,
            .high = 4.0 / limit,
-           .reciprocal = true},
+           .power = -1.0},
           {.name = "no_load_speed_radps",
            .typical = 1.0 / 50.0,
            .low = 1.0 / 500.0,
            .high = 1.0 / 10.0,
-           .reciprocal = true,
+           .power = -1.0,
            .shapes = {1.0 / 200.0, 1.0 / 25.0}}};
 }
 

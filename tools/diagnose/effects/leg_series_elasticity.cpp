@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
        .low = -0.9 * believed,
        .high = 2e-4,
        .base = believed,
-       .reciprocal = true},
+       .power = -1.0},
       {.name = "series_damping_ratio", .typical = 0.1, .low = -0.08, .high = 0.9, .base = kDamping.of(c)}};
 }
 

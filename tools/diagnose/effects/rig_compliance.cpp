@@ -10,7 +10,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .low = stiffness > 0.0 ? -0.9 / stiffness : 0.0,
            .high = 1e-3,
            .base = stiffness > 0.0 ? 1.0 / stiffness : 0.0,
-           .reciprocal = true}};
+           .power = -1.0}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

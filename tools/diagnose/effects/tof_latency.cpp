@@ -19,6 +19,7 @@ const EffectRegistration kEffect(
      .port = "sensor",
      .statement = "The time-of-flight sensor answers later than believed.",
      .equation = "y(t) = x(t - T)",
+     .same_as = {"clock.skew"},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v,

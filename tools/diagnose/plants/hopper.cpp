@@ -157,14 +157,14 @@ class HopperTrial final : public TrialModel {
 
   void add_nuisances() {
     const auto& s = world_.spread;
-    const auto add = [&](const char* what, double sd, double step) {
-      trial_nuisances.push_back({what, sd, step});
+    const auto add = [&](const char* what, double sd, double step, const char* port = "") {
+      trial_nuisances.push_back({what, sd, step, port});
     };
-    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-3);
+    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-3, "ground");
     add("release_height_m", std::max(s.release_height_m, kReleaseUnknown_m), 1e-5);
     add("release_speed_mps", std::max(s.release_speed_mps, kReleaseSpeedUnknown_mps), 1e-4);
     add("surface_height_m", std::max(s.surface_height_m, kSurfaceUnknown_m), 1e-5);
-    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.01);
+    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.01, "rail");
     add("torque_constant_relative", std::max(s.torque_constant_relative, 1e-3), 1e-3);
     add("tof_bias_m", std::max(s.tof_bias_m, 1e-4), 1e-3);
     add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
@@ -179,7 +179,7 @@ class HopperTrial final : public TrialModel {
       const double deepest_m = std::min(kDeepest_m, kMargin * deepest_believed_m());
       grains_ = BedGrains(s.bed_fluctuation_relative, s.bed_fluctuation_length_m, deepest_m,
                           kDeepest_m / static_cast<double>(kMostKnots - 1), kMostKnots);
-      for (std::size_t i = 0; i < grains_.count(); ++i) add("bed_fluctuation", grains_.sd(), 1e-3);
+      for (std::size_t i = 0; i < grains_.count(); ++i) add("bed_fluctuation", grains_.sd(), 1e-3, "ground");
     }
     if (blocks > 1 || !course_.hops.front().at_rest)
       block_nuisances = {{"foot_z_m", 0.010, 1e-5},
@@ -482,6 +482,10 @@ class Hopper final : public PlantModel {
   }
   bool is_costly() const override { return true; }
   bool starts_as_believed() const override { return true; }
+  bool says_how_trials_differ(const Belief& belief) const override {
+    return std::ranges::any_of(belief.numbers,
+                               [](const auto& number) { return number.first.starts_with("spread."); });
+  }
   bool drive_is_recorded() const override { return false; }  // it follows from the command
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
