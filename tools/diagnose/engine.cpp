@@ -148,25 +148,27 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     search_options.proposals = 10;
   }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
-  // Where the list leaves far more than the noise and the recordings' balances say at once what it is, no
-  // second look at the list would help, nor, where next to nothing else is seen, a long first one.
-  std::optional<FreeGain> balance;
-  bool balances_asked = false;  // no fit changes them
-  const auto ask_balances = [&] {
-    if (!balances_asked) balance = law_of_balances(problem, clean);
-    balances_asked = true;
+  std::optional<FreeGain> shown;
+  bool asked = false;
+  const auto what_balances_show = [&]() -> const std::optional<FreeGain>& {
+    if (!asked) shown = law_of_balances(problem, clean);  // no fit changes them
+    asked = true;
+    return shown;
   };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
-  if (noise_over_sensors(problem) > kNoiseHidesAll) ask_balances();
-  if (balance) {
-    search_options.most_effects = 1;
+  // Where next to nothing else is seen and the recordings' balances may say at once what it is, a search
+  // looks at what is nearest only.
+  if (noise_over_sensors(problem) > kNoiseHidesAll && what_balances_show()) {
     search_options.straight = false;
     search_options.fits_of_singles = search_options.fits_per_screen;
   }
   Search search(problem, search_options);
   search.run(point);
   log_sets(problem, search, diagnosis);
-  if (misfit_of(problem, search).noticeable) ask_balances();
+  // Where the list leaves far more than the noise and the balances say what it is, no second look at the list
+  // would help.
+  std::optional<FreeGain> balance;
+  if (misfit_of(problem, search).noticeable) balance = what_balances_show();
   if (!search.best().set.empty() && !balance) {
     // With what was found in place the noise may show better; then everything is weighed again.
     options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
@@ -185,7 +187,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
       search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
       // What came near already needs no search, but another fit.
       const auto seeds = search.best_points(kSeeds);
-      search_options.fits_per_screen = 3;
+      search_options.fits_per_screen = search_options.fits_of_singles = 3;
       search_options.straight = false;
       Search second(problem, search_options);
       second.run(again, seeds);
@@ -217,7 +219,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
   // form, too: they are asked again without it.
   std::vector<FreeGain> alone;
-  if (misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) ask_balances();
+  if (misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) balance = what_balances_show();
   if (balance) {
     diagnosis.log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
                                         balance->family.port, balance->family.variable,

@@ -1,39 +1,20 @@
 #include "tools/diagnose/search.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/proposals.hpp"
+#include "tools/diagnose/search_parts.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
-constexpr double kSignificance = 0.01;  // family-wise
-constexpr double kTrialsToFlip = 6.0;   // that carry the information: 64 flips
-// Of the linear gain at the fit, by how much the fit without the effect is really worse; where a simulation
-// amplifies its smallest change, this is nothing while the derivative is huge.
-constexpr double kComesTrue = 0.05;
-constexpr double kTrialsAgree = 0.01;
-constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
-constexpr double kWithoutFlips = 1e-4;
-constexpr double kHopeless = 0.2;
-constexpr double kBeyondDoubt = 1e-8;
-constexpr double kSmallestOfTypical = 0.08;
-constexpr double kUnmistakablePerRow = 1.0;  // what gains the noise's own power is not too small to name
-constexpr double kSmallestShare = 0.002;     // of what all effects explain
-constexpr double kShareOfFormError = 0.2;    // that passes for an effect of its own
 constexpr double kLinearError =
     0.05;  // of what is explained: a proposal's estimate may be worse than its fit
 // Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
@@ -62,21 +43,6 @@ std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidat
   return set;
 }
 
-std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
-  set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
-  return set;
-}
-
-// The largest amplitude of one effect, in typical sizes.
-double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
-  const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
-  double typicals = 0.0;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (is_amplitude(parameters, i))
-      typicals = std::max(typicals, parameters[i].typicals(hypothesis.values[e][i]));
-  return typicals;
-}
-
 // Minus twice the logarithm of how likely these sizes were beforehand.
 double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
@@ -92,68 +58,6 @@ bool worth_growing(const Problem& problem, const Hypothesis& hypothesis) {
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
     if (typicals_of(problem, hypothesis, e) < 0.5 * kSmallestOfTypical) return false;
   return true;
-}
-
-// How far this effect moves channels in time. The tolerances of those channels do the same and would leave
-// the trials nothing to say.
-std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
-  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
-  Edits edits;
-  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
-  std::map<std::string, double> delays;
-  for (const auto& edit : edits.sensors)
-    if (edit.kind == SensorEdit::Kind::delay_s) delays[edit.channel] += edit.value;
-  return delays;
-}
-
-// Whether all it does is to move channels by no more than their times are unsure; that of a recorded input is
-// as unsure as that of the channel whose samples come slowest.
-bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
-  if (delays.empty() || problem.tolerances.empty()) return false;
-  if (!problem.plant->drive_is_recorded() && delays.contains("actuator")) return false;
-  double slowest_s = 0.0;
-  for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.of_sampling);
-  return std::ranges::all_of(delays, [&](const auto& delay) {
-    double scale_s = slowest_s;
-    for (const auto& tolerance : problem.tolerances)
-      if (tolerance.channel == delay.first) scale_s = tolerance.scale;
-    return std::abs(delay.second) <= kMostTolerance * scale_s;
-  });
-}
-
-// Several channels that are late by the same: none is, against the others.
-bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
-  std::map<std::string, double> delays;
-  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
-    for (const auto& [channel, delay_s] : delays_s(problem, hypothesis, e)) delays[channel] += delay_s;
-  if (delays.size() < 2) return false;
-  const double first_s = delays.begin()->second;
-  for (auto& [channel, delay_s] : delays) delay_s -= first_s;
-  return within_tolerance(problem, delays);
-}
-
-// Channels whose readings it changes; empty where it changes what happens, too.
-std::vector<std::string> channels_read(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
-  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
-  Edits edits;
-  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
-  std::vector<std::string> channels;
-  for (const auto& edit : edits.sensors) {
-    if (!problem.context.channels.contains(edit.channel) || edit.channel.ends_with("position_rad")) return {};
-    channels.push_back(edit.channel);
-  }
-  if (!edits.belief.empty() || !edits.laws.empty()) channels.clear();
-  return channels;
-}
-
-// Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
-// trial.
-bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
-  if (without.deviance - with.deviance > kComesTrue * linear_gain) return true;
-  std::vector<double> drops;
-  for (std::size_t t = 0; t < with.trial_deviance.size(); ++t)
-    drops.push_back(without.trial_deviance[t] - with.trial_deviance[t]);
-  return signed_rank_p_value(drops) < kTrialsAgree;
 }
 
 }  // namespace
@@ -175,146 +79,6 @@ const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& se
   const auto it = screens_.find(set);
   if (it != screens_.end()) return it->second;
   return screens_[set] = screen(*problem_, sets_.at(set).fit.point, columns_for(set));
-}
-
-void Search::judge(SetFit& result) {
-  const Point& point = result.fit.point;
-  const auto directions = parameter_directions(*problem_, point);
-  const auto linear = linearise_all(*problem_, point, directions, {.columns = columns_for(result.set)});
-  const auto k = static_cast<Index>(directions.size());
-  const auto parameters = static_cast<Index>(point.hypothesis.parameters());
-  const VectorXd prior = prior_information(*problem_, point);
-  double dispersion = 0.0, count = 0.0;
-  Index first = 1;
-  result.evidence.clear();
-  result.judged = true;
-  result.needed = result.sound = true;
-  result.hopeless = false;
-  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
-    const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
-    const auto width = static_cast<Index>(candidate.parameters.size());
-    // The first amplitude of this effect, with its other parameters and everything else eliminated; shapes of
-    // an effect do not shelter others.
-    std::vector<TrialLinear> reordered = linear;
-    std::vector<Index> order{0, first};
-    std::vector<double> amplitudes;
-    std::vector<Index> amplitude_columns;
-    for (Index i = 0; i < width; ++i) {
-      const auto& p = candidate.parameters[static_cast<std::size_t>(i)];
-      if (is_amplitude(candidate.parameters, static_cast<std::size_t>(i))) {
-        amplitude_columns.push_back(first + i);
-        amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
-      }
-    }
-    const auto delays = delays_s(*problem_, point.hypothesis, e);
-    std::vector<Index> others;
-    for (Index i = 1; i <= k; ++i) {
-      const bool own = i >= first && i < first + width;
-      const bool same_as_own =
-          i > parameters &&
-          delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel);
-      if (!own && !same_as_own) others.push_back(i);
-    }
-    const auto n_own = static_cast<Index>(amplitude_columns.size());
-    const auto n_others = static_cast<Index>(others.size());
-    VectorXd others_prior(n_others);
-    for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
-    for (auto& trial : reordered) {
-      MatrixXd gram(1 + n_own + n_others, 1 + n_own + n_others);
-      std::vector<Index> columns{0};
-      columns.insert(columns.end(), amplitude_columns.begin(), amplitude_columns.end());
-      columns.insert(columns.end(), others.begin(), others.end());
-      for (Index i = 0; i < gram.rows(); ++i)
-        for (Index j = 0; j < gram.cols(); ++j)
-          gram(i, j) = trial.gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
-      // Put the effect back into the residual: column 0 becomes what is there without it.
-      VectorXd back = VectorXd::Zero(gram.rows());
-      back[0] = 1.0;
-      for (Index i = 0; i < n_own; ++i) back[1 + i] = amplitudes[static_cast<std::size_t>(i)];
-      const VectorXd column = gram * back;
-      const double corner = back.dot(column);
-      gram.col(0) = column;
-      gram.row(0) = column.transpose();
-      gram(0, 0) = corner;
-      trial.gram = gram;
-    }
-    const auto grams = eliminated(reordered, 1 + n_own, n_others, others_prior);
-    std::vector<Index> own;
-    for (Index i = 0; i < n_own; ++i) own.push_back(1 + i);
-    const auto group = group_gain(grams, own, 0.01);
-    EffectEvidence evidence;
-    evidence.candidate = point.hypothesis.candidates[e];
-    evidence.evidence = group.evidence;
-    evidence.gain = group.gain;
-    evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
-    evidence.p_value =
-        std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
-    for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-      const auto& p = candidate.parameters[i];
-      const double value = point.hypothesis.values[e][i];
-      evidence.at_bound = evidence.at_bound || (p.other_law_above && value >= 0.99 * p.high) ||
-                          (is_amplitude(candidate.parameters, i) &&
-                           (value >= p.high - 1e-9 * std::abs(p.high) ||
-                            (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
-    }
-    if (within_tolerance(*problem_, delays)) result.sound = false;
-    const double model = std::max(1e-300, [&] {
-      double s = 0.0;
-      for (const double i : group.evidence.information) s += i;
-      return s;
-    }());
-    const double robust = std::pow(group.evidence.standard_error() * model, 2);
-    dispersion += robust / model;
-    ++count;
-    result.evidence.push_back(std::move(evidence));
-    first += width;
-  }
-  if (late_together(*problem_, point.hypothesis)) result.sound = false;
-  result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
-  const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
-  const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
-  for (std::size_t e = 0; e < result.evidence.size(); ++e) {
-    auto& evidence = result.evidence[e];
-    const auto parent = without(result.set, evidence.candidate);
-    const auto fitted = sets_.find(parent);
-    const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
-    // Signs are flipped at the set without this effect, against all candidates there.
-    if (screens_.contains(parent)) {
-      std::vector<TrialEvidence> rivals;
-      std::size_t chosen = 0;
-      for (const auto& s : screened(parent)) {
-        if (s.candidate == evidence.candidate) chosen = rivals.size();
-        rivals.push_back(s.evidence);
-      }
-      if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
-    } else {
-      evidence.flip_p_value = 0.0;
-    }
-    // Flips are made where the simulation is linear in nothing yet; what the trials say this clearly at the
-    // fit itself does not need them. Nor can they say much where a few trials carry nearly all information.
-    const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
-    const bool beyond_doubt =
-        evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
-        (fitted == sets_.end() || unbends(fitted->second.fit, result.fit) ||
-         fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
-    const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
-    const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
-    evidence.too_small = evidence.typicals < smallest;
-    if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
-        !came_true)
-      result.sound = false;
-    // A law of another form may leave as much; where only readings change, of what those channels show.
-    if (result.sound && evidence.gain < least_share * explained) {
-      const auto read = channels_read(*problem_, point.hypothesis, e);
-      result.sound =
-          !read.empty() &&
-          evidence.gain >= least_share * with_form_unnoticed(
-                                             *problem_, deviance_of(*problem_, null().fit.point, read) -
-                                                            deviance_of(*problem_, result.fit.point, read));
-    }
-    result.needed = result.needed && result.sound && !evidence.too_small;
-    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
-  }
 }
 
 void Search::evaluate(const SetFit& from, const Screened& added) {
@@ -579,7 +343,7 @@ void Search::restart_null() {
   for (int round = 0; round < kNullRestarts; ++round) {
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
-    if (options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
+    if (round == 0 && options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
     const SetFit* closest = nullptr;
     for (const auto& [set, fit] : sets_)
       if (set.size() == 1 && (closest == nullptr || fit.fit.deviance < closest->fit.deviance)) closest = &fit;
