@@ -42,7 +42,7 @@ constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticea
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
 constexpr double kBalanceSignificance = 0.01;
 constexpr double kSameNoise = 0.03;
-// Of trials that lean alike, beside names (with the right ones up to 3.4) and without any (nulls up to 3.4).
+// Of trials that lean alike, beside names (with the right ones up to 3.3) and without any (nulls up to 2.9).
 constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
 constexpr double kMoreThanNoise = 1.35;  // of it left; nulls of seed 9023 up to 1.00, of 9025 up to 1.13
 // Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.

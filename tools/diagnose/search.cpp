@@ -32,7 +32,7 @@ constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 constexpr double kFreed = 0.02;      // of a drop that the null fit finds, too
 constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not what they are believed to be
-constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 3.4
+constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 2.9
 constexpr double kUnbent = 0.6;      // of a lean that is left
 constexpr std::size_t kStraightFits = 3;
 constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
