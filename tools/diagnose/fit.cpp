@@ -86,9 +86,7 @@ struct TrialState {
 void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialState& state) {
   const TrialModel& trial = *problem.trials[t];
   state.prediction = predicted(problem, trial, edits, state.nuisances);
-  VectorXd r(state.prediction.size());
-  for (Index k = 0; k < r.size(); ++k)
-    r[k] = trial.rows[static_cast<std::size_t>(k)].measured - state.prediction[k];
+  VectorXd r = residual_of(trial, state.prediction);
   problem.noise.whiten(trial, problem.used[t], r);
   state.deviance = r.squaredNorm();
   const std::size_t q = trial.trial_nuisances.size(), nb = trial.block_nuisances.size();

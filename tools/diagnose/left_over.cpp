@@ -41,12 +41,12 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
   std::vector<std::vector<double>> ratios(problem.channels.size());
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const TrialModel& trial = *problem.trials[t];
-    const auto prediction = predicted(problem, trial, edits, fit.point.nuisances[t]);
+    const auto residual = residual_of(trial, predicted(problem, trial, edits, fit.point.nuisances[t]));
     std::vector<double> left(ratios.size(), 0.0), noise(ratios.size(), 0.0);
     for (std::size_t k = 0; k < trial.rows.size(); ++k) {
       if (!problem.used[t][k]) continue;
       const Row& row = trial.rows[k];
-      left[row.channel] += std::pow(row.measured - prediction[static_cast<Eigen::Index>(k)], 2);
+      left[row.channel] += std::pow(residual[static_cast<Eigen::Index>(k)], 2);
       noise[row.channel] += std::pow(problem.noise.sd(trial, row), 2);
     }
     for (std::size_t c = 0; c < ratios.size(); ++c)

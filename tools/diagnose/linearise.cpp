@@ -159,6 +159,13 @@ VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits&
   return out;
 }
 
+VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
+  VectorXd out(prediction.size());
+  for (Index k = 0; k < out.size(); ++k)
+    out[k] = trial.rows[static_cast<std::size_t>(k)].measured - prediction[k];
+  return out;
+}
+
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options) {
@@ -187,9 +194,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     order.push_back(direction.tolerance < 0 ? next_simulated++ : next_wanted++);
 
   TrialLinear out;
-  out.residual.resize(rows);
-  for (Index k = 0; k < rows; ++k)
-    out.residual[k] = trial.rows[static_cast<std::size_t>(k)].measured - centre[k];
+  out.residual = residual_of(trial, centre);
   MatrixXd x(rows, 1 + static_cast<Index>(simulated.size()));
   x.col(0) = out.residual;
   for (std::size_t i = 0; i < simulated.size(); ++i)
@@ -235,8 +240,7 @@ double deviance_of(const Problem& problem, const Point& point, const std::vector
   std::vector<double> of_trial(problem.trials.size(), 0.0);
   parallel_for(of_trial.size(), [&](std::size_t t) {
     const TrialModel& trial = *problem.trials[t];
-    VectorXd r = predicted(problem, trial, edits, point.nuisances[t]);
-    for (Index k = 0; k < r.size(); ++k) r[k] = trial.rows[static_cast<std::size_t>(k)].measured - r[k];
+    VectorXd r = residual_of(trial, predicted(problem, trial, edits, point.nuisances[t]));
     problem.noise.whiten(trial, problem.used[t], r);
     for (Index k = 0; k < r.size(); ++k) {
       const auto& channel = problem.channels[trial.rows[static_cast<std::size_t>(k)].channel];

@@ -47,6 +47,9 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
 Eigen::VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
                           const std::vector<double>& nuisances);
 
+// As recorded minus a prediction.
+Eigen::VectorXd residual_of(const TrialModel& trial, const Eigen::VectorXd& prediction);
+
 // What the rows of these channels have of the deviance at this point.
 double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels);
 
