@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_hops.hpp"
@@ -64,11 +65,28 @@ TEST(DiagnoseBalance, WhatIsOnTheListOrNotThereIsNoLawOfItsOwn) {
   Edits friction;
   friction.law("rail", [](const PortState& s) { return -2.0 * std::tanh(s.velocity / 0.01); });
   friction.law("joint", [](const PortState& s) { return -0.01 * s.velocity; });
-  for (const auto& edits : {Edits{}, friction})
+  Edits heavier, scaled;
+  heavier.scale("robot.body_mass_kg", 1.1);
+  scaled.sensor("imu_body_accel_z_mps2", SensorEdit::Kind::gain, 0.1);
+  for (const auto& edits : {Edits{}, friction, heavier, scaled})
     for (const auto& law : laws_with(edits))
       if (law.family.variable != "t_s" && law.family.variable != "torque_Nm") {
         EXPECT_LT(law.held_out, 0.15) << law.family.port << " " << law.family.variable;
       }
+}
+
+TEST(DiagnoseBalance, NothingIsAskedWhereAnAccelerometerClipped) {
+  Trial trial = recorded(hop_from(0.05, 0.6), {}, 1);
+  const auto whole = balances_of(trial, Belief{});
+  auto& foot = trial.channels["imu_foot_accel_z_mps2"];
+  double clipped = 0;
+  for (std::size_t i = 200; i < 220; ++i, ++clipped) foot[i] = std::numeric_limits<double>::quiet_NaN();
+  const auto rest = balances_of(trial, Belief{});
+  ASSERT_EQ(whole.size(), rest.size());
+  for (std::size_t b = 0; b < whole.size(); ++b) {
+    EXPECT_NEAR(static_cast<double>(whole[b].rest.size() - rest[b].rest.size()), clipped, 2.0);
+    for (const auto& state : rest[b].states) EXPECT_FALSE(state.time_s > 0.2005 && state.time_s < 0.2185);
+  }
 }
 
 TEST(DiagnoseBalance, WithoutAccelerometersThereIsNone) {

@@ -20,6 +20,7 @@ constexpr double kSettled_s = 0.02;                    // after a liftoff: the l
 constexpr double kAloft_m = 1.0;                       // out of the bed's reach
 constexpr double kSlow_mps = 0.01, kSlow_radps = 0.2;  // dry friction turns round within that
 constexpr double kStribeck_mps = 0.1;
+constexpr double kLost = 3.5;  // usual steps between samples: between them nothing is known
 constexpr double kSteepest_m_per_rad = 0.03;  // a straight leg says nothing of its joint
 
 struct Grid {
@@ -30,6 +31,17 @@ struct Grid {
 
 Signal on(const Grid& grid, const Samples& samples) {
   return on_grid(samples, grid.start_s, kTick_s, grid.count, false);
+}
+
+// Whether a sample was recorded no farther off than a few usual steps: what fell out or was clipped left none.
+std::vector<char> recorded_on(const Grid& grid, const Samples& samples) {
+  std::vector<char> out(grid.count, 0);
+  const double far_s = kLost * median_step_s(samples.time_s);
+  for (std::size_t i = 0; i < grid.count; ++i) {
+    const auto next = std::ranges::lower_bound(samples.time_s, grid.at(i));
+    out[i] = next != samples.time_s.begin() && next != samples.time_s.end() && *next - *(next - 1) < far_s;
+  }
+  return out;
 }
 
 struct Height {
@@ -98,6 +110,7 @@ std::vector<Balance> balances_of(const Trial& trial, const Belief& belief) {
   const Signal s_body = on(grid, body), s_foot = on(grid, foot);
   const auto smoothed = smooth(angle, kSmoothing);
   const Signal phi = on(grid, {angle.time_s, smoothed.value}), spin = on(grid, {angle.time_s, smoothed.rate});
+  const auto body_recorded = recorded_on(grid, body), foot_recorded = recorded_on(grid, foot);
   Signal accel = s_body;
   for (double& a : accel.values) a -= world.gravity_mps2;
   const auto height = height_of(trial, grid, accel);
@@ -146,6 +159,7 @@ std::vector<Balance> balances_of(const Trial& trial, const Belief& belief) {
     const auto d = leg.dynamics(phi.values[i]);
     const double dl = d.leg.dlength_m_per_rad, spin2 = spin.values[i] * spin.values[i];
     if (std::abs(dl) < kSteepest_m_per_rad || (aloft[i] == 0 && !weighed)) continue;
+    if (body_recorded[i] == 0 || foot_recorded[i] == 0) continue;
     const double phidd = (s_body.values[i] - s_foot.values[i] - d.leg.d2length_m_per_rad2 * spin2) / dl;
     const double ground_N = aloft[i] != 0 ? 0.0 : cell.values[i];
     const double rail_N =
@@ -153,11 +167,14 @@ std::vector<Balance> balances_of(const Trial& trial, const Belief& belief) {
     if (height) {
       rail.rest.push_back(rail_N - rail_believed.values[i]);
       rail.states.push_back({.time_s = grid.at(i), .position = height->z_m[i], .velocity = height->v_mps[i]});
-      // Friction (dry, viscous, greater near standstill, with the load), cable. Masses and accelerometers are
-      // not among them: accelerations hold the force that is asked for.
+      // Friction (dry, viscous, greater near standstill, with the load), cable. Aloft accelerations hold the
+      // force that is asked for; on the ground what masses, accelerometers and load cell show otherwise than
+      // believed goes with them.
       const double v = height->v_mps[i], sign = std::tanh(v / kSlow_mps);
       const double load_N = driven ? std::abs(motor.values[i] / dl) : 0.0;
-      know(rail, {sign, v, sign * std::exp(-std::pow(v / kStribeck_mps, 2)), sign * load_N, height->z_m[i]});
+      const double on_ground = aloft[i] != 0 ? 0.0 : 1.0;
+      know(rail, {sign, v, sign * std::exp(-std::pow(v / kStribeck_mps, 2)), sign * load_N, height->z_m[i],
+                  on_ground * s_body.values[i], on_ground * s_foot.values[i]});
     }
     if (driven) {
       const double torque_Nm =
