@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -14,11 +15,15 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kNeighbours = 10;  // samples on each side
-constexpr double kByChance = 1e-6;       // probability of a stretch, given how often neighbours repeat
-constexpr double kMostRepeats = 0.6;     // of the neighbourhood: above, the sensor rests
-constexpr double kLong_s = 0.06;         // a shorter stretch may also be lost samples
+constexpr std::size_t kNeighbours = 10;   // samples on each side
+constexpr double kByChance = 1e-6;        // probability of a stretch, given how often neighbours repeat
+constexpr double kByChanceOfFast = 1e-5;  // given how small the steps are; it goes on besides
+constexpr double kMostRepeats = 0.6;      // of the neighbourhood: above, the sensor rests
+constexpr double kLong_s = 0.06;          // a shorter stretch may also be lost samples
 constexpr std::size_t kShortest = 4;
+constexpr std::size_t kShortestOfFast = 3;  // of what changes by many steps of its grid from sample to sample
+constexpr double kFast = 50.0;              // steps
+constexpr double kSeldom = 0.02;            // pairs among all runs: so often what is fast may repeat
 // A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
 constexpr std::size_t kShortestOfSpeed = 10;
 constexpr std::string_view kPosition = "position_rad", kSpeed = "velocity_radps";
@@ -76,14 +81,21 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     while (j + 1 < v.size() && v[j + 1] == v[i]) ++j;
     const std::size_t length = j - i + 1;
     const bool inside = i > 0 && j + 1 < v.size();
-    // A drive that reports exactly nothing rests.
-    if (length >= shortest && inside && v[i] != 0.0) {
-      const double chance = std::max(repeats_around(v, i, j), chance_anywhere);
-      if (chance < kMostRepeats &&
-          (std::pow(chance, static_cast<double>(length - 1)) < kByChance || length >= shortest_by_number) &&
-          quantity_went_on(v, i, j, grid))
-        found.push_back({i, j, t[j] - t[i]});
+    if (length < kShortestOfFast || !inside) {
+      i = j + 1;
+      continue;
     }
+    // What changes by many steps of its grid meets the same one again as seldom as the steps are small.
+    const double steps = changes_around(v, i, j) / grid;
+    const bool fast = steps > kFast && chance_anywhere < kSeldom && shortest == kShortest;
+    const double chance = fast ? 1.0 / (std::sqrt(2.0 * std::numbers::pi) * steps)
+                               : std::max(repeats_around(v, i, j), chance_anywhere);
+    // A drive that reports exactly nothing rests.
+    if (v[i] != 0.0 && length >= (fast ? kShortestOfFast : shortest) && chance < kMostRepeats &&
+        (std::pow(chance, static_cast<double>(length - 1)) < (fast ? kByChanceOfFast : kByChance) ||
+         length >= shortest_by_number) &&
+        quantity_went_on(v, i, j, grid))
+      found.push_back({i, j, t[j] - t[i]});
     i = j + 1;
   }
   return found;

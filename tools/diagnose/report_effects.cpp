@@ -39,7 +39,10 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   for (; at < k; ++at) held(at, at) += 1.0;
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
-  const MatrixXd middle = (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0);
+  // What is believed beforehand counts like an observation: a channel's lateness is known no better than what
+  // instants of sampling leave unsure.
+  const MatrixXd middle = (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) +
+                          (held - information);
   const double form = kAlong * kAlong * problem.plant->form_error() * explained;
   const MatrixXd covariance = inverse * middle * inverse + form * inverse;
   return covariance.topLeftCorner(own, own);

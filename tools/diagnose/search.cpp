@@ -35,6 +35,7 @@ constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not wh
 constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 2.9
 constexpr double kUnbent = 0.6;      // of a lean that is left
 constexpr std::size_t kStraightFits = 3;
+constexpr double kNearlyAll = 0.9;                        // of what a law of free form gains
 constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
@@ -389,6 +390,25 @@ bool Search::try_proposals() {
   }
   if (tried) choose_best();
   return tried;
+}
+
+bool Search::name_small(double gain) {
+  if (gain <= 0.0) return false;
+  const double limit = best().fit.deviance - kNearlyAll * gain;
+  std::vector<SetFit*> order;
+  for (auto& [set, fit] : sets_)
+    if (set.size() > best_.size() && std::ranges::includes(set, best_) && fit.fit.deviance < limit)
+      order.push_back(&fit);
+  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
+  for (auto* fit : order) {
+    finish(*fit);
+    if (!fit->judged) judge(*fit);
+    if (!fit->sound || fit->fit.status == FitStatus::failed) continue;
+    best_ = fit->set;
+    columns_ = columns_at(*problem_, best().fit.point);
+    return true;
+  }
+  return false;
 }
 
 std::vector<Point> Search::best_points(std::size_t count) const {

@@ -54,6 +54,11 @@ class Search {
   // `seeds`: sets to begin with, where their fits may start.
   const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
 
+  // Where a law of free form beside the best set gains this much: the set that holds the best one and
+  // explains as much, each of its effects certain though too small to be named otherwise, becomes the best.
+  // False when there is none.
+  bool name_small(double gain);
+
   // Where the fits of the sets with the smallest criterion stand.
   std::vector<Point> best_points(std::size_t count) const;
 

@@ -29,15 +29,16 @@ constexpr double kUnmistakablePerRow = 1.0;  // what gains the noise's own power
 constexpr double kSmallestShare = 0.002;     // of what all effects explain
 constexpr double kShareOfFormError = 0.2;    // that passes for an effect of its own
 
-// How far this effect moves channels in time. The tolerances of those channels do the same and would leave
-// the trials nothing to say.
+// By how much this effect makes channels late. The tolerances of those channels do the same and would leave
+// the trials nothing to say. Stamps of a recorded drive that are late make what acts early.
 std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
   Edits edits;
   candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
   std::map<std::string, double> delays;
   for (const auto& edit : edits.sensors)
-    if (edit.kind == SensorEdit::Kind::delay_s) delays[edit.channel] += edit.value;
+    if (edit.kind == SensorEdit::Kind::delay_s)
+      delays[edit.channel] += edit.channel == "actuator" ? -edit.value : edit.value;
   return delays;
 }
 
@@ -135,6 +136,13 @@ void Search::judge(SetFit& result) {
     const auto n_others = static_cast<Index>(others.size());
     VectorXd others_prior(n_others);
     for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
+    // A tolerance that goes as far as it may where the effect is not there cannot stand for it any further.
+    const auto parent = sets_.find(without(result.set, point.hypothesis.candidates[e]));
+    const Point& there = parent != sets_.end() ? parent->second.fit.point : null().fit.point;
+    const VectorXd prior_there = prior_information(*problem_, there).tail(k - parameters);
+    for (Index i = 0; i < n_others; ++i)
+      if (const Index tolerance = others[static_cast<std::size_t>(i)] - 1 - parameters; tolerance >= 0)
+        others_prior[i] = std::max(others_prior[i], prior_there[tolerance]);
     for (auto& trial : reordered) {
       MatrixXd gram(1 + n_own + n_others, 1 + n_own + n_others);
       std::vector<Index> columns{0};

@@ -13,7 +13,6 @@ std::vector<std::string> channels(const Context& c) {
   std::vector<std::string> found;
   for (const auto& [channel, scale] : c.channels) found.push_back(channel);
   if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
-  if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
   if (c.plant == PlantKind::falling_body && found.size() > 1) found.emplace_back(kAll);
   return found;
 }

@@ -3,7 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Half of what the sensor shows over the whole campaign is more than any bias.
+// Half of what the sensor shows over the whole campaign is more than any bias; an accelerometer that falls
+// shows next to nothing and may be off by as much as it feels at rest.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
@@ -15,7 +16,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
              .high = 100.0 * typical,
              .either_sign = true}};
   }
-  const double range = range_of(c, channel);
+  const double at_rest = channel == "accel_mps2" ? c.belief.value("gravity_mps2", 9.81) : 0.0;
+  const double range = std::max(range_of(c, channel), at_rest);
   return {{.name = "bias_" + unit_of(channel),
            .typical = 0.02 * range,
            .low = -0.5 * range,

@@ -1,0 +1,155 @@
+#include "tools/diagnose/unexplained.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tools/diagnose/balance.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kUnknownShare = 0.30;  // of what can be explained: more than this the library does not say
+constexpr double kUnknownSignificance = 0.003;
+constexpr double kSmallestLaw =
+    0.1;  // of the port's scale, at its largest: what is smaller matters to nobody
+constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
+constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
+constexpr double kMisfitSignificance = 0.05;
+constexpr double kOutdone = 1.3;
+constexpr double kMostTrials = 0.75;  // that a law must be better for
+constexpr double kUnknownGain = 25.0;
+constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
+constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
+constexpr double kBalanceSignificance = 0.01;
+// Of trials that lean alike, beside names (with the right ones up to 3.3) and without any (nulls up to 2.9).
+constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
+constexpr double kMoreThanNoise = 1.35;  // of it left; nulls of seed 9023 up to 1.00, of 9025 up to 1.13
+// Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.
+constexpr double kNoiseHidesMuch = 1.3;
+constexpr std::size_t kLawsTold = 4;
+
+// Not a law of the drive's torque: what the list says of the actuator looks like that; nor of time, which
+// goes with everything.
+std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings& recordings) {
+  std::vector<Balance> balances;
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i)
+    for (auto& balance : problem.plant->balances(recordings.trials[i], recordings.beliefs[i]))
+      balances.push_back(std::move(balance));
+  for (auto& gain : laws_of_balances(problem, balances))
+    if (gain.family.variable != "torque_Nm" && gain.family.variable != "t_s" &&
+        gain.held_out > kBalanceShare && gain.p_value < kBalanceSignificance &&
+        gain.trials_better >= kMostTrials)
+      return std::move(gain);
+  return std::nullopt;
+}
+
+// The first of them that will do.
+template <class WillDo>
+std::optional<FreeGain> first_of(const std::vector<FreeGain>& gains, WillDo will_do) {
+  const auto it = std::ranges::find_if(gains, will_do);
+  return it == gains.end() ? std::nullopt : std::optional(*it);
+}
+
+}  // namespace
+
+const std::optional<FreeGain>& BalanceLaw::operator()() {
+  if (!asked_) law_ = law_of_balances(*problem_, *recordings_);
+  asked_ = true;
+  return law_;
+}
+
+Misfit misfit_of(const Problem& problem, const Search& search) {
+  std::vector<TrialMisfit> trials;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    trials.push_back(
+        {search.best().fit.trial_deviance[t], static_cast<double>(problem.trials[t]->rows.size())});
+  auto m = misfit_of(trials, search.null().fit.deviance, problem.plant->motion_is_prescribed());
+  if (m.outweighs && !search.best().set.empty()) m.large = m.noticeable = true;  // names that say little
+  return m;
+}
+
+Unexplained unexplained_by(const Problem& problem, const Search& search, const Belief& belief, bool faults,
+                           BalanceLaw& balance, std::vector<std::string>& log) {
+  const SetFit& best = search.best();
+  Unexplained out;
+  out.misfit = misfit_of(problem, search);
+  const double explained = out.misfit.explained, rows = problem.rows(), form = problem.plant->form_error();
+  const double least_gain =
+      std::max({kUnknownGain, kUnknownGainPerRow * rows,
+                std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
+
+  const auto beside = free_gains(problem, best.fit.point);
+  for (std::size_t i = 0; i < beside.size() && i < kLawsTold; ++i)
+    log.push_back(fmt::format(
+        "free law at {} of {}: held-out gain {:.1f}, p {:.1e}, better in {:.0f} %, largest {:.3g}",
+        beside[i].family.port, beside[i].family.variable, beside[i].held_out, beside[i].p_value,
+        100.0 * beside[i].trials_better, beside[i].family.scale * beside[i].size.cwiseAbs().maxCoeff()));
+  if (problem.trials.size() >= kTooFewTrials)
+    out.law = first_of(beside, [&](const FreeGain& gain) {
+      return gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
+             gain.trials_better >= kMostTrials && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
+    });
+  const bool by_balance =
+      (out.misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) && balance();
+  if (by_balance) {
+    out.law = balance();
+    log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
+                              out.law->family.port, out.law->family.variable, 100.0 * out.law->held_out,
+                              out.law->p_value));
+    out.law->held_out = std::max(0.0, out.misfit.unexplained);
+  }
+  // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
+  // form, too: they are asked again without it.
+  std::vector<FreeGain> alone;
+  if (out.misfit.large && !out.law) {
+    alone = free_gains(problem, search.null().fit.point);
+    out.law = first_of(alone, [&](const FreeGain& gain) {
+      return gain.held_out > least_gain &&
+             (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
+    });
+  }
+  // Where a law of free form says more of trials it has not seen than the best names of those they were
+  // fitted to, the names are not it.
+  bool outdone = false;
+  if (!best.set.empty() && !out.law) {
+    if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
+    out.law = first_of(alone, [&](const FreeGain& gain) {
+      return gain.held_out > kOutdone * explained + least_gain && gain.p_value < kMisfitSignificance &&
+             gain.trials_better >= kMostTrials;
+    });
+    outdone = out.law.has_value();
+  }
+
+  // Where the sensors are known and more is left than their noise, that is something, whatever it is; so it
+  // is where it bends what differs from trial to trial by so much in all of them.
+  out.left = left_over_noise(problem, best.fit);
+  if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
+  out.leans = std::abs(out.lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
+  log.push_back(fmt::format("left: {:.2f} times the noise; all trials lean by {:.1f} {}", out.left,
+                            out.lean.z, out.lean.nuisance));
+  const bool more_than_noise = !faults && (out.left > kMoreThanNoise || out.leans);
+  if (more_than_noise && best.set.empty() && !out.law)
+    out.law = first_of(beside, [&](const FreeGain& gain) {
+      return !gain.family.sensor && gain.held_out > least_gain &&
+             (out.left > kMoreThanNoise || gain.family.port.starts_with(out.lean.port));
+    });
+
+  const auto share = [&] {
+    return out.law ? out.law->held_out / (out.law->held_out + std::max(explained, 0.0)) : 0.0;
+  };
+  // What lies within the noise and is little beside what was found is nothing unknown.
+  if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && share() <= kUnknownShare)
+    out.law.reset();
+  out.share = share();
+  out.unknown = out.misfit.large || more_than_noise || by_balance ||
+                (out.law && (out.share > kUnknownShare || out.remainder() > kUnknownPerRow * rows));
+  out.stands_alone = out.unknown && (by_balance || out.share > kUnknownShare);
+  log.push_back(fmt::format("explained {:.1f}, left {:.1f} beyond the noise, rest {:.1f} ({:.1f} %), {} rows",
+                            explained, out.misfit.unexplained, out.remainder(), 100.0 * out.share, rows));
+  return out;
+}
+
+}  // namespace sandhopper::diagnose
