@@ -21,7 +21,7 @@ constexpr double kByChanceOfFast = 1e-5;  // given how small the steps are; it g
 constexpr double kMostRepeats = 0.6;      // of the neighbourhood: above, the sensor rests
 constexpr double kLong_s = 0.06;          // a shorter stretch may also be lost samples
 constexpr std::size_t kShortest = 4;
-constexpr std::size_t kShortestOfFast = 3;  // of what changes by many steps of its grid from sample to sample
+constexpr std::size_t kShortestOfFast = 3;  // of what changes by many steps from sample to sample
 constexpr double kFast = 50.0;              // steps
 constexpr double kSeldom = 0.02;            // pairs among all runs: so often what is fast may repeat
 // A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
@@ -71,7 +71,7 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
 
 std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
                                     std::size_t shortest, std::size_t shortest_by_number,
-                                    double chance_anywhere) {
+                                    double chance_anywhere, double resolution) {
   std::vector<Stretch> found;
   double grid = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < v.size(); ++i)
@@ -85,8 +85,8 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
       i = j + 1;
       continue;
     }
-    // What changes by many steps of its grid meets the same one again as seldom as the steps are small.
-    const double steps = changes_around(v, i, j) / grid;
+    // What changes by many steps of its resolution meets the same one again as seldom as the steps are small.
+    const double steps = changes_around(v, i, j) / resolution;
     const bool fast = steps > kFast && chance_anywhere < kSeldom && shortest == kShortest;
     const double chance = fast ? 1.0 / (std::sqrt(2.0 * std::numbers::pi) * steps)
                                : std::max(repeats_around(v, i, j), chance_anywhere);
@@ -216,6 +216,18 @@ bool other_motor_stood(const SampledChannel& position, const std::string& channe
   return high - low < kCounts * count_of(position);
 }
 
+// Smallest difference of any two values: successive ones may all be far apart.
+double resolution_of(const std::vector<SampledChannel>& channel) {
+  std::vector<double> values;
+  for (const auto& s : channel) values.insert(values.end(), s.value.begin(), s.value.end());
+  std::ranges::sort(values);
+  double resolution = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (const double step = values[i] - values[i - 1]; step > 1e-9 * std::abs(values[i]))
+      resolution = std::min(resolution, step);
+  return resolution;
+}
+
 // Values held, in one channel.
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
   const auto samples = sampled(trials, channel);
@@ -247,7 +259,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   const std::size_t shortest = channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest;
   // Of coarse steps two in a row are often the same, wherever few neighbours happen to be: a stretch that is
   // held adds to the long runs, not to these.
-  const double chance = runs[2] / all_runs;
+  const double chance = runs[2] / all_runs, resolution = resolution_of(samples);
   std::vector<double> durations;
   std::vector<std::pair<const SampledChannel*, Stretch>> held;
   std::size_t longest = 0, least = std::numeric_limits<std::size_t>::max();
@@ -259,7 +271,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     ++fault.stretches;
   };
   for (const auto& s : samples)
-    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance)) {
+    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance, resolution)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch) ||

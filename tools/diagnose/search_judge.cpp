@@ -124,12 +124,16 @@ void Search::judge(SetFit& result) {
       }
     }
     const auto delays = delays_s(*problem_, point.hypothesis, e);
+    // An input that is late makes all channels early.
+    const bool of_input = std::ranges::any_of(
+        delays, [&](const auto& delay) { return !problem_->context.channels.contains(delay.first); });
     std::vector<Index> others;
     for (Index i = 1; i <= k; ++i) {
       const bool own = i >= first && i < first + width;
       const bool same_as_own =
           i > parameters &&
-          delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel);
+          (of_input ||
+           delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel));
       if (!own && !same_as_own) others.push_back(i);
     }
     const auto n_own = static_cast<Index>(amplitude_columns.size());

@@ -10,6 +10,7 @@ std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::hopper)
     return present(c, {"load_cell_force_N", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2", "tof_height_m",
                        "mocap_body_z_m"});
+  if (c.plant == PlantKind::intruder) return {intruder_out_of_time(c)};
   std::vector<std::string> found;
   for (const auto& [channel, scale] : c.channels) found.push_back(channel);
   if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");

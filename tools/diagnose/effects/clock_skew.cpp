@@ -3,8 +3,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// A sensor's time may be off against the others'; of an axis, both sensors' against the drive's torque. Of two
-// channels one's lateness is the other's being early: an intruder's force is timed against its motion.
+// A sensor's time may be off against the others'; of an axis, both sensors' against the drive's torque. Of an
+// intruder's two one's lateness is the other's being early; the recorded speed or acceleration tells which it
+// is.
 std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::rotary_axis) {
     auto found = present(c, {"velocity_radps"});
@@ -12,7 +13,7 @@ std::vector<std::string> channels(const Context& c) {
     found.emplace_back("torque_Nm");
     return found;
   }
-  if (c.plant == PlantKind::intruder) return {"force_N"};
+  if (c.plant == PlantKind::intruder) return {intruder_out_of_time(c)};
   // Against the release, which a set-up tells, one channel's time can be off, too.
   return present(c, {"height_m", "accel_mps2", "force_N", "load_cell_force_N", "imu_body_accel_z_mps2",
                      "imu_foot_accel_z_mps2", "mocap_body_z_m"});

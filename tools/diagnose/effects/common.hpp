@@ -30,6 +30,11 @@ inline std::vector<std::string> accelerometers(const Context& context) {
   return present(context, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
 }
 
+// Of an intruder's position and force, the one whose clock may be off.
+inline std::string intruder_out_of_time(const Context& context) {
+  return context.scale("position_is_out_of_time", 0.0) > 0.0 ? "foot_z_m" : "force_N";
+}
+
 // Whether this campaign has ground at all: a falling body need not.
 inline bool has_bed(const Context& context) {
   return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;

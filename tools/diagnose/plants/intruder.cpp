@@ -19,6 +19,33 @@ constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
 enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
+// The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of `f`
+// is there.
+template <class Force>
+double balanced_N(const Force& f, double guess_N) {
+  constexpr int kMost = 30;
+  constexpr double kClose_N = 1e-6;
+  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
+  double force_N = guess_N > low && guess_N < high ? guess_N : high;
+  int side = 0;
+  for (int i = 0; i < kMost && high - low > kClose_N; ++i) {
+    const double off = f(force_N) - force_N;
+    if (std::abs(off) < kClose_N) break;
+    if (off > 0.0) {
+      low = force_N, above = off;
+      if (side > 0) below *= 0.5;
+      side = 1;
+    } else {
+      high = force_N, below = off;
+      if (side < 0) above *= 0.5;
+      side = -1;
+    }
+    force_N = above > below ? (low * below - high * above) / (below - above) : 0.5 * (low + high);
+  }
+  f(force_N);
+  return force_N;
+}
+
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force sensor.
 class IntruderTrial final : public TrialModel {
  public:
@@ -152,7 +179,6 @@ class IntruderTrial final : public TrialModel {
     bool touching = false;
     for (std::size_t i = 0; i < count; ++i) {
       laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
-      double force_N = before_N;
       double depth_m = 0.0;
       const double asked_m = read.depth_m(i) + surface_m + deeper_m;
       if (touching && asked_m <= 0.0) {
@@ -166,10 +192,11 @@ class IntruderTrial final : public TrialModel {
       BedContact contact{};
       BedReaction reaction;
       bool down = false;
-      for (int pass = 0; pass < (compliance_m_per_N > 0.0 ? 4 : 1); ++pass) {
-        depth_m = asked_m - compliance_m_per_N * force_N;
+      // The bed's force where the rig has yielded by what `felt_N` asks for; it falls as that grows.
+      const auto at_force = [&](double felt_N) {
+        depth_m = asked_m - compliance_m_per_N * felt_N;
         const double speed_mps =
-            read.speed_mps(i) - compliance_m_per_N * (force_N - before_N) / motion_.step_s;
+            read.speed_mps(i) - compliance_m_per_N * (felt_N - before_N) / motion_.step_s;
         // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it
         // stands.
         down = depth_m > deepest_m + depth_band_m ||
@@ -180,9 +207,9 @@ class IntruderTrial final : public TrialModel {
                    .max_depth_m = deepest_m,
                    .damping_mass_kg = 0.0};
         reaction = bed.reaction(contact);
-        const double next_N = reaction.at_acceleration(-read.accel_mps2(i));
-        force_N = pass == 0 ? next_N : 0.5 * (force_N + next_N);
-      }
+        return reaction.at_acceleration(-read.accel_mps2(i));
+      };
+      const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N) : at_force(0.0);
       if (explain) {
         run.input_sd_N.push_back(touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction) : 0.0);
         run.phase.push_back(!touching || force_N <= 0.0                                      ? kAbove
@@ -192,7 +219,7 @@ class IntruderTrial final : public TrialModel {
       }
       if (down) deepest_m = std::max(deepest_m, depth_m);
       before_N = force_N;
-      run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = read.accel_mps2(i)});
+      run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
     }
     return run;
   }
@@ -304,6 +331,7 @@ class Intruder final : public PlantModel {
     double longest_s = 1e-3;
     for (const auto& trial : trials) longest_s = std::max(longest_s, median_step_s(trial.time_s));
     context.scales["input_step_s"] = longest_s;
+    context.scales["position_is_out_of_time"] = position_is_out_of_time(trials) ? 1.0 : 0.0;
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,

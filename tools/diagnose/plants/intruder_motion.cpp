@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sandhopper::diagnose {
 namespace {
@@ -60,6 +61,42 @@ void smooth_jointly(IntruderMotion& m) {
   m.speed_sd_mps = std::sqrt(variance[1]);
 }
 
+constexpr double kClear = 4.0;                             // standard errors
+constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // less moves no force by what a cell can see
+
+// By how much a position is late and its clock fast, with standard errors.
+struct OutOfTime {
+  double late_s, drift, late_se_s, drift_se;
+};
+std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const Samples& a) {
+  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;  // samples to each side
+  constexpr std::size_t kLeastRows = 50;
+  const bool by_speed = z.time_s == v.time_s;
+  if (z.time_s.size() < kLeastRows || (!by_speed && z.time_s != a.time_s)) return std::nullopt;
+  const std::size_t half = by_speed ? kOfRate : kOfCurvature;
+  const auto position = smooth(z, half), other = smooth(by_speed ? v : a, half);
+  const auto& derived = by_speed ? position.rate : position.curvature;
+  const double order = by_speed ? 1.0 : 2.0;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d score = Eigen::Vector2d::Zero();
+  double squares = 0.0;
+  for (std::size_t i = half; i + half < z.time_s.size(); ++i) {
+    const double rate = other.rate[i], apart = derived[i] - other.value[i];
+    const Eigen::Vector2d x(-rate, -(order * other.value[i] + z.time_s[i] * rate));
+    information += x * x.transpose();
+    score += x * apart;
+    squares += apart * apart;
+  }
+  const Eigen::Matrix2d inverse = information.inverse();
+  const Eigen::Vector2d found = inverse * score;
+  if (!found.allFinite()) return std::nullopt;
+  // As many rows as one local parabola takes in are one observation.
+  const double variance = std::max(0.0, squares - found.dot(score)) * static_cast<double>(2 * half + 1) /
+                          static_cast<double>(z.time_s.size());
+  const Eigen::Vector2d se = (inverse.diagonal() * variance).cwiseMax(0.0).cwiseSqrt();
+  return OutOfTime{found[0], found[1], se[0], se[1]};
+}
+
 }  // namespace
 
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a) {
@@ -69,7 +106,11 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   m.start_s = z.time_s.front();
   m.speed_from_position = v.value.size() <= kFewSamples;
   m.accel_from_position = m.speed_from_position && a.value.size() <= kFewSamples;
-  const bool joined = !m.speed_from_position && a.value.size() > kFewSamples;
+  // What is late does not belong to the same motion.
+  const auto apart = out_of_time(z, v, a);
+  const bool late = apart && (std::abs(apart->late_s) > std::max(kLeastLate_s, kClear * apart->late_se_s) ||
+                              std::abs(apart->drift) > std::max(kLeastDrift, kClear * apart->drift_se));
+  const bool joined = !m.speed_from_position && a.value.size() > kFewSamples && !late;
   const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / m.step_s, 2.0, 8.0));
   const auto count = static_cast<std::size_t>((z.time_s.back() - z.time_s.front()) / m.step_s) + 1;
   const auto put = [&](std::vector<double>& into, const Samples& samples) {
@@ -92,6 +133,25 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   else if (noise_m > kQuantum_m)
     m.depth_sd_m /= std::sqrt(static_cast<double>(half));
   return m;
+}
+
+bool position_is_out_of_time(const std::vector<Trial>& trials) {
+  constexpr std::size_t kLeastTrials = 3;
+  std::vector<double> late_s, drift;
+  for (const auto& trial : trials)
+    if (const auto apart = out_of_time(samples_of(trial, "foot_z_m"), samples_of(trial, "foot_velocity_mps"),
+                                       samples_of(trial, "foot_accel_mps2"))) {
+      late_s.push_back(apart->late_s);
+      drift.push_back(apart->drift);
+    }
+  const auto clear = [](const std::vector<double>& of_trial, double least) {
+    const auto n = static_cast<double>(of_trial.size());
+    double sum = 0.0, squares = 0.0;
+    for (const double x : of_trial) sum += x, squares += x * x;
+    const double mean = sum / n, variance = std::max(0.0, (squares - n * mean * mean) / (n - 1.0));
+    return std::abs(mean) > std::max(least, kClear * std::sqrt(variance / n));
+  };
+  return late_s.size() >= kLeastTrials && (clear(late_s, kLeastLate_s) || clear(drift, kLeastDrift));
 }
 
 }  // namespace sandhopper::diagnose

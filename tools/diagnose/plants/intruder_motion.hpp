@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/trial.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -16,9 +17,16 @@ struct IntruderMotion {
 };
 
 // Heights z, velocities v and accelerations a upward; v and a may be empty. Where all three were recorded
-// they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of x = (z, v) driven by a:
+// and agree in time they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of x = (z, v) driven
+// by a:
 //   z' = v, v' = a,   noise of z, v and a from their own fast fluctuation;
 // otherwise speeds and accelerations come from local parabolas.
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a);
+
+// Whether the recorded position is late, or its clock runs otherwise, against the recorded velocity v or,
+// where there is none, acceleration a; trials as units. With position late by L and its clock fast by d,
+//   z' - v = -L v' - d (v + t v')     z'' - a = -L a' - d (2 a + t a')
+// False where neither was recorded.
+bool position_is_out_of_time(const std::vector<Trial>& trials);
 
 }  // namespace sandhopper::diagnose

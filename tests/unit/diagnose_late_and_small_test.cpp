@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+
+// Times, biases and sizes at the edge of what passes for a tolerance.
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kRow_s = 4e-3;       // of `swings`
+constexpr double kPressRow_s = 2e-3;  // of `presses`
+
+double no_torque(double, double, double) { return 0.0; }
+double no_force(double, double, double) { return 0.0; }
+
+// A channel as it was `rows` before.
+void make_late(Recordings& recordings, const std::string& channel, int rows) {
+  for (auto& trial : recordings.trials) {
+    const auto before = trial.channels[channel];
+    const auto last = static_cast<int>(before.size()) - 1;
+    for (int i = 0; i <= last; ++i)
+      trial.channels[channel][static_cast<std::size_t>(i)] =
+          before[static_cast<std::size_t>(std::clamp(i - rows, 0, last))];
+  }
+}
+
+// `swings` holds its torque for a row, which makes everything else half a row late. Two samples' lateness is
+// more than instants of sampling may be off, and no tolerance stands for it.
+TEST(DiagnoseLate, ADriveOutOfTimeIsNamedWithAnIntervalNoNarrowerThanSampling) {
+  auto recordings = swings(no_torque, 1, 10);
+  for (auto& trial : recordings.trials) trial.channels.erase("velocity_radps");
+  make_late(recordings, "torque_Nm", 2);
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  const auto& found = d.effects.front();
+  EXPECT_TRUE(found.id == "clock.skew" || found.id == "actuator.delay") << found.id;
+  EXPECT_GT(found.probability, 0.8);
+  const auto& late = found.parameters.front();
+  EXPECT_NEAR(std::abs(late.value), 1.5 * kRow_s, 1e-3);
+  EXPECT_GT(late.high - late.low, 2.0 * 0.29 * kRow_s);  // standard deviation of an instant within a row
+}
+
+// The torque's and the position's stamps late by the same would say it, too.
+TEST(DiagnoseLate, AVelocityThatIsEarlyIsOneSkew) {
+  auto recordings = swings(no_torque, 1, 10);
+  make_late(recordings, "velocity_radps", -2);
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "clock.skew");
+  EXPECT_EQ(d.effects.front().channel, "velocity_radps");
+  EXPECT_NEAR(d.effects.front().parameters.front().value, -1.5 * kRow_s, 1e-3);
+}
+
+// Late against the force is the position, or the force early: the recorded velocity tells.
+TEST(DiagnoseLate, OfAnIntrudersTwoChannelsTheOneThatIsLateIsNamed) {
+  const auto bed = [](double, double) { return 0.0; };
+  for (const std::string channel : {"foot_z_m", "force_N"}) {
+    auto recordings = presses(bed);
+    make_late(recordings, channel, 2);
+    const auto d = diagnose(recordings);
+    ASSERT_EQ(d.verdict, "missing_physics") << channel;
+    const auto skew =
+        std::ranges::find_if(d.effects, [](const FoundEffect& e) { return e.id == "clock.skew"; });
+    ASSERT_NE(skew, d.effects.end()) << channel;
+    EXPECT_EQ(skew->channel, channel);
+    EXPECT_NEAR(skew->parameters.front().value, 2.0 * kPressRow_s, 5e-4);
+  }
+}
+
+// y = F - m a, a upwards: a mass beyond the cell is positive.
+TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
+  auto recordings = presses([](double, double) { return 0.0; });
+  for (auto& trial : recordings.trials) {
+    auto& force = trial.channels["force_N"];
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] -= 0.15 * trial.channels["foot_accel_mps2"][i];
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "load_cell.inertia");
+  EXPECT_NEAR(d.effects.front().parameters.front().value, 0.15, 0.01);
+}
+
+TEST(DiagnoseSmall, ADragOfATwentiethOfItsTypicalSizeIsNoUnknown) {
+  const auto d =
+      diagnose(drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.025 * std::abs(v) * v; }));
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "air.quadratic_drag");
+  EXPECT_NEAR(d.effects.front().parameters.front().value, 0.025, 0.005);
+}
+
+// In a fall it shows nothing but noise: what it may be off is not bounded by that.
+TEST(DiagnoseSmall, AFallingAccelerometerMayBeOffByMoreThanItShows) {
+  auto recordings = drops(no_force);
+  for (auto& trial : recordings.trials)
+    for (double& a : trial.channels["accel_mps2"]) a -= 0.4;
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "sensor.bias");
+  EXPECT_NEAR(d.effects.front().parameters.front().value, -0.4, 0.02);
+}
+
+// Where each sample is 50 steps and more from the last, three alike are no chance.
+TEST(DiagnoseSmall, ThreeHeightsAlikeInAFallWereHeld) {
+  auto recordings = drops(no_force);
+  for (auto& trial : recordings.trials) {
+    auto& height = trial.channels["height_m"];  // every other row
+    for (double& h : height) h = std::round(1e4 * h) / 1e4;
+    const std::size_t at = height.size() / 2 / 2 * 2;
+    height[at + 2] = height[at + 4] = height[at];
+  }
+  const auto d = diagnose(recordings);
+  const auto stuck =
+      std::ranges::find_if(d.effects, [](const FoundEffect& e) { return e.id == "data.stuck"; });
+  ASSERT_NE(stuck, d.effects.end());
+  EXPECT_EQ(stuck->channel, "height_m");
+  EXPECT_EQ(d.effects.size(), 1u);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
