@@ -72,6 +72,22 @@ TEST(DiagnoseLate, OfAnIntrudersTwoChannelsTheOneThatIsLateIsNamed) {
   }
 }
 
+// Over a time without torque an axis is not simulated: what was interpolated there is not what acted.
+TEST(DiagnoseGaps, AnAxisWhoseTorqueIsUnknownForAWhileShowsNothing) {
+  auto recordings = swings(no_torque);
+  const auto whole = diagnose(recordings);
+  for (auto& trial : recordings.trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    for (const std::size_t from : {150u, 300u, 450u})  // 0.24 s of the drive's period of 2.5 s each
+      for (std::size_t i = from; i < from + 60; ++i) torque[i] = std::nan("");
+  }
+  const auto d = diagnose(recordings);
+  for (const auto& found : d.effects) EXPECT_EQ(found.id, "data.dropout");
+  ASSERT_EQ(d.fits.size(), whole.fits.size());
+  for (std::size_t c = 0; c < d.fits.size(); ++c)
+    EXPECT_LT(d.fits[c].heldout.after, 1.1 * whole.fits[c].heldout.after) << d.fits[c].channel;
+}
+
 // y = F - m a, a upwards: a mass beyond the cell is positive.
 TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
   auto recordings = presses([](double, double) { return 0.0; });

@@ -9,8 +9,8 @@ if (folders.length === 0) {
   process.exit(2);
 }
 const plants = folders.map((folder) => {
-  const tools = JSON.parse(fs.readFileSync(path.join(folder, 'score.json'), 'utf8')).tools;
-  return { name: tools['hop diagnose'].cases[0].plant.replace('_', ' '), tools, own: tools['hop diagnose'] };
+  const { tools, splits } = JSON.parse(fs.readFileSync(path.join(folder, 'score.json'), 'utf8'));
+  return { name: tools['hop diagnose'].cases[0].plant.replace('_', ' '), tools, splits, own: tools['hop diagnose'] };
 });
 
 const percent = (share) => (100 * share).toFixed(1);
@@ -18,21 +18,37 @@ const row = (cells) => `| ${cells.join(' | ')} |`;
 const table = (head, rows) => [row(head), row(head.map(() => '---')), ...rows.map(row), ''].join('\n');
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
-function shown(figure) {
-  if (figure.of === 0) return 'none';
-  const [low, high] = figure.wilson95;
-  const missed = figure.met ? '' : ', **missed**';
-  return `${percent(figure.value)} (${percent(low)} to ${percent(high)}) of ${figure.of}${missed}`;
+// Wilson, J. Am. Stat. Assoc. 22, 1927
+function wilson95(count, of) {
+  const z = 1.959964, centre = count + z * z / 2, half = z * Math.sqrt(count * (of - count) / of + z * z / 4);
+  return [(centre - half) / (of + z * z), (centre + half) / (of + z * z)];
 }
 
-const figures = plants[0].own.figures.map((figure, i) => [
-  figure.figure,
-  `${/alarm|confident/.test(figure.figure) ? 'at most' : 'at least'} ${100 * figure.must}`,
-  ...plants.map((plant) => shown(plant.own.figures[i])),
-]);
-figures.push(['mean class size of the right names', '2.5', ...plants.map((p) => p.own.mean_class_size.toFixed(2))]);
-figures.push(['expected calibration error', '0.05', ...plants.map((p) => p.own.expected_calibration_error.toFixed(3))]);
-console.log(table(['figure', 'must', ...plants.map((p) => p.name)], figures));
+const atMost = (name) => /alarm|confident/.test(name);
+
+function shown(name, { count, of }, must) {
+  if (of === 0) return 'none';
+  const [low, high] = wilson95(count, of), share = count / of;
+  const met = atMost(name) ? share <= must : share >= must;
+  return `${percent(share)} (${percent(low)} to ${percent(high)}) of ${of}${met ? '' : ', **missed**'}`;
+}
+
+// One row: each plant's, and all of them together.
+function figureRow(name, must, ofPlants) {
+  const known = ofPlants.filter((f) => f !== undefined);
+  const all = { count: known.reduce((sum, f) => sum + f.count, 0), of: known.reduce((sum, f) => sum + f.of, 0) };
+  return [name, `${atMost(name) ? 'at most' : 'at least'} ${100 * must}`,
+    ...ofPlants.map((f) => (f === undefined ? 'not asked' : shown(name, f, must))), shown(name, all, must)];
+}
+
+const figures = plants[0].own.figures.map((figure, i) =>
+  figureRow(figure.figure, figure.must, plants.map((plant) => plant.own.figures[i])));
+const kSplits = 0.85;
+for (const { figure } of plants.find((plant) => plant.splits?.length)?.splits ?? [])
+  figures.push(figureRow(figure, kSplits, plants.map((plant) => plant.splits?.find((f) => f.figure === figure))));
+figures.push(['mean class size of the right names', '2.5', ...plants.map((p) => p.own.mean_class_size.toFixed(2)), '']);
+figures.push(['expected calibration error', '0.05', ...plants.map((p) => p.own.expected_calibration_error.toFixed(3)), '']);
+console.log(table(['figure', 'must', ...plants.map((p) => p.name), 'all'], figures));
 
 console.log('The same campaigns through plainer methods: false alarms, right names, confident wrong names.\n');
 const plainer = Object.keys(plants[0].tools).filter((name) => name !== 'hop diagnose');

@@ -20,6 +20,9 @@ constexpr double kMostRows = 3000.0;    // of a channel
 constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
+// Seconds and rows without torque: nothing is simulated over them.
+constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
+constexpr double kShortest_s = 0.1;     // of what is simulated between two such times
 constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 
@@ -59,14 +62,10 @@ class RotaryTrial final : public TrialModel {
     const auto& lead = positions.empty() ? velocities : positions;
     const double row_s = median_step_s(lead.time_s);
     take_torque();
-    const double block_s = std::max(kBlock_s, row_s * static_cast<double>(kBlockRows));
-    const double end_s = trial.time_s.back();
-    blocks = static_cast<std::uint32_t>(std::max(1.0, std::floor(end_s / block_s)));
-    // A whole number of steps, so that blocks share the torque's grid.
-    block_s_ = step_s_ * std::ceil((end_s / blocks + 1e-9) / step_s_);
-    blocks = static_cast<std::uint32_t>(std::ceil(end_s / block_s_));
+    cut(trial.time_s.back(), std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
     const double torque_sd = belief.value("spread.torque_offset_Nm");
     if (torque_sd > 0.0) trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
+    if (stretches_.empty()) return;
     add_rows(0, positions);
     add_rows(1, velocities);
     find_starts(positions, velocities);
@@ -81,11 +80,10 @@ class RotaryTrial final : public TrialModel {
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      const double from_s = block_s_ * b, to_s = block_s_ * (b + 1);
-      simulate(f, laws, torque,
-               {from_s, to_s, starts_[b].first + nuisances[q + 2 * std::size_t{b}],
-                starts_[b].second + nuisances[q + 2 * std::size_t{b} + 1]},
-               position, velocity);
+      Stretch stretch = stretches_[b];
+      stretch.position += nuisances[q + 2 * std::size_t{b}];
+      stretch.velocity += nuisances[q + 2 * std::size_t{b} + 1];
+      simulate(f, laws, torque, stretch, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
         if (span.count == 0) continue;
@@ -98,7 +96,7 @@ class RotaryTrial final : public TrialModel {
 
  private:
   struct Stretch {
-    double from_s, to_s, position, velocity;
+    double from_s, to_s, position = 0.0, velocity = 0.0;
   };
   struct Span {
     std::size_t first = 0, count = 0;
@@ -119,6 +117,28 @@ class RotaryTrial final : public TrialModel {
       for (std::size_t k = 0; k < kParts; ++k) drive_.values[i] += fine.values[i * kParts + k] / kParts;
   }
 
+  // Stretches of about `block_s`, none of which holds a time over which the torque is not known. Each begins
+  // on a step of the torque's grid.
+  void cut(double end_s, double block_s) {
+    const double unknown_s = std::max(kUnknown_s, kUnknownRows * median_step_s(torque_.time_s));
+    std::vector<std::pair<double, double>> known{{0.0, end_s}};
+    for (std::size_t i = 1; i < torque_.time_s.size(); ++i)
+      if (torque_.time_s[i] - torque_.time_s[i - 1] > unknown_s) {
+        known.back().second = torque_.time_s[i - 1];
+        known.emplace_back(torque_.time_s[i], end_s);
+      }
+    for (const auto& [first_s, last_s] : known) {
+      const double from = std::ceil(first_s / step_s_ - 1e-9), steps = last_s / step_s_ - from;
+      if (known.size() > 1 && steps * step_s_ < kShortest_s) continue;
+      const double parts = std::max(1.0, std::floor(steps * step_s_ / block_s));
+      const double each = std::ceil(steps / parts + 1e-9);
+      for (double at = 0.0; at < steps; at += each)
+        stretches_.push_back(
+            {step_s_ * (from + at), step_s_ * (from + std::min(at + each, std::ceil(steps + 1e-9)))});
+    }
+    blocks = static_cast<std::uint32_t>(stretches_.size());
+  }
+
   Signal acting_torque(const Edits& edits) const {
     const Signal& recorded = drive_;
     const auto count = recorded.values.size();
@@ -136,12 +156,14 @@ class RotaryTrial final : public TrialModel {
   void add_rows(std::uint32_t channel, const Samples& samples) {
     if (spans_.empty()) spans_.assign(blocks, {});
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
-      const auto block =
-          std::min(blocks - 1, static_cast<std::uint32_t>(std::max(0.0, samples.time_s[i] / block_s_)));
+      const double t = samples.time_s[i];
+      const auto after = std::ranges::upper_bound(stretches_, t, {}, &Stretch::from_s);
+      if (after == stretches_.begin() || (after - 1)->to_s < t) continue;
+      const auto block = static_cast<std::uint32_t>(after - stretches_.begin() - 1);
       auto& span = spans_[block][channel];
       if (span.count++ == 0) span.first = rows.size();
-      times_.push_back(samples.time_s[i]);
-      rows.push_back({channel, block, kFast, samples.time_s[i], samples.value[i]});
+      times_.push_back(t);
+      rows.push_back({channel, block, kFast, t, samples.value[i]});
     }
   }
 
@@ -163,13 +185,15 @@ class RotaryTrial final : public TrialModel {
         position.value[i] = angle;
       }
     }
-    const auto count = static_cast<std::size_t>(std::ceil(block_s_ * blocks / step_s_)) + 2;
+    const auto count = static_cast<std::size_t>(std::ceil(stretches_.back().to_s / step_s_)) + 2;
     const Samples turns{position.time_s, last_turns(position.value, kTurn_rad)};
     turned_at_ = on_grid(turns, 0.0, step_s_, count, true);
     const Signal angle = on_grid(position, 0.0, step_s_, count, false);
     const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
-    for (std::uint32_t b = 0; b < blocks; ++b)
-      starts_.emplace_back(angle.at(block_s_ * b), speed.at(block_s_ * b));
+    for (Stretch& stretch : stretches_) {
+      stretch.position = angle.at(stretch.from_s);
+      stretch.velocity = speed.at(stretch.from_s);
+    }
     double fastest = 0.0;
     for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
     const double noise = std::max(fluctuation_rms(lead), 1e-6);
@@ -253,8 +277,8 @@ class RotaryTrial final : public TrialModel {
   Belief belief_;
   Samples torque_;
   Signal drive_, turned_at_;
-  double step_s_ = 1e-3, block_s_ = 0.5, lead_in_s_ = kLeadIn_s;
-  std::vector<std::pair<double, double>> starts_;
+  double step_s_ = 1e-3, lead_in_s_ = kLeadIn_s;
+  std::vector<Stretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
   std::array<SensorBelief, 2> sensors_{};
   std::vector<double> times_;
