@@ -140,5 +140,28 @@ TEST(DiagnoseSmall, ThreeHeightsAlikeInAFallWereHeld) {
   EXPECT_EQ(d.effects.size(), 1u);
 }
 
+// Noise of two steps does not rest for fifteen samples, although the torque itself does where it turns.
+TEST(DiagnoseSmall, WhatIsHeldAtATurnIsSeenByItsNoise) {
+  constexpr double kStep_Nm = 0.05;
+  constexpr std::ptrdiff_t kHalf = 7;
+  auto recordings = swings(no_torque);
+  Random random(5, 0);
+  for (auto& trial : recordings.trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    const auto [least, most] = std::minmax_element(torque.begin() + 20, torque.end() - 20);
+    const auto low = least - torque.begin(), high = most - torque.begin();
+    for (double& value : torque) value = kStep_Nm * std::round(value / kStep_Nm + 2.0 * random.normal());
+    for (const auto turn : {low, high})
+      std::fill(torque.begin() + turn - kHalf, torque.begin() + turn + kHalf + 1,
+                torque[static_cast<std::size_t>(turn)]);
+  }
+  const auto d = diagnose(recordings);
+  const auto stuck =
+      std::ranges::find_if(d.effects, [](const FoundEffect& e) { return e.id == "data.stuck"; });
+  ASSERT_NE(stuck, d.effects.end());
+  // One of the ten lies at the very end of the range, where a sensor may rest on its limit.
+  EXPECT_NE(stuck->statement.find("still 9 times"), std::string::npos) << stuck->statement;
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -47,12 +47,14 @@ double repeats_around(const std::vector<double>& v, std::size_t first, std::size
   return equal / count;
 }
 
-// Root mean square of successive differences around a stretch.
-double changes_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+// Root mean square of `change(i)` around a stretch; it looks at samples i - 1 to i + `ahead`.
+template <class Change>
+double rms_around(const std::vector<double>& v, std::size_t first, std::size_t last, std::size_t ahead,
+                  Change change) {
   double sum = 0.0, count = 0.0;
   const auto look = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from + 1; i <= to && i < v.size(); ++i) {
-      sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+    for (std::size_t i = from + 1; i + ahead <= to && i + ahead < v.size(); ++i) {
+      sum += change(i) * change(i);
       ++count;
     }
   };
@@ -61,11 +63,23 @@ double changes_around(const std::vector<double>& v, std::size_t first, std::size
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-// Where noise moves the sensor by several steps of its grid, a repeat is no chance; where it does not, the
-// quantity must have gone on in the meantime.
+double changes_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  return rms_around(v, first, last, 0, [&](std::size_t i) { return v[i] - v[i - 1]; });
+}
+
+// Of white noise alone, whatever the quantity does meanwhile.
+double noise_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  return rms_around(v, first, last, 1,
+                    [&](std::size_t i) { return (v[i + 1] - 2.0 * v[i] + v[i - 1]) / std::sqrt(6.0); });
+}
+
+// Where the sensor moves by several steps of its grid, a repeat is no chance, nor are many where its noise
+// alone does; else the quantity must have gone on in the meantime.
 bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size_t last, double grid) {
+  constexpr std::size_t kMany = 10;
   const double change = changes_around(v, first, last);
   if (change >= 4.0 * grid) return true;
+  if (last - first >= kMany && noise_around(v, first, last) >= 1.5 * grid) return true;
   return std::abs(v[last + 1] - v[last]) >= std::max(4.0 * grid, 3.0 * change);
 }
 
@@ -293,7 +307,9 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   fault.trials.erase(std::unique(fault.trials.begin(), fault.trials.end()), fault.trials.end());
   std::sort(durations.begin(), durations.end());
   fault.duration_s = durations[durations.size() / 2];
-  fault.rate_Hz = fault.recorded_s > 0.0 ? static_cast<double>(fault.stretches) / fault.recorded_s : 0.0;
+  // While it is held no other stretch begins.
+  const double free_s = fault.recorded_s - static_cast<double>(fault.stretches) * fault.duration_s;
+  fault.rate_Hz = free_s > 0.0 ? static_cast<double>(fault.stretches) / free_s : 0.0;
   fault.borderline = fault.stretches < 2 || fault.duration_s < kLong_s;
   faults.push_back(std::move(fault));
 }

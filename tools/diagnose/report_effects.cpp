@@ -41,8 +41,8 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   const double trials = static_cast<double>(linear.size());
   // What is believed beforehand counts like an observation: a channel's lateness is known no better than what
   // instants of sampling leave unsure.
-  const MatrixXd middle = (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) +
-                          (held - information);
+  const MatrixXd middle =
+      (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) + (held - information);
   const double form = kAlong * kAlong * problem.plant->form_error() * explained;
   const MatrixXd covariance = inverse * middle * inverse + form * inverse;
   return covariance.topLeftCorner(own, own);

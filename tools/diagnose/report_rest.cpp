@@ -138,12 +138,12 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
       // A stretch of n samples lasted between n - 1 and n + 1 steps; one that fell between samples was not
       // seen. How many there were follows Poisson.
       const double longer_s = fault.duration_s + fault.step_s;
-      const double count = static_cast<double>(fault.stretches);
+      const double count = static_cast<double>(fault.stretches), each_Hz = fault.rate_Hz / count;
       const double unseen = 1.0 + fault.step_s / std::max(fault.duration_s, fault.step_s);
       effect.parameters = {
           {"duration_s", fault.duration_s, std::max(0.0, fault.duration_s - fault.step_s), longer_s},
-          {"rate_Hz", fault.rate_Hz, std::max(0.0, count - 2.0 * std::sqrt(count)) / fault.recorded_s,
-           unseen * (count + 2.0 * std::sqrt(count) + 2.0) / fault.recorded_s}};
+          {"rate_Hz", fault.rate_Hz, std::max(0.0, count - 2.0 * std::sqrt(count)) * each_Hz,
+           unseen * (count + 2.0 * std::sqrt(count) + 2.0) * each_Hz}};
     }
     if (fault.borderline)
       effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};

@@ -5,11 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double limit = 2.0 * c.belief.value("motor.torque_limit_Nm", 2.8);
-  return {{.name = "stall_torque_Nm",
-           .typical = 1.0 / limit,
-           .low = 0.0,
-           .high = 4.0 / limit,
-           .power = -1.0},
+  return {{.name = "stall_torque_Nm", .typical = 1.0 / limit, .low = 0.0, .high = 4.0 / limit, .power = -1.0},
           {.name = "no_load_speed_radps",
            .typical = 1.0 / 50.0,
            .low = 1.0 / 500.0,

@@ -15,8 +15,10 @@ const EffectRegistration kEffect(
            return std::vector<EffectParameter>{
                {.name = "tilt_rad", .typical = 0.1 * 0.1, .low = 0.0, .high = 0.7 * 0.7, .power = 0.5}};
          },
-     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
-                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::gain, std::cos(std::sqrt(v[0]))); }});
+     .apply =
+         [](const Context&, const std::string& channel, std::span<const double> v, Edits& edits) {
+           edits.sensor(channel, SensorEdit::Kind::gain, std::cos(std::sqrt(v[0])));
+         }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -20,7 +20,7 @@ constexpr double kSettled_s = 0.02;                    // after a liftoff: the l
 constexpr double kAloft_m = 1.0;                       // out of the bed's reach
 constexpr double kSlow_mps = 0.01, kSlow_radps = 0.2;  // dry friction turns round within that
 constexpr double kStribeck_mps = 0.1;
-constexpr double kLost = 3.5;  // usual steps between samples: between them nothing is known
+constexpr double kLost = 3.5;                 // usual steps between samples: between them nothing is known
 constexpr double kSteepest_m_per_rad = 0.03;  // a straight leg says nothing of its joint
 
 struct Grid {
@@ -33,7 +33,8 @@ Signal on(const Grid& grid, const Samples& samples) {
   return on_grid(samples, grid.start_s, kTick_s, grid.count, false);
 }
 
-// Whether a sample was recorded no farther off than a few usual steps: what fell out or was clipped left none.
+// Whether a sample was recorded no farther off than a few usual steps: what fell out or was clipped left
+// none.
 std::vector<char> recorded_on(const Grid& grid, const Samples& samples) {
   std::vector<char> out(grid.count, 0);
   const double far_s = kLost * median_step_s(samples.time_s);
