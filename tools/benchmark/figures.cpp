@@ -89,6 +89,8 @@ void sort_by_effect(Score& s) {
   }
 }
 
+}  // namespace
+
 nlohmann::ordered_json to_json(const Figure& f) {
   const auto wilson = wilson95(f.count, f.of), exact = clopper_pearson95(f.count, f.of);
   return {{"figure", f.name},
@@ -99,10 +101,9 @@ nlohmann::ordered_json to_json(const Figure& f) {
           {"clopper_pearson95", {exact.low, exact.high}},
           {"must", f.must},
           {"aim", f.aim},
+          {"less_is_better", f.less_is_better},
           {"met", f.met()}};
 }
-
-}  // namespace
 
 Score score(std::vector<Judged> cases) {
   Score s;

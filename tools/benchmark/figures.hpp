@@ -52,6 +52,7 @@ struct Score {
 constexpr double kTypicalFrom = 0.5, kTypicalTo = 2.0;
 
 Score score(std::vector<Judged> cases);
+nlohmann::ordered_json to_json(const Figure& figure);
 nlohmann::ordered_json to_json(const Score& score);
 
 }  // namespace sandhopper::benchmark

@@ -24,28 +24,26 @@ function wilson95(count, of) {
   return [(centre - half) / (of + z * z), (centre + half) / (of + z * z)];
 }
 
-const atMost = (name) => /alarm|confident/.test(name);
-
-function shown(name, { count, of }, must) {
+function shown({ count, of }, { must, less_is_better }, asked) {
   if (of === 0) return 'none';
   const [low, high] = wilson95(count, of), share = count / of;
-  const met = must === undefined || (atMost(name) ? share <= must : share >= must);
+  const met = !asked || (less_is_better ? share <= must : share >= must);
   return `${percent(share)} (${percent(low)} to ${percent(high)}) of ${of}${met ? '' : ', **missed**'}`;
 }
 
 // One row: each plant's, and all of them together.
-function figureRow(name, must, ofPlants) {
+function figureRow(ofPlants) {
   const known = ofPlants.filter((f) => f !== undefined);
+  const asked = !/control/.test(known[0].figure);
   const all = { count: known.reduce((sum, f) => sum + f.count, 0), of: known.reduce((sum, f) => sum + f.of, 0) };
-  return [name, must === undefined ? '' : `${atMost(name) ? 'at most' : 'at least'} ${100 * must}`,
-    ...ofPlants.map((f) => (f === undefined ? 'not asked' : shown(name, f, must))), shown(name, all, must)];
+  const { figure, must, less_is_better } = known[0];
+  return [figure, asked ? `${less_is_better ? 'at most' : 'at least'} ${100 * must}` : '',
+    ...ofPlants.map((f) => (f === undefined ? 'not asked' : shown(f, known[0], asked))), shown(all, known[0], asked)];
 }
 
-const figures = plants[0].own.figures.map((figure, i) =>
-  figureRow(figure.figure, figure.must, plants.map((plant) => plant.own.figures[i])));
-const kSplits = 0.85;
+const figures = plants[0].own.figures.map((_, i) => figureRow(plants.map((plant) => plant.own.figures[i])));
 for (const { figure } of plants.find((plant) => plant.splits?.length)?.splits ?? [])
-  figures.push(figureRow(figure, /control/.test(figure) ? undefined : kSplits, plants.map((plant) => plant.splits?.find((f) => f.figure === figure))));
+  figures.push(figureRow(plants.map((plant) => plant.splits?.find((f) => f.figure === figure))));
 figures.push(['mean class size of the right names', '2.5', ...plants.map((p) => p.own.mean_class_size.toFixed(2)), '']);
 figures.push(['expected calibration error', '0.05', ...plants.map((p) => p.own.expected_calibration_error.toFixed(3)), '']);
 console.log(table(['figure', 'must', ...plants.map((p) => p.name), 'all'], figures));

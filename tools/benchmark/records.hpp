@@ -44,6 +44,7 @@ struct Diagnosis {
   std::vector<Claim> claims;
   std::optional<double> heldout_after, floor;
   std::optional<double> seconds;
+  bool asks_for_a_split = false;  // recommends a trial to tell a class' members apart
   std::map<std::string, std::string>
       baselines;  // what plainer methods would have named, where the tool tells
   bool says_missing() const { return verdict == "missing_physics" || verdict == "unknown_physics"; }

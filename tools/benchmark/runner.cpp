@@ -52,27 +52,25 @@ conceal::Case make(const RunOptions& options, std::uint64_t index, const std::st
 Json recommended_setup(const fs::path& diagnosis) {
   std::ifstream in(diagnosis);
   const auto json = Json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.contains("next_trial") || !json["next_trial"].is_object()) return nullptr;
-  return json["next_trial"].value("setup", Json(nullptr));
+  return json.at("next_trial").at("setup");
 }
 
 void follow_up(const RunOptions& options, const conceal::Case& one, const std::string& name) {
   const auto told = options.folder / "diagnoses" / (name + ".json");
   const auto diagnosis = read_diagnosis(told);
   if (!diagnosis || diagnosis->claims.empty() || diagnosis->claims.front().alike.empty()) return;
-  const auto asked = recommended_setup(told);
-  if (!asked.is_object()) return;
   const auto repeat = [&](const char* folder, const conceal::Setup& setup) {
     const auto root = options.folder / folder;
     if (!fs::exists(root / "diagnoses" / (name + ".run")))
       conceal::write_campaign(root / "campaigns" / name, one, {setup});
     diagnose(options, root, name);
   };
-  try {
-    repeat("after", conceal::completed(one, asked));
-  } catch (const std::invalid_argument& error) {  // a trial this apparatus cannot do: counts as not split
-    conceal::write_text(options.folder / "diagnoses" / (name + ".refused"), std::string(error.what()) + "\n");
-  }
+  if (diagnosis->asks_for_a_split) try {
+      repeat("after", conceal::completed(one, recommended_setup(told)));
+    } catch (const std::invalid_argument& error) {  // a trial this apparatus cannot do: counts as not split
+      conceal::write_text(options.folder / "diagnoses" / (name + ".refused"),
+                          std::string(error.what()) + "\n");
+    }
   repeat("random", conceal::random_setup(one));
 }
 

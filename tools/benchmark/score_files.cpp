@@ -50,17 +50,32 @@ std::vector<Column> score_all(const std::vector<Truth>& truths, const std::files
   return columns;
 }
 
-Figure split_figure(const std::string& name, const std::vector<Truth>& truths,
-                    const std::filesystem::path& before, const std::filesystem::path& after) {
-  Figure figure{name, 0, 0, 0.85, 0.95};
+std::vector<Figure> split_figures(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses) {
+  const auto root = diagnoses.parent_path();
+  if (!std::filesystem::is_directory(root / "random" / "diagnoses")) return {};
+  Figure recommended{"the recommended trial splits the class", 0, 0, 0.85, 0.95};
+  Figure random{"a random trial splits the class (control)", 0, 0, 0.85, 0.95};
+  Figure denied{"no trial would split the class, as told, and a random one does", 0, 0, 0.05, 0.0, true};
   for (const auto& truth : truths) {
-    const auto first = judge(truth, read_diagnosis(before / (truth.name + ".json")));
-    if (!first.right || first.class_size < 2) continue;
-    const auto second = judge(truth, read_diagnosis(after / (truth.name + ".json")));
-    ++figure.of;
-    figure.count += second.right && second.class_size < first.class_size;
+    const auto told = read_diagnosis(diagnoses / (truth.name + ".json"));
+    const auto before = judge(truth, told);
+    if (!before.right || before.class_size < 2) continue;
+    const auto splits = [&](const char* folder) {
+      const auto after =
+          judge(truth, read_diagnosis(root / folder / "diagnoses" / (truth.name + ".json")));
+      return after.right && after.class_size < before.class_size;
+    };
+    if (!told->asks_for_a_split) {
+      ++denied.of;
+      denied.count += splits("random");
+      continue;
+    }
+    ++recommended.of;
+    ++random.of;
+    recommended.count += splits("after");
+    random.count += splits("random");
   }
-  return figure;
+  return {recommended, random, denied};
 }
 
 std::vector<double> seconds_taken(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses) {

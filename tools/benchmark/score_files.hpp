@@ -14,9 +14,10 @@ std::vector<Column> score_all(const std::vector<Truth>& truths, const std::files
                               const std::vector<std::pair<std::string, std::filesystem::path>>& others);
 
 // Of the campaigns whose diagnosis named a class that holds the truth: how often a trial more leaves a
-// smaller class that still does. `after` holds the diagnoses made with the trial.
-Figure split_figure(const std::string& name, const std::vector<Truth>& truths,
-                    const std::filesystem::path& before, const std::filesystem::path& after);
+// smaller class that still does. Beside the folder of diagnoses are after/, made with the trial recommended,
+// and random/; none where there was no follow-up. Where it says that no trial splits the class, whether a
+// random one does.
+std::vector<Figure> split_figures(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses);
 
 // Seconds the tool took, from the runner's notes beside the diagnoses; empty where there are none.
 std::vector<double> seconds_taken(const std::vector<Truth>& truths, const std::filesystem::path& diagnoses);

@@ -160,22 +160,15 @@ ExitCode score(Session& session, const Options& options) {
   }
   if (truths.empty())
     throw Failure(ExitCode::usage, "no answers in " + options.answers, "name the folder answers/");
-  const fs::path diagnoses = options.diagnoses, root = diagnoses.parent_path();
+  const fs::path diagnoses = options.diagnoses;
   const auto columns = benchmark::score_all(truths, diagnoses, named_folders(options.baselines));
-  std::vector<benchmark::Figure> splits;
-  if (fs::is_directory(root / "after" / "diagnoses")) {
-    splits.push_back(benchmark::split_figure("the recommended trial splits the class", truths, diagnoses,
-                                             root / "after" / "diagnoses"));
-    splits.push_back(benchmark::split_figure("a random trial splits the class (control)", truths, diagnoses,
-                                             root / "random" / "diagnoses"));
-  }
+  const auto splits = benchmark::split_figures(truths, diagnoses);
   const auto seconds = benchmark::seconds_taken(truths, diagnoses);
   for (const auto& line : benchmark::score_text(columns, splits, seconds)) session.say("{}", line);
   bool met = true;
   for (const auto& column : columns) session.result["tools"][column.name] = benchmark::to_json(column.score);
   for (const auto& figure : columns.front().score.figures) met = met && (figure.of == 0 || figure.met());
-  for (const auto& split : splits)
-    session.result["splits"].push_back({{"figure", split.name}, {"count", split.count}, {"of", split.of}});
+  for (const auto& split : splits) session.result["splits"].push_back(benchmark::to_json(split));
   if (!options.report.empty()) {
     write_study_page(benchmark::score_study(columns, splits, seconds), options.report);
     session.say("page: {}", options.report);

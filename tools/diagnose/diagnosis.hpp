@@ -98,6 +98,9 @@ struct UnknownForce {
 
 // The trial worth doing next.
 struct NextTrial {
+  // "split" a class, "sharpen" intervals, "map" an unknown force, "bound" what is absent, "repeat" after a
+  // repair; empty where no trial is recommended.
+  std::string purpose;
   std::string why;
   std::string kind;
   std::map<std::string, double> setup;

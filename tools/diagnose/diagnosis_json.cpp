@@ -53,7 +53,7 @@ Json to_json(const Diagnosis& d) {
   if (!d.next.kind.empty()) setup["kind"] = d.next.kind;
   for (const auto& [key, text] : d.next.words) setup[key] = text;
   for (const auto& [key, value] : d.next.setup) setup[key] = value;
-  json["next_trial"] = {{"why", d.next.why}, {"setup", setup}};
+  json["next_trial"] = {{"why", d.next.why}, {"purpose", d.next.purpose}, {"setup", setup}};
   if (d.next.splits > 0.0) {
     json["next_trial"]["probability_it_settles"] = d.next.settles;
     json["next_trial"]["probability_it_splits"] = d.next.splits;

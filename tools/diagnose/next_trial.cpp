@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 constexpr double kNarrow = 0.5;          // a bound below this share of the typical size needs no closer one
 constexpr double kWorthATrial = 0.2;     // doublings of the information
 constexpr double kPriceOfTrouble = 0.1;  // doublings for one unit of cost
+constexpr double kASession = 10.0;       // trials: what would take more of them is not recommended
 constexpr double kEnough = 10.0;         // times what tells two explanations apart: more brings nothing
 constexpr std::size_t kMostPoints = 400;
 
@@ -44,7 +45,8 @@ Choice best_of(const PlannedTrials& planned, const Worth& worth) {
   return choice;
 }
 
-void take(const DoableTrial& trial, NextTrial& next) {
+void take(const DoableTrial& trial, const char* purpose, NextTrial& next) {
+  next.purpose = purpose;
   next.kind = trial.trial.kind;
   next.setup = trial.trial.setup;
   next.words = trial.words;
@@ -121,7 +123,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     return sum / static_cast<double>(pairs.size());
   });
   const auto all = contests(choice.trial);
-  take(planned[choice.trial], next);
+  take(planned[choice.trial], "split", next);
   std::string chances;
   Pair shown = pairs.front();
   double most = -1.0;
@@ -144,9 +146,19 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
   show(problem, planned.model(choice.trial), all[shown.group].predictions(problem, planned, shown.i, shown.j),
        next);
   next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
-  if (next.splits < 0.5)
-    next.why += fmt::format(" About {:.0f} of them would.",
-                            std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3)));
+  if (next.splits >= 0.5) return;
+  const double repeats = std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3));
+  if (repeats <= kASession) {
+    next.why += fmt::format(" About {:.0f} of them would.", repeats);
+    return;
+  }
+  std::string others;
+  for (const auto& p : pairs)
+    if (p.i == 0) others += (others.empty() ? "" : ", ") + groups[p.group].names[p.j];
+  next = {};
+  next.why = fmt::format("None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "
+                         "about {:.0f} times.",
+                         planned.size(), groups[shown.group].names[0], others, repeats);
 }
 
 // Doublings of the information on some parameters of a point; `information` so far.
@@ -180,7 +192,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
         "None needed to tell what it is: no single trial narrows the intervals by more than a few per cent.";
     return;
   }
-  take(planned[choice.trial], next);
+  take(planned[choice.trial], "sharpen", next);
   next.why =
       fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; a middling trial to {:.0f} %.",
                   amplitudes.size() > 1 ? "s" : "",
@@ -206,7 +218,7 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
     return sharpening(information, planned.linearised(i, base, directions).gram.bottomRightCorner(k, k),
                       knots);
   });
-  take(planned[choice.trial], next);
+  take(planned[choice.trial], "map", next);
   next.why = fmt::format(
       "Maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with a middling trial "
       "to {:.0f} %.",
@@ -266,7 +278,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
         candidate.label(), typicals);
     return;
   }
-  take(planned[choice.trial], next);
+  take(planned[choice.trial], "bound", next);
   next.why = fmt::format(
       "{}The widest bound is that of {}, {:.2g} of its typical size; this trial narrows it to {:.2g}.",
       few ? "At least five trials are needed to know how far they repeat. " : "", candidate.label(), typicals,
@@ -275,6 +287,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
 
 void record_again(const Recordings& recordings, const Diagnosis& diagnosis, NextTrial& next) {
   const Trial& first = recordings.trials.front();
+  next.purpose = "repeat";
   next.kind = first.kind;
   next.setup = first.setup;
   next.setup.erase("session");
