@@ -84,5 +84,33 @@ TEST_F(BenchmarkRunner, AddsTheTrialTheToolAskedForWhereItNamedAClass) {
   EXPECT_EQ(calls(), 3);
 }
 
+// A tool that names the mass alone once a trial is added. Where it recommended none to tell the class, only
+// the random trial is done, and that one shows that some trial would have.
+TEST_F(BenchmarkRunner, CountsATrialAsSplittingOnlyWhereItWasRecommendedForThat) {
+  const std::string effect = "{\"verdict\": \"missing_physics\", \"effects\": [{\"id\": \"body.mass\", "
+                             "\"probability\": 0.9, \"indistinguishable_from\": [";
+  for (const std::string purpose : {"split", "repeat"}) {
+    auto o = options("case \"$1\" in *after*|*random*) echo '" + effect + "]}]}' ;; *) echo '" + effect +
+                     "\"fluid.buoyancy\"]}], \"next_trial\": {\"purpose\": \"" + purpose +
+                     "\", \"setup\": {\"kind\": \"drop\", \"release_height_m\": 3.25}}}' ;; esac");
+    o.folder = folder / purpose;
+    o.campaigns = 1;
+    o.request.kind = conceal::kind_named("single");
+    o.request.effect = "body.mass";
+    run_benchmark(o, [](std::uint64_t) {});
+    const auto truths = read_truths(o.folder / "answers");
+    const auto figures = split_figures(truths, o.folder / "diagnoses");
+    ASSERT_EQ(figures.size(), 3u);
+    const std::size_t asked = purpose == "split";
+    EXPECT_EQ(fs::exists(o.folder / "after"), purpose == "split");
+    for (const std::size_t i : {0u, 1u}) {
+      EXPECT_EQ(figures[i].of, asked);
+      EXPECT_EQ(figures[i].count, asked);
+    }
+    EXPECT_EQ(figures[2].of, 1 - asked);
+    EXPECT_EQ(figures[2].count, 1 - asked);
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper::benchmark

@@ -26,6 +26,7 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
   EXPECT_TRUE(d.next.setup.contains("payload_kg"));
   EXPECT_GT(d.next.settles, 0.8);
   EXPECT_LE(d.next.settles, d.next.splits);
+  EXPECT_EQ(d.next.purpose, "split");
   EXPECT_THAT(d.next.why, HasSubstr(d.next.channel));
   ASSERT_GT(d.next.time_s.size(), 20u);
   ASSERT_EQ(d.next.by_first.size(), d.next.time_s.size());
@@ -34,6 +35,21 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
     apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
   // Hundreds of samples settle it together; one need not.
   EXPECT_GT(apart, 0.3 * d.next.floor);
+}
+
+// A drive that acts late and a torque whose stamps are early are the same recordings, whatever is recorded.
+TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
+  auto recordings = swings([](double, double, double) { return 0.0; }, 1, 10);
+  for (auto& trial : recordings.trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    torque.erase(torque.begin(), torque.begin() + 2);
+    torque.insert(torque.end(), 2, torque.back());
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.detail, "one_of_class");
+  EXPECT_EQ(d.next.kind, "");
+  EXPECT_EQ(d.next.purpose, "");
+  EXPECT_THAT(d.next.why, HasSubstr("not one tells"));
 }
 
 TEST(DiagnoseNextTrial, TightensTheWidestBoundWhereNothingIsMissing) {

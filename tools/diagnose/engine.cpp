@@ -9,6 +9,7 @@
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/many_trials.hpp"
 #include "tools/diagnose/next_trial.hpp"
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/report_parts.hpp"
@@ -19,6 +20,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kSeeds = 14;
+constexpr std::size_t kManyTrials = 30, kSearchedTrials = 20;
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
@@ -70,9 +72,20 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   }
 }
 
-// All that is searched: once, and again with the noise as it shows with what was found in place.
-Search searched(Problem& problem, const Point& null, const EngineOptions& options, BalanceLaw& balance,
-                Diagnosis& diagnosis) {
+// Nothing missing, with a noise that was estimated there.
+Point settled_null(Problem& problem) {
+  Point null = fit_from(problem, null_point(problem), kFirst).point;
+  update_noise(problem, null);
+  keep_columns(problem, null);
+  null = fit_from(problem, null).point;
+  keep_columns(problem, null);
+  return null;
+}
+
+// All that is searched: once, and again with the noise as it shows with what was found in place. Of many
+// trials whose simulation takes long some are searched; what comes near there is where all of them begin.
+Search searched(Problem& problem, const Recordings& clean, const Point& null, const EngineOptions& options,
+                BalanceLaw& balance, Diagnosis& diagnosis) {
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
   search_options.straight = problem.plant->starts_as_believed();
@@ -89,8 +102,19 @@ Search searched(Problem& problem, const Point& null, const EngineOptions& option
     search_options.straight = false;
     search_options.fits_of_singles = search_options.fits_per_screen;
   }
+  std::vector<Point> seeds;
+  if (problem.plant->is_costly() && problem.trials.size() > kManyTrials) {
+    Prepared some = prepare(spread_over(clean, kSearchedTrials));
+    const Point start = settled_null(some.problem);
+    Search search(some.problem, search_options);
+    search.run(start);
+    seeds = carried_over(some.problem, search.best_points(kSeeds), problem, null);
+    problem.simulations += some.problem.simulations;
+    search_options.most_effects = search_options.fits_per_screen = search_options.fits_of_singles = 0;
+    search_options.straight = false;
+  }
   Search search(problem, search_options);
-  search.run(null);
+  search.run(null, seeds);
   log_sets(problem, search, diagnosis);
   // Where the list leaves far more than the noise and the balances say what it is, no second look at the list
   // would help.
@@ -111,6 +135,7 @@ Search searched(Problem& problem, const Point& null, const EngineOptions& option
   keep_columns(problem, search.best().fit.point);
   search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
   // What came near already needs no search, but another fit.
+  search_options.most_effects = options.most_effects;
   search_options.fits_per_screen = search_options.fits_of_singles = 3;
   search_options.straight = false;
   Search second(problem, search_options);
@@ -170,15 +195,11 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     return diagnosis;
   }
   options.progress(0.0, "");
-  Point null = fit_from(problem, null_point(problem), kFirst).point;
-  update_noise(problem, null);
-  keep_columns(problem, null);
-  null = fit_from(problem, null).point;
-  keep_columns(problem, null);
+  const Point null = settled_null(problem);
   diagnosis.simple = simple_answers(problem, null);
 
   BalanceLaw balance(problem, clean);
-  Search search = searched(problem, null, options, balance, diagnosis);
+  Search search = searched(problem, clean, null, options, balance, diagnosis);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   // What a name on the list says as well is not unknown, however small the effect.

@@ -10,6 +10,11 @@
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kTrialsThatLean = 12.0;
+
+}  // namespace
 
 double believed_noise(const Belief& belief, const std::string& channel) {
   static const std::map<std::string, std::string> kKeys{{"height_m", "height_noise_m"},
@@ -72,7 +77,8 @@ std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
       everywhere = own.size() > i && own[i].name == names[i].name;
       if (everywhere) sum += point.nuisances[t][i] / own[i].sd;
     }
-    if (everywhere) leans.push_back({names[i].name, names[i].port, sum / std::sqrt(trials)});
+    if (everywhere)
+      leans.push_back({names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kTrialsThatLean))});
   }
   std::ranges::sort(leans, [](const Lean& a, const Lean& b) { return std::abs(a.z) > std::abs(b.z); });
   return leans;

@@ -23,10 +23,12 @@ double left_over_noise(const Problem& problem, const Fit& fit);
 // A nuisance that all trials move alike.
 struct Lean {
   std::string nuisance, port;
-  double z = 0.0;  // sum of value / sd over the trials, over the square root of their number
+  double z = 0.0;  // mean of value / sd over the trials, times the square root of their number, at most 12
 };
 // Nuisances differ from trial to trial by what they are; one that is off by the same in all trials is no
-// nuisance but something that is missing, and no deviance says so. The one that leans most first.
+// nuisance but something that is missing, and no deviance says so. The one that leans most first. With a
+// hundred trials any small share of what they differ by would be certain, and is what a simulation may be off
+// by: more than twelve count as twelve.
 std::vector<Lean> leans_of(const Problem& problem, const Point& point);
 Lean largest_lean(const Problem& problem, const Point& point);
 

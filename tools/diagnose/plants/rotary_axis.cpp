@@ -22,24 +22,27 @@ constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
 // Seconds and rows without torque: nothing is simulated over them.
 constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
+// Nor over shorter gaps that are far enough apart to leave something to simulate.
+constexpr double kGap_s = 5e-3, kGapRows = 2.5, kAlone_s = 0.3;
 constexpr double kShortest_s = 0.1;     // of what is simulated between two such times
 constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
+enum BlockNuisance : std::size_t { kPosition, kVelocity, kTorque, kTorqueRise };
 
 // A drive that is off records its torque sensor's noise, which acts on nothing: where a torque scatters no
 // more than its white noise does, its mean stands for it, or zero where that is noise, too. Otherwise a
 // belief in less torque would always fit better.
-Samples without_noise_alone(Samples torque) {
+bool without_noise_alone(Samples& torque) {
   constexpr double kNoiseAlone = 1.15;  // of its standard deviation
-  if (torque.value.size() < 100) return torque;
+  if (torque.value.size() < 100) return false;
   const double n = static_cast<double>(torque.value.size());
   double mean = 0.0, squares = 0.0;
   for (const double v : torque.value) mean += v / n;
   for (const double v : torque.value) squares += (v - mean) * (v - mean) / n;
   const double sd = std::sqrt(squares);
-  if (sd > kNoiseAlone * fluctuation_rms(torque)) return torque;
+  if (sd > kNoiseAlone * fluctuation_rms(torque)) return false;
   std::ranges::fill(torque.value, std::abs(mean) < 3.0 * sd / std::sqrt(n) ? 0.0 : mean);
-  return torque;
+  return true;
 }
 
 // Whether a speed is an encoder's own estimate, or of whatever else measures it.
@@ -57,7 +60,8 @@ class RotaryTrial final : public TrialModel {
         std::max(5e-3, (trial.time_s.empty() ? 0.0 : trial.time_s.back()) / kMostRows);
     const auto positions = averaged(samples_of(trial, "position_rad"), least_step_s);
     const auto velocities = averaged(samples_of(trial, "velocity_radps"), least_step_s);
-    torque_ = without_noise_alone(samples_of(trial, "torque_Nm"));
+    torque_ = samples_of(trial, "torque_Nm");
+    drive_acts_ = !without_noise_alone(torque_);
     if (torque_.empty() || (positions.empty() && velocities.empty())) return;
     const auto& lead = positions.empty() ? velocities : positions;
     const double row_s = median_step_s(lead.time_s);
@@ -81,8 +85,10 @@ class RotaryTrial final : public TrialModel {
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Stretch stretch = stretches_[b];
-      stretch.position += nuisances[q + 2 * std::size_t{b}];
-      stretch.velocity += nuisances[q + 2 * std::size_t{b} + 1];
+      const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
+      stretch.position += own[kPosition];
+      stretch.velocity += own[kVelocity];
+      if (own.size() > kTorque) stretch.torque_Nm = own[kTorque], stretch.torque_rise_Nm = own[kTorqueRise];
       simulate(f, laws, torque, stretch, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
@@ -97,6 +103,7 @@ class RotaryTrial final : public TrialModel {
  private:
   struct Stretch {
     double from_s, to_s, position = 0.0, velocity = 0.0;
+    double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
   };
   struct Span {
     std::size_t first = 0, count = 0;
@@ -120,13 +127,22 @@ class RotaryTrial final : public TrialModel {
   // Stretches of about `block_s`, none of which holds a time over which the torque is not known. Each begins
   // on a step of the torque's grid.
   void cut(double end_s, double block_s) {
-    const double unknown_s = std::max(kUnknown_s, kUnknownRows * median_step_s(torque_.time_s));
-    std::vector<std::pair<double, double>> known{{0.0, end_s}};
+    const double row_s = median_step_s(torque_.time_s);
+    const double unknown_s = std::max(kUnknown_s, kUnknownRows * row_s);
+    const double gap_s = std::max(kGap_s, kGapRows * row_s);
+    std::vector<std::pair<double, double>> gaps;  // first and last time
     for (std::size_t i = 1; i < torque_.time_s.size(); ++i)
-      if (torque_.time_s[i] - torque_.time_s[i - 1] > unknown_s) {
-        known.back().second = torque_.time_s[i - 1];
-        known.emplace_back(torque_.time_s[i], end_s);
-      }
+      if (torque_.time_s[i] - torque_.time_s[i - 1] > gap_s)
+        gaps.emplace_back(torque_.time_s[i - 1], torque_.time_s[i]);
+    std::vector<std::pair<double, double>> known{{0.0, end_s}};
+    for (std::size_t g = 0; g < gaps.size(); ++g) {
+      const auto& [first_s, last_s] = gaps[g];
+      const bool alone = (g == 0 || first_s - gaps[g - 1].second > kAlone_s) &&
+                         (g + 1 == gaps.size() || gaps[g + 1].first - last_s > kAlone_s);
+      if (!alone && last_s - first_s <= unknown_s) continue;
+      known.back().second = first_s;
+      known.emplace_back(last_s, end_s);
+    }
     for (const auto& [first_s, last_s] : known) {
       const double from = std::ceil(first_s / step_s_ - 1e-9), steps = last_s / step_s_ - from;
       if (known.size() > 1 && steps * step_s_ < kShortest_s) continue;
@@ -167,6 +183,14 @@ class RotaryTrial final : public TrialModel {
     }
   }
 
+  // Standard deviation over stretches of the noise of the torque's sensor, which the simulated axis follows
+  // and the recorded one did not: white, s / sqrt(n).
+  double torque_unknown_Nm() const {
+    if (!drive_acts_) return 0.0;
+    const double rows = static_cast<double>(torque_.time_s.size()) / static_cast<double>(blocks);
+    return belief_.value("sensors.torque_noise_Nm") / std::sqrt(std::max(1.0, rows));
+  }
+
   // State at the beginning of each block, from the recording smoothed; the fit moves it from there.
   void find_starts(const Samples& positions, const Samples& velocities) {
     const auto& lead = positions.empty() ? velocities : positions;
@@ -199,6 +223,10 @@ class RotaryTrial final : public TrialModel {
     const double noise = std::max(fluctuation_rms(lead), 1e-6);
     block_nuisances = {{"position_rad", std::max(0.05, 20.0 * noise), 1e-4},
                        {"velocity_radps", std::max(0.3 * fastest, 0.05), 1e-3 * std::max(fastest, 0.1)}};
+    if (const double sd = torque_unknown_Nm(); sd > 0.0) {
+      block_nuisances.push_back({"torque_Nm", sd, 0.1 * sd});
+      block_nuisances.push_back({"torque_rise_Nm", std::sqrt(3.0) * sd, 0.1 * sd});
+    }
     Coordinate v{"velocity_radps", {}}, p{"position_rad", {}}, torque{"torque_Nm", {}}, time{"t_s", {}};
     for (Row& row : rows) {
       v.values.push_back(speed.at(row.time_s));
@@ -237,8 +265,9 @@ class RotaryTrial final : public TrialModel {
       return sum / f.inertia_kg_m2;
     };
     const auto torque_at = [&](double t) {
-      return torque.values[std::min(torque.values.size() - 1,
-                                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))))];
+      const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
+      return s.torque_Nm + at * s.torque_rise_Nm + torque.values[std::min(torque.values.size() - 1, static_cast<std::size_t>(std::max(
+                                                                                0.0, std::round(t / step_s_))))];
     };
     // A reading that is late shows at first what was before: what a steady acceleration leads there from.
     const double first = accel(s.from_s, torque_at(s.from_s), th, w);
@@ -277,6 +306,7 @@ class RotaryTrial final : public TrialModel {
   Belief belief_;
   Samples torque_;
   Signal drive_, turned_at_;
+  bool drive_acts_ = true;
   double step_s_ = 1e-3, lead_in_s_ = kLeadIn_s;
   std::vector<Stretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
