@@ -100,5 +100,19 @@ TEST(DiagnoseReport, ShowsTracesWhoseErrorFallsToTheFloorOnHeldOutTrials) {
   for (const auto& error : d.phase_errors) EXPECT_LT(error.after, 1.4 * error.floor) << error.channel;
 }
 
+// 1 cm of release height that every trial has more than its set-up says, beside a spread of 5 mm.
+TEST(DiagnoseReport, TellsTheMeanOfWhatDiffersFromTrialToTrial) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials) trial.setup["release_height_m"] -= 0.01;
+  const auto d = diagnose(recordings);
+  const auto height = std::ranges::find_if(
+      d.trial_to_trial, [](const TrialToTrial& told) { return told.name == "release_height_m"; });
+  ASSERT_NE(height, d.trial_to_trial.end());
+  EXPECT_DOUBLE_EQ(height->believed_sd, 0.005);
+  EXPECT_NEAR(height->mean_before, 0.01, 0.004);
+  EXPECT_NEAR(height->sd_before, 0.005, 0.003);
+  EXPECT_EQ(to_json(d).at("trial_to_trial").size(), d.trial_to_trial.size());
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

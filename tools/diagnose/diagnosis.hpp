@@ -115,6 +115,15 @@ struct NextTrial {
   std::vector<double> time_s, by_first, by_second;
 };
 
+// What a fit says of something that differs from trial to trial, without any effect and with those found: mean
+// and standard deviation over the trials, beside the one believed.
+struct TrialToTrial {
+  std::string name;  // ends in its unit
+  double believed_sd = 0.0;
+  double mean_before = 0.0, sd_before = 0.0;
+  double mean_after = 0.0, sd_after = 0.0;
+};
+
 struct Diagnosis {
   std::string verdict;
   std::string detail;
@@ -126,6 +135,7 @@ struct Diagnosis {
   std::vector<UnknownForce> unknown;
   std::vector<std::string> notes;  // missing channels, trials left out, weaker tests
   std::vector<PhaseError> phase_errors;
+  std::vector<TrialToTrial> trial_to_trial;
   std::vector<Trace> traces;
   std::vector<ResidualRow> residuals;
   NextTrial next;

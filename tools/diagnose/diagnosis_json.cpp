@@ -65,6 +65,12 @@ Json to_json(const Diagnosis& d) {
          {"phase", e.phase},
          {"heldout", {{"before", e.before}, {"after", e.after}, {"floor", e.floor}}},
          {"samples", e.samples}});
+  json["trial_to_trial"] = Json::array();
+  for (const auto& n : d.trial_to_trial)
+    json["trial_to_trial"].push_back({{"name", n.name},
+                                      {"believed_sd", n.believed_sd},
+                                      {"before", {{"mean", n.mean_before}, {"sd", n.sd_before}}},
+                                      {"after", {{"mean", n.mean_after}, {"sd", n.sd_after}}}});
   json["unknown"] = Json::array();
   for (const auto& u : d.unknown)
     json["unknown"].push_back({{"port", u.port},

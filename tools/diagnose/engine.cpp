@@ -213,6 +213,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const Residuals residuals =
       residuals_of(problem, search, diagnosis.unknown.empty() ? nullptr : &law->family);
   report_errors(problem, residuals, diagnosis);
+  report_trial_to_trial(problem, search, diagnosis);
   report_residuals(problem, residuals, diagnosis);
   report_absent(problem, search, diagnosis);
   report_where(problem, search, residuals, diagnosis);

@@ -23,6 +23,7 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis);
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);

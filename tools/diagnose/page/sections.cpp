@@ -142,6 +142,18 @@ StudySection where_section(const Diagnosis& d) {
   return {"Where it shows", {table}};
 }
 
+StudySection trial_to_trial_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"", "believed sd", "mean as believed", "sd", "mean with what was found", "sd"};
+  for (const auto& n : d.trial_to_trial)
+    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
+                          number(n.sd_before), number(n.mean_after), number(n.sd_after)});
+  table.note =
+      "What every trial is fitted with beside the model. A mean that is far from zero for its believed sd, "
+      "or a sd that is much larger, says that something is taken up there.";
+  return {"What differs from trial to trial", {table}};
+}
+
 StudySection absent_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"effect", "parameter", "magnitude below", "of its typical size"};
@@ -186,6 +198,7 @@ std::vector<StudySection> page_sections(const Diagnosis& d, const PageFacts& fac
   if (!d.effects.empty()) sections.push_back(effects_section(d));
   if (!d.unknown.empty()) sections.push_back(unknown_section(d));
   if (!d.where.empty()) sections.push_back(where_section(d));
+  if (!d.trial_to_trial.empty()) sections.push_back(trial_to_trial_section(d));
   if (!d.next.time_s.empty()) sections.push_back(next_trial_section(d));
   if (!d.absent.empty()) sections.push_back(absent_section(d));
   if (!facts.findings.empty() || !d.notes.empty()) sections.push_back(remarks_section(d, facts));
