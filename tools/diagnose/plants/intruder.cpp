@@ -211,7 +211,7 @@ class IntruderTrial final : public TrialModel {
       };
       const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N) : at_force(0.0);
       if (explain) {
-        run.input_sd_N.push_back(touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction) : 0.0);
+        run.input_sd_N.push_back(touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction, motion_.accel_sd_mps2[i]) : 0.0);
         run.phase.push_back(!touching || force_N <= 0.0                                      ? kAbove
                             : down                                                           ? kLoading
                             : read.speed_mps(i) > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold
@@ -225,7 +225,8 @@ class IntruderTrial final : public TrialModel {
   }
 
   // By differences of the bed's law; the grains between the knots add theirs.
-  double input_sd_N(const Bed& bed, const BedContact& at, const BedReaction& reaction) const {
+  double input_sd_N(const Bed& bed, const BedContact& at, const BedReaction& reaction,
+                    double accel_sd_mps2) const {
     constexpr double kShift_m = 1e-5, kShift_mps = 1e-3;
     BedContact shallower = at, faster = at;
     shallower.depth_m -= kShift_m;
@@ -236,7 +237,7 @@ class IntruderTrial final : public TrialModel {
     const double by_speed = (bed.reaction(faster).force_N - reaction.force_N) / kShift_mps;
     const double grains_N = virgin ? grains_.between_knots() * bed.quasi_static_force_N(at.depth_m) : 0.0;
     return std::hypot(std::hypot(by_depth * motion_.depth_sd_m, by_speed * motion_.speed_sd_mps),
-                      std::hypot(reaction.added_mass_kg * motion_.accel_sd_mps2, grains_N));
+                      std::hypot(reaction.added_mass_kg * accel_sd_mps2, grains_N));
   }
 
   void add_nuisance(const char* what, double sd, double step) { trial_nuisances.push_back({what, sd, step}); }

@@ -24,7 +24,7 @@ void smooth_jointly(IntruderMotion& m) {
   const double dt = m.step_s;
   const Matrix2d advance{{1.0, dt}, {0.0, 1.0}};
   const Vector2d push{0.5 * dt * dt, dt};
-  const double accel_sd = std::hypot(m.accel_sd_mps2, kAccelError * largest(m.accel_mps2));
+  const double accel_sd = std::hypot(m.accel_sd_mps2.front(), kAccelError * largest(m.accel_mps2));
   const Matrix2d process = accel_sd * accel_sd * push * push.transpose() + 1e-24 * Matrix2d::Identity();
   const Vector2d sensor{m.depth_sd_m * m.depth_sd_m, m.speed_sd_mps * m.speed_sd_mps};
   std::vector<Vector2d> before(n), after(n);
@@ -121,13 +121,26 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   const Smoothed at = smooth(z, half);
   put(m.depth_m, {z.time_s, noise_m > kQuantum_m && !joined ? at.value : z.value});
   put(m.speed_mps, m.speed_from_position ? Samples{z.time_s, at.rate} : v);
-  put(m.accel_mps2, a.value.size() > kFewSamples ? a
-                    : m.speed_from_position      ? Samples{z.time_s, smooth(z, 2 * half).curvature}
-                                                 : Samples{v.time_s, smooth(v, half).rate});
+  if (a.value.size() > kFewSamples) {
+    put(m.accel_mps2, a);
+    m.accel_sd_mps2.assign(count, std::max(fluctuation_rms(a), 1e-6));
+  } else {
+    const auto derived = [&](std::size_t widths) {
+      return m.speed_from_position ? Samples{z.time_s, smooth(z, 2 * widths * half).curvature}
+                                   : Samples{v.time_s, smooth(v, widths * half).rate};
+    };
+    put(m.accel_mps2, derived(1));
+    put(m.accel_sd_mps2, derived(2));
+    const double n = static_cast<double>(2 * half * (m.speed_from_position ? 2 : 1) + 1);
+    const double noise = m.speed_from_position
+                             ? noise_m * std::sqrt(720.0 / std::pow(n, 5)) / (m.step_s * m.step_s)
+                             : fluctuation_rms(v) * std::sqrt(12.0 / std::pow(n, 3)) / m.step_s;
+    for (std::size_t i = 0; i < count; ++i)
+      m.accel_sd_mps2[i] = std::hypot(noise, m.accel_sd_mps2[i] - m.accel_mps2[i]);
+  }
   m.depth_sd_m = std::max(noise_m, 1e-7);
   m.speed_sd_mps = std::max(
       m.speed_from_position ? noise_m / (m.step_s * static_cast<double>(half)) : fluctuation_rms(v), 1e-7);
-  m.accel_sd_mps2 = a.value.size() > kFewSamples ? std::max(fluctuation_rms(a), 1e-6) : 0.0;
   if (joined)
     smooth_jointly(m);
   else if (noise_m > kQuantum_m)

@@ -11,7 +11,8 @@ namespace sandhopper::diagnose {
 struct IntruderMotion {
   double start_s = 0.0, step_s = 1e-3;
   std::vector<double> depth_m, speed_mps, accel_mps2;
-  double depth_sd_m = 0.0, speed_sd_mps = 0.0, accel_sd_mps2 = 0.0;
+  double depth_sd_m = 0.0, speed_sd_mps = 0.0;
+  std::vector<double> accel_sd_mps2;  // a derived one is least sure where it changes fast
   // Where these were not recorded.
   bool speed_from_position = false, accel_from_position = false;
 };
@@ -20,7 +21,9 @@ struct IntruderMotion {
 // and agree in time they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of x = (z, v) driven
 // by a:
 //   z' = v, v' = a,   noise of z, v and a from their own fast fluctuation;
-// otherwise speeds and accelerations come from local parabolas.
+// otherwise speeds and accelerations come from local parabolas over n samples, with a standard deviation of
+//   s sqrt(12/n^3)/dt from speeds, s sqrt(720/n^5)/dt^2 from positions,
+// and what parabolas twice as long make of it as what they flatten.
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a);
 
 // Whether the recorded position is late, or its clock runs otherwise, against the recorded velocity v or,
