@@ -87,8 +87,9 @@ TEST_F(BenchmarkRunner, AddsTheTrialTheToolAskedForWhereItNamedAClass) {
 // A tool that names the mass alone once a trial is added. Where it recommended none to tell the class, only
 // the random trial is done, and that one shows that some trial would have.
 TEST_F(BenchmarkRunner, CountsATrialAsSplittingOnlyWhereItWasRecommendedForThat) {
-  const std::string effect = "{\"verdict\": \"missing_physics\", \"effects\": [{\"id\": \"body.mass\", "
-                             "\"probability\": 0.9, \"indistinguishable_from\": [";
+  const std::string effect =
+      "{\"verdict\": \"missing_physics\", \"effects\": [{\"id\": \"body.mass\", "
+      "\"probability\": 0.9, \"indistinguishable_from\": [";
   for (const std::string purpose : {"split", "repeat"}) {
     auto o = options("case \"$1\" in *after*|*random*) echo '" + effect + "]}]}' ;; *) echo '" + effect +
                      "\"fluid.buoyancy\"]}], \"next_trial\": {\"purpose\": \"" + purpose +

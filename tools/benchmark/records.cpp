@@ -123,7 +123,8 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
   if (json.contains("next_trial") && json["next_trial"].is_object()) {
     const auto& next = json["next_trial"];
     const auto setup = next.value("setup", Json());
-    d.asks_for_a_split = setup.is_object() && !setup.empty() && next.value("purpose", Json("split")) == "split";
+    d.asks_for_a_split =
+        setup.is_object() && !setup.empty() && next.value("purpose", Json("split")) == "split";
   }
   return d;
 }

@@ -61,8 +61,7 @@ std::vector<Figure> split_figures(const std::vector<Truth>& truths, const std::f
     const auto before = judge(truth, told);
     if (!before.right || before.class_size < 2) continue;
     const auto splits = [&](const char* folder) {
-      const auto after =
-          judge(truth, read_diagnosis(root / folder / "diagnoses" / (truth.name + ".json")));
+      const auto after = judge(truth, read_diagnosis(root / folder / "diagnoses" / (truth.name + ".json")));
       return after.right && after.class_size < before.class_size;
     };
     if (!told->asks_for_a_split) {

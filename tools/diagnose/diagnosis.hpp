@@ -115,8 +115,8 @@ struct NextTrial {
   std::vector<double> time_s, by_first, by_second;
 };
 
-// What a fit says of something that differs from trial to trial, without any effect and with those found: mean
-// and standard deviation over the trials, beside the one believed.
+// What a fit says of something that differs from trial to trial, without any effect and with those found:
+// mean and standard deviation over the trials, beside the one believed.
 struct TrialToTrial {
   std::string name;  // ends in its unit
   double believed_sd = 0.0;

@@ -94,8 +94,8 @@ struct Candidate {
   std::string port{};  // where the effect acts on this plant
 
   // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
-  // of time, reading, torque or inertia by its tangent, or the steep edges of a signal, or friction that gives
-  // way, hide it behind its own curvature.
+  // of time, reading, torque or inertia by its tangent, or the steep edges of a signal, or friction that
+  // gives way, hide it behind its own curvature.
   double probe() const {
     const auto& port = effect->port;
     return port == "sensor" || port == "clock" || port == "actuator" || port == "inertia" ? 0.02 : 0.4;

@@ -78,7 +78,8 @@ std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
       if (everywhere) sum += point.nuisances[t][i] / own[i].sd;
     }
     if (everywhere)
-      leans.push_back({names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kTrialsThatLean))});
+      leans.push_back(
+          {names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kTrialsThatLean))});
   }
   std::ranges::sort(leans, [](const Lean& a, const Lean& b) { return std::abs(a.z) > std::abs(b.z); });
   return leans;

@@ -27,7 +27,8 @@ Recordings spread_over(const Recordings& recordings, std::size_t count) {
     keys.emplace_back(trial.kind, trial.setup, trial.time_s.size(), energy(trial));
   std::vector<std::size_t> order(trials.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, {}, [&](std::size_t i) -> const auto& { return keys[i]; });
+  std::ranges::sort(
+      order, {}, [&](std::size_t i) -> const auto& { return keys[i]; });
   Recordings some = recordings;
   some.trials.clear();
   some.beliefs.clear();

@@ -6,8 +6,8 @@
 
 namespace sandhopper::diagnose {
 
-// At most `count` of the trials, spread evenly over their set-ups and, within one, over how long and how large
-// they are: the same ones in whatever order they are given.
+// At most `count` of the trials, spread evenly over their set-ups and, within one, over how long and how
+// large they are: the same ones in whatever order they are given.
 Recordings spread_over(const Recordings& recordings, std::size_t count);
 
 // The effects found in one problem as a start in another, of the same plant: there each trial's nuisances are

@@ -156,9 +156,10 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
   for (const auto& p : pairs)
     if (p.i == 0) others += (others.empty() ? "" : ", ") + groups[p.group].names[p.j];
   next = {};
-  next.why = fmt::format("None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "
-                         "about {:.0f} times.",
-                         planned.size(), groups[shown.group].names[0], others, repeats);
+  next.why = fmt::format(
+      "None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "
+      "about {:.0f} times.",
+      planned.size(), groups[shown.group].names[0], others, repeats);
 }
 
 // Doublings of the information on some parameters of a point; `information` so far.

@@ -25,9 +25,10 @@ constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
-constexpr double kUnmistakablePerRow = 0.3;  // what gains this share of the noise's power is not too small to name
-constexpr double kSmallestShare = 0.002;     // of what all effects explain
-constexpr double kShareOfFormError = 0.2;    // that passes for an effect of its own
+constexpr double kUnmistakablePerRow =
+    0.3;  // what gains this share of the noise's power is not too small to name
+constexpr double kSmallestShare = 0.002;   // of what all effects explain
+constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
 
 // By how much this effect makes channels late. The tolerances of those channels do the same and would leave
 // the trials nothing to say. Stamps of a recorded drive that are late make what acts early.

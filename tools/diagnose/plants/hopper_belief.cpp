@@ -33,4 +33,12 @@ WorldConfig world_of(const Belief& belief, const Edits& edits) {
   return world;
 }
 
+Belief with_payload(Belief belief, const Trial& trial) {
+  const double payload_kg = trial.setup_or("payload_kg", 0.0);
+  if (payload_kg != 0.0)
+    belief.numbers["robot.body_mass_kg"] =
+        belief.value("robot.body_mass_kg", LegParameters{}.body_mass_kg) + payload_kg;
+  return belief;
+}
+
 }  // namespace sandhopper::diagnose

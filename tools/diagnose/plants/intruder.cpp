@@ -211,7 +211,8 @@ class IntruderTrial final : public TrialModel {
       };
       const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N) : at_force(0.0);
       if (explain) {
-        run.input_sd_N.push_back(touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction, motion_.accel_sd_mps2[i]) : 0.0);
+        run.input_sd_N.push_back(
+            touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction, motion_.accel_sd_mps2[i]) : 0.0);
         run.phase.push_back(!touching || force_N <= 0.0                                      ? kAbove
                             : down                                                           ? kLoading
                             : read.speed_mps(i) > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold

@@ -266,8 +266,9 @@ class RotaryTrial final : public TrialModel {
     };
     const auto torque_at = [&](double t) {
       const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
-      return s.torque_Nm + at * s.torque_rise_Nm + torque.values[std::min(torque.values.size() - 1, static_cast<std::size_t>(std::max(
-                                                                                0.0, std::round(t / step_s_))))];
+      return s.torque_Nm + at * s.torque_rise_Nm +
+             torque.values[std::min(torque.values.size() - 1,
+                                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))))];
     };
     // A reading that is late shows at first what was before: what a steady acceleration leads there from.
     const double first = accel(s.from_s, torque_at(s.from_s), th, w);
