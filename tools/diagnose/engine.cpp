@@ -205,13 +205,15 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   // What a name on the list says as well is not unknown, however small the effect.
   if (rest.unknown && rest.law && search.name_small(rest.remainder()))
     rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
+  Point answer = search.best().fit.point;
+  if (rest.law && (rest.unknown || !search.best().set.empty()))
+    answer = with_law_fitted(problem, search.best().fit, *rest.law);
   const Posterior belief = posterior(problem, search, rest.remainder());
   report_verdict(problem, search, belief, rest, diagnosis);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);
   const FreeGain* law = rest.law ? &*rest.law : nullptr;
-  const Residuals residuals =
-      residuals_of(problem, search, diagnosis.unknown.empty() ? nullptr : &law->family);
+  const Residuals residuals = residuals_of(problem, search.null().fit.point, answer);
   report_errors(problem, residuals, diagnosis);
   report_trial_to_trial(problem, search, diagnosis);
   report_residuals(problem, residuals, diagnosis);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "tools/diagnose/free_laws.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -22,9 +23,16 @@ constexpr double kWorse = 1.0;     // of a trial's deviance
 constexpr double kPromise = 10.0;  // of the deviance: worth derivatives of its own
 constexpr double kPriorTypicals = 10.0;
 constexpr double kDerivativeStep = 0.005;  // of a parameter's typical size
+constexpr double kLawStep = 0.01;          // of a free law's scale
+
+Eigen::Map<const VectorXd> law_sizes(const Hypothesis& hypothesis) {
+  return {hypothesis.law_sizes.data(), static_cast<Index>(hypothesis.law_sizes.size())};
+}
 
 double prior_deviance(const Problem& problem, const Point& point) {
   double sum = 0.0;
+  if (const auto sizes = law_sizes(point.hypothesis); sizes.size() > 0)
+    sum += sizes.dot(free_law_information(point.hypothesis.law.size()) * sizes);
   for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
     const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -37,25 +45,6 @@ double prior_deviance(const Problem& problem, const Point& point) {
   }
   for (const double value : point.tolerances) sum += value * value;
   return sum;
-}
-
-// Gradient and information of the priors, in units of typical size.
-void add_priors(const Problem& problem, const Point& point, MatrixXd& information, VectorXd& score) {
-  Index at = 0;
-  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
-      const bool amplitude = is_amplitude(parameters, j);
-      const double centre = amplitude ? 0.0 : parameters[j].typical;
-      const double weight = amplitude ? 1.0 / (kPriorTypicals * kPriorTypicals) : 1.0;
-      information(at, at) += weight;
-      score[at] -= weight * (point.hypothesis.values[i][j] - centre) / parameters[j].typical;
-    }
-  }
-  for (const double value : point.tolerances) {
-    information(at, at) += 1.0;
-    score[at++] -= value;
-  }
 }
 
 // Moves by `step` (typical sizes, then tolerances), inside the bounds. True when a bound was met.
@@ -71,6 +60,7 @@ bool move(const Problem& problem, Point& point, const VectorXd& step) {
       bounded = bounded || (value != wanted && j == 0);
     }
   }
+  for (double& size : point.hypothesis.law_sizes) size += step[at++];
   for (double& value : point.tolerances)
     value = std::clamp(value + step[at++], -kMostTolerance, kMostTolerance);
   return bounded;
@@ -237,6 +227,30 @@ class Fitter {
 
 }  // namespace
 
+void add_priors(const Problem& problem, const Point& point, MatrixXd& information, VectorXd& score) {
+  Index at = 0;
+  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
+    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
+    for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
+      const bool amplitude = is_amplitude(parameters, j);
+      const double centre = amplitude ? 0.0 : parameters[j].typical;
+      const double weight = amplitude ? 1.0 / (kPriorTypicals * kPriorTypicals) : 1.0;
+      information(at, at) += weight;
+      score[at] -= weight * (point.hypothesis.values[i][j] - centre) / parameters[j].typical;
+    }
+  }
+  if (const auto sizes = law_sizes(point.hypothesis); sizes.size() > 0) {
+    const MatrixXd of_law = free_law_information(point.hypothesis.law.size());
+    information.block(at, at, sizes.size(), sizes.size()) += of_law;
+    score.segment(at, sizes.size()) -= of_law * sizes;
+    at += sizes.size();
+  }
+  for (const double value : point.tolerances) {
+    information(at, at) += 1.0;
+    score[at++] -= value;
+  }
+}
+
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point) {
   std::vector<Direction> directions;
   for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
@@ -248,6 +262,11 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
       moved.values[i][j] += step * parameters[j].typical;
       directions.push_back({edits_for(problem, moved, point.tolerances), step});
     }
+  }
+  for (std::size_t k = 0; k < point.hypothesis.law.size(); ++k) {
+    Hypothesis moved = point.hypothesis;
+    moved.law_sizes[k] += kLawStep;
+    directions.push_back({edits_for(problem, moved, point.tolerances), kLawStep});
   }
   for (std::size_t i = 0; i < point.tolerances.size(); ++i) {
     directions.push_back({{}, 1.0, static_cast<int>(i)});

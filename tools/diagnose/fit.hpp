@@ -19,7 +19,8 @@ struct Fit {
   FitStatus status = FitStatus::failed;
   double deviance = 0.0;               // 2 Phi
   std::vector<double> trial_deviance;  // without the priors of effects and tolerances
-  Eigen::MatrixXd information;         // of effects' parameters (scaled by typical), then tolerances
+  // Of effects' parameters (scaled by typical), sizes of a free law's terms, tolerances.
+  Eigen::MatrixXd information;
   int iterations = 0;
   double promised = 0.0;  // drop of the deviance that the last step hoped for and did not bring
 };
@@ -34,9 +35,14 @@ struct FitOptions {
 // From `start`; its nuisances and tolerances are kept as starting values.
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options = {});
 
-// Directions of the free parameters of a point, each scaled by its typical size, then tolerances.
+// Directions of the free parameters of a point: effects', each scaled by its typical size, sizes of a free
+// law's terms, tolerances.
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);
-// Their information beforehand. A tolerance that has gone as far as it may is none any more: it is held.
+// What is believed of them beforehand, added to a fit's information and to its score.
+void add_priors(const Problem& problem, const Point& point, Eigen::MatrixXd& information,
+                Eigen::VectorXd& score);
+// Their information beforehand, without a law. A tolerance that has gone as far as it may is none any more:
+// it is held.
 Eigen::VectorXd prior_information(const Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

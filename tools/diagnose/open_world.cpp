@@ -83,4 +83,30 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
   return gains;
 }
 
+Point with_law_fitted(const Problem& problem, const Fit& at, FreeGain& law) {
+  constexpr double kWorthAStep = 0.005, kGoodStart = 0.7;  // of the deviance without the law
+  const FitOptions refit{.max_iterations = 6, .tolerance = kWorthAStep * at.deviance};
+  const auto terms = law.family.terms.size();
+  Fit best = at;
+  // From where its linear approximation, or the balance, has it; if that leads nowhere, from nothing.
+  for (const double share : {1.0, 0.0}) {
+    Point start = at.point;
+    start.hypothesis.law = law.family.terms;
+    for (std::size_t k = 0; k < terms; ++k)
+      start.hypothesis.law_sizes.push_back(share * law.size[static_cast<Index>(k)]);
+    Fit fit = fit_from(problem, start, refit);
+    if (fit.deviance < best.deviance) best = std::move(fit);
+    if (best.deviance < kGoodStart * at.deviance) break;
+  }
+  if (best.point.hypothesis.law.empty()) return at.point;
+  const auto first = static_cast<Index>(best.point.hypothesis.parameters()), n = static_cast<Index>(terms);
+  const auto all = best.information.rows();
+  const MatrixXd covariance = best.information.ldlt().solve(MatrixXd::Identity(all, all));
+  for (Index k = 0; k < n; ++k) {
+    law.size[k] = best.point.hypothesis.law_sizes[static_cast<std::size_t>(k)];
+    law.sd[k] = std::sqrt(std::max(0.0, covariance(first + k, first + k)));
+  }
+  return best.point;
+}
+
 }  // namespace sandhopper::diagnose

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/free_laws.hpp"
 #include "tools/diagnose/screen.hpp"
 
@@ -22,5 +23,9 @@ double p_of_gains(const std::vector<double>& gains, double spread);
 
 // All families, the largest gain first.
 std::vector<FreeGain> free_gains(const Problem& problem, const Point& point);
+
+// The law beside what stands at a fit, all fitted together through the simulation; its sizes and their
+// standard deviations become those of that fit. The fit's own point where none is closer.
+Point with_law_fitted(const Problem& problem, const Fit& at, FreeGain& law);
 
 }  // namespace sandhopper::diagnose

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "tools/diagnose/free_laws.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -55,6 +57,10 @@ Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<
     edits.laws_key = mixed(edits.laws_key, hypothesis.candidates[i]);
     for (const double value : hypothesis.values[i])
       edits.laws_key = mixed(edits.laws_key, std::bit_cast<std::uint64_t>(value));
+  }
+  for (std::size_t k = 0; k < hypothesis.law.size(); ++k) {
+    edits = with_term(std::move(edits), hypothesis.law[k], hypothesis.law_sizes[k]);
+    edits.laws_key = 0;
   }
   for (std::size_t i = 0; i < tolerances.size(); ++i)
     if (tolerances[i] != 0.0)

@@ -80,12 +80,15 @@ struct FreeTerm {
   double scale = 1.0;
 };
 
-// A set of effects with the values of their parameters, one after another in each effect.
+// A set of effects with the values of their parameters, one after another in each effect; beside them perhaps
+// one law of free form, a sum of terms times their sizes (in scales of the port).
 struct Hypothesis {
   std::vector<std::size_t> candidates;
   std::vector<std::vector<double>> values;
+  std::vector<FreeTerm> law{};
+  std::vector<double> law_sizes{};
 
-  std::size_t parameters() const {
+  std::size_t parameters() const {  // of the effects
     std::size_t n = 0;
     for (const auto& v : values) n += v.size();
     return n;

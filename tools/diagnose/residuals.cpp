@@ -1,8 +1,10 @@
 #include "tools/diagnose/residuals.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
-#include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/linearise.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -11,24 +13,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kProbe = 0.2;  // of a free law's scale
-
-struct Columns {
-  std::vector<Direction> directions;
-  VectorXd prior;  // information
-};
-
-Columns columns_of(const Problem& problem, const Point& point, const FreeFamily* rest) {
-  Columns columns{parameter_directions(problem, point), {}};
-  const auto own = static_cast<Index>(columns.directions.size());
-  if (rest != nullptr) {
-    const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-    for (const auto& term : rest->terms)
-      columns.directions.push_back({with_term(base, term, kProbe), kProbe});
-  }
-  columns.prior = VectorXd::Constant(static_cast<Index>(columns.directions.size()), kFreeLawInformation);
-  columns.prior.head(own) = prior_information(problem, point);
-  return columns;
+// A tolerance that has gone as far as it may stays there.
+VectorXd held_tolerances(const Point& point, Index parameters) {
+  constexpr double kHeld = 1e12;
+  VectorXd held = VectorXd::Zero(parameters);
+  const auto count = static_cast<Index>(point.tolerances.size());
+  for (Index i = 0; i < count; ++i)
+    if (std::abs(point.tolerances[static_cast<std::size_t>(i)]) >= kMostTolerance)
+      held[parameters - count + i] = kHeld;
+  return held;
 }
 
 // What each effect does to the rows of a trial: its amplitudes times their derivatives.
@@ -48,30 +41,30 @@ std::vector<VectorXd> changes(const Problem& problem, const Point& point, const 
 
 }  // namespace
 
-Residuals residuals_of(const Problem& problem, const Search& search, const FreeFamily* rest) {
+Residuals residuals_of(const Problem& problem, const Point& null, const Point& point) {
   Residuals out;
-  for (auto& trial : linearise_all(problem, search.null().fit.point, {}, {.keep_plain = true}))
+  for (auto& trial : linearise_all(problem, null, {}, {.keep_plain = true}))
     out.before.emplace_back(trial.plain.col(0));
 
-  const Point& point = search.best().fit.point;
-  const auto columns = columns_of(problem, point, rest);
-  const auto k = static_cast<Index>(columns.directions.size());
-  const auto linear = linearise_all(problem, point, columns.directions, {.keep_plain = true});
-  MatrixXd information = columns.prior.asDiagonal();
+  const auto directions = parameter_directions(problem, point);
+  const auto k = static_cast<Index>(directions.size());
+  const auto linear = linearise_all(problem, point, directions, {.keep_plain = true});
+  MatrixXd information = MatrixXd::Zero(k, k);
   VectorXd score = VectorXd::Zero(k);
   for (const auto& trial : linear) {
     information += trial.gram.bottomRightCorner(k, k);
     score += trial.gram.col(0).tail(k);
   }
-  const VectorXd all = k > 0 ? VectorXd(information.ldlt().solve(score)) : VectorXd();
+  add_priors(problem, point, information, score);
+  information.diagonal() += held_tolerances(point, k);
   for (const auto& trial : linear) {
-    VectorXd after = trial.plain.col(0), held_out = after;
-    if (k > 0 && rest != nullptr) after -= trial.plain.rightCols(k) * all;
+    const VectorXd after = trial.plain.col(0);
+    VectorXd held_out = after;
     if (k > 0 && linear.size() > 1) {
       const MatrixXd others = information - trial.gram.bottomRightCorner(k, k);
       held_out -= trial.plain.rightCols(k) * others.ldlt().solve(score - trial.gram.col(0).tail(k));
     }
-    out.after.push_back(std::move(after));
+    out.after.push_back(after);
     out.held_out.push_back(std::move(held_out));
     out.change.push_back(changes(problem, point, trial.plain));
   }

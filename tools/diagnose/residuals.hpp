@@ -16,7 +16,7 @@ struct Residuals {
       change;  // [trial][effect of the best set]: what it does to the rows
 };
 
-// `rest`: a free law that belongs to the answer; null where none does. Its sizes are linear.
-Residuals residuals_of(const Problem& problem, const Search& search, const FreeFamily* rest);
+// `point`: the answer, perhaps with a law of free form.
+Residuals residuals_of(const Problem& problem, const Point& null, const Point& point);
 
 }  // namespace sandhopper::diagnose
