@@ -1,7 +1,6 @@
 #include "tools/diagnose/residuals.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/linearise.hpp"
@@ -12,17 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// A tolerance that has gone as far as it may stays there.
-VectorXd held_tolerances(const Point& point, Index parameters) {
-  constexpr double kHeld = 1e12;
-  VectorXd held = VectorXd::Zero(parameters);
-  const auto count = static_cast<Index>(point.tolerances.size());
-  for (Index i = 0; i < count; ++i)
-    if (std::abs(point.tolerances[static_cast<std::size_t>(i)]) >= kMostTolerance)
-      held[parameters - count + i] = kHeld;
-  return held;
-}
 
 // What each effect does to the rows of a trial: its amplitudes times their derivatives.
 std::vector<VectorXd> changes(const Problem& problem, const Point& point, const MatrixXd& plain) {
@@ -56,7 +44,10 @@ Residuals residuals_of(const Problem& problem, const Point& null, const Point& p
     score += trial.gram.col(0).tail(k);
   }
   add_priors(problem, point, information, score);
-  information.diagonal() += held_tolerances(point, k);
+  // A tolerance that has gone as far as it may stays there; beside the 1 of any other.
+  const auto tolerances = static_cast<Index>(point.tolerances.size());
+  information.diagonal().tail(tolerances) +=
+      prior_information(problem, point).tail(tolerances) - VectorXd::Ones(tolerances);
   for (const auto& trial : linear) {
     const VectorXd after = trial.plain.col(0);
     VectorXd held_out = after;
