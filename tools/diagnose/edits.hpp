@@ -37,7 +37,8 @@ struct SensorEdit {
   std::string channel;
   Kind kind{};
   double value = 0.0;
-  Law law{};  // added to the value
+  Law law{};                  // added to the value
+  std::uint64_t law_key = 0;  // tells laws apart, which cannot be compared; 0: not known
 };
 
 struct BeliefEdit {
@@ -51,17 +52,17 @@ struct Edits {
   std::vector<BeliefEdit> belief;
   std::vector<std::pair<std::string, Law>> laws;  // port, force or torque added there
   std::vector<SensorEdit> sensors;
-  // Tells laws apart, which cannot be compared: edits with the same key hold the same laws. 0: not known.
+  // Edits with the same key hold the same laws at ports. 0: not known.
   std::uint64_t laws_key = 0;
 
   void scale(std::string key, double factor) { belief.push_back({std::move(key), factor, 0.0}); }
   void add(std::string key, double addend) { belief.push_back({std::move(key), 1.0, addend}); }
   void law(std::string port, Law law) { laws.emplace_back(std::move(port), std::move(law)); }
   void sensor(std::string channel, SensorEdit::Kind kind, double value) {
-    sensors.push_back({std::move(channel), kind, value, {}});
+    sensors.push_back({std::move(channel), kind, value, {}, 0});
   }
   void sensor_law(std::string channel, Law law) {
-    sensors.push_back({std::move(channel), SensorEdit::Kind::law, 0.0, std::move(law)});
+    sensors.push_back({std::move(channel), SensorEdit::Kind::law, 0.0, std::move(law), 0});
   }
 
   double edited(std::string_view key, double value) const {

@@ -132,7 +132,7 @@ Search searched(Problem& problem, const Recordings& clean, const Point& null, co
     problem.used = used;
     return search;
   }
-  keep_columns(problem, search.best().fit.point);
+  keep_columns(problem, search.null().fit.point);
   search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
   // What came near already needs no search, but another fit.
   search_options.most_effects = options.most_effects;
@@ -200,6 +200,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
 
   BalanceLaw balance(problem, clean);
   Search search = searched(problem, clean, null, options, balance, diagnosis);
+  if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   // What a name on the list says as well is not unknown, however small the effect.

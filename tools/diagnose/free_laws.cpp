@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/experiment/parallel.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -69,30 +71,26 @@ struct Visited {
 };
 std::vector<Visited> visited(const Problem& problem, const Point& point, const std::string& port, bool sensor,
                              const std::vector<Variable>& variables) {
-  std::vector<Visited> all(variables.size());
-  std::vector<std::vector<double>> trial(variables.size());
-  Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
-  const Law probe = [&](const PortState& s) {
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (variables[i].weight(s) == 0.0) continue;
-      const double v = variables[i].value(s);
-      if (std::isfinite(v)) trial[i].push_back(v);
-    }
-    return 0.0;
-  };
-  if (sensor)
-    edits.sensor_law(port, probe);
-  else
-    edits.law(port, probe);
-  edits.laws_key = 0;
-  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    for (auto& values : trial) values.clear();
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<std::vector<std::vector<double>>> trials(problem.trials.size(),
+                                                       std::vector<std::vector<double>>(variables.size()));
+  parallel_for(trials.size(), [&](std::size_t t) {
+    const Law probe = [&](const PortState& s) {
+      for (std::size_t i = 0; i < variables.size(); ++i) {
+        if (variables[i].weight(s) == 0.0) continue;
+        const double v = variables[i].value(s);
+        if (std::isfinite(v)) trials[t][i].push_back(v);
+      }
+      return 0.0;
+    };
     std::vector<double> out(problem.trials[t]->rows.size());
-    problem.trials[t]->predict(edits, point.nuisances[t], out);
+    problem.trials[t]->predict(with_term(base, {port, sensor, probe, 1.0}, 1.0), point.nuisances[t], out);
+  });
+  std::vector<Visited> all(variables.size());
+  for (const auto& trial : trials)
     for (std::size_t i = 0; i < variables.size(); ++i)
       for (const double v : trial[i])
         all[i].values.emplace_back(v, 1.0 / static_cast<double>(trial[i].size()));
-  }
   return all;
 }
 
@@ -199,11 +197,12 @@ Eigen::MatrixXd free_law_information(std::size_t knots) {
 Edits with_term(Edits base, const FreeTerm& term, double amplitude) {
   const Law law = term.law;
   const Law scaled = [law, amplitude](const PortState& s) { return amplitude * law(s); };
-  if (term.sensor)
+  if (term.sensor) {
     base.sensor_law(term.port, scaled);
-  else
+  } else {
     base.law(term.port, scaled);
-  base.laws_key = 0;
+    base.laws_key = 0;
+  }
   return base;
 }
 

@@ -85,7 +85,9 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
   for (Index i = 0; i < q; ++i) columns.push_back(kept.shared.cols() - q + i);
   const MatrixXd cross = x.transpose() * kept.white_shared;
   MatrixXd gram(width + q, width + q);
-  gram.topLeftCorner(own, own) = x.transpose() * x;
+  MatrixXd products = MatrixXd::Zero(own, own);
+  products.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+  gram.topLeftCorner(own, own) = products.selfadjointView<Eigen::Lower>();
   for (Index j = 0; j < width + q - own; ++j) {
     const Index c = columns[static_cast<std::size_t>(j)];
     gram.block(0, own + j, own, 1) = cross.col(c);
@@ -228,9 +230,10 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
                                        const std::vector<Direction>& directions,
                                        const LineariseOptions& options) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-  std::vector<TrialLinear> out(problem.trials.size());
-  parallel_for(out.size(), [&](std::size_t t) {
-    out[t] = linearise(problem, t, base, point.nuisances[t], directions, options);
+  std::vector<TrialLinear> out((problem.trials.size() + options.every - 1) / options.every);
+  parallel_for(out.size(), [&](std::size_t i) {
+    const std::size_t t = i * options.every;
+    out[i] = linearise(problem, t, base, point.nuisances[t], directions, options);
   });
   return out;
 }

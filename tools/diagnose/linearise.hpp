@@ -31,14 +31,15 @@ struct LineariseOptions {
   bool fresh_columns = false;                         // do not take the kept ones
   const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial
   const Eigen::VectorXd* prediction = nullptr;        // known already
-  double damping = 0.0;  // of the nuisances: their diagonal grows by this share (Marquardt)
+  double damping = 0.0;   // of the nuisances: their diagonal grows by this share (Marquardt)
+  std::size_t every = 1;  // of linearise_all: which trials, from the first
 };
 
 TrialLinear linearise(const Problem& problem, std::size_t trial, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options = {});
 
-// All trials, in parallel.
+// All trials (or every nth), in parallel.
 std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& point,
                                        const std::vector<Direction>& directions,
                                        const LineariseOptions& options = {});

@@ -142,10 +142,10 @@ void update_noise(Problem& problem, const Point& point) {
           i == 0 ? std::min(problem.candidates[c].probe() * parameters[i].typical, parameters[i].high)
           : parameters[i].amplitude ? 0.0
                                     : parameters[i].typical);
-    Edits edits = base;
-    problem.candidates[c].effect->apply(problem.context, problem.candidates[c].channel, values, edits);
-    edits.laws_key = 0;
-    directions.push_back({std::move(edits), values[0] / parameters[0].typical});
+    Hypothesis with = point.hypothesis;
+    with.candidates.push_back(c);
+    with.values.push_back(values);
+    directions.push_back({edits_for(problem, with, point.tolerances), values[0] / parameters[0].typical});
   }
   const double rows = problem.rows();
   auto families = free_families(problem, point);

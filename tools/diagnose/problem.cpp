@@ -40,6 +40,7 @@ std::vector<std::string> put_in_place(Problem& problem) {
     }
     candidate->effect->apply(problem.context, candidate->channel, values, problem.in_place);
   }
+  for (auto& edit : problem.in_place.sensors) edit.law_key = 1;
   return unknown;
 }
 
@@ -50,18 +51,13 @@ Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<
     const Candidate& candidate = problem.candidates[hypothesis.candidates[i]];
     const std::size_t laws = edits.laws.size(), sensors = edits.sensors.size();
     candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[i], edits);
-    bool law = edits.laws.size() > laws;
-    for (std::size_t k = sensors; k < edits.sensors.size(); ++k)
-      law = law || edits.sensors[k].kind == SensorEdit::Kind::law;
-    if (!law) continue;
-    edits.laws_key = mixed(edits.laws_key, hypothesis.candidates[i]);
-    for (const double value : hypothesis.values[i])
-      edits.laws_key = mixed(edits.laws_key, std::bit_cast<std::uint64_t>(value));
+    std::uint64_t key = mixed(1, hypothesis.candidates[i]);
+    for (const double value : hypothesis.values[i]) key = mixed(key, std::bit_cast<std::uint64_t>(value));
+    if (edits.laws.size() > laws) edits.laws_key = mixed(edits.laws_key, key);
+    for (std::size_t k = sensors; k < edits.sensors.size(); ++k) edits.sensors[k].law_key = key;
   }
-  for (std::size_t k = 0; k < hypothesis.law.size(); ++k) {
+  for (std::size_t k = 0; k < hypothesis.law.size(); ++k)
     edits = with_term(std::move(edits), hypothesis.law[k], hypothesis.law_sizes[k]);
-    edits.laws_key = 0;
-  }
   for (std::size_t i = 0; i < tolerances.size(); ++i)
     if (tolerances[i] != 0.0)
       edits.sensor(problem.tolerances[i].channel, SensorEdit::Kind::delay_s,

@@ -22,7 +22,7 @@ constexpr double kLinearError =
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
 constexpr double kCaught = 3.0;         // of the deviance over the dispersion, above what a proposal promises
-constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what an exchange may start from
+constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what more may start from
 
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
@@ -34,7 +34,7 @@ constexpr double kFreed = 0.02;      // of a drop that the null fit finds, too
 constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not what they are believed to be
 constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 2.9
 constexpr double kUnbent = 0.6;      // of a lean that is left
-constexpr std::size_t kStraightFits = 3;
+constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
 constexpr double kNearlyAll = 0.9;                        // of what a law of free form gains
 constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
 
@@ -91,7 +91,9 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
   SetFit result;
   result.set = set;
   result.rough = true;
-  result.fit = fit_at(start, kRough);
+  FitOptions rough = kRough;
+  rough.columns = columns_for(from.set);
+  result.fit = fit_at(start, rough);
   // A second start where the first got nowhere near what its linear approximation promised, if that would
   // pay.
   if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain &&
@@ -102,7 +104,7 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
       auto values = added.values;
       values[0] = std::clamp(factor * parameters[0].typical, parameters[0].low, parameters[0].high);
       start.hypothesis.values.back() = values;
-      Fit again = fit_at(start, kRough);
+      Fit again = fit_at(start, rough);
       if (again.deviance < result.fit.deviance) result.fit = std::move(again);
     }
   }
@@ -114,7 +116,7 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
         problem_->candidates[added.candidate].parameters[0].low,
         problem_->candidates[added.candidate].parameters[0].high);
     start.hypothesis.values.back() = values;
-    Fit again = fit_at(start, kRough);
+    Fit again = fit_at(start, rough);
     if (again.deviance < result.fit.deviance) result.fit = std::move(again);
   }
   sets_[set] = std::move(result);
@@ -137,11 +139,12 @@ void Search::evaluate_straight(const SetFit& from) {
     double deviance = 0.0;  // with the nuisances as a linear approximation has them
   };
   std::map<std::size_t, Nearest> nearest;  // of each candidate
+  const std::size_t every = std::max<std::size_t>(1, problem_->trials.size() / kTrialsHeld);
   const auto hold = [&](std::size_t candidate, const std::vector<double>& values) {
     Nearest one{straight, 0.0};
     one.start.hypothesis.candidates.push_back(candidate);
     one.start.hypothesis.values.push_back(values);
-    for (const auto& trial : linearise_all(*problem_, one.start, {}, {.columns = &columns}))
+    for (const auto& trial : linearise_all(*problem_, one.start, {}, {.columns = &columns, .every = every}))
       one.deviance += trial.gram(0, 0);
     const auto known = nearest.find(candidate);
     if (known == nearest.end() || one.deviance < known->second.deviance)
@@ -160,10 +163,16 @@ void Search::evaluate_straight(const SetFit& from) {
   std::vector<const Nearest*> order;
   for (const auto& [candidate, one] : nearest) order.push_back(&one);
   std::ranges::sort(order, {}, &Nearest::deviance);
+  double closest = from.fit.deviance;
   for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i) {
     SetFit result;
     result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
-    result.fit = fit_at(order[i]->start, {.columns = &columns});  // nuisances have far to go: no rough fit
+    result.fit = fit_at(order[i]->start, {.max_iterations = kRough.max_iterations, .columns = &columns});
+    // Nuisances have far to go: no rough fit of what comes near.
+    if (result.fit.status == FitStatus::failed &&
+        result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest))
+      result.fit = fit_at(Point(result.fit.point), {.columns = &columns});
+    closest = std::min(closest, result.fit.deviance);
     const auto known = sets_.find(result.set);
     if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
       sets_[result.set] = std::move(result);
@@ -413,8 +422,10 @@ bool Search::name_small(double gain) {
 
 std::vector<Point> Search::best_points(std::size_t count) const {
   std::vector<const SetFit*> order;
+  const double limit = best().fit.deviance + kNearlyAsGood * (null().fit.deviance - best().fit.deviance);
   for (const auto& [set, fit] : sets_)
-    if (!set.empty() && fit.fit.status != FitStatus::failed) order.push_back(&fit);
+    if (!set.empty() && fit.fit.status != FitStatus::failed && fit.fit.deviance <= limit)
+      order.push_back(&fit);
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
   std::vector<Point> points;
@@ -431,6 +442,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
+  if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
   for (const auto& seed : seeds) {
     SetFit fit;
     fit.set = seed.hypothesis.candidates;

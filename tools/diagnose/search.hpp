@@ -59,7 +59,7 @@ class Search {
   // False when there is none.
   bool name_small(double gain);
 
-  // Where the fits of the sets with the smallest criterion stand.
+  // Where the fits of the sets with the smallest criterion stand, of those that come near.
   std::vector<Point> best_points(std::size_t count) const;
 
   const SetFit& best() const { return sets_.at(best_); }

@@ -29,8 +29,10 @@ HopperRuns::Key HopperRuns::key(const Edits& edits, std::span<const double> plan
   }
   for (const auto& edit : edits.sensors)
     if (acts_on_plant(edit.channel)) {
+      if (edit.kind == SensorEdit::Kind::law && edit.law_key == 0) return {};
       key.push_back(static_cast<double>(edit.kind));
       key.push_back(edit.value);
+      key.push_back(std::bit_cast<double>(edit.law_key));
     }
   key.insert(key.end(), plant_nuisances.begin(), plant_nuisances.end());
   return key;
