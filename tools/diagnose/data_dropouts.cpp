@@ -97,8 +97,13 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   // A quantity near the code meets it by chance, but not again and again: noise spreads over many steps of
   // the grid.
   const double by_chance = noise > 0.0 ? std::min(1.0, grid / (kGauss * noise)) : 1.0;
+  // At an edge nothing shows that it comes back: a sensor may rest at its limit there.
+  const auto at_edge = [](const std::vector<double>& v, const Stretch& s) {
+    return s.first == 0 || s.last + 1 == v.size();
+  };
   const auto lasts = [&](const std::vector<double>& v, const Stretch& s) {
-    return always_noisy && samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
+    return always_noisy && !at_edge(v, s) &&
+           samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
            !rests_there(v, s, code);
   };
   std::vector<std::vector<Stretch>> lost(channel.size());
@@ -114,8 +119,8 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   for (std::size_t c = 0; c < channel.size(); ++c)
     for (const auto& stretch : stretches_at(channel[c].value, code)) {
       const auto& v = channel[c].value;
-      const bool at_the_edge = stretch.first == 0 || stretch.last + 1 == v.size();
-      const bool as_long = stretch.samples() <= longest && (at_the_edge || 2 * stretch.samples() >= shortest);
+      const bool as_long =
+          stretch.samples() <= longest && (at_edge(v, stretch) || 2 * stretch.samples() >= shortest);
       if (falls_out(v, stretch.first, stretch.last, code, noise) || lasts(v, stretch) ||
           (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code)))
         lost[c].push_back(stretch);

@@ -11,6 +11,7 @@
 
 #include "tools/diagnose/data_fault_parts.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -67,6 +68,16 @@ double changes_around(const std::vector<double>& v, std::size_t first, std::size
   return rms_around(v, first, last, 0, [&](std::size_t i) { return v[i] - v[i - 1]; });
 }
 
+// Where single jumps do not count.
+double usual_change_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  std::vector<double> changes;
+  for (std::size_t i = first > kNeighbours ? first - kNeighbours + 1 : 1; i < first; ++i)
+    changes.push_back(std::abs(v[i] - v[i - 1]));
+  for (std::size_t i = last + 2; i <= last + kNeighbours && i < v.size(); ++i)
+    changes.push_back(std::abs(v[i] - v[i - 1]));
+  return changes.empty() ? 0.0 : 1.4826 * median(std::move(changes));
+}
+
 // Of white noise alone, whatever the quantity does meanwhile.
 double noise_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   return rms_around(v, first, last, 1,
@@ -83,9 +94,33 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
   return std::abs(v[last + 1] - v[last]) >= std::max(4.0 * grid, 3.0 * change);
 }
 
+// A quiet sensor that was held jumps to where the quantity went meanwhile; one that shows a pause goes on no
+// faster at first than afterwards.
+bool jumps_after(const std::vector<double>& v, std::size_t last) {
+  return last + 2 >= v.size() || std::abs(v[last + 1] - v[last]) >= 2.0 * std::abs(v[last + 2] - v[last + 1]);
+}
+
+// How often this value is followed by itself elsewhere; what is known of all values counts as two more.
+double repeats_of_value(const std::vector<double>& v, std::size_t first, std::size_t last, double of_any) {
+  double pairs = 2.0 * of_any, count = 2.0;
+  for (std::size_t i = 0; i + 1 < v.size(); ++i)
+    if (v[i] == v[first] && (i < first || i > last)) {
+      pairs += v[i + 1] == v[i] ? 1.0 : 0.0;
+      ++count;
+    }
+  return pairs / count;
+}
+
+// What is known of the whole channel.
+struct HeldIn {
+  std::size_t shortest, shortest_by_number;
+  double chance_anywhere, resolution;
+  bool quiet;  // its noise is less than its steps
+};
+
 std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
-                                    std::size_t shortest, std::size_t shortest_by_number,
-                                    double chance_anywhere, double resolution) {
+                                    const HeldIn& channel) {
+  const auto& [shortest, shortest_by_number, chance_anywhere, resolution, quiet] = channel;
   std::vector<Stretch> found;
   double grid = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < v.size(); ++i)
@@ -100,15 +135,16 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
       continue;
     }
     // What changes by many steps of its resolution meets the same one again as seldom as the steps are small.
-    const double steps = changes_around(v, i, j) / resolution;
+    const double steps = usual_change_around(v, i, j) / resolution;
     const bool fast = steps > kFast && chance_anywhere < kSeldom && shortest == kShortest;
-    const double chance = fast ? 1.0 / (std::sqrt(2.0 * std::numbers::pi) * steps)
-                               : std::max(repeats_around(v, i, j), chance_anywhere);
+    double chance = std::max(repeats_around(v, i, j), chance_anywhere);
+    chance = fast ? 1.0 / (std::sqrt(2.0 * std::numbers::pi) * steps)
+                  : std::max(chance, repeats_of_value(v, i, j, chance));
     // A drive that reports exactly nothing rests.
     if (v[i] != 0.0 && length >= (fast ? kShortestOfFast : shortest) && chance < kMostRepeats &&
         (std::pow(chance, static_cast<double>(length - 1)) < (fast ? kByChanceOfFast : kByChance) ||
          length >= shortest_by_number) &&
-        quantity_went_on(v, i, j, grid))
+        quantity_went_on(v, i, j, grid) && (!quiet || jumps_after(v, j)))
       found.push_back({i, j, t[j] - t[i]});
     i = j + 1;
   }
@@ -273,7 +309,8 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   const std::size_t shortest = channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest;
   // Of coarse steps two in a row are often the same, wherever few neighbours happen to be: a stretch that is
   // held adds to the long runs, not to these.
-  const double chance = runs[2] / all_runs, resolution = resolution_of(samples);
+  const HeldIn in{shortest, by_number, runs[2] / all_runs, resolution_of(samples),
+                  own_noise(samples) < value_grid(samples)};
   std::vector<double> durations;
   std::vector<std::pair<const SampledChannel*, Stretch>> held;
   std::size_t longest = 0, least = std::numeric_limits<std::size_t>::max();
@@ -285,7 +322,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     ++fault.stretches;
   };
   for (const auto& s : samples)
-    for (const auto& stretch : held_stretches(s.value, s.time_s, shortest, by_number, chance, resolution)) {
+    for (const auto& stretch : held_stretches(s.value, s.time_s, in)) {
       // At the end of its range a sensor rests on the limit: that is another fault.
       if (s.value[stretch.first] >= high || s.value[stretch.first] <= low) continue;
       if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch) ||
@@ -298,6 +335,11 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
     }
   // One stretch may be a pause of what moves the foot.
   if (held.size() < 2 && (longest < 8 || channel == "foot_z_m")) return;
+  // As short as these a long recording has some by chance.
+  const double by_chance = kByChanceOfFast * total;
+  if (longest == kShortestOfFast &&
+      static_cast<double>(held.size()) < by_chance + 3.0 * std::sqrt(by_chance) + 1.0)
+    return;
   for (const auto& [s, stretch] : held) take_out(*s, stretch);
   if (held.size() > 1)
     for (const auto& s : samples)

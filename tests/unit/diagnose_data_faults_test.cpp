@@ -1,0 +1,255 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/data_faults.hpp"
+
+// What recordings contradict by themselves.
+namespace sandhopper::diagnose {
+namespace {
+
+TEST(DiagnoseDataFaults, SamplesThatFallToZeroAreADropoutAndNoPhysics) {
+  auto recordings = drops([](double, double, double) { return -0.3; });
+  for (auto& trial : recordings.trials)
+    for (std::size_t i = 30; i + 3 < trial.channels["accel_mps2"].size(); i += 45)
+      for (std::size_t k = 0; k < 3; ++k) trial.channels["accel_mps2"][i + k] = 0.0;
+  const auto d = diagnose(recordings);
+  const auto is = [](const char* id) { return [id](const FoundEffect& e) { return e.id == id; }; };
+  const auto fault = std::find_if(d.effects.begin(), d.effects.end(), is("data.dropout"));
+  ASSERT_NE(fault, d.effects.end());
+  EXPECT_EQ(fault->channel, "accel_mps2");
+  EXPECT_LE(fault->parameters.front().low, 0.015);
+  EXPECT_GE(fault->parameters.front().high, 0.015);
+}
+
+// Where the quantity itself is near zero nothing falls; that the sensor fell out elsewhere for as long tells.
+TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
+  auto recordings = presses([](double, double) { return 0.0; });
+  std::size_t lost = 0;
+  double recorded_s = 0.0;
+  for (auto& trial : recordings.trials) {
+    auto& force = trial.channels["force_N"];
+    recorded_s += trial.time_s.back() - trial.time_s.front();
+    for (std::size_t i = 10; i + 5 < force.size(); i += 60, ++lost)
+      for (std::size_t k = 0; k < 5; ++k) force[i + k] = 0.0;
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+  EXPECT_NEAR(d.effects.front().parameters.back().value, static_cast<double>(lost) / recorded_s,
+              0.02 * static_cast<double>(lost) / recorded_s);
+}
+
+// An accelerometer in free fall reads nothing but its noise, which does not give the same value six times.
+TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials) {
+    auto& accel = trial.channels["accel_mps2"];
+    for (double& a : accel) a = 1e-3 * std::round(1e3 * a);
+    for (std::size_t i = 30; i + 6 < accel.size(); i += 45)
+      for (std::size_t k = 0; k < 6; ++k) accel[i + k] = 0.0;
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+  EXPECT_EQ(d.effects.front().channel, "accel_mps2");
+}
+
+// A torque in coarse steps repeats wherever it moves slowly; that it did not just around a stretch is chance.
+TEST(DiagnoseDataFaults, WhatRepeatsElsewhereIsNotStuck) {
+  auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
+  for (auto& trial : trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    for (std::size_t i = 0; i < torque.size(); ++i)
+      torque[i] = 0.01 * static_cast<double>(i / 2 % 40) - 0.5;  // every value twice
+  }
+  auto& torque = trials.front().channels["torque_Nm"];
+  for (std::size_t i = 260; i < 310; ++i) torque[i] = 0.01 * static_cast<double>(i % 7 * 5) - 0.4;
+  for (std::size_t i = 280; i < 290; ++i) torque[i] = -0.23;
+  EXPECT_TRUE(remove_data_faults(trials).empty());
+}
+
+// Friction holds an axis: its encoder repeats itself, and its speed is the converter's noise, half a step
+// low.
+TEST(DiagnoseDataFaults, AnAxisThatStandsStillIsNotStuckButOneThatGoesOnIs) {
+  for (const bool stands : {true, false}) {
+    auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
+    auto& position = trials.front().channels["position_rad"];
+    auto& velocity = trials.front().channels["velocity_radps"];
+    Random random(11, 0);
+    ASSERT_GT(position.size(), 400u);
+    for (std::size_t i = 200; i < 280; ++i) {
+      position[i] = position[200];
+      if (stands) velocity[i] = 0.02 * std::floor(random.normal());
+    }
+    const auto faults = remove_data_faults(trials);
+    EXPECT_EQ(faults.size(), stands ? 0u : 1u);
+    if (!faults.empty()) {
+      EXPECT_EQ(faults.front().id, "data.stuck");
+      EXPECT_EQ(faults.front().channel, "position_rad");
+    }
+  }
+}
+
+// Where an axis turns round its encoder shows one count for a while, and its speed says that it went no
+// further; one that goes on meanwhile is stuck.
+TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
+  for (const bool turns : {true, false}) {
+    constexpr double kCount_rad = 2e-3;
+    Trial trial;
+    trial.name = "1";
+    for (std::size_t i = 0; i < 400; ++i) {
+      const double t = 1e-3 * static_cast<double>(i);
+      trial.time_s.push_back(t);
+      trial.channels["motor_left_position_rad"].push_back(kCount_rad *
+                                                          std::round(std::sin(20.0 * t) / kCount_rad));
+      trial.channels["motor_left_velocity_radps"].push_back(20.0 * std::cos(20.0 * t));
+    }
+    auto& position = trial.channels["motor_left_position_rad"];
+    if (!turns) std::fill(position.begin() + 300, position.begin() + 309, position[300]);
+    std::vector<Trial> trials{trial};
+    const auto faults = remove_data_faults(trials);
+    EXPECT_EQ(faults.size(), turns ? 0u : 1u);
+    EXPECT_EQ(std::ranges::all_of(trials.front().channels["motor_left_position_rad"],
+                                  [](double v) { return std::isfinite(v); }),
+              turns);
+  }
+}
+
+// A speed counted from an encoder is zero, exactly, for as long as no count comes.
+TEST(DiagnoseDataFaults, AnEncoderThatStandsWhileTheOtherMotorStandsIsNotStuck) {
+  for (const bool both : {true, false}) {
+    constexpr double kCount_rad = 4e-4;
+    Trial trial;
+    trial.name = "1";
+    for (std::size_t i = 0; i < 400; ++i) {
+      const double t = 1e-3 * static_cast<double>(i);
+      trial.time_s.push_back(t);
+      for (const char* side : {"left", "right"})
+        trial.channels[std::string("motor_") + side + "_position_rad"].push_back(
+            kCount_rad * std::round((t + 0.01 * std::sin(50.0 * t)) / kCount_rad));
+    }
+    auto& left = trial.channels["motor_left_position_rad"];
+    auto& right = trial.channels["motor_right_position_rad"];
+    std::fill(left.begin() + 300, left.begin() + 310, left[300]);
+    if (both) std::fill(right.begin() + 300, right.begin() + 310, right[301]);
+    std::vector<Trial> trials{trial};
+    EXPECT_EQ(remove_data_faults(trials).size(), both ? 0u : 1u);
+  }
+}
+
+// A single short repeat is no fault, and then its samples stay.
+TEST(DiagnoseDataFaults, NothingIsTakenOutWhereNoFaultIsFound) {
+  auto trials = drops([](double, double, double) { return 0.0; }).trials;
+  auto& accel = trials.front().channels["accel_mps2"];
+  std::fill(accel.begin() + 40, accel.begin() + 46, accel[40]);
+  EXPECT_TRUE(remove_data_faults(trials).empty());
+  EXPECT_TRUE(std::all_of(accel.begin(), accel.end(), [](double v) { return std::isfinite(v); }));
+}
+
+TEST(DiagnoseDataFaults, AnEncoderThatStandsStillIsNoDropout) {
+  auto recordings = swings([](double, double, double) { return 0.0; });
+  std::vector<Trial> trials = recordings.trials;
+  for (auto& trial : trials) {
+    auto& velocity = trial.channels["velocity_radps"];
+    for (double& v : velocity) v = 1e-3 * std::round(1e3 * v);
+    for (std::size_t i = 20; i + 5 < velocity.size(); i += 15)
+      for (std::size_t k = 0; k < 5; ++k) velocity[i + k] *= std::abs(velocity[i]) < 0.15 ? 0.0 : 1.0;
+  }
+  for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout") << fault.channel;
+}
+
+TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (std::size_t t = 0; t < recordings.trials.size(); t += 2) {
+    auto& trial = recordings.trials[t];
+    trial.time_s.erase(trial.time_s.begin() + 20, trial.time_s.begin() + 24);
+    for (auto& [name, values] : trial.channels) values.erase(values.begin() + 20, values.begin() + 24);
+  }
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+}
+
+TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials)
+    for (std::size_t i = trial.time_s.size() - 8; i > 20; i -= 20) {
+      const auto cut = [i](auto& values) {
+        values.erase(values.begin() + static_cast<std::ptrdiff_t>(i),
+                     values.begin() + static_cast<std::ptrdiff_t>(i + 3));
+      };
+      cut(trial.time_s);
+      for (auto& [name, values] : trial.channels) cut(values);
+    }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.detail, "data_fault");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+}
+
+TEST(DiagnoseDataFaults, SamplesThatPileUpAtALimitAreASaturation) {
+  auto recordings = drops([](double, double, double v) { return -0.02 * std::abs(v) * v; });
+  for (auto& trial : recordings.trials)
+    for (double& a : trial.channels["accel_mps2"]) a = std::min(a, 2.0);
+  const auto d = diagnose(recordings);
+  std::set<std::string> named;
+  for (const auto& e : d.effects) named.insert(e.id);
+  EXPECT_TRUE(named.contains("sensor.saturation"));
+  EXPECT_TRUE(named.contains("air.quadratic_drag"));
+}
+
+// At rest on a hard bed an accelerometer shows its limit from the touch to the end, and comes back from
+// nothing.
+TEST(DiagnoseDataFaults, ALimitThatIsMetUntilTheEndIsNoDropout) {
+  auto trials = drops([](double, double, double) { return 0.0; }).trials;
+  for (auto& trial : trials) {
+    auto& accel = trial.channels["accel_mps2"];
+    std::fill(accel.end() - 12, accel.end(), 9.5);
+  }
+  for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout");
+}
+
+// At a level that is held a coarse torque repeats one value as often as another, anywhere.
+TEST(DiagnoseDataFaults, AValueThatOftenRepeatsIsNotStuck) {
+  auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
+  for (auto& trial : trials) {
+    auto& torque = trial.channels["torque_Nm"];
+    for (std::size_t i = 0; i < torque.size(); ++i) torque[i] = 0.01 * static_cast<double>(115 + i % 10);
+  }
+  auto& torque = trials.front().channels["torque_Nm"];
+  Random random(3, 0);
+  for (std::size_t i = 20; i < 200; ++i) torque[i] = 0.01 * std::round(120.0 + 0.7 * random.normal());
+  std::fill(torque.begin() + 260, torque.begin() + 269, 1.2);
+  for (std::size_t i = 250; i < 280; ++i)
+    if (i < 260 || i > 268) torque[i] = 1.18 + 0.01 * static_cast<double>(i % 5);
+  EXPECT_TRUE(remove_data_faults(trials).empty());
+}
+
+// An axis that pauses goes on slowly at first; one whose encoder was stuck is somewhere else at once.
+TEST(DiagnoseDataFaults, AQuietEncoderThatPausesIsNotStuck) {
+  for (const bool pauses : {true, false}) {
+    constexpr double kCount_rad = 2e-3;
+    std::vector<Trial> trials;
+    for (int n = 0; n < 2; ++n) {
+      Trial trial;
+      trial.name = std::to_string(n + 1);
+      for (std::size_t i = 0; i < 400; ++i) {
+        const double t = 5e-3 * static_cast<double>(i), since_s = t - 1.5 - 0.1 * n;
+        const double going = 2.0 * std::sin(3.0 * t), goes_on = 400.0 * since_s * since_s;
+        const double angle =
+            pauses && t > 1.0 ? 2.0 * std::sin(3.0) + (since_s > 0.0 ? goes_on : 0.0) : going;
+        trial.time_s.push_back(t);
+        trial.channels["position_rad"].push_back(kCount_rad * std::round(angle / kCount_rad));
+      }
+      auto& position = trial.channels["position_rad"];
+      if (!pauses) std::fill(position.begin() + 200, position.begin() + 230, position[200]);
+      trials.push_back(std::move(trial));
+    }
+    EXPECT_EQ(remove_data_faults(trials).size(), pauses ? 0u : 1u);
+  }
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
