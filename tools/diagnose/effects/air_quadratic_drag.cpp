@@ -12,6 +12,11 @@ bool medium_known(const Context& c) {
          c.belief.value("body.frontal_area_m2") > 0.0;
 }
 
+// What takes so much of the weight at the speed that was reached.
+double noticeable_N_s2_per_m2(const Context& c) {
+  return kShareOfWeight * c.scale("weight_N") / std::pow(c.scale("speed_mps"), 2);
+}
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.plant == PlantKind::rotary_axis) {
     if (c.scale("moves") == 0.0) return {};
@@ -20,9 +25,17 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   }
   if (medium_known(c)) {
     const double believed = c.belief.value("medium.drag_coefficient");
-    return {{.name = "drag_coefficient", .typical = 0.5, .low = -believed, .high = 20.0, .base = believed}};
+    const double per_coefficient_N_s2_per_m2 =
+        0.5 * c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.frontal_area_m2");
+    // Up to several times what a body can have: the coefficient then stands for a force of another origin.
+    const double typical = std::max(0.5, noticeable_N_s2_per_m2(c) / per_coefficient_N_s2_per_m2);
+    return {{.name = "drag_coefficient",
+             .typical = typical,
+             .low = -believed,
+             .high = std::max(20.0, 10.0 * typical),
+             .base = believed}};
   }
-  const double typical = kShareOfWeight * c.scale("weight_N") / std::pow(c.scale("speed_mps"), 2);
+  const double typical = noticeable_N_s2_per_m2(c);
   return {{.name = "quadratic_drag_N_s2_per_m2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
 }
 

@@ -26,6 +26,7 @@ constexpr double kUnknownImpact_mps = 0.3;
 constexpr double kUnknownBias_mps2 = 0.08;
 constexpr double kLongestRow_s = 4e-3;
 constexpr double kUnknownBed = 0.3;  // of its stiffness from place to place
+constexpr double kLanded = 4.0;      // standard deviations of the height's noise
 constexpr double kLetGo_s = 0.05;    // after a release that only the fall's growth shows
 enum Phase : std::uint32_t { kHeld, kSlow, kFast, kBed };
 
@@ -252,12 +253,17 @@ class FallingTrial final : public TrialModel {
     auto& times = channel == 0 ? height_times_ : accel_times_;
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       if (from_release_ && samples.time_s[i] < release_s_) continue;
-      if (samples.time_s[i] > stop_s_) break;
+      if (samples.time_s[i] > stop_s_ || (channel == 0 && may_have_landed(samples.value[i]))) break;
       if (channel == 1 && touchdown_nuisance_ >= 0 && std::abs(samples.time_s[i] - touchdown_s_) < kKink_s)
         continue;
       times.push_back(samples.time_s[i]);
       rows.push_back({channel, 0, kSlow, samples.time_s[i], samples.value[i]});
     }
+  }
+
+  // Heights are over the ground where a release's is: within their noise of it the body may lie there.
+  bool may_have_landed(double height_m) const {
+    return height_told_ && !bed_ && height_m < kLanded * belief_.value("sensors.height_noise_m");
   }
 
   void label_rows() {
