@@ -24,9 +24,9 @@ inline double calibrated(double weight) {
 // that explain less than `kSmallShare` of what all explain, on the campaigns named in README 4 of 7 were
 // right.
 inline constexpr double kSmallShare = 0.13;
+inline constexpr double kMostBeside = 0.7;
 inline double calibrated_beside(double probability, double share_of_explained) {
-  constexpr double kMost = 0.7;
-  return share_of_explained < kSmallShare ? std::min(probability, kMost) : probability;
+  return share_of_explained < kSmallShare ? std::min(probability, kMostBeside) : probability;
 }
 
 }  // namespace sandhopper::diagnose

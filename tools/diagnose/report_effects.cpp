@@ -68,6 +68,8 @@ double lost_without(const Search& search, const EffectEvidence& evidence) {
   return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, evidence.gain);
 }
 
+bool is_fault(const FoundEffect& effect) { return !effect.channel.empty(); }
+
 std::string filled(std::string text, const std::string& channel) {
   if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
   return text;
@@ -127,11 +129,16 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     diagnosis.effects.push_back(std::move(found));
   }
   std::ranges::sort(diagnosis.effects, std::greater<>{}, &FoundEffect::heldout_gain);
+  bool form_in_doubt = false;
   for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
     auto& beside = diagnosis.effects[i];
-    if (!beside.id.starts_with("unknown@"))
-      beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+    if (beside.id.starts_with("unknown@")) continue;
+    beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+    form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
   }
+  // A small fault of a sensor may be all that another form of the large law leaves.
+  if (form_in_doubt && !is_fault(diagnosis.effects.front()))
+    diagnosis.effects.front().probability = std::min(diagnosis.effects.front().probability, kMostBeside);
 }
 
 }  // namespace sandhopper::diagnose

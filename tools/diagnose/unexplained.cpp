@@ -19,7 +19,8 @@ constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfi
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kMisfitSignificance = 0.05;
 constexpr double kOutdone = 1.3;
-constexpr double kMostTrials = 0.75;  // that a law must be better for
+constexpr double kLeastPerRow = 0.75;  // of the deviance: no law explains the noise
+constexpr double kMostTrials = 0.75;   // that a law must be better for
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
@@ -89,7 +90,10 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
         100.0 * beside[i].trials_better, beside[i].family.scale * beside[i].size.cwiseAbs().maxCoeff()));
   if (problem.trials.size() >= kTooFewTrials)
     out.law = first_of(beside, [&](const FreeGain& gain) {
-      return gain.held_out > least_gain && gain.p_value < kUnknownSignificance &&
+      // Where few of the trials show it most, they show it the better for that.
+      const bool much = gain.held_out > kUnknownPerRow * rows;
+      return gain.held_out > least_gain &&
+             gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
              gain.trials_better >= kMostTrials && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
     });
   const bool by_balance =
@@ -114,7 +118,9 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   // Where a law of free form says more of trials it has not seen than the best names of those they were
   // fitted to, the names are not it.
   bool outdone = false;
-  if (!best.set.empty() && !out.law) {
+  const bool may_be_outdone =
+      best.fit.deviance - (kOutdone - 1.0) * explained - least_gain > kLeastPerRow * rows;
+  if (!best.set.empty() && !out.law && may_be_outdone) {
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
     out.law = first_of(alone, [&](const FreeGain& gain) {
       return gain.held_out > kOutdone * explained + least_gain && gain.p_value < kMisfitSignificance &&
@@ -140,8 +146,9 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   const auto share = [&] {
     return out.law ? out.law->held_out / (out.law->held_out + std::max(explained, 0.0)) : 0.0;
   };
-  // What lies within the noise and is little beside what was found is nothing unknown.
-  if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && share() <= kUnknownShare)
+  // What lies within the noise and is little, beside what was found and beside the noise, is nothing unknown.
+  if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && share() <= kUnknownShare &&
+      out.remainder() <= kUnknownPerRow * rows)
     out.law.reset();
   out.share = share();
   out.unknown = out.misfit.large || more_than_noise || by_balance ||
