@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 
@@ -25,6 +27,21 @@ TEST(DiagnoseRotary, NoiseOfTheTorquesSensorIsNoErrorOfTheAngle) {
   ASSERT_NE(angle, d.fits.end());
   EXPECT_LT(angle->floor, 6e-4);
   EXPECT_LT(angle->heldout.after, 1.2 * angle->floor);
+}
+
+// A motion begins where the encoder says: one that is off is an arm that hangs at another angle, in any
+// trial.
+TEST(DiagnoseRotary, NoTrialTellsAnEncoderThatIsOffFromAnArmThatHangsElsewhere) {
+  auto recordings = swings([](double, double, double) { return 0.0; }, 2, 6);
+  for (auto& trial : recordings.trials)
+    for (double& angle : trial.channels["position_rad"]) angle += 0.03;
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  std::vector<std::string> names = d.effects.front().indistinguishable_from;
+  names.push_back(d.effects.front().id);
+  for (const char* id : {"axis.offset", "encoder.offset"})
+    EXPECT_NE(std::ranges::find(names, id), names.end()) << id;
+  EXPECT_TRUE(d.next.setup.empty()) << d.next.why;
 }
 
 }  // namespace

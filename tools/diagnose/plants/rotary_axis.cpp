@@ -86,7 +86,7 @@ class RotaryTrial final : public TrialModel {
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Stretch stretch = stretches_[b];
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
-      stretch.position += own[kPosition];
+      stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
       if (own.size() > kTorque) stretch.torque_Nm = own[kTorque], stretch.torque_rise_Nm = own[kTorqueRise];
       simulate(f, laws, torque, stretch, position, velocity);
@@ -101,6 +101,14 @@ class RotaryTrial final : public TrialModel {
   }
 
  private:
+  // A stretch begins where the encoder says, less what it is believed to be off by.
+  static double read_too_far_rad(const Edits& edits) {
+    double sum = 0.0;
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == "position_rad" && edit.kind == SensorEdit::Kind::offset) sum += edit.value;
+    return sum;
+  }
+
   struct Stretch {
     double from_s, to_s, position = 0.0, velocity = 0.0;
     double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
