@@ -19,7 +19,7 @@ constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfi
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kMisfitSignificance = 0.05;
 constexpr double kOutdone = 1.3;
-constexpr double kLeastPerRow = 0.75;  // of the deviance: no law explains the noise
+constexpr double kLeastPerRow = 0.75;  // of the deviance: what no law gets below is not worth asking for
 constexpr double kMostTrials = 0.75;   // that a law must be better for
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
@@ -119,6 +119,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   // fitted to, the names are not it.
   bool outdone = false;
   const bool may_be_outdone =
+      !problem.plant->is_costly() ||
       best.fit.deviance - (kOutdone - 1.0) * explained - least_gain > kLeastPerRow * rows;
   if (!best.set.empty() && !out.law && may_be_outdone) {
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
