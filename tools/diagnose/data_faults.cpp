@@ -34,17 +34,24 @@ struct Stretch {
   double duration_s;
 };
 
-// How often successive samples repeat around a stretch.
-double repeats_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
-  double equal = 0.5, count = 1.0;
+// visit(i) for the samples around a stretch that have one before them there, and `ahead` after.
+template <class Visit>
+void each_around(const std::vector<double>& v, std::size_t first, std::size_t last, std::size_t ahead,
+                 Visit visit) {
   const auto look = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from + 1; i <= to && i < v.size(); ++i) {
-      equal += v[i] == v[i - 1] ? 1.0 : 0.0;
-      ++count;
-    }
+    for (std::size_t i = from + 1; i + ahead <= to && i + ahead < v.size(); ++i) visit(i);
   };
   if (first > 0) look(first > kNeighbours ? first - kNeighbours : 0, first - 1);
   if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
+}
+
+// How often successive samples repeat around a stretch.
+double repeats_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  double equal = 0.5, count = 1.0;
+  each_around(v, first, last, 0, [&](std::size_t i) {
+    equal += v[i] == v[i - 1] ? 1.0 : 0.0;
+    ++count;
+  });
   return equal / count;
 }
 
@@ -53,14 +60,10 @@ template <class Change>
 double rms_around(const std::vector<double>& v, std::size_t first, std::size_t last, std::size_t ahead,
                   Change change) {
   double sum = 0.0, count = 0.0;
-  const auto look = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from + 1; i + ahead <= to && i + ahead < v.size(); ++i) {
-      sum += change(i) * change(i);
-      ++count;
-    }
-  };
-  if (first > 0) look(first > kNeighbours ? first - kNeighbours : 0, first - 1);
-  if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
+  each_around(v, first, last, ahead, [&](std::size_t i) {
+    sum += change(i) * change(i);
+    ++count;
+  });
   return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
@@ -71,10 +74,7 @@ double changes_around(const std::vector<double>& v, std::size_t first, std::size
 // Where single jumps do not count.
 double usual_change_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   std::vector<double> changes;
-  for (std::size_t i = first > kNeighbours ? first - kNeighbours + 1 : 1; i < first; ++i)
-    changes.push_back(std::abs(v[i] - v[i - 1]));
-  for (std::size_t i = last + 2; i <= last + kNeighbours && i < v.size(); ++i)
-    changes.push_back(std::abs(v[i] - v[i - 1]));
+  each_around(v, first, last, 0, [&](std::size_t i) { changes.push_back(std::abs(v[i] - v[i - 1])); });
   return changes.empty() ? 0.0 : 1.4826 * median(std::move(changes));
 }
 
