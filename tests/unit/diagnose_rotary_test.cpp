@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/signal.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -42,6 +43,30 @@ TEST(DiagnoseRotary, NoTrialTellsAnEncoderThatIsOffFromAnArmThatHangsElsewhere) 
   for (const char* id : {"axis.offset", "encoder.offset"})
     EXPECT_NE(std::ranges::find(names, id), names.end()) << id;
   EXPECT_TRUE(d.next.setup.empty()) << d.next.why;
+}
+
+// Of each channel in turn: at the end of 2.5 s it is 50 ms off, six times what a stretch leads in.
+TEST(DiagnoseRotary, AClockThatRunsFastIsFoundOnItsChannelAndAlone) {
+  constexpr double kDrift = 0.02;
+  for (const char* channel : {"position_rad", "velocity_radps", "torque_Nm"}) {
+    auto recordings = swings([](double, double, double) { return 0.0; }, 3, 6);
+    for (auto& trial : recordings.trials) {
+      auto& values = trial.channels[channel];
+      const double step_s = trial.time_s[1] - trial.time_s[0];
+      const Signal shown{trial.time_s.front(), step_s, values};
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = shown.at(trial.time_s[i] / (1.0 + kDrift));
+    }
+    const auto d = diagnose(recordings);
+    ASSERT_EQ(d.effects.size(), 1u) << channel;
+    const auto& found = d.effects.front();
+    EXPECT_EQ(found.id, "clock.drift");
+    EXPECT_EQ(found.channel, channel);
+    EXPECT_GT(found.probability, 0.8) << channel;
+    EXPECT_LE(found.parameters.front().low, kDrift) << channel;
+    EXPECT_GE(found.parameters.front().high, kDrift) << channel;
+    for (const auto& fit : d.fits)
+      EXPECT_LE(fit.heldout.after, 1.2 * fit.floor) << channel << ' ' << fit.channel;
+  }
 }
 
 }  // namespace

@@ -83,8 +83,9 @@ class RotaryTrial final : public TrialModel {
     if (q > 0)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
+    const std::array clocks{Clock(edits, "position_rad"), Clock(edits, "velocity_radps")};
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      Stretch stretch = stretches_[b];
+      Stretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
       stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
@@ -96,6 +97,7 @@ class RotaryTrial final : public TrialModel {
         Signal signal = channel == 0 ? position : velocity;
         observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
                 std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
+        keep_unknown(span, clocks[channel], Clock(edits, "actuator"), out);
       }
     }
   }
@@ -109,18 +111,64 @@ class RotaryTrial final : public TrialModel {
     return sum;
   }
 
+  // When a reading with a given stamp was taken.
+  struct Clock {
+    Clock(const Edits& edits, std::string_view channel) {
+      for (const auto& edit : edits.sensors) {
+        if (edit.channel != channel) continue;
+        if (edit.kind == SensorEdit::Kind::time_scale) rate *= edit.value;
+        if (edit.kind == SensorEdit::Kind::delay_s) late_s += edit.value;
+      }
+    }
+    double taken(double stamp_s) const { return stamp_s * rate - late_s; }
+    double stamp(double taken_s) const { return (taken_s + late_s) / rate; }
+    bool moved() const { return rate != 1.0 || late_s != 0.0; }
+    double rate = 1.0, late_s = 0.0;
+  };
+
   struct Stretch {
     double from_s, to_s, position = 0.0, velocity = 0.0;
     double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
   };
+  // A stretch reaches as far as its rows do by their clocks. It begins in the state that was read then, not
+  // that of the same stamp.
+  Stretch begun_where_read(std::uint32_t b, const std::array<Clock, 2>& clocks) const {
+    Stretch s = stretches_[b];
+    double first_s = s.from_s;
+    const double until_s = s.to_s;
+    for (const std::uint32_t channel : {0u, 1u}) {
+      if (spans_[b][channel].count == 0) continue;
+      first_s = std::min(first_s, clocks[channel].taken(stretches_[b].from_s));
+      s.to_s = std::max(s.to_s, clocks[channel].taken(until_s));
+    }
+    const double early = std::ceil(std::max(0.0, s.from_s - lead_in_s_ - first_s) / step_s_);
+    s.from_s = std::max(0.0, s.from_s - early * step_s_);
+    const Clock& lead = clocks[lead_channel_];
+    if (early > 0.0 || lead.moved()) {
+      s.position = angle_.at(lead.stamp(s.from_s));
+      s.velocity = speed_.at(lead.stamp(s.from_s));
+    }
+    return s;
+  }
+
   struct Span {
     std::size_t first = 0, count = 0;
   };
 
+  // Rows taken when the torque was not recorded, after its end or long before its beginning, are as they are:
+  // nothing is known of them.
+  void keep_unknown(const Span& span, const Clock& clock, const Clock& drive, std::span<double> out) const {
+    const double from_s = drive.stamp(torque_.time_s.front()) - lead_in_s_;
+    const double until_s = drive.stamp(torque_.time_s.back()) + torque_row_s_;
+    for (std::size_t i = span.first; i < span.first + span.count; ++i)
+      if (const double taken_s = clock.taken(times_[i]); taken_s < from_s || taken_s > until_s)
+        out[i] = rows[i].measured;
+  }
+
   // From row to row the torque goes over evenly; a step of the simulation takes its mean. A drive that holds
   // it acts half a row later, which the tolerance of the channels' times allows for.
   void take_torque() {
-    const double row_s = median_step_s(torque_.time_s);
+    const double row_s = torque_row_s_ = median_step_s(torque_.time_s);
     const auto rows_per_step = static_cast<std::size_t>(
         std::clamp(std::round(torque_.time_s.back() > kLong_s ? 4e-3 / row_s : 2e-3 / row_s), 1.0, 8.0));
     step_s_ = std::min(row_s * static_cast<double>(rows_per_step), 5e-3);
@@ -220,11 +268,12 @@ class RotaryTrial final : public TrialModel {
     const auto count = static_cast<std::size_t>(std::ceil(stretches_.back().to_s / step_s_)) + 2;
     const Samples turns{position.time_s, last_turns(position.value, kTurn_rad)};
     turned_at_ = on_grid(turns, 0.0, step_s_, count, true);
-    const Signal angle = on_grid(position, 0.0, step_s_, count, false);
-    const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
+    lead_channel_ = positions.empty() ? 1 : 0;
+    angle_ = on_grid(position, 0.0, step_s_, count, false);
+    speed_ = on_grid(velocity, 0.0, step_s_, count, false);
     for (Stretch& stretch : stretches_) {
-      stretch.position = angle.at(stretch.from_s);
-      stretch.velocity = speed.at(stretch.from_s);
+      stretch.position = angle_.at(stretch.from_s);
+      stretch.velocity = speed_.at(stretch.from_s);
     }
     double fastest = 0.0;
     for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
@@ -237,8 +286,8 @@ class RotaryTrial final : public TrialModel {
     }
     Coordinate v{"velocity_radps", {}}, p{"position_rad", {}}, torque{"torque_Nm", {}}, time{"t_s", {}};
     for (Row& row : rows) {
-      v.values.push_back(speed.at(row.time_s));
-      p.values.push_back(angle.at(row.time_s));
+      v.values.push_back(speed_.at(row.time_s));
+      p.values.push_back(angle_.at(row.time_s));
       torque.values.push_back(drive_.at(row.time_s));
       time.values.push_back(row.time_s);
       const double share = std::abs(v.values.back()) / std::max(fastest, 1e-9);
@@ -314,9 +363,10 @@ class RotaryTrial final : public TrialModel {
 
   Belief belief_;
   Samples torque_;
-  Signal drive_, turned_at_;
+  Signal drive_, turned_at_, angle_, speed_;  // the last two as recorded, smoothed
+  std::size_t lead_channel_ = 0;
   bool drive_acts_ = true;
-  double step_s_ = 1e-3, lead_in_s_ = kLeadIn_s;
+  double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
   std::vector<Stretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
   std::array<SensorBelief, 2> sensors_{};
