@@ -97,7 +97,7 @@ class RotaryTrial final : public TrialModel {
         Signal signal = channel == 0 ? position : velocity;
         observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
                 std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
-        keep_unknown(span, clocks[channel], Clock(edits, "actuator"), out);
+        mirror_unknown(span, clocks[channel], Clock(edits, "actuator"), out);
       }
     }
   }
@@ -130,8 +130,8 @@ class RotaryTrial final : public TrialModel {
     double from_s, to_s, position = 0.0, velocity = 0.0;
     double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
   };
-  // A stretch reaches as far as its rows do by their clocks. It begins in the state that was read then, not
-  // that of the same stamp.
+  // A stretch reaches as far as its rows do by their clocks. It begins where the encoder was read then, not
+  // where it was read with the same stamp; how fast is as unsure as before.
   Stretch begun_where_read(std::uint32_t b, const std::array<Clock, 2>& clocks) const {
     Stretch s = stretches_[b];
     double first_s = s.from_s;
@@ -141,13 +141,10 @@ class RotaryTrial final : public TrialModel {
       first_s = std::min(first_s, clocks[channel].taken(stretches_[b].from_s));
       s.to_s = std::max(s.to_s, clocks[channel].taken(until_s));
     }
-    const double early = std::ceil(std::max(0.0, s.from_s - lead_in_s_ - first_s) / step_s_);
-    s.from_s = std::max(0.0, s.from_s - early * step_s_);
+    const bool before = first_s < s.from_s - lead_in_s_;
+    if (before) s.from_s = std::max(0.0, s.from_s - std::ceil((s.from_s - first_s) / step_s_) * step_s_);
     const Clock& lead = clocks[lead_channel_];
-    if (early > 0.0 || lead.moved()) {
-      s.position = angle_.at(lead.stamp(s.from_s));
-      s.velocity = speed_.at(lead.stamp(s.from_s));
-    }
+    if (before || lead.moved()) s.position = angle_.at(lead.stamp(s.from_s));
     return s;
   }
 
@@ -155,14 +152,21 @@ class RotaryTrial final : public TrialModel {
     std::size_t first = 0, count = 0;
   };
 
-  // Rows taken when the torque was not recorded, after its end or long before its beginning, are as they are:
-  // nothing is known of them.
-  void keep_unknown(const Span& span, const Clock& clock, const Clock& drive, std::span<double> out) const {
+  // Nothing is known of rows taken before or after the torque was recorded: they are as far off as those that
+  // mirror them at its end, which neither costs nor gains anything.
+  void mirror_unknown(const Span& span, const Clock& clock, const Clock& drive, std::span<double> out) const {
     const double from_s = drive.stamp(torque_.time_s.front()) - lead_in_s_;
     const double until_s = drive.stamp(torque_.time_s.back()) + torque_row_s_;
-    for (std::size_t i = span.first; i < span.first + span.count; ++i)
-      if (const double taken_s = clock.taken(times_[i]); taken_s < from_s || taken_s > until_s)
-        out[i] = rows[i].measured;
+    std::size_t known = span.first, end = span.first + span.count;
+    while (known < end && clock.taken(times_[known]) < from_s) ++known;
+    while (end > known && clock.taken(times_[end - 1]) > until_s) --end;
+    if (known == end) return;
+    const auto mirror = [&](std::size_t i, std::size_t at) {
+      out[i] = rows[i].measured + out[at] - rows[at].measured;
+    };
+    for (std::size_t i = span.first; i < known; ++i) mirror(i, std::min(2 * known - 1 - i, end - 1));
+    for (std::size_t i = end; i < span.first + span.count; ++i)
+      mirror(i, end - 1 - std::min(i - end, end - 1 - known));
   }
 
   // From row to row the torque goes over evenly; a step of the simulation takes its mean. A drive that holds
