@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,37 @@ TEST(DiagnoseRotary, AClockThatRunsFastIsFoundOnItsChannelAndAlone) {
     for (const auto& fit : d.fits)
       EXPECT_LE(fit.heldout.after, 1.2 * fit.floor) << channel << ' ' << fit.channel;
   }
+}
+
+// Inertia, gravity and torque that are all smaller by the same move a frictionless axis as before, with all
+// that is unsure of the torque's sensor.
+TEST(DiagnoseRotary, ATorqueThatActsInPartIsAsUnsureInThatPart) {
+  constexpr double kPart = 0.4;
+  auto recordings = swings([](double, double, double) { return 0.0; }, 4, 1);
+  recordings.belief.numbers["sensors.torque_noise_Nm"] = 0.1;
+  std::string why;
+  const auto trial = make_plant(PlantKind::rotary_axis)->trial(recordings.trials[0], recordings.belief, why);
+  ASSERT_NE(trial, nullptr) << why;
+  Edits in_part;
+  in_part.scale("axis.inertia_kg_m2", kPart);
+  in_part.scale("axis.gravity_torque_Nm", kPart);
+  in_part.sensor("actuator", SensorEdit::Kind::gain, kPart);
+  std::vector<double> nuisances;
+  nuisances.resize(trial->trial_nuisances.size(), 0.0);
+  for (std::uint32_t b = 0; b < trial->blocks; ++b)
+    for (const auto& nuisance : trial->block_nuisances)
+      nuisances.push_back(nuisance.name.starts_with("torque") ? nuisance.sd : 0.0);
+  const std::vector<double> as_believed(trial->nuisance_count(), 0.0);
+  std::vector<double> still(trial->rows.size()), all(still), part(still);
+  trial->predict({}, as_believed, still);
+  trial->predict({}, nuisances, all);
+  trial->predict(in_part, nuisances, part);
+  double moved = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    moved = std::max(moved, std::abs(all[k] - still[k]));
+    ASSERT_NEAR(part[k], all[k], 1e-9) << k;
+  }
+  EXPECT_GT(moved, 1e-3);
 }
 
 }  // namespace

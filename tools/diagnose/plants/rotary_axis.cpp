@@ -83,13 +83,17 @@ class RotaryTrial final : public TrialModel {
     if (q > 0)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
+    const double acting = acting_per_recorded(edits);
     const std::array clocks{Clock(edits, "position_rad"), Clock(edits, "velocity_radps")};
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Stretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
       stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
-      if (own.size() > kTorque) stretch.torque_Nm = own[kTorque], stretch.torque_rise_Nm = own[kTorqueRise];
+      if (own.size() > kTorque) {
+        stretch.torque_Nm = acting * own[kTorque];
+        stretch.torque_rise_Nm = acting * own[kTorqueRise];
+      }
       simulate(f, laws, torque, stretch, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
@@ -125,6 +129,14 @@ class RotaryTrial final : public TrialModel {
     bool moved() const { return rate != 1.0 || late_s != 0.0; }
     double rate = 1.0, late_s = 0.0;
   };
+
+  // The noise of the torque's sensor is scaled as what it reads.
+  static double acting_per_recorded(const Edits& edits) {
+    double gain = 1.0;
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
+    return gain;
+  }
 
   struct Stretch {
     double from_s, to_s, position = 0.0, velocity = 0.0;
