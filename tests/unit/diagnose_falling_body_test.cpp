@@ -43,6 +43,29 @@ TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
   }
 }
 
+bool says_unknown(const Diagnosis& d) {
+  return std::ranges::any_of(d.effects, [](const FoundEffect& e) { return e.id == "unknown@body"; });
+}
+
+// A small fault of a sensor beside a large law is unknown where a law of free form in the fault's place says
+// more, and a fault where it does not.
+TEST(DiagnoseFallingBody, AFaultThatOnlyMendsTheFormOfALawIsUnknown) {
+  const auto drag = [](double factor_from_0_3_s) {
+    return [=](double t_s, double, double v) {
+      return -0.008 * (t_s > 0.3 ? factor_from_0_3_s : 1.0) * std::abs(v) * v;
+    };
+  };
+  const auto opens = drops(drag(1.6), 5);
+  auto drifts = drops(drag(1.0), 5);
+  for (auto& trial : drifts.trials)
+    for (double& t_s : trial.time_s) t_s *= 1.004;
+  EXPECT_TRUE(says_unknown(diagnose(opens)));
+  const auto d = diagnose(drifts);
+  EXPECT_FALSE(says_unknown(d));
+  for (const char* id : {"air.quadratic_drag", "clock.drift"})
+    EXPECT_TRUE(std::ranges::any_of(d.effects, [&](const FoundEffect& e) { return e.id == id; })) << id;
+}
+
 // A coefficient means little where a short fall of a heavy body hardly shows it: 0.1 of the weight matters.
 TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
   for (const double mass_kg : {0.2, 20.0}) {
