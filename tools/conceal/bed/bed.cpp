@@ -63,7 +63,7 @@ double static_N(const Bed& b, const BedState& s, double z_m) {
 
 VirginForce virgin(const Bed& b, const BedState& s, double t_s, double z_m, double v_mps) {
   const auto& h = b.hidden;
-  const double v = std::max(v_mps, 0.0), area_share = b.area_m2() / 5.0265e-3;
+  const double v = std::max(v_mps, 0.0);
   const auto grains = cone(b, z_m);
   const double quasi_N = static_N(b, s, z_m), in = 1.0 - std::exp(-z_m / kOnset_m);
   double steady = quasi_N + b.drag_factor * grains.gradient_kg_per_m * v * v +
@@ -73,7 +73,7 @@ VirginForce virgin(const Bed& b, const BedState& s, double t_s, double z_m, doub
   const double share = std::exp(-z_m / h.added_mass_depth_m);
   steady += h.added_mass_kg / h.added_mass_depth_m * share * v * v;
   mass += h.added_mass_kg * (1.0 - share) * (1.0 - std::exp(-v / 4e-3));
-  steady += in * (h.quadratic_N_s2_per_m2 * v * v + h.viscous_N_s_per_m * v) * area_share;
+  steady += in * (h.quadratic_N_s2_per_m2 * v * v + h.viscous_N_s_per_m * v);
   if (s.pushes == 0) steady += h.crust_N * z_m / (z_m + h.crust_depth_m);
   steady += h.coupling * quasi_N * v * v / (v * v + h.coupling_speed_mps * h.coupling_speed_mps);
   steady -= h.weakening * quasi_N * bell((v - h.weakening_at_mps) / h.weakening_width_mps);

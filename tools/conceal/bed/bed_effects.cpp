@@ -14,13 +14,17 @@ Json added_mass(Bed& b, double size, Random&) {
   return {{"added_mass_kg", b.hidden.added_mass_kg}, {"growth_depth_m", b.hidden.added_mass_depth_m}};
 }
 
+// Resistances to speed grow with the foot's area: sizes are those of a foot of 40 mm, what is told is what acts
+// on this one.
+double share_of_area(const Bed& b) { return std::pow(b.foot_radius_m / 0.04, 2); }
+
 Json quadratic(Bed& b, double size, Random&) {
-  b.hidden.quadratic_N_s2_per_m2 = size * 6.0;
+  b.hidden.quadratic_N_s2_per_m2 = size * 6.0 * share_of_area(b);
   return {{"drag_N_s2_per_m2", b.hidden.quadratic_N_s2_per_m2}};
 }
 
 Json viscous(Bed& b, double size, Random&) {
-  b.hidden.viscous_N_s_per_m = size * 5.0;
+  b.hidden.viscous_N_s_per_m = size * 5.0 * share_of_area(b);
   return {{"viscosity_N_s_per_m", b.hidden.viscous_N_s_per_m}};
 }
 
