@@ -84,4 +84,19 @@ inline double sum_of(const std::vector<const Law*>& laws, const PortState& state
   return sum;
 }
 
+// When a sensor's reading with a given stamp was taken: taken = rate stamp - late.
+struct SensorClock {
+  SensorClock(const Edits& edits, std::string_view channel, double latency_s = 0.0) : late_s(latency_s) {
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != channel) continue;
+      if (edit.kind == SensorEdit::Kind::time_scale) rate *= edit.value;
+      if (edit.kind == SensorEdit::Kind::delay_s) late_s += edit.value;
+    }
+  }
+  double taken_s(double stamp_s) const { return stamp_s * rate - late_s; }
+  double stamp_s(double taken_s) const { return (taken_s + late_s) / rate; }
+
+  double rate = 1.0, late_s = 0.0;
+};
+
 }  // namespace sandhopper::diagnose

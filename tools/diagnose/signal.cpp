@@ -38,7 +38,8 @@ void Signal::low_pass(double time_constant_s) {
 void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std::string_view channel,
              std::span<const double> times_s, std::span<double> out) {
   if (sensor.bandwidth_Hz > 0.0) signal.low_pass(1.0 / (2.0 * std::numbers::pi * sensor.bandwidth_Hz));
-  double delay_s = sensor.latency_s, time_factor = 1.0, gain = 1.0, offset = 0.0;
+  const SensorClock clock(edits, channel, sensor.latency_s);
+  double gain = 1.0, offset = 0.0;
   double low = sensor.range_low, high = sensor.range_high;
   std::vector<const Law*> laws;
   for (const auto& edit : edits.sensors) {
@@ -54,11 +55,8 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
         signal.low_pass(edit.value);
         break;
       case SensorEdit::Kind::delay_s:
-        delay_s += edit.value;
-        break;
       case SensorEdit::Kind::time_scale:
-        time_factor *= edit.value;
-        break;
+        break;  // its clock's
       case SensorEdit::Kind::clip_high:
         high = std::min(high, edit.value);
         break;
@@ -72,7 +70,7 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
   }
   const double half_s = 0.5 * signal.step_s;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
-    const double at_s = times_s[i] * time_factor - delay_s;
+    const double at_s = clock.taken_s(times_s[i]);
     double value = gain * signal.at(at_s) + offset;
     if (!laws.empty())
       value +=

@@ -105,14 +105,15 @@ class IntruderTrial final : public TrialModel {
   //   recorded(t) = true(f t - d) + o  ->  true(u) = recorded((u + d) / f) - o
   struct Read {
     const IntruderTrial& trial;
-    double delay_s = 0.0, rate = 1.0, offset_m = 0.0;
+    SensorClock clock;
+    double offset_m = 0.0;
     bool plain = true;
 
     double at(const std::vector<double>& values, std::size_t i, bool from_position) const {
       if (plain || !from_position) return values[i];
       const double t = static_cast<double>(i) * trial.motion_.step_s;
-      const double place = std::clamp((t + delay_s) / rate / trial.motion_.step_s, 0.0,
-                                      static_cast<double>(values.size() - 1));
+      const double place =
+          std::clamp(clock.stamp_s(t) / trial.motion_.step_s, 0.0, static_cast<double>(values.size() - 1));
       const auto left = std::min(static_cast<std::size_t>(place), values.size() - 2);
       const double u = place - static_cast<double>(left);
       return values[left] + u * (values[left + 1] - values[left]);
@@ -127,11 +128,9 @@ class IntruderTrial final : public TrialModel {
   };
 
   Read reading(const Edits& edits) const {
-    Read read{*this};
+    Read read{*this, {edits, "foot_z_m"}};
     for (const auto& edit : edits.sensors) {
       if (edit.channel != "foot_z_m") continue;
-      if (edit.kind == SensorEdit::Kind::delay_s) read.delay_s += edit.value;
-      if (edit.kind == SensorEdit::Kind::time_scale) read.rate *= edit.value;
       if (edit.kind == SensorEdit::Kind::offset) read.offset_m += edit.value;
       read.plain = read.plain && edit.kind == SensorEdit::Kind::offset;
     }

@@ -84,7 +84,7 @@ class RotaryTrial final : public TrialModel {
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
     const double acting = acting_per_recorded(edits);
-    const std::array clocks{Clock(edits, "position_rad"), Clock(edits, "velocity_radps")};
+    const std::array clocks{SensorClock(edits, "position_rad"), SensorClock(edits, "velocity_radps")};
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Stretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
@@ -101,7 +101,7 @@ class RotaryTrial final : public TrialModel {
         Signal signal = channel == 0 ? position : velocity;
         observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
                 std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
-        mirror_unknown(span, clocks[channel], Clock(edits, "actuator"), out);
+        mirror_unknown(span, clocks[channel], SensorClock(edits, "actuator"), out);
       }
     }
   }
@@ -115,21 +115,6 @@ class RotaryTrial final : public TrialModel {
     return sum;
   }
 
-  // When a reading with a given stamp was taken.
-  struct Clock {
-    Clock(const Edits& edits, std::string_view channel) {
-      for (const auto& edit : edits.sensors) {
-        if (edit.channel != channel) continue;
-        if (edit.kind == SensorEdit::Kind::time_scale) rate *= edit.value;
-        if (edit.kind == SensorEdit::Kind::delay_s) late_s += edit.value;
-      }
-    }
-    double taken(double stamp_s) const { return stamp_s * rate - late_s; }
-    double stamp(double taken_s) const { return (taken_s + late_s) / rate; }
-    bool moved() const { return rate != 1.0 || late_s != 0.0; }
-    double rate = 1.0, late_s = 0.0;
-  };
-
   // The noise of the torque's sensor is scaled as what it reads.
   static double acting_per_recorded(const Edits& edits) {
     double gain = 1.0;
@@ -142,21 +127,21 @@ class RotaryTrial final : public TrialModel {
     double from_s, to_s, position = 0.0, velocity = 0.0;
     double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
   };
+
   // A stretch reaches as far as its rows do by their clocks. It begins where the encoder was read then, not
   // where it was read with the same stamp; how fast is as unsure as before.
-  Stretch begun_where_read(std::uint32_t b, const std::array<Clock, 2>& clocks) const {
+  Stretch begun_where_read(std::uint32_t b, const std::array<SensorClock, 2>& clocks) const {
     Stretch s = stretches_[b];
     double first_s = s.from_s;
-    const double until_s = s.to_s;
     for (const std::uint32_t channel : {0u, 1u}) {
       if (spans_[b][channel].count == 0) continue;
-      first_s = std::min(first_s, clocks[channel].taken(stretches_[b].from_s));
-      s.to_s = std::max(s.to_s, clocks[channel].taken(until_s));
+      first_s = std::min(first_s, clocks[channel].taken_s(stretches_[b].from_s));
+      s.to_s = std::max(s.to_s, clocks[channel].taken_s(stretches_[b].to_s));
     }
     const bool before = first_s < s.from_s - lead_in_s_;
     if (before) s.from_s = std::max(0.0, s.from_s - std::ceil((s.from_s - first_s) / step_s_) * step_s_);
-    const Clock& lead = clocks[lead_channel_];
-    if (before || lead.moved()) s.position = angle_.at(lead.stamp(s.from_s));
+    const SensorClock& lead = clocks[lead_channel_];
+    if (before || lead.rate != 1.0 || lead.late_s != 0.0) s.position = angle_.at(lead.stamp_s(s.from_s));
     return s;
   }
 
@@ -166,12 +151,13 @@ class RotaryTrial final : public TrialModel {
 
   // Nothing is known of rows taken before or after the torque was recorded: they are as far off as those that
   // mirror them at its end, which neither costs nor gains anything.
-  void mirror_unknown(const Span& span, const Clock& clock, const Clock& drive, std::span<double> out) const {
-    const double from_s = drive.stamp(torque_.time_s.front()) - lead_in_s_;
-    const double until_s = drive.stamp(torque_.time_s.back()) + torque_row_s_;
+  void mirror_unknown(const Span& span, const SensorClock& clock, const SensorClock& drive,
+                      std::span<double> out) const {
+    const double from_s = drive.stamp_s(torque_.time_s.front()) - lead_in_s_;
+    const double until_s = drive.stamp_s(torque_.time_s.back()) + torque_row_s_;
     std::size_t known = span.first, end = span.first + span.count;
-    while (known < end && clock.taken(times_[known]) < from_s) ++known;
-    while (end > known && clock.taken(times_[end - 1]) > until_s) --end;
+    while (known < end && clock.taken_s(times_[known]) < from_s) ++known;
+    while (end > known && clock.taken_s(times_[end - 1]) > until_s) --end;
     if (known == end) return;
     const auto mirror = [&](std::size_t i, std::size_t at) {
       out[i] = rows[i].measured + out[at] - rows[at].measured;
@@ -286,10 +272,10 @@ class RotaryTrial final : public TrialModel {
     turned_at_ = on_grid(turns, 0.0, step_s_, count, true);
     lead_channel_ = positions.empty() ? 1 : 0;
     angle_ = on_grid(position, 0.0, step_s_, count, false);
-    speed_ = on_grid(velocity, 0.0, step_s_, count, false);
+    const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
     for (Stretch& stretch : stretches_) {
       stretch.position = angle_.at(stretch.from_s);
-      stretch.velocity = speed_.at(stretch.from_s);
+      stretch.velocity = speed.at(stretch.from_s);
     }
     double fastest = 0.0;
     for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
@@ -302,7 +288,7 @@ class RotaryTrial final : public TrialModel {
     }
     Coordinate v{"velocity_radps", {}}, p{"position_rad", {}}, torque{"torque_Nm", {}}, time{"t_s", {}};
     for (Row& row : rows) {
-      v.values.push_back(speed_.at(row.time_s));
+      v.values.push_back(speed.at(row.time_s));
       p.values.push_back(angle_.at(row.time_s));
       torque.values.push_back(drive_.at(row.time_s));
       time.values.push_back(row.time_s);
@@ -379,7 +365,7 @@ class RotaryTrial final : public TrialModel {
 
   Belief belief_;
   Samples torque_;
-  Signal drive_, turned_at_, angle_, speed_;  // the last two as recorded, smoothed
+  Signal drive_, turned_at_, angle_;  // the last as recorded, smoothed
   std::size_t lead_channel_ = 0;
   bool drive_acts_ = true;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
