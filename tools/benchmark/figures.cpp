@@ -164,8 +164,7 @@ nlohmann::ordered_json to_json(const Score& s) {
                              {"hidden", hidden},
                              {"visibility", j.truth->visibility},
                              {"said", j.said},
-                             {"right", j.right || j.exact || j.unknown_at_port ||
-                                           (j.truth->nothing_hidden() && j.answered && !j.alarm)},
+                             {"right", passed(j)},
                              {"confident_wrong", j.confident_wrong}});
   }
   return json;

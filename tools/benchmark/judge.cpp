@@ -89,6 +89,12 @@ const Claim::Value* counterpart(const Truth::Effect& effect, const std::string& 
   return nullptr;
 }
 
+bool passed(const Judged& j) {
+  if (j.truth->nothing_hidden()) return j.answered && !j.alarm;
+  if (j.truth->unknown_port) return j.unknown_at_port;
+  return j.truth->effects.size() > 1 ? j.exact : j.right;
+}
+
 Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis) {
   Judged j;
   j.truth = &truth;
@@ -122,8 +128,7 @@ Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis) {
   for (const auto& effect : truth.effects)
     for (const auto& claim : names)
       if (claim.id == effect.id) check_intervals(j, effect, claim);
-  const bool solved = truth.unknown_port ? j.unknown_at_port : truth.effects.size() > 1 ? j.exact : j.right;
-  if (solved && d.heldout_after && d.floor && *d.floor > 0.0)
+  if (passed(j) && !truth.nothing_hidden() && d.heldout_after && d.floor && *d.floor > 0.0)
     j.heldout_over_floor = *d.heldout_after / *d.floor;
   return j;
 }

@@ -28,6 +28,10 @@ struct Judged {
 
 constexpr double kConfident = 0.8;
 
+// Whether it says what its kind of campaign asks for: nothing, unknown at the right port, the exact set, or
+// the one effect's name or class.
+bool passed(const Judged& judged);
+
 Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis);
 
 // The parameter of the claim that is the same quantity as the truth's `key`: the same name, else the only one

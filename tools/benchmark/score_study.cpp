@@ -118,12 +118,6 @@ StudyTable by_effect(const Score& score) {
   return table;
 }
 
-bool passed(const Judged& j) {
-  if (j.truth->nothing_hidden()) return j.answered && !j.alarm;
-  if (j.truth->unknown_port) return j.unknown_at_port;
-  return j.truth->effects.size() > 1 ? j.exact : j.right;
-}
-
 StudyTable every_case(const Score& score) {
   StudyTable table{.title = "Every case",
                    .columns = {"campaign", "plant", "kind", "hidden (size)", "said", "right", "visibility"},
