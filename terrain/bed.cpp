@@ -40,13 +40,20 @@ double Bed::stiffness_N_per_m() const noexcept {
 }
 
 double Bed::quasi_static_force_N(double depth_m) const noexcept {
+  return depth_m <= 0.0 ? 0.0 : extended_N(curve_N(depth_m), depth_m);
+}
+
+double Bed::extended_N(double curve_N, double depth_m) const noexcept {
+  return extension_ ? curve_N * extension_->static_factor(depth_m) : curve_N;
+}
+
+double Bed::curve_N(double depth_m) const noexcept {
   if (depth_m <= 0.0) return 0.0;
   const double depth =
       p_.stiffness_per_area_N_per_m3 > 0.0
           ? depth_m * std::pow(depth_m / kExponentDepth_m, p_.exponent - 1.0)
           : depth_m + p_.intercept_depth_m * (1.0 - std::exp(-depth_m / p_.intercept_growth_depth_m));
-  const double force_N = stiffness_N_per_m() * depth * fluctuation_.factor(depth_m);
-  return extension_ ? force_N * extension_->static_factor(depth_m) : force_N;
+  return stiffness_N_per_m() * depth * fluctuation_.factor(depth_m);
 }
 
 double Bed::added_mass_gradient_kg_per_m(double depth_m) const noexcept {
@@ -81,7 +88,9 @@ BedReaction Bed::unextended(const BedContact& c) const noexcept {
             .added_mass_kg = engaged * added_mass_kg(c.depth_m)};
   }
   const double line_N_per_m = p_.unloading_stiffness_ratio * stiffness_N_per_m();
-  const double elastic_N = quasi_static_force_N(c.max_depth_m) - line_N_per_m * (c.max_depth_m - c.depth_m);
+  const double deepest_N =
+      c.deepest_N >= 0.0 ? extended_N(c.deepest_N, c.max_depth_m) : quasi_static_force_N(c.max_depth_m);
+  const double elastic_N = deepest_N - line_N_per_m * (c.max_depth_m - c.depth_m);
   if (elastic_N <= 0.0) return {};
   const double damping_N_s_per_m =
       2.0 * p_.unloading_damping_ratio * std::sqrt(line_N_per_m * c.damping_mass_kg);

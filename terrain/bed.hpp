@@ -70,10 +70,11 @@ struct BedFluctuation {
 };
 
 struct BedContact {
-  double depth_m;          // of the sole under the undisturbed surface
-  double speed_mps;        // downward
-  double max_depth_m;      // deepest point the foot has reached, of the present and earlier strides
-  double damping_mass_kg;  // M in c_u: what swings on the unloading line; 0 for prescribed motion
+  double depth_m;           // of the sole under the undisturbed surface
+  double speed_mps;         // downward
+  double max_depth_m;       // deepest point the foot has reached, of the present and earlier strides
+  double damping_mass_kg;   // M in c_u: what swings on the unloading line; 0 for prescribed motion
+  double deepest_N = -1.0;  // curve_N(max_depth_m) where it is known: it stays as long as the foot unloads
 };
 
 // The force is affine in the foot's own acceleration, so that it can be solved together with the foot's
@@ -107,6 +108,7 @@ class Bed {
   void extend(const BedExtension* extension) noexcept { extension_ = extension; }
 
   double quasi_static_force_N(double depth_m) const noexcept;
+  double curve_N(double depth_m) const noexcept;  // the same without an extension
   double added_mass_kg(double depth_m) const noexcept;
   double added_mass_gradient_kg_per_m(double depth_m) const noexcept;
   BedReaction reaction(const BedContact& contact) const noexcept;
@@ -119,6 +121,7 @@ class Bed {
  private:
   double stiffness_N_per_m() const noexcept;
   BedReaction unextended(const BedContact& contact) const noexcept;
+  double extended_N(double curve_N, double depth_m) const noexcept;
 
   const BedExtension* extension_ = nullptr;
   BedParameters p_;

@@ -11,6 +11,7 @@ constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
 constexpr double kNever_s = 1e9;
 constexpr double kTeethDampingRatio = 0.5;
+constexpr double kCalm_mps2 = 0.5;          // a foot that swings on the unloading line exceeds it
 constexpr double kPhasePerPiece_rad = 0.5;  // of the quickest oscillation, in one midpoint step
 constexpr double kLeastFoot_kg = 1e-3;      // a spring needs a mass to act on
 
@@ -119,7 +120,8 @@ Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept 
     const auto ground = bed_.reaction({.depth_m = std::max(0.0, -s.foot_z_m),
                                        .speed_mps = -s.foot_velocity_mps,
                                        .max_depth_m = max_depth_m_,
-                                       .damping_mass_kg = d.reduced_mass_kg});
+                                       .damping_mass_kg = d.reduced_mass_kg,
+                                       .deepest_N = deepest_N()});
     const double with_cone = (free_force + ground.force_N) / (mass_kg + ground.added_mass_kg);
     r.contact_force_N = ground.at_acceleration(with_cone);
     r.foot_accel_mps2 = (free_force + r.contact_force_N) / mass_kg;
@@ -133,6 +135,15 @@ Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept 
       d.m22_kg_m2;
   if (teeth_Nm_per_rad_ > 0.0) r.play_accel_radps2 -= r.angular_accel_radps2;
   return r;
+}
+
+double Plant::deepest_N() const noexcept {
+  if (state_.foot_z_m >= 0.0 || -state_.foot_z_m >= max_depth_m_) return -1.0;
+  if (known_depth_m_ != max_depth_m_) {
+    known_depth_m_ = max_depth_m_;
+    known_N_ = bed_.curve_N(max_depth_m_);
+  }
+  return known_N_;
 }
 
 // `from`, `dt_s` later, at the speeds of `at` and these accelerations.
@@ -202,8 +213,9 @@ PlantMotion Plant::advance(double torque_Nm, double step_s) noexcept {
   const PlantMotion motion = motion_of(now);
   double left_s = step_s;
   for (int piece = 1;; ++piece) {
-    const bool stiff = state_.foot_z_m <= 0.0 && state_.foot_z_m > -max_depth_m_;
-    double piece_s = std::min({left_s, longest_s, stiff ? 0.5 * step_s : step_s});
+    const bool swings = state_.foot_z_m <= 0.0 && state_.foot_z_m > -max_depth_m_ &&
+                        std::abs(now.foot_accel_mps2) > kCalm_mps2;
+    double piece_s = std::min({left_s, longest_s, swings ? 0.5 * step_s : step_s});
     if (!rigid_) piece_s = std::min(piece_s, std::max(kLeastPiece_s, next_event_s(now.foot_accel_mps2)));
     if (piece == most_pieces || left_s - piece_s < kLeastPiece_s) piece_s = left_s;
     midpoint(now, torque_Nm, piece_s);

@@ -109,6 +109,8 @@ class Plant {
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
   PlantMotion motion_of(const Rates& rates) const noexcept;
+  // The bed's curve at the deepest point, kept while that stays; negative where the foot does not unload.
+  double deepest_N() const noexcept;
   double next_event_s(double accel_mps2) const noexcept;
   void midpoint(const Rates& at_start, double torque_Nm, double step_s) noexcept;
   void finish_step(double torque_Nm) noexcept;
@@ -127,6 +129,7 @@ class Plant {
 
   PlantState state_{};
   double max_depth_m_ = 0.0;
+  mutable double known_depth_m_ = 0.0, known_N_ = 0.0;  // a deepest point, and the bed's curve there
   double contact_impulse_Ns_ = 0.0;
   bool standing_ = false;  // on rigid ground
 };
