@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "tools/diagnose/plants/hopper_runs.hpp"
@@ -36,6 +38,47 @@ TEST(DiagnoseHopperRuns, AreSharedByWhatOnlyASensorReadsOtherwise) {
   at_port.law("rail", nothing);
   at_port.laws_key = 0;
   EXPECT_TRUE(HopperRuns::key(at_port, nuisances).empty());
+}
+
+// A run is made once for all that is read of it, and a sensor's readings once for what others read otherwise.
+TEST(DiagnoseHopperRuns, AReadingIsMadeAgainOnlyWhereItsOwnSensorReadsOtherwise) {
+  HopperRuns runs(2);
+  Edits plain;
+  plain.laws_key = 1;
+  int made_runs = 0, made_readings = 0;
+  const auto read = [&](const Edits& edits, double plant, double offset) {
+    auto& run = runs.run(HopperRuns::key(edits, std::vector{plant}), 0, [&] {
+      ++made_runs;
+      return HopperTraces{};
+    });
+    std::vector<double> out(3, -1.0);
+    run.read(4, HopperRuns::reading_key(edits, "tof_height_m", std::vector{offset}), out,
+             [&](std::span<double> values) {
+               ++made_readings;
+               std::ranges::fill(values, 10.0 * plant + offset);
+             });
+    EXPECT_EQ(out, std::vector<double>(3, 10.0 * plant + offset));
+  };
+  read(plain, 1.0, 0.0);
+  Edits other = plain;
+  other.sensor("load_cell_force_N", SensorEdit::Kind::gain, 1.1);
+  read(other, 1.0, 0.0);
+  EXPECT_EQ(made_runs, 1);
+  EXPECT_EQ(made_readings, 1);
+  Edits own = plain;
+  own.sensor("tof_height_m", SensorEdit::Kind::delay_s, 1e-3);
+  read(own, 1.0, 0.0);
+  read(plain, 1.0, 0.5);
+  EXPECT_EQ(made_runs, 1);
+  EXPECT_EQ(made_readings, 3);
+  // Of runs that were asked for once the oldest goes; one that was asked for again stays.
+  for (const double plant : {2.0, 3.0, 4.0}) read(plain, plant, 0.0);
+  EXPECT_EQ(made_runs, 4);
+  read(plain, 1.0, 0.5);
+  EXPECT_EQ(made_runs, 4);
+  EXPECT_EQ(made_readings, 6);
+  own.sensor_law("tof_height_m", nothing);
+  EXPECT_TRUE(HopperRuns::reading_key(own, "tof_height_m", {}).empty());
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/plants/hopper_belief.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kTick_s = 1e-3;
+constexpr std::size_t kRunsKept = 6;  // of each hop
 constexpr double kDeepest_m = 0.048;  // that the knots cover
 constexpr double kMargin = 1.5;       // of the depth that the belief says the foot reaches
 constexpr double kSurfaceUnknown_m = 3e-4;
@@ -26,40 +29,6 @@ constexpr double kAloft_s = 0.02;  // a liftoff is over by then
 constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
 
 enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
-
-// How a recorded channel comes from a run: which trace, with which share, through which sensor.
-struct ChannelSource {
-  const char* channel;
-  Signal HopperTraces::*trace;
-  const char* sensor;  // of the belief's keys
-  const char* unit;
-  std::size_t every;  // sample that is kept: fast channels say the same thing many times
-};
-constexpr std::array<ChannelSource, 14> kSources{
-    {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
-     {"motor_right_position_rad", &HopperTraces::angle_rad, "", "", 4},
-     {"motor_left_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
-     {"motor_right_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
-     {"motor_left_current_A", &HopperTraces::current_torque_Nm, "", "", 2},
-     {"motor_right_current_A", &HopperTraces::current_torque_Nm, "", "", 2},
-     {"command_left_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
-     {"command_right_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
-     {"imu_body_accel_z_mps2", &HopperTraces::body_accel_mps2, "imu", "mps2", 2},
-     {"imu_foot_accel_z_mps2", &HopperTraces::foot_accel_mps2, "imu", "mps2", 2},
-     {"tof_height_m", &HopperTraces::body_z_m, "tof", "m", 1},
-     {"load_cell_force_N", &HopperTraces::force_N, "load_cell", "N", 1},
-     {"mocap_body_z_m", &HopperTraces::body_z_m, "mocap", "m", 1},
-     {"mocap_foot_z_m", &HopperTraces::foot_z_m, "mocap", "m", 1}}};
-enum Source : std::size_t {
-  kLeftCurrent = 4,
-  kRightCurrent,
-  kLeftCommand,
-  kRightCommand,
-  kImuBody,
-  kImuFoot,
-  kTof,
-  kLoadCell
-};
 
 enum TrialNuisance : std::size_t {
   kStiffness,
@@ -80,6 +49,41 @@ enum TrialNuisance : std::size_t {
   kFirstKnot
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
+
+// How a recorded channel comes from a run: which trace, with which share, through which sensor.
+struct ChannelSource {
+  const char* channel;
+  Signal HopperTraces::*trace;
+  const char* sensor;  // of the belief's keys
+  const char* unit;
+  std::size_t every;  // sample that is kept: fast channels say the same thing many times
+  std::optional<TrialNuisance> offset{}, scale{};
+};
+constexpr std::array<ChannelSource, 14> kSources{
+    {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
+     {"motor_right_position_rad", &HopperTraces::angle_rad, "", "", 4},
+     {"motor_left_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
+     {"motor_right_velocity_radps", &HopperTraces::rate_radps, "encoder_velocity", "radps", 4},
+     {"motor_left_current_A", &HopperTraces::current_torque_Nm, "", "", 2, kLeftOffset},
+     {"motor_right_current_A", &HopperTraces::current_torque_Nm, "", "", 2, kRightOffset},
+     {"command_left_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
+     {"command_right_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
+     {"imu_body_accel_z_mps2", &HopperTraces::body_accel_mps2, "imu", "mps2", 2, kBodyBias, kBodyScale},
+     {"imu_foot_accel_z_mps2", &HopperTraces::foot_accel_mps2, "imu", "mps2", 2, kFootBias, kFootScale},
+     {"tof_height_m", &HopperTraces::body_z_m, "tof", "m", 1, kTofBias},
+     {"load_cell_force_N", &HopperTraces::force_N, "load_cell", "N", 1, kCellOffset},
+     {"mocap_body_z_m", &HopperTraces::body_z_m, "mocap", "m", 1},
+     {"mocap_foot_z_m", &HopperTraces::foot_z_m, "mocap", "m", 1}}};
+enum Source : std::size_t {
+  kLeftCurrent = 4,
+  kRightCurrent,
+  kLeftCommand,
+  kRightCommand,
+  kImuBody,
+  kImuFoot,
+  kTof,
+  kLoadCell
+};
 
 class HopperTrial final : public TrialModel {
  public:
@@ -103,6 +107,7 @@ class HopperTrial final : public TrialModel {
       residual_ = controller_.residual_Nm(world_, compression_stiffness_, course_.phases);
     }
     blocks = static_cast<std::uint32_t>(course_.hops.size());
+    runs_ = HopperRuns(kRunsKept * blocks);
     add_nuisances();
     end_before_next_landing();
     for (std::size_t c = 0; c < kSources.size(); ++c) add_rows(trial, c);
@@ -116,10 +121,14 @@ class HopperTrial final : public TrialModel {
       if (i < kTofBias || i >= kFirstKnot) plant_nuisances.push_back(n[i]);
     const auto key = HopperRuns::key(edits, plant_nuisances);
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      const HopperTraces& traces = runs_.traces(key, b, [&] { return simulated(world, edits, b, n); });
+      auto& run = runs_.run(key, b, [&] { return simulated(world, edits, b, n); });
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
-        if (span.count > 0) read_channel(world, traces, edits, n, c, span, out);
+        if (span.count == 0) continue;
+        const std::array own{offset_of(c, n), scale_of(c, n), n[kSampleAge]};
+        run.read(c, HopperRuns::reading_key(edits, kSources[c].channel, own),
+                 out.subspan(span.first, span.count),
+                 [&](std::span<double> at) { read_channel(world, run.traces, edits, n, c, span, at); });
       }
     }
   }
@@ -233,52 +242,62 @@ class HopperTrial final : public TrialModel {
     return run;
   }
 
+  static double offset_of(std::size_t c, std::span<const double> n) {
+    return kSources[c].offset ? n[*kSources[c].offset] : 0.0;
+  }
+  static double scale_of(std::size_t c, std::span<const double> n) {
+    return kSources[c].scale ? 1.0 + n[*kSources[c].scale] : 1.0;
+  }
+
   void read_channel(const WorldConfig& world, const HopperTraces& traces, const Edits& edits,
-                    std::span<const double> n, std::size_t c, const Span& span, std::span<double> out) const {
+                    std::span<const double> n, std::size_t c, const Span& span, std::span<double> at) const {
+    if (const bool command = c == kLeftCommand || c == kRightCommand; command && controller_.measured()) {
+      read_command(world, edits, span, at);
+      return;
+    }
     Signal signal = traces.*kSources[c].trace;
     const double motors = world.robot.leg.motor_count;
-    double offset = 0.0;
     switch (c) {
       case kLeftCurrent:
       case kRightCurrent:
         for (double& v : signal.values) v /= motors * world.motor.torque_constant_Nm_per_A;
-        offset = n[c == kLeftCurrent ? kLeftOffset : kRightOffset];
         break;
       case kLeftCommand:
       case kRightCommand:
-        if (controller_.measured()) {
-          controller_.commands_Nm(world, compression_stiffness_of(edits), course_.phases,
-                                  std::span(times_).subspan(span.first, span.count),
-                                  out.subspan(span.first, span.count));
-          return;
-        }
         for (double& v : signal.values) v /= motors;
         break;
       case kImuBody:
-      case kImuFoot: {
-        const double scale = 1.0 + n[c == kImuBody ? kBodyScale : kFootScale];
-        for (double& v : signal.values) v = scale * (v + world.gravity_mps2);
-        offset = n[c == kImuBody ? kBodyBias : kFootBias];
-        break;
-      }
-      case kTof:
-        offset = n[kTofBias];
+      case kImuFoot:
+        for (double& v : signal.values) v = scale_of(c, n) * (v + world.gravity_mps2);
         break;
       case kLoadCell: {
         const auto laws = edits.at("load_cell");
         if (!laws.empty())
           for (std::size_t i = 0; i < signal.values.size(); ++i)
             signal.values[i] += sum_of(laws, {.accel = traces.foot_accel_mps2.values[i]});
-        offset = n[kCellOffset];
         break;
       }
       default:
         break;
     }
-    const auto at = out.subspan(span.first, span.count);
     const auto sampled_s = sampled(span, kAgeShare + n[kSampleAge]);
     observe(signal, sensors_[c], edits, kSources[c].channel, sampled_s, at);
+    const double offset = offset_of(c, n);
     for (double& v : at) v += offset;
+  }
+
+  // What was commanded follows from what was measured, not from the run; mostly by the controller as
+  // believed.
+  void read_command(const WorldConfig& world, const Edits& edits, const Span& span,
+                    std::span<double> at) const {
+    const auto commanded = [&](std::span<double> out) {
+      controller_.commands_Nm(world, compression_stiffness_of(edits), course_.phases,
+                              std::span(times_).subspan(span.first, span.count), out);
+    };
+    if (!edits.belief.empty()) return commanded(at);
+    auto& believed = believed_commands_[span.first];
+    if (believed.empty()) commanded(believed = std::vector<double>(span.count));
+    std::ranges::copy(believed, at.begin());
   }
 
   // Whether a row's value is of the instant at which a slow sensor sampled or of the row's is not told.
@@ -414,6 +433,7 @@ class HopperTrial final : public TrialModel {
   }
 
   mutable HopperRuns runs_;
+  mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // by a span's first row
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;
