@@ -8,8 +8,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kTick_s = 1e-3;
-constexpr std::size_t kSmoothing = 6;  // samples to each side
-constexpr double kMostLate_s = 0.02;   // a switch that is never made is later than this
+constexpr std::size_t kSmoothing = 6;     // samples to each side
+constexpr double kLengthUnsure_m = 5e-4;  // of the leg, as the controller measured it
+constexpr double kMostLate_s = 0.02;      // a switch that is never made is later than this
 
 // Where a quantity that is below zero at the first of two instants and not at the second comes to zero.
 double crossing(double before, double after) { return before < 0.0 ? before / (before - after) : 0.0; }
@@ -51,7 +52,8 @@ void RecordedController::commands_Nm(const WorldConfig& world, double compressio
   }
 }
 
-std::optional<double> RecordedController::due_s(const WorldConfig& world, double from_s, double to_s) const {
+std::optional<double> RecordedController::due_s(const WorldConfig& world, double from_s, double to_s,
+                                                double shorter_m) const {
   const auto& c = world.controller;
   double time_before_s = 0.0, rate_before = 0.0, beyond_before_m = 0.0;
   for (std::size_t i = 0; i < measured_.time_s.size(); ++i) {
@@ -60,7 +62,7 @@ std::optional<double> RecordedController::due_s(const WorldConfig& world, double
     if (t > to_s) break;
     const auto kinematics = leg_.kinematics(measured_.angle_rad[i]);
     const double rate = kinematics.dlength_m_per_rad * measured_.rate_radps[i];
-    const double beyond_m = c.compression_length_m - kinematics.length_m - c.compression_end_min_deflection_m;
+    const double beyond_m = c.compression_length_m - kinematics.length_m - shorter_m;
     if (rate >= 0.0 && beyond_m > 0.0) {
       if (time_before_s == 0.0) return t;
       const double part = std::max(crossing(rate_before, rate), crossing(beyond_before_m, beyond_m));
@@ -84,8 +86,13 @@ std::vector<double> RecordedController::late_switches_s(const WorldConfig& world
     const double to_s = last ? end_s_ : phases[i + 1].time_s;
     // A switch that came early is due after it.
     const bool made = !last && phases[i + 1].phase == HopperPhase::extension;
-    if (const auto due = due_s(world, phases[i].time_s, made ? end_s_ : to_s))
-      late_s.push_back(std::clamp(to_s - *due - 0.5 * step_s, -kMostLate_s, kMostLate_s));
+    const double until_s = made ? end_s_ : to_s, least_m = world.controller.compression_end_min_deflection_m;
+    const auto first = due_s(world, phases[i].time_s, until_s, least_m - kLengthUnsure_m);
+    const auto surely = due_s(world, phases[i].time_s, until_s, least_m + kLengthUnsure_m);
+    if (!first || !surely) continue;
+    const double switch_s = to_s - 0.5 * step_s;
+    late_s.push_back(std::clamp(switch_s - std::clamp(switch_s, *first, std::max(*first, *surely)),
+                                -kMostLate_s, kMostLate_s));
   }
   return late_s;
 }

@@ -30,13 +30,14 @@ class RecordedController {
 
   // Of every change from compression to extension, by how much it came later than its rule says, as the next
   // row shows it: it is due once the leg lengthens again and is shorter than in flight by more than
-  // `compression_end_min_deflection_m`. One that was never made was due before the compression ended. 20 ms
-  // at most.
+  // `compression_end_min_deflection_m`; where that is a matter of the encoder's noise, anything from the
+  // first such instant to the first that is sure is in time. One that was never made was due before the
+  // compression ended. 20 ms at most.
   std::vector<double> late_switches_s(const WorldConfig& world, const std::vector<PhaseChange>& phases) const;
 
  private:
   static constexpr std::size_t kLeastSamples = 50;
-  std::optional<double> due_s(const WorldConfig& world, double from_s, double to_s) const;
+  std::optional<double> due_s(const WorldConfig& world, double from_s, double to_s, double shorter_m) const;
 
   Leg leg_{LegParameters{}};
   MeasuredLeg measured_;
