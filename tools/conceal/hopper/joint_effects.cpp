@@ -6,12 +6,12 @@ namespace {
 
 Json coulomb(World& w, double size, Random&) {
   w.hidden.joint_coulomb_Nm = size * 0.04;
-  return {{"coulomb_Nm", w.hidden.joint_coulomb_Nm}};
+  return {{"joint_coulomb_change_Nm", w.hidden.joint_coulomb_Nm}};
 }
 
 Json viscous(World& w, double size, Random&) {
   w.hidden.joint_viscous_Nm_s = size * 6e-3;
-  return {{"viscous_Nm_s", w.hidden.joint_viscous_Nm_s}};
+  return {{"joint_viscous_Nm_s_per_rad", w.hidden.joint_viscous_Nm_s}};
 }
 
 Json cogging(World& w, double size, Random& random) {
@@ -23,7 +23,7 @@ Json cogging(World& w, double size, Random& random) {
 
 Json rotor(World& w, double size, Random&) {
   w.hidden.rotor_kg_m2 = size * 1e-4;
-  return {{"rotor_inertia_kg_m2", w.hidden.rotor_kg_m2}};
+  return {{"rotor_inertia_change_kg_m2", w.hidden.rotor_kg_m2}};
 }
 
 Json backlash(World& w, double size, Random&) {
@@ -40,7 +40,7 @@ Json geometry(World& w, double size, Random& random) {
   const bool upper = random.chance(0.5);
   const double error_m = random.sign() * size * 2e-3;
   (upper ? w.hidden.upper_m : w.hidden.lower_m) = error_m;
-  return {{upper ? "upper_link_length_m" : "lower_link_length_m", error_m}};
+  return {{upper ? "upper_link_length_change_m" : "lower_link_length_change_m", error_m}};
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ namespace {
 
 Json coulomb(World& w, double size, Random&) {
   w.hidden.rail_coulomb_N = size * 1.5;
-  return {{"coulomb_N", w.hidden.rail_coulomb_N}};
+  return {{"rail_coulomb_change_N", w.hidden.rail_coulomb_N}};
 }
 
 Json viscous(World& w, double size, Random&) {
