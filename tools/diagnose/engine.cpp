@@ -55,7 +55,7 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   std::vector<const SetFit*> fits;
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
   std::sort(fits.begin(), fits.end(),
-            [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
+            [&](const SetFit* a, const SetFit* b) { return search.criterion(*a) < search.criterion(*b); });
   for (std::size_t i = 0; i < fits.size() && i < kSetsTold; ++i) {
     const auto& f = *fits[i];
     std::string evidence;
@@ -66,9 +66,9 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
       evidence += fmt::format(" ({}: {:.3g} typical, p {:.1e}, flip {:.3f}, gain {:.1f}{})",
                               problem.candidates[e.candidate].label(), e.typicals, e.p_value, e.flip_p_value,
                               e.gain, e.at_bound ? ", at bound" : "");
-    diagnosis.log.push_back(fmt::format("deviance {:.1f} dispersion {:.2f} {}{} {}{}", f.fit.deviance,
-                                        f.dispersion, f.rough ? "~" : "", f.needed ? "needed" : "-",
-                                        set_text(problem, f.set), evidence));
+    diagnosis.log.push_back(fmt::format("criterion {:.1f} deviance {:.1f} dispersion {:.2f} {}{} {}{}",
+                                        search.criterion(f), f.fit.deviance, f.dispersion, f.rough ? "~" : "",
+                                        f.needed ? "needed" : "-", set_text(problem, f.set), evidence));
   }
 }
 

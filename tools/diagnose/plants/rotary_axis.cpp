@@ -167,8 +167,9 @@ class RotaryTrial final : public TrialModel {
       mirror(i, end - 1 - std::min(i - end, end - 1 - known));
   }
 
-  // From row to row the torque goes over evenly; a step of the simulation takes its mean. A drive that holds
-  // it acts half a row later, which the tolerance of the channels' times allows for.
+  // From row to row the torque goes over smoothly; a step of the simulation takes its mean, that of straight
+  // lines less what a cubic bends from them, h^2 f'' / 12. A drive that holds the torque acts half a row later,
+  // which the tolerance of the channels' times allows for.
   void take_torque() {
     const double row_s = torque_row_s_ = median_step_s(torque_.time_s);
     const auto rows_per_step = static_cast<std::size_t>(
@@ -180,6 +181,10 @@ class RotaryTrial final : public TrialModel {
     drive_ = {0.0, step_s_, std::vector<double>(count, 0.0)};
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < kParts; ++k) drive_.values[i] += fine.values[i * kParts + k] / kParts;
+    const auto straight = drive_.values;
+    const double share = row_s * row_s / (12.0 * step_s_ * step_s_);
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      drive_.values[i] -= share * (straight[i - 1] - 2.0 * straight[i] + straight[i + 1]);
   }
 
   // Stretches of about `block_s`, none of which holds a time over which the torque is not known. Each begins
@@ -323,11 +328,15 @@ class RotaryTrial final : public TrialModel {
             {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm, .extreme = turned_at(t)});
       return sum / f.inertia_kg_m2;
     };
-    const auto torque_at = [&](double t) {
+    const auto torque_at = [&](double t) {  // mean of the step that begins then
       const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
-      return s.torque_Nm + at * s.torque_rise_Nm +
-             torque.values[std::min(torque.values.size() - 1,
-                                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))))];
+      return s.torque_Nm + at * s.torque_rise_Nm + torque.values[step_of(t, torque)];
+    };
+    const auto rise_at = [&](double t) {  // over that step
+      const std::size_t i = step_of(t, torque);
+      return i == 0 || i + 1 == torque.values.size()
+                 ? 0.0
+                 : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
     };
     // A reading that is late shows at first what was before: what a steady acceleration leads there from.
     const double first = accel(s.from_s, torque_at(s.from_s), th, w);
@@ -340,22 +349,28 @@ class RotaryTrial final : public TrialModel {
       position.values[i] = th;
       velocity.values[i] = w;
       const double t0 = s.from_s + step_s_ * static_cast<double>(i - lead_in);
-      const double tau = torque_at(t0);
+      const double tau = torque_at(t0), rise = rise_at(t0);
       const bool near_rest = std::abs(w) < 8.0 * f.switch_speed_radps;
       const int parts =
           static_cast<int>(std::clamp(near_rest ? slow_steps : 1.0, !laws.empty() ? 2.0 : 1.0, 40.0));
       const double dt = step_s_ / parts;
       for (int k = 0; k < parts; ++k) {
-        const double t = t0 + dt * k;
-        const double a1 = accel(t, tau, th, w);
-        const double a2 = accel(t, tau, th + 0.5 * dt * w, w + 0.5 * dt * a1);
-        const double a3 = accel(t, tau, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
-        const double a4 = accel(t, tau, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
+        const double t = t0 + dt * k, half = 0.5 / parts;
+        const double middle = tau + rise * ((k + 0.5) / parts - 0.5);
+        const double a1 = accel(t, middle - half * rise, th, w);
+        const double a2 = accel(t, middle, th + 0.5 * dt * w, w + 0.5 * dt * a1);
+        const double a3 = accel(t, middle, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
+        const double a4 = accel(t, middle + half * rise, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
         th += dt * (w + dt * (a1 + a2 + a3) / 6.0);
         w += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
         w = std::clamp(w, -1e4, 1e4);
       }
     }
+  }
+
+  std::size_t step_of(double t, const Signal& torque) const {
+    return std::min(torque.values.size() - 1,
+                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))));
   }
 
   double turned_at(double t) const {
