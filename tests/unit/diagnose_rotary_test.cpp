@@ -102,8 +102,30 @@ TEST(DiagnoseRotary, ATorqueThatActsInPartIsAsUnsureInThatPart) {
   EXPECT_GT(moved, 1e-3);
 }
 
-// Straight lines between 200 rows a second cut the peaks of a torque of 4 Hz by (2 pi 4 / 200)^2 / 12 = 0.13 %,
-// and a torque that stays through a step by as much again: together what a scale of 0.25 % would be taken for.
+// A hand that pushes once, in one trial, outweighs all friction.
+TEST(DiagnoseRotary, WhatHappensOnceIsToldAndLeftOut) {
+  constexpr long kSteps = 125000, kTrial = 3, kFrom = 70000, kTo = 75000;  // of 20 us
+  constexpr double kCoulomb_Nm = 0.1, kPush_Nm = 20.0;
+  long step = 0;
+  const auto d = diagnose(swings(
+      [&](double, double speed, double) {
+        const long trial = step / kSteps, at = step++ % kSteps;
+        return (trial == kTrial && at > kFrom && at < kTo ? kPush_Nm : 0.0) -
+               kCoulomb_Nm * std::tanh(speed / 0.02);
+      },
+      6, 12));
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "axis.coulomb");
+  EXPECT_LE(d.effects.front().parameters.front().low, kCoulomb_Nm);
+  EXPECT_GE(d.effects.front().parameters.front().high, kCoulomb_Nm);
+  const auto told = std::ranges::count_if(
+      d.notes, [](const auto& note) { return note.starts_with("4: something happened once"); });
+  EXPECT_EQ(told, 1);
+}
+
+// Straight lines between 200 rows a second cut the peaks of a torque of 4 Hz by (2 pi 4 / 200)^2 / 12 = 0.13
+// %, and a torque that stays through a step by as much again: together what a scale of 0.25 % would be taken
+// for.
 TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
   constexpr double kRate_radps = 2.0 * M_PI * 4.0, kAmplitude_rad = 0.3, kRow_s = 5e-3, kInertia_kg_m2 = 0.1;
   Belief belief;

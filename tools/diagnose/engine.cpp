@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
+#include "tools/diagnose/events.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/many_trials.hpp"
 #include "tools/diagnose/next_trial.hpp"
@@ -195,11 +196,22 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     return diagnosis;
   }
   options.progress(0.0, "");
-  const Point null = settled_null(problem);
+  Point null = settled_null(problem);
   diagnosis.simple = simple_answers(problem, null);
-
   BalanceLaw balance(problem, clean);
   Search search = searched(problem, clean, null, options, balance, diagnosis);
+  if (const auto events = find_events(problem, search.best().fit.point); !events.empty()) {
+    report_events(problem, events, diagnosis);
+    diagnosis.log.emplace_back("without what happened once");
+    leave_out(events, problem, clean);
+    const auto simulations = problem.simulations;
+    prepared = prepare(clean);
+    problem.simulations += simulations;
+    null = settled_null(problem);
+    diagnosis.simple = simple_answers(problem, null);
+    balance = BalanceLaw(problem, clean);
+    search = searched(problem, clean, null, options, balance, diagnosis);
+  }
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);

@@ -1,6 +1,7 @@
 #pragma once
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/diagnosis.hpp"
+#include "tools/diagnose/events.hpp"
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/open_world.hpp"
 #include "tools/diagnose/posterior.hpp"
@@ -12,6 +13,7 @@
 namespace sandhopper::diagnose {
 
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
+void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis);
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis);
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);

@@ -32,6 +32,16 @@ void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
         trials));
 }
 
+void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis) {
+  for (const auto& event : events)
+    diagnosis.notes.push_back(
+        fmt::format("{}: something happened once, {:.2f} to {:.2f} s (a push, a stop?): {} is up to {:.3g} "
+                    "off, {:.0f} times as "
+                    "far over its noise as in any other stretch; left out",
+                    problem.trials[event.trial]->name, event.from_s, event.to_s, event.channel,
+                    event.furthest, event.times_others));
+}
+
 // Only what has a name of its own: knots along depth have none.
 void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
   const auto trials = problem.trials.size();

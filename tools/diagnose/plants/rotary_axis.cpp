@@ -168,8 +168,8 @@ class RotaryTrial final : public TrialModel {
   }
 
   // From row to row the torque goes over smoothly; a step of the simulation takes its mean, that of straight
-  // lines less what a cubic bends from them, h^2 f'' / 12. A drive that holds the torque acts half a row later,
-  // which the tolerance of the channels' times allows for.
+  // lines less what a cubic bends from them, h^2 f'' / 12. A drive that holds the torque acts half a row
+  // later, which the tolerance of the channels' times allows for.
   void take_torque() {
     const double row_s = torque_row_s_ = median_step_s(torque_.time_s);
     const auto rows_per_step = static_cast<std::size_t>(
@@ -334,9 +334,8 @@ class RotaryTrial final : public TrialModel {
     };
     const auto rise_at = [&](double t) {  // over that step
       const std::size_t i = step_of(t, torque);
-      return i == 0 || i + 1 == torque.values.size()
-                 ? 0.0
-                 : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
+      return i == 0 || i + 1 == torque.values.size() ? 0.0
+                                                     : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
     };
     // A reading that is late shows at first what was before: what a steady acceleration leads there from.
     const double first = accel(s.from_s, torque_at(s.from_s), th, w);
