@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kPileUp = 0.01;    // of all samples, exactly on the end value
 constexpr std::size_t kLeast = 6;   // samples there
+constexpr std::size_t kInARow = 4;  // of them whose forerunner is there, too: a blow is short
 constexpr double kGridSteps = 3.0;  // noise must move the sensor by this many
 constexpr double kLifted = 3.0;     // standard deviations that noise may take a sample off the limit
 
@@ -48,14 +49,17 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   fault.limit_resolution = 0.5 * grid;
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;
+    std::size_t in_a_row = 0;
     for (const auto& s : samples)
-      for (const double v : s.value) {
+      for (std::size_t i = 0; i < s.value.size(); ++i) {
+        const double v = s.value[i];
         at_end += v == end ? 1.0 : 0.0;
+        in_a_row += i > 0 && v == end && s.value[i - 1] == end;
         next += v != end && std::abs(v - end) < 4.5 * grid ? 1.0 : 0.0;
       }
     // Without a limit the end value is met about as often as the four steps below it.
-    if (at_end < std::max(kPileUp * total, static_cast<double>(kLeast)) || at_end < 3.0 * (next + 1.0))
-      continue;
+    if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
+    if (at_end < kPileUp * total && in_a_row < kInARow) continue;
     if (fault.limit != 0.0 && std::abs(end) < std::abs(fault.limit)) continue;
     fault.limit = end;
   }

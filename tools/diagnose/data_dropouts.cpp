@@ -11,8 +11,8 @@ constexpr double kFar = 8.0;    // of the neighbours' own changes
 constexpr double kAlike = 0.5;  // of the fall: what lies between the two neighbours
 constexpr std::size_t kNeighbours = 6;
 constexpr double kIsolated = 0.3;  // of the range of all other values
-constexpr double kOften = 3.0;     // lost stretches per trial that are more than a gap now and then
-constexpr double kMostTrials = 0.75;
+constexpr double kOften = 2.0;     // gaps in a trial that has any: more than one now and then
+constexpr double kManyTrials = 0.5;
 constexpr double kShareLost = 0.004;
 constexpr std::size_t kEnough = 3;
 constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
@@ -202,8 +202,9 @@ void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& fa
   }
   fault.stretches = lengths.size();
   const auto count = static_cast<double>(trials.size());
-  if (static_cast<double>(fault.stretches) < kOften * count ||
-      static_cast<double>(fault.trials.size()) < kMostTrials * count || lost < kShareLost * rows)
+  const auto hit = static_cast<double>(fault.trials.size());
+  if (static_cast<double>(fault.stretches) < kOften * hit || hit < kManyTrials * count ||
+      lost < kShareLost * rows)
     return;
   std::sort(lengths.begin(), lengths.end());
   fault.duration_s = lengths[lengths.size() / 2];

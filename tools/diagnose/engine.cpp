@@ -15,6 +15,7 @@
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/report_parts.hpp"
 #include "tools/diagnose/search.hpp"
+#include "tools/diagnose/spread_seen.hpp"
 #include "tools/diagnose/unexplained.hpp"
 
 namespace sandhopper::diagnose {
@@ -79,6 +80,7 @@ Point settled_null(Problem& problem) {
   update_noise(problem, null);
   keep_columns(problem, null);
   null = fit_from(problem, null).point;
+  if (take_spread_as_seen(problem, null)) null = fit_from(problem, null).point;
   keep_columns(problem, null);
   return null;
 }
@@ -211,6 +213,12 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     diagnosis.simple = simple_answers(problem, null);
     balance = BalanceLaw(problem, clean);
     search = searched(problem, clean, null, options, balance, diagnosis);
+  }
+  // Names that leave the trials they were not fitted to no nearer than what is believed are none.
+  if (!search.best().set.empty() && held_out_gain(problem, residuals_of(problem, search.null().fit.point,
+                                                                        search.best().fit.point)) <= 0.0) {
+    diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
+    search.name_nothing();
   }
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");

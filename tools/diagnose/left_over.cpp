@@ -70,6 +70,7 @@ std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
   const auto trials = static_cast<double>(problem.trials.size());
   const auto& names = problem.trials.front()->trial_nuisances;
   for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].may_lean) continue;
     double sum = 0.0;
     bool everywhere = true;
     for (std::size_t t = 0; t < problem.trials.size() && everywhere; ++t) {

@@ -28,6 +28,11 @@ struct Nuisance {
   double sd = 1.0;
   double step = 0.01;  // of numerical derivatives
   std::string port{};  // where it acts, if what moves it in all trials alike can be placed by that
+  // Whether it says something where it is off by as much in all trials: not of how readings were written down,
+  // nor where nobody said how far trials differ.
+  bool may_lean = true;
+  // A number of the robot, which trials may share as well as differ in: `spread_seen`.
+  bool may_be_shared = false;
 };
 
 // What can be told about a row besides its value: the axes on which a mismatch is placed.
@@ -104,6 +109,10 @@ class PlantModel {
   virtual std::vector<std::string> phases() const = 0;
   // The share of what is explained that laws of a true form other than the candidates' may leave.
   virtual double form_error() const { return 0.05; }
+  // What two programs that simulate this plant by the same equations may differ by, of the noise's power, as
+  // if something acted at that port, or changed "readings" alone: integrators, current loops and instants of
+  // sampling are nobody's physics.
+  virtual double simulations_differ(const std::string& /*port*/) const { return 0.0; }
   // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
   // Whether a channel is low-passed by what records it, perhaps no more often than it is recorded.
@@ -123,8 +132,9 @@ class PlantModel {
   // Whether this belief says how far its nuisances differ from trial to trial, and not only that nobody knows
   // them: then what is off by the same in all trials is something.
   virtual bool says_how_trials_differ(const Belief&) const { return false; }
-  // Whether the drive's torque is a recorded input, whose time is as unsure as that of what is recorded.
-  virtual bool drive_is_recorded() const { return true; }
+  // By how much the drive may act late or early, as it is written down, s. 0: its torque is a recorded input,
+  // whose time is as unsure as that of what is recorded.
+  virtual double drive_unsure_s() const { return 0.0; }
   // Motion is recorded, not simulated: no trial's simulation can go astray.
   virtual bool motion_is_prescribed() const { return false; }
   // Of one trial; none where this plant's recordings do not say enough.

@@ -244,6 +244,8 @@ Prepared prepare(const Recordings& recordings) {
     problem.tolerances.push_back(
         {"time of " + channel, std::hypot(sampling_s, filter_s), channel, sampling_s});
   }
+  if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
+    problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));

@@ -29,6 +29,21 @@ std::vector<VectorXd> changes(const Problem& problem, const Point& point, const 
 
 }  // namespace
 
+double held_out_gain(const Problem& problem, const Residuals& residuals) {
+  double gain = 0.0;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const TrialModel& trial = *problem.trials[t];
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      if (!problem.used[t][k]) continue;
+      const auto row = static_cast<Index>(k);
+      const double sd = problem.noise.sd(trial, trial.rows[k]);
+      const double before = residuals.before[t][row] / sd, after = residuals.held_out[t][row] / sd;
+      gain += before * before - after * after;
+    }
+  }
+  return gain;
+}
+
 Residuals residuals_of(const Problem& problem, const Point& null, const Point& point) {
   Residuals out;
   for (auto& trial : linearise_all(problem, null, {}, {.keep_plain = true}))

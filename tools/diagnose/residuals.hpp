@@ -19,4 +19,8 @@ struct Residuals {
 // `point`: the answer, perhaps with a law of free form.
 Residuals residuals_of(const Problem& problem, const Point& null, const Point& point);
 
+// By how much the trials, each left out of what is fitted, are nearer to `residuals.held_out` than to what is
+// believed: sum over rows of squares, in standard deviations.
+double held_out_gain(const Problem& problem, const Residuals& residuals);
+
 }  // namespace sandhopper::diagnose

@@ -59,6 +59,9 @@ class Search {
   // False when there is none.
   bool name_small(double gain);
 
+  // Nothing is named after all.
+  void name_nothing() { best_.clear(); }
+
   // Where the fits of the sets with the smallest criterion stand, of those that come near.
   std::vector<Point> best_points(std::size_t count) const;
 

@@ -47,7 +47,6 @@ std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis&
 // as unsure as that of the channel whose samples come slowest.
 bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
   if (delays.empty() || problem.tolerances.empty()) return false;
-  if (!problem.plant->drive_is_recorded() && delays.contains("actuator")) return false;
   double slowest_s = 0.0;
   for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.of_sampling);
   return std::ranges::all_of(delays, [&](const auto& delay) {
@@ -81,6 +80,18 @@ std::vector<std::string> channels_read(const Problem& problem, const Hypothesis&
   }
   if (!edits.belief.empty() || !edits.laws.empty()) channels.clear();
   return channels;
+}
+
+// What an effect has to explain to be more than a difference between two simulations: of the rows in which it
+// shows.
+double unnoticed(const Problem& problem, const Candidate& candidate,
+                 const std::vector<std::string>& channels) {
+  double rows = 0.0;
+  for (const auto& trial : problem.trials)
+    for (const auto& row : trial->rows)
+      rows +=
+          channels.empty() || std::ranges::find(channels, problem.channels[row.channel]) != channels.end();
+  return problem.plant->simulations_differ(channels.empty() ? port_of(candidate) : "readings") * rows;
 }
 
 // Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
@@ -228,7 +239,14 @@ void Search::judge(SetFit& result) {
          fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
-    evidence.too_small = evidence.typicals < smallest;
+    const double lost = fitted == sets_.end()
+                            ? evidence.gain
+                            : std::min(evidence.gain, fitted->second.fit.deviance - result.fit.deviance);
+    // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
+    const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
+    evidence.too_small = evidence.typicals < smallest ||
+                         (!hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
+                                                      channels_read(*problem_, point.hypothesis, e)));
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;

@@ -108,6 +108,10 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
       std::max({kUnknownGain, kUnknownGainPerRow * rows,
                 std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
 
+  const auto is_more = [&](const FreeGain& gain) {
+    return gain.held_out > std::max(least_gain, problem.plant->simulations_differ(gain.family.port) * rows);
+  };
+
   const auto beside = free_gains(problem, best.fit.point);
   for (std::size_t i = 0; i < beside.size() && i < kLawsTold; ++i)
     log.push_back(fmt::format(
@@ -118,8 +122,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     out.law = first_of(beside, [&](const FreeGain& gain) {
       // Where few of the trials show it most, they show it the better for that.
       const bool much = gain.held_out > kUnknownPerRow * rows;
-      return gain.held_out > least_gain &&
-             gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
+      return is_more(gain) && gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
              gain.trials_better >= kMostTrials && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
     });
   const bool by_balance =
@@ -137,8 +140,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   if (out.misfit.large && !out.law) {
     alone = free_gains(problem, search.null().fit.point);
     out.law = first_of(alone, [&](const FreeGain& gain) {
-      return gain.held_out > least_gain &&
-             (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
+      return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
     });
   }
   // Where a law of free form says more of trials it has not seen than the best names of those they were
@@ -171,7 +173,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   const bool more_than_noise = !faults && (out.left > kMoreThanNoise || out.leans);
   if (more_than_noise && best.set.empty() && !out.law)
     out.law = first_of(beside, [&](const FreeGain& gain) {
-      return !gain.family.sensor && gain.held_out > least_gain &&
+      return !gain.family.sensor && is_more(gain) &&
              (out.left > kMoreThanNoise || gain.family.port.starts_with(out.lean.port));
     });
 

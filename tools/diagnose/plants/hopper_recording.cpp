@@ -73,6 +73,13 @@ HopStart start_from_data(const Trial& trial, const Leg& leg, double time_s) {
   return start;
 }
 
+// As the encoder reads it where a leg is let go: the controller's own, unless the record says otherwise.
+double angle_held(const Trial& trial, double time_s, double believed_rad) {
+  constexpr double kApart_rad = 1e-3;
+  const auto read = local_fit(mean_of_motors(trial, "position_rad"), time_s, 0.008);
+  return read.known && std::abs(read.value - believed_rad) > kApart_rad ? read.value : believed_rad;
+}
+
 // A leg that is to be held and falls as its record begins was let go there, where the ground carried it not
 // yet: it is at rest, and a foot that is about at the surface is on it. Heights alone tell that only to
 // within millimetres and decimetres per second.
@@ -148,7 +155,7 @@ HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_
     HopStart start;
     start.from_s = release_time_s(trial);
     start.state.foot_z_m = trial.setup_or("release_height_m", 0.05);
-    start.state.angle_rad = angle_at_length(leg, flight_length_m);
+    start.state.angle_rad = angle_held(trial, start.from_s, angle_at_length(leg, flight_length_m));
     start.at_rest = true;
     course.hops.push_back(start);
   } else {

@@ -55,7 +55,7 @@ class Actuator {
           offset_Nm_ += edit.value;
           break;
         case SensorEdit::Kind::delay_s:
-          delay_s_ += std::max(0.0, edit.value);
+          delay_s_ += edit.value;
           break;
         case SensorEdit::Kind::lag_s:
           lag_decay_ = decay(edit.value);
@@ -69,7 +69,7 @@ class Actuator {
     }
     loop_decay_ = decay(time_constant_s);
     // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
-    // may be of either: between the two.
+    // may be of either: between the two. Which, a tolerance finds out (plants/hopper).
     const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
     loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / kStep_s;
     history_.fill(0.0);
@@ -84,8 +84,9 @@ class Actuator {
     }
     newest_ = (newest_ + 1) % history_.size();
     history_[newest_] = command_Nm;
-    const double steps = std::min(delay_s_ / kStep_s, static_cast<double>(history_.size() - 2));
-    const auto whole = static_cast<std::size_t>(steps);
+    // A little early is an overshoot of the next step that holds the same impulse.
+    const double steps = std::clamp(delay_s_ / kStep_s, -1.0, static_cast<double>(history_.size() - 2));
+    const auto whole = static_cast<std::size_t>(std::max(0.0, steps));
     const double part = steps - static_cast<double>(whole);
     const auto back = [&](std::size_t n) {
       return history_[(newest_ + history_.size() - n) % history_.size()];
@@ -96,6 +97,8 @@ class Actuator {
     current_Nm_ = lagged_ + (current_Nm_ - lagged_) * loop_decay_;
     return mean_Nm;
   }
+
+  double current_Nm() const { return current_Nm_; }
 
   double torque_Nm(double current_Nm, double time_s) const {
     double torque = factor_ * current_Nm + offset_Nm_;
@@ -127,28 +130,56 @@ class MeasuredAngle {
       if (edit.kind == SensorEdit::Kind::law) laws_.push_back(&edit.law);
     }
   }
-  double operator()(const PlantState& s) const {
-    const double angle = gain_ * s.rotor_rad() + offset_;
-    return laws_.empty() ? angle
-                         : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = s.rotor_radps()});
+  double operator()(const PlantState& s) const { return read(s.rotor_rad(), s.rotor_radps()); }
+
+  // The angle of a leg at rest that is read as this one.
+  double behind(double read_rad) const {
+    double angle_rad = read_rad;
+    for (int i = 0; i < 4; ++i) angle_rad += read_rad - read(angle_rad, 0.0);
+    return angle_rad;
   }
 
  private:
+  double read(double rotor_rad, double rotor_radps) const {
+    const double angle = gain_ * rotor_rad + offset_;
+    return laws_.empty() ? angle : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = rotor_radps});
+  }
+
   double gain_ = 1.0, offset_ = 0.0;
   std::vector<const Law*> laws_;
+};
+
+// The motors' speed as the controller reads it, through the encoder's low-pass. Exactly the filter that
+// RecordedController takes: how the recorded one differs is part of the residual command.
+class MeasuredRate {
+ public:
+  explicit MeasuredRate(const HopperRun& run) : rate_radps_(run.start.angular_velocity_radps) {
+    const double bandwidth_Hz = run.world.sensors.encoder_velocity_bandwidth_Hz;
+    if (bandwidth_Hz <= 0.0) return;
+    const double ratio = 2.0 * std::numbers::pi * bandwidth_Hz * kStep_s;
+    decay_ = std::exp(-ratio);
+    slope_gain_ = 1.0 - (1.0 - decay_) / ratio;
+  }
+
+  // One grid step further; exact for a speed that is linear over it.
+  void follow(double rate_radps) {
+    rate_radps_ =
+        decay_ * rate_radps_ + (1.0 - decay_) * now_radps_ + slope_gain_ * (rate_radps - now_radps_);
+    now_radps_ = rate_radps;
+  }
+  double operator()() const { return rate_radps_; }
+
+ private:
+  double rate_radps_, now_radps_ = rate_radps_, decay_ = 0.0, slope_gain_ = 1.0;
 };
 
 // The believed controller on the simulated leg; see HopperRun for what else can drive it.
 class SpringLeg {
  public:
   SpringLeg(const HopperRun& run, const Leg& leg)
-      : run_(run), leg_(leg), own_(run.world.controller, run.compression_stiffness_N_per_m) {
-    const double bandwidth_Hz = run.world.sensors.encoder_velocity_bandwidth_Hz;
-    rate_decay_ = std::exp(-2.0 * std::numbers::pi * bandwidth_Hz * kStep_s);
-    rate_radps_ = run.start.angular_velocity_radps;
-  }
+      : run_(run), leg_(leg), own_(run.world.controller, run.compression_stiffness_N_per_m), rate_(run) {}
 
-  void follow(double rate_radps) { rate_radps_ = rate_radps + (rate_radps_ - rate_radps) * rate_decay_; }
+  void follow(double rate_radps) { rate_.follow(rate_radps); }
 
   double command_Nm(double time_s, double angle_rad, const PlantState& state) {
     const auto& world = run_.world;
@@ -156,9 +187,9 @@ class SpringLeg {
     if (run_.recorded_command_Nm != nullptr)
       return std::clamp(run_.recorded_command_Nm->at(time_s), -limit, limit);
     if (run_.phases == nullptr || run_.phases->empty())
-      return std::clamp(own_.step(leg_, {state.foot_z_m, angle_rad, rate_radps_}), -limit, limit);
+      return std::clamp(own_.step(leg_, {state.foot_z_m, angle_rad, rate_()}), -limit, limit);
     const double own = spring_torque_Nm(world, run_.compression_stiffness_N_per_m, leg_,
-                                        {phase_at(*run_.phases, time_s), angle_rad, rate_radps_});
+                                        {phase_at(*run_.phases, time_s), angle_rad, rate_()});
     const double residual = run_.command_residual_Nm != nullptr ? run_.command_residual_Nm->at(time_s) : 0.0;
     return std::clamp(own + residual, -limit, limit);
   }
@@ -167,7 +198,7 @@ class SpringLeg {
   const HopperRun& run_;
   const Leg& leg_;
   NominalController own_;
-  double rate_decay_, rate_radps_;
+  MeasuredRate rate_;
 };
 
 HopperTraces empty_traces(double from_s, std::size_t count) {
@@ -224,6 +255,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   SpringLeg spring(run, plant.leg());
   Actuator actuator(edits, run);
   const MeasuredAngle measured(edits);
+  start.angle_rad = measured.behind(start.angle_rad);
   // Recorded is the rotors' angle; they lie at the side of the play to which the motors push.
   const double play_rad = run.world.robot.joint_play_rad;
   if (play_rad > 0.0) {
@@ -250,13 +282,12 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     ports.at_time(t);
     const PlantState& state = plant.state();
     ground.touching(state.foot_z_m < 0.0);
+    if (i > 0) spring.follow(state.rotor_radps());
     if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
-    spring.follow(state.rotor_radps());
-    const double current_Nm = actuator.step(command_Nm, state.rotor_radps());
-    const double torque_Nm = actuator.torque_Nm(current_Nm, t);
+    traces.current_torque_Nm.values[i] = actuator.current_Nm();  // read before the command acts
+    const double torque_Nm = actuator.torque_Nm(actuator.step(command_Nm, state.rotor_radps()), t);
     traces.angle_rad.values[i] = state.rotor_rad();
     traces.rate_radps.values[i] = state.rotor_radps();
-    traces.current_torque_Nm.values[i] = current_Nm;
     traces.command_torque_Nm.values[i] = command_Nm;
     traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
     traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;

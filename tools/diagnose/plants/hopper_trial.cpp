@@ -24,6 +24,7 @@ constexpr double kMargin = 1.5;       // of the depth that the belief says the f
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
+constexpr double kReleaseAngleUnknown_rad = 2e-4;
 constexpr double kNearEndStop_rad = 0.04;
 constexpr double kAloft_s = 0.02;  // a liftoff is over by then
 constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
@@ -34,6 +35,7 @@ enum TrialNuisance : std::size_t {
   kStiffness,
   kReleaseHeight,
   kReleaseSpeed,
+  kReleaseAngle,
   kSurface,
   kCable,
   kTorqueConstant,
@@ -45,7 +47,9 @@ enum TrialNuisance : std::size_t {
   kLeftOffset,
   kRightOffset,
   kCellOffset,
-  kSampleAge,
+  kTofAge,
+  kCellAge,
+  kMocapAge,
   kFirstKnot
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
@@ -57,7 +61,7 @@ struct ChannelSource {
   const char* sensor;  // of the belief's keys
   const char* unit;
   std::size_t every;  // sample that is kept: fast channels say the same thing many times
-  std::optional<TrialNuisance> offset{}, scale{};
+  std::optional<TrialNuisance> offset{}, scale{}, age{};
 };
 constexpr std::array<ChannelSource, 14> kSources{
     {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
@@ -70,10 +74,10 @@ constexpr std::array<ChannelSource, 14> kSources{
      {"command_right_torque_Nm", &HopperTraces::command_torque_Nm, "", "", 4},
      {"imu_body_accel_z_mps2", &HopperTraces::body_accel_mps2, "imu", "mps2", 2, kBodyBias, kBodyScale},
      {"imu_foot_accel_z_mps2", &HopperTraces::foot_accel_mps2, "imu", "mps2", 2, kFootBias, kFootScale},
-     {"tof_height_m", &HopperTraces::body_z_m, "tof", "m", 1, kTofBias},
-     {"load_cell_force_N", &HopperTraces::force_N, "load_cell", "N", 1, kCellOffset},
-     {"mocap_body_z_m", &HopperTraces::body_z_m, "mocap", "m", 1},
-     {"mocap_foot_z_m", &HopperTraces::foot_z_m, "mocap", "m", 1}}};
+     {"tof_height_m", &HopperTraces::body_z_m, "tof", "m", 1, kTofBias, {}, kTofAge},
+     {"load_cell_force_N", &HopperTraces::force_N, "load_cell", "N", 1, kCellOffset, {}, kCellAge},
+     {"mocap_body_z_m", &HopperTraces::body_z_m, "mocap", "m", 1, {}, {}, kMocapAge},
+     {"mocap_foot_z_m", &HopperTraces::foot_z_m, "mocap", "m", 1, {}, {}, kMocapAge}}};
 enum Source : std::size_t {
   kLeftCurrent = 4,
   kRightCurrent,
@@ -125,7 +129,7 @@ class HopperTrial final : public TrialModel {
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
         if (span.count == 0) continue;
-        const std::array own{offset_of(c, n), scale_of(c, n), n[kSampleAge]};
+        const std::array own{offset_of(c, n), scale_of(c, n), age_share(c, n)};
         run.read(c, HopperRuns::reading_key(edits, kSources[c].channel, own),
                  out.subspan(span.first, span.count),
                  [&](std::span<double> at) { read_channel(world, run.traces, edits, n, c, span, at); });
@@ -146,29 +150,37 @@ class HopperTrial final : public TrialModel {
 
   void add_nuisances() {
     const auto& s = world_.spread;
-    const auto add = [&](const char* what, double sd, double step, const char* port = "") {
-      trial_nuisances.push_back({what, sd, step, port});
+    // `least`: what nobody knows it better than.
+    const auto add = [&](const std::string& what, double believed_sd, double least, double step,
+                         const char* port = "") {
+      trial_nuisances.push_back({what, std::max(believed_sd, least), step, port, believed_sd > least});
     };
-    add("bed_stiffness_relative", std::max(s.bed_stiffness_relative, 1e-3), 1e-3, "ground");
-    add("release_height_m", std::max(s.release_height_m, kReleaseUnknown_m), 1e-5);
-    add("release_speed_mps", std::max(s.release_speed_mps, kReleaseSpeedUnknown_mps), 1e-4);
-    add("surface_height_m", std::max(s.surface_height_m, kSurfaceUnknown_m), 1e-5);
-    add("cable_force_N", std::max(s.cable_force_N, 1e-3), 0.01, "rail");
-    add("torque_constant_relative", std::max(s.torque_constant_relative, 1e-3), 1e-3);
-    add("tof_bias_m", std::max(s.tof_bias_m, 1e-4), 1e-3);
-    add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
-    add("imu_bias_mps2", std::max(s.imu_bias_mps2, 1e-3), 1e-2);
-    add("imu_scale_relative", std::max(s.imu_scale_relative, 1e-4), 1e-2);
-    add("imu_scale_relative", std::max(s.imu_scale_relative, 1e-4), 1e-2);
-    add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
-    add("current_offset_A", std::max(s.current_offset_A, 1e-3), 1e-2);
-    add("load_cell_offset_N", std::max(s.load_cell_offset_N, 0.02), 0.05);
-    add("sample_age_share", kAgeShareUnknown, 0.05);
+    add("bed_stiffness_relative", s.bed_stiffness_relative, 1e-3, 1e-3, "ground");
+    add("release_height_m", s.release_height_m, kReleaseUnknown_m, 1e-5);
+    add("release_speed_mps", s.release_speed_mps, kReleaseSpeedUnknown_mps, 1e-4);
+    add("release_angle_rad", 0.0, kReleaseAngleUnknown_rad, 1e-5);
+    add("surface_height_m", s.surface_height_m, kSurfaceUnknown_m, 1e-5);
+    add("cable_force_N", s.cable_force_N, 1e-3, 0.01, "rail");
+    add("torque_constant_relative", s.torque_constant_relative, 1e-3, 1e-3);
+    add("tof_bias_m", s.tof_bias_m, 1e-4, 1e-3);
+    add("imu_bias_mps2", s.imu_bias_mps2, 1e-3, 1e-2);
+    add("imu_bias_mps2", s.imu_bias_mps2, 1e-3, 1e-2);
+    add("imu_scale_relative", s.imu_scale_relative, 1e-4, 1e-2);
+    add("imu_scale_relative", s.imu_scale_relative, 1e-4, 1e-2);
+    add("current_offset_A", s.current_offset_A, 1e-3, 1e-2);
+    add("current_offset_A", s.current_offset_A, 1e-3, 1e-2);
+    add("load_cell_offset_N", s.load_cell_offset_N, 0.02, 0.05);
+    for (auto& nuisance : trial_nuisances)
+      nuisance.may_be_shared =
+          nuisance.name == "torque_constant_relative" || nuisance.name == "imu_scale_relative";
+    for (const char* sensor : {"tof", "load_cell", "mocap"})
+      add(std::string(sensor) + "_sample_age_share", 0.0, kAgeShareUnknown, 0.05);
     if (s.bed_fluctuation_relative > 0.0 && !world_.terrain.rigid) {
       const double deepest_m = std::min(kDeepest_m, kMargin * deepest_believed_m());
       grains_ = BedGrains(s.bed_fluctuation_relative, s.bed_fluctuation_length_m, deepest_m,
                           kDeepest_m / static_cast<double>(kMostKnots - 1), kMostKnots);
-      for (std::size_t i = 0; i < grains_.count(); ++i) add("bed_fluctuation", grains_.sd(), 1e-3, "ground");
+      for (std::size_t i = 0; i < grains_.count(); ++i)
+        add("bed_fluctuation", grains_.sd(), 0.0, 1e-3, "ground");
     }
     if (blocks > 1 || !course_.hops.front().at_rest)
       block_nuisances = {{"foot_z_m", 0.010, 1e-5},
@@ -226,6 +238,7 @@ class HopperTrial final : public TrialModel {
     if (hop.at_rest) {
       run.start.foot_z_m += n[kReleaseHeight];
       run.start.foot_velocity_mps += n[kReleaseSpeed];
+      run.start.angle_rad += n[kReleaseAngle];
     }
     if (!block_nuisances.empty()) {
       const auto own = n.subspan(trial_nuisances.size() + block * kHopNuisances, kHopNuisances);
@@ -247,6 +260,10 @@ class HopperTrial final : public TrialModel {
   }
   static double scale_of(std::size_t c, std::span<const double> n) {
     return kSources[c].scale ? 1.0 + n[*kSources[c].scale] : 1.0;
+  }
+
+  static double age_share(std::size_t c, std::span<const double> n) {
+    return kSources[c].age ? kAgeShare + n[*kSources[c].age] : 1.0;
   }
 
   void read_channel(const WorldConfig& world, const HopperTraces& traces, const Edits& edits,
@@ -280,7 +297,7 @@ class HopperTrial final : public TrialModel {
       default:
         break;
     }
-    const auto sampled_s = sampled(span, kAgeShare + n[kSampleAge]);
+    const auto sampled_s = sampled(span, age_share(c, n));
     observe(signal, sensors_[c], edits, kSources[c].channel, sampled_s, at);
     const double offset = offset_of(c, n);
     for (double& v : at) v += offset;
@@ -318,11 +335,11 @@ class HopperTrial final : public TrialModel {
   }
 
   // A sensor that samples more often than rows are written, with a clock of its own, leaves no empty cells
-  // that would tell when: standard deviation of a sample's age.
-  double age_unknown_s(std::size_t c, double step_s) const {
+  // that would tell when: a row holds the latest sample, half a period old in the middle.
+  double period_within_rows_s(std::size_t c, double step_s) const {
     if (c != kImuBody && c != kImuFoot) return 0.0;
     const double rate_Hz = belief_.value("sensors.imu_rate_Hz");
-    return rate_Hz * step_s > 1.01 ? 1.0 / (rate_Hz * std::sqrt(12.0)) : 0.0;
+    return rate_Hz * step_s > 1.01 ? 1.0 / rate_Hz : 0.0;
   }
 
   // Standard deviation against that of a sample whose time is known.
@@ -346,10 +363,11 @@ class HopperTrial final : public TrialModel {
     const auto samples = samples_of(trial, kSources[c].channel);
     if (samples.value.size() < 10) return;
     auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));
-    if (ages.size() != samples.value.size()) ages.assign(samples.value.size(), 0.0);
     const double step_s = median_step_s(samples.time_s);
+    const double period_s = period_within_rows_s(c, step_s);
+    if (ages.size() != samples.value.size()) ages.assign(samples.value.size(), 0.5 * period_s);
     const std::size_t every = step_s < 1.5e-3 ? kSources[c].every : 1;
-    const auto unsure = unsure_of_time(samples, age_unknown_s(c, step_s));
+    const auto unsure = unsure_of_time(samples, period_s / std::sqrt(12.0));
     for (std::size_t i = 0; i < samples.value.size(); i += every) {
       const double t = samples.time_s[i];
       if (t < course_.hops.front().from_s || t > course_.end_s) continue;

@@ -106,37 +106,52 @@ Samples without_repeats(const Samples& s) {
 }
 
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz) {
-  constexpr int kPhases = 100;
-  constexpr double kAgree = 0.97, kRowsPerTick = 1.02;
+  constexpr int kPhases = 60, kRates = 10;  // rates to either side
+  constexpr double kAgree = 0.97, kRowsPerTick = 1.02, kRateUnknown = 0.12;
   const auto* values = trial.find(channel);
   if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0 ||
       rate_Hz * median_step_s(trial.time_s) * kRowsPerTick > 1.0)
     return {};
   const auto& t = trial.time_s;
-  std::vector<double> agreeing(kPhases, 0.0);
-  for (int i = 0; i < kPhases; ++i) {
-    const double phase = static_cast<double>(i) / kPhases;
-    double before = std::floor(t[0] * rate_Hz - phase);
-    for (std::size_t row = 1; row < t.size(); ++row) {
-      const double tick = std::floor(t[row] * rate_Hz - phase);
-      agreeing[static_cast<std::size_t>(i)] += (tick > before) == !std::isnan((*values)[row]) ? 1.0 : 0.0;
-      before = tick;
+  std::vector<std::size_t> fresh;
+  for (std::size_t row = 0; row < t.size(); ++row)
+    if (!std::isnan((*values)[row])) fresh.push_back(row);
+  if (fresh.size() < 10) return {};
+  const double periods = static_cast<double>(fresh.size() - 1), span_s = t[fresh.back()] - t[fresh.front()];
+  struct Ticks {
+    double rate_Hz, phase, agreeing;
+  };
+  std::vector<Ticks> tried;
+  double most = 0.0;
+  for (int r = -kRates; r <= kRates; ++r) {
+    // Ticks counted between the first row with a sample and the last are one too many or too few at most.
+    const double rate = (periods + 1.2 * r / kRates) / span_s;
+    if (std::abs(rate / rate_Hz - 1.0) > kRateUnknown) continue;
+    for (int i = 0; i < kPhases; ++i) {
+      const double phase = static_cast<double>(i) / kPhases;
+      double agreeing = 0.0, before = std::floor(t[0] * rate - phase);
+      for (std::size_t row = 1; row < t.size(); ++row) {
+        const double tick = std::floor(t[row] * rate - phase);
+        agreeing += (tick > before) == !std::isnan((*values)[row]) ? 1.0 : 0.0;
+        before = tick;
+      }
+      tried.push_back({rate, phase, agreeing});
+      most = std::max(most, agreeing);
     }
   }
-  const double most = *std::ranges::max_element(agreeing);
   if (most < kAgree * static_cast<double>(t.size() - 1)) return {};
-  // The middle of those that suit as well as the best, on a circle.
-  double along = 0.0, across = 0.0;
-  for (int i = 0; i < kPhases; ++i)
-    if (agreeing[static_cast<std::size_t>(i)] >= most - 0.5) {
-      along += std::cos(2.0 * std::numbers::pi * i / kPhases);
-      across += std::sin(2.0 * std::numbers::pi * i / kPhases);
+  // Of those that suit as well as the best, the mean age.
+  std::vector<double> ages(fresh.size(), 0.0);
+  double count = 0.0;
+  for (const auto& ticks : tried) {
+    if (ticks.agreeing < most - 0.5) continue;
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      const double at_s = t[fresh[i]];
+      ages[i] += at_s - (std::floor(at_s * ticks.rate_Hz - ticks.phase) + ticks.phase) / ticks.rate_Hz;
     }
-  const double phase = std::atan2(across, along) / (2.0 * std::numbers::pi);
-  std::vector<double> ages;
-  for (std::size_t row = 0; row < t.size(); ++row)
-    if (!std::isnan((*values)[row]))
-      ages.push_back(t[row] - (std::floor(t[row] * rate_Hz - phase) + phase) / rate_Hz);
+    ++count;
+  }
+  for (double& age : ages) age /= count;
   return ages;
 }
 

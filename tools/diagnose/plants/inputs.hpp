@@ -37,8 +37,9 @@ double median_step_s(std::span<const double> time_s);
 Samples without_repeats(const Samples& samples);
 
 // How long each sample of a sensor with a clock of its own, slower than the rows, had waited for its row.
-// Rows with and without a fresh sample tell the phase p of ticks at (k + p) / rate: that which suits most of
-// them. Empty where the rate is not known, not slower, or the pattern is another one.
+// Rows with and without a fresh sample tell rate r (within 12 % of what is believed: converters' clocks are
+// 10 % off) and phase p of ticks at (k + p) / r: those that suit most rows. Empty where the rate is not known
+// or not slower, or the pattern is another one.
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz);
 // The share of that age by which a row's value is older than its row: all of it, or half; believed so.
 inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;

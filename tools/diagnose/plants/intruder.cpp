@@ -78,6 +78,7 @@ class IntruderTrial final : public TrialModel {
     if (!ages.empty()) {
       age_nuisance_ = trial_nuisances.size();
       add_nuisance("sample_age_share", kAgeShareUnknown, 0.05);
+      trial_nuisances.back().may_lean = false;
     }
     const double noise_N =
         std::max({belief_.value("sensors.load_cell_noise_N"), fluctuation_rms(force), 1e-6});

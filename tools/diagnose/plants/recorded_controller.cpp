@@ -15,13 +15,27 @@ constexpr double kMostLate_s = 0.02;      // a switch that is never made is late
 // Where a quantity that is below zero at the first of two instants and not at the second comes to zero.
 double crossing(double before, double after) { return before < 0.0 ? before / (before - after) : 0.0; }
 
+// Parabolas flatten what bends more, as a leg does that lets go of the ground: what they leave is smoothed
+// again.
+Smoothed smoothed_twice(const Samples& samples) {
+  Smoothed once = smooth(samples, kSmoothing);
+  Samples left = samples;
+  for (std::size_t i = 0; i < left.value.size(); ++i) left.value[i] -= once.value[i];
+  const Smoothed again = smooth(left, kSmoothing);
+  for (std::size_t i = 0; i < once.value.size(); ++i) {
+    once.value[i] += again.value[i];
+    once.rate[i] += again.rate[i];
+  }
+  return once;
+}
+
 }  // namespace
 
 RecordedController::RecordedController(const Trial& trial, const Leg& leg, const WorldConfig& believed,
                                        double end_s)
     : leg_(leg), measured_(measured_leg(trial)), commands_(commands_of(trial)), end_s_(end_s) {
   if (!measured()) return;
-  const Smoothed smoothed = smooth({measured_.time_s, measured_.angle_rad}, kSmoothing);
+  const Smoothed smoothed = smoothed_twice({measured_.time_s, measured_.angle_rad});
   const auto count = static_cast<std::size_t>(end_s_ / kTick_s) + 2;
   smooth_angle_ = on_grid({measured_.time_s, smoothed.value}, 0.0, kTick_s, count, false);
   smooth_rate_ = on_grid({measured_.time_s, smoothed.rate}, 0.0, kTick_s, count, false);

@@ -83,7 +83,6 @@ class RotaryTrial final : public TrialModel {
     if (q > 0)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
-    const double acting = acting_per_recorded(edits);
     const std::array clocks{SensorClock(edits, "position_rad"), SensorClock(edits, "velocity_radps")};
     for (std::uint32_t b = 0; b < blocks; ++b) {
       Stretch stretch = begun_where_read(b, clocks);
@@ -91,6 +90,7 @@ class RotaryTrial final : public TrialModel {
       stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
       if (own.size() > kTorque) {
+        const double acting = acting_per_recorded(edits, 0.5 * (stretch.from_s + stretch.to_s));
         stretch.torque_Nm = acting * own[kTorque];
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
@@ -115,12 +115,21 @@ class RotaryTrial final : public TrialModel {
     return sum;
   }
 
-  // The noise of the torque's sensor is scaled as what it reads.
-  static double acting_per_recorded(const Edits& edits) {
+  // The noise of the torque's sensor is scaled as what it reads; where a drive saturates, by the slope there.
+  double acting_per_recorded(const Edits& edits, double time_s) const {
+    constexpr double kApart = 1e-3;  // of the torque
     double gain = 1.0;
-    for (const auto& edit : edits.sensors)
-      if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
-    return gain;
+    std::vector<const Law*> laws;
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "actuator") continue;
+      if (edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
+      if (edit.kind == SensorEdit::Kind::law) laws.push_back(&edit.law);
+    }
+    if (laws.empty()) return gain;
+    const double torque_Nm = gain * drive_.at(time_s);
+    const double apart_Nm = kApart * std::max(std::abs(torque_Nm), 0.1);
+    const auto acting = [&](double t) { return t + sum_of(laws, {.time_s = time_s, .position = t}); };
+    return gain * (acting(torque_Nm + apart_Nm) - acting(torque_Nm - apart_Nm)) / (2.0 * apart_Nm);
   }
 
   struct Stretch {
