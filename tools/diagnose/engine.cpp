@@ -74,21 +74,28 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   }
 }
 
+struct Settled {
+  Point null;
+  std::vector<Point> starts;  // of a search, beside it
+};
+
 // Nothing missing, with a noise that was estimated there.
-Point settled_null(Problem& problem) {
+Settled settled_null(Problem& problem) {
   Point null = fit_from(problem, null_point(problem), kFirst).point;
   update_noise(problem, null);
   keep_columns(problem, null);
   null = fit_from(problem, null).point;
-  if (take_spread_as_seen(problem, null)) null = fit_from(problem, null).point;
+  auto starts = take_spread_as_seen(problem, null);
+  if (!starts.empty()) null = fit_from(problem, null).point;
   keep_columns(problem, null);
-  return null;
+  return {std::move(null), std::move(starts)};
 }
 
 // All that is searched: once, and again with the noise as it shows with what was found in place. Of many
 // trials whose simulation takes long some are searched; what comes near there is where all of them begin.
-Search searched(Problem& problem, const Recordings& clean, const Point& null, const EngineOptions& options,
-                BalanceLaw& balance, Diagnosis& diagnosis) {
+Search searched(Problem& problem, const Recordings& clean, const Settled& settled,
+                const EngineOptions& options, BalanceLaw& balance, Diagnosis& diagnosis) {
+  const Point& null = settled.null;
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
   search_options.straight = problem.plant->starts_as_believed();
@@ -105,12 +112,12 @@ Search searched(Problem& problem, const Recordings& clean, const Point& null, co
     search_options.straight = false;
     search_options.fits_of_singles = search_options.fits_per_screen;
   }
-  std::vector<Point> seeds;
+  std::vector<Point> seeds = settled.starts;
   if (problem.plant->is_costly() && problem.trials.size() > kManyTrials) {
     Prepared some = prepare(spread_over(clean, kSearchedTrials));
-    const Point start = settled_null(some.problem);
+    const Settled of_some = settled_null(some.problem);
     Search search(some.problem, search_options);
-    search.run(start);
+    search.run(of_some.null, of_some.starts);
     seeds = carried_over(some.problem, search.best_points(kSeeds), problem, null);
     problem.simulations += some.problem.simulations;
     search_options.most_effects = search_options.fits_per_screen = search_options.fits_of_singles = 0;
@@ -198,10 +205,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     return diagnosis;
   }
   options.progress(0.0, "");
-  Point null = settled_null(problem);
-  diagnosis.simple = simple_answers(problem, null);
+  Settled settled = settled_null(problem);
+  diagnosis.simple = simple_answers(problem, settled.null);
   BalanceLaw balance(problem, clean);
-  Search search = searched(problem, clean, null, options, balance, diagnosis);
+  Search search = searched(problem, clean, settled, options, balance, diagnosis);
   if (const auto events = find_events(problem, search.best().fit.point); !events.empty()) {
     report_events(problem, events, diagnosis);
     diagnosis.log.emplace_back("without what happened once");
@@ -209,14 +216,16 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     const auto simulations = problem.simulations;
     prepared = prepare(clean);
     problem.simulations += simulations;
-    null = settled_null(problem);
-    diagnosis.simple = simple_answers(problem, null);
+    settled = settled_null(problem);
+    diagnosis.simple = simple_answers(problem, settled.null);
     balance = BalanceLaw(problem, clean);
-    search = searched(problem, clean, null, options, balance, diagnosis);
+    search = searched(problem, clean, settled, options, balance, diagnosis);
   }
-  // Names that leave the trials they were not fitted to no nearer than what is believed are none.
-  if (!search.best().set.empty() && held_out_gain(problem, residuals_of(problem, search.null().fit.point,
-                                                                        search.best().fit.point)) <= 0.0) {
+  // Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
+  // nuisances move too much for that to say anything.
+  if (!problem.plant->is_costly() && !search.best().set.empty() &&
+      held_out_gain(problem, residuals_of(problem, search.null().fit.point, search.best().fit.point)) <=
+          0.0) {
     diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
     search.name_nothing();
   }

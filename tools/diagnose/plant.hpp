@@ -31,8 +31,9 @@ struct Nuisance {
   // Whether it says something where it is off by as much in all trials: not of how readings were written down,
   // nor where nobody said how far trials differ.
   bool may_lean = true;
-  // A number of the robot, which trials may share as well as differ in: `spread_seen`.
-  bool may_be_shared = false;
+  // A number of the robot, which trials may share as well as differ in (`spread_seen`): the label of the
+  // effect that this is then.
+  std::string shared_as{};
 };
 
 // What can be told about a row besides its value: the axes on which a mismatch is placed.

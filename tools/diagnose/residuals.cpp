@@ -1,6 +1,7 @@
 #include "tools/diagnose/residuals.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/linearise.hpp"
@@ -37,8 +38,7 @@ double held_out_gain(const Problem& problem, const Residuals& residuals) {
       if (!problem.used[t][k]) continue;
       const auto row = static_cast<Index>(k);
       const double sd = problem.noise.sd(trial, trial.rows[k]);
-      const double before = residuals.before[t][row] / sd, after = residuals.held_out[t][row] / sd;
-      gain += before * before - after * after;
+      gain += (std::pow(residuals.before[t][row], 2) - std::pow(residuals.held_out[t][row], 2)) / (sd * sd);
     }
   }
   return gain;

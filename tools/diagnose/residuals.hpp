@@ -20,7 +20,8 @@ struct Residuals {
 Residuals residuals_of(const Problem& problem, const Point& null, const Point& point);
 
 // By how much the trials, each left out of what is fitted, are nearer to `residuals.held_out` than to what is
-// believed: sum over rows of squares, in standard deviations.
+// believed: sum over rows of squares, in standard deviations. Not whitened: that hides what drifts apart
+// slowly.
 double held_out_gain(const Problem& problem, const Residuals& residuals);
 
 }  // namespace sandhopper::diagnose

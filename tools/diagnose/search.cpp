@@ -235,7 +235,7 @@ namespace {
 std::vector<std::size_t> named_part(const SetFit& fit) {
   std::vector<std::size_t> part;
   for (const auto& evidence : fit.evidence)
-    if (!evidence.too_small) part.push_back(evidence.candidate);
+    if (!evidence.too_small && !evidence.unnoticed) part.push_back(evidence.candidate);
   std::ranges::sort(part);
   return part;
 }
@@ -272,7 +272,8 @@ void Search::choose_best() {
       best_ = fit->set;
       break;
     }
-    if (fit->judged && fit->sound) trivial.push_back(fit);
+    const bool differs = std::ranges::any_of(fit->evidence, &EffectEvidence::unnoticed);
+    if (fit->judged && fit->sound && !differs) trivial.push_back(fit);
   }
   // What an effect too small to be named explains clearly better is no finding.
   for (const auto* fit : trivial) {
@@ -322,7 +323,8 @@ void Search::prune() {
     for (const auto* fit : order) {
       std::vector<std::size_t> part;
       for (const auto& evidence : fit->evidence)
-        if (evidence.p_value < kSignificance && !evidence.too_small) part.push_back(evidence.candidate);
+        if (evidence.p_value < kSignificance && !evidence.too_small && !evidence.unnoticed)
+          part.push_back(evidence.candidate);
       std::sort(part.begin(), part.end());
       if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
     }

@@ -19,6 +19,7 @@ struct EffectEvidence {
   double typicals = 0.0;  // |size| of the first amplitude
   bool at_bound = false;
   bool too_small = false;  // to be named, though it may be there
+  bool unnoticed = false;  // explains no more than two simulations differ by
 };
 
 struct SetFit {

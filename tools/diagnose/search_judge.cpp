@@ -244,9 +244,9 @@ void Search::judge(SetFit& result) {
                             : std::min(evidence.gain, fitted->second.fit.deviance - result.fit.deviance);
     // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
     const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
-    evidence.too_small = evidence.typicals < smallest ||
-                         (!hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
-                                                      channels_read(*problem_, point.hypothesis, e)));
+    evidence.too_small = evidence.typicals < smallest;
+    evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
+                                                     channels_read(*problem_, point.hypothesis, e));
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;
@@ -259,7 +259,7 @@ void Search::judge(SetFit& result) {
                                              *problem_, deviance_of(*problem_, null().fit.point, read) -
                                                             deviance_of(*problem_, result.fit.point, read));
     }
-    result.needed = result.needed && result.sound && !evidence.too_small;
+    result.needed = result.needed && result.sound && !evidence.too_small && !evidence.unnoticed;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <string>
+#include <utility>
 
 #include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/statistics.hpp"
@@ -16,15 +17,15 @@ constexpr double kMadOfNormal = 1.4826;  // standard deviations in the median di
 
 }  // namespace
 
-bool take_spread_as_seen(Problem& problem, Point& point) {
-  if (problem.trials.size() < kTooFewTrials) return false;
-  bool changed = false;
+std::vector<Point> take_spread_as_seen(Problem& problem, Point& point) {
+  if (problem.trials.size() < kTooFewTrials) return {};
+  std::vector<std::pair<std::string, double>> found;  // effect, what all share
   for (std::size_t i = 0; i < problem.trials.front()->trial_nuisances.size(); ++i) {
     const Nuisance first = problem.trials.front()->trial_nuisances[i];
     const bool everywhere = std::ranges::all_of(problem.trials, [&](const auto& trial) {
       return trial->trial_nuisances.size() > i && trial->trial_nuisances[i].name == first.name;
     });
-    if (!first.may_be_shared || !everywhere) continue;
+    if (first.shared_as.empty() || !everywhere) continue;
     // The middle ones: a trial whose fit is still on its way says nothing.
     std::vector<double> values, apart;
     for (const auto& own : point.nuisances) values.push_back(own[i]);
@@ -37,9 +38,16 @@ bool take_spread_as_seen(Problem& problem, Point& point) {
       trial->trial_nuisances[i].may_lean = false;  // how far trials differ is not what was believed
     }
     for (auto& own : point.nuisances) own[i] = 0.0;
-    changed = true;
+    found.emplace_back(first.shared_as, shared);
   }
-  return changed;
+  std::vector<Point> starts;
+  for (const auto& [label, shared] : found)
+    for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+      if (problem.candidates[c].label() != label) continue;
+      starts.push_back(point);
+      starts.back().hypothesis = {.candidates = {c}, .values = {{shared}}};
+    }
+  return starts;
 }
 
 }  // namespace sandhopper::diagnose

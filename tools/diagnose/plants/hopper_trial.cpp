@@ -170,9 +170,9 @@ class HopperTrial final : public TrialModel {
     add("current_offset_A", s.current_offset_A, 1e-3, 1e-2);
     add("current_offset_A", s.current_offset_A, 1e-3, 1e-2);
     add("load_cell_offset_N", s.load_cell_offset_N, 0.02, 0.05);
-    for (auto& nuisance : trial_nuisances)
-      nuisance.may_be_shared =
-          nuisance.name == "torque_constant_relative" || nuisance.name == "imu_scale_relative";
+    trial_nuisances[kTorqueConstant].shared_as = "actuator.torque_constant";
+    for (const auto c : {kImuBody, kImuFoot})
+      trial_nuisances[*kSources[c].scale].shared_as = std::string("imu.scale[") + kSources[c].channel + "]";
     for (const char* sensor : {"tof", "load_cell", "mocap"})
       add(std::string(sensor) + "_sample_age_share", 0.0, kAgeShareUnknown, 0.05);
     if (s.bed_fluctuation_relative > 0.0 && !world_.terrain.rigid) {
