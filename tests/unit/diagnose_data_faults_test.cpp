@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/unit/diagnose_campaigns.hpp"
@@ -187,6 +188,40 @@ TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
   EXPECT_EQ(d.detail, "data_fault");
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "data.dropout");
+}
+
+// Rows `from` to `to` of a trial were not written.
+void lose_rows(Trial& trial, std::ptrdiff_t from, std::ptrdiff_t to) {
+  const auto cut = [&](auto& values) { values.erase(values.begin() + from, values.begin() + to); };
+  cut(trial.time_s);
+  for (auto& [name, values] : trial.channels) cut(values);
+}
+
+TEST(DiagnoseDataFaults, GapsTwiceInHalfOfTheTrialsAreADropout) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (std::size_t t = 0; t < recordings.trials.size(); t += 2) {
+    lose_rows(recordings.trials[t], 40, 46);
+    lose_rows(recordings.trials[t], 20, 26);
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "data.dropout");
+}
+
+// A blow is short: few of all samples are at the limit, but one after the other.
+TEST(DiagnoseDataFaults, ALimitThatIsMetInShortBlowsIsASaturation) {
+  auto trials = drops([](double, double, double) { return 0.0; }).trials;
+  for (auto& trial : trials)
+    for (std::size_t i = 0; i < 9; ++i) {
+      auto& a = trial.channels["accel_mps2"][30 + i];
+      a = std::min(50.0, a + 60.0 * std::sin(0.1 * std::numbers::pi * static_cast<double>(i + 1)));
+    }
+  double samples = 0.0;
+  for (const auto& trial : trials) samples += static_cast<double>(trial.channels.at("accel_mps2").size());
+  const auto faults = remove_data_faults(trials);
+  ASSERT_EQ(faults.size(), 1u) << samples << " samples";
+  EXPECT_EQ(faults.front().id, "sensor.saturation");
+  EXPECT_EQ(faults.front().limit, 50.0);
 }
 
 TEST(DiagnoseDataFaults, SamplesThatPileUpAtALimitAreASaturation) {

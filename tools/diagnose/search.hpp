@@ -94,6 +94,7 @@ class Search {
   Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;
   void finish_rivals();
+  void settle_best();
   void choose_best();
 
   const Problem* problem_;

@@ -109,10 +109,10 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
   constexpr int kPhases = 60, kRates = 10;  // rates to either side
   constexpr double kAgree = 0.97, kRowsPerTick = 1.02, kRateUnknown = 0.12;
   const auto* values = trial.find(channel);
-  if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0 ||
-      rate_Hz * median_step_s(trial.time_s) * kRowsPerTick > 1.0)
-    return {};
+  if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0) return {};
   const auto& t = trial.time_s;
+  const double row_s = median_step_s(t);
+  if (rate_Hz * row_s * kRowsPerTick > 1.0) return {};
   std::vector<std::size_t> fresh;
   for (std::size_t row = 0; row < t.size(); ++row)
     if (!std::isnan((*values)[row])) fresh.push_back(row);
@@ -147,7 +147,10 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
     if (ticks.agreeing < most - 0.5) continue;
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       const double at_s = t[fresh[i]];
-      ages[i] += at_s - (std::floor(at_s * ticks.rate_Hz - ticks.phase) + ticks.phase) / ticks.rate_Hz;
+      const double age_s =
+          at_s - (std::floor(at_s * ticks.rate_Hz - ticks.phase) + ticks.phase) / ticks.rate_Hz;
+      // None is older than a row: its tick came just after the row before, or just before this one.
+      ages[i] += age_s <= row_s ? age_s : age_s - row_s < 1.0 / ticks.rate_Hz - age_s ? row_s : 0.0;
     }
     ++count;
   }

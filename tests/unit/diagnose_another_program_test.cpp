@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "tests/unit/diagnose_hops.hpp"
+#include "tools/diagnose/left_over.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/spread_seen.hpp"
+
+// What recordings by another program differ in, and what is no physics for that.
+namespace sandhopper::diagnose {
+namespace {
+
+// A converter with a clock of its own: a sample stands in the first row after it.
+struct Sampled {
+  Trial trial;
+  std::vector<double> ages_s;
+};
+Sampled sampled_at(double rate_Hz, double phase) {
+  Sampled out;
+  auto& force = out.trial.channels["load_cell_force_N"];
+  double before = std::floor(-phase);
+  for (int row = 0; row < 600; ++row) {
+    const double t = 1e-3 * row, tick = std::floor(t * rate_Hz - phase);
+    out.trial.time_s.push_back(t);
+    force.push_back(tick > before || row == 0 ? 1.0 : std::numeric_limits<double>::quiet_NaN());
+    if (!std::isnan(force.back())) out.ages_s.push_back(t - (tick + phase) / rate_Hz);
+    before = tick;
+  }
+  return out;
+}
+
+TEST(DiagnoseAnotherProgram, TheAgeOfASampleIsFoundThoughItsClockIsOff) {
+  for (const double off : {-0.06, -0.01, 0.0, 0.013, 0.05}) {
+    const auto made = sampled_at(860.0 * (1.0 + off), 0.37);
+    const auto ages = ages_s(made.trial, "load_cell_force_N", 860.0);
+    ASSERT_EQ(ages.size(), made.ages_s.size()) << "clock off by " << off;
+    double worst_s = 0.0;
+    for (std::size_t i = 1; i < ages.size(); ++i)
+      worst_s = std::max(worst_s, std::abs(ages[i] - made.ages_s[i]));
+    EXPECT_LT(worst_s, 6e-5) << "clock off by " << off;
+  }
+  EXPECT_TRUE(ages_s(sampled_at(600.0, 0.2).trial, "load_cell_force_N", 860.0).empty());
+}
+
+// The leg is let go where the encoder reads what the controller holds: with an offset it stands elsewhere.
+TEST(DiagnoseAnotherProgram, ALegIsLetGoWhereItsEncoderReadsIt) {
+  const HopperRun run = hop_from(0.04, 0.1);
+  Edits off;
+  for (const char* channel : {"motor_left_position_rad", "motor_right_position_rad"})
+    off.sensor(channel, SensorEdit::Kind::offset, 0.02);
+  EXPECT_NEAR(simulate_hopper(run, {}).angle_rad.values.front(), run.start.angle_rad, 1e-12);
+  EXPECT_NEAR(simulate_hopper(run, off).angle_rad.values.front(), run.start.angle_rad - 0.02, 1e-12);
+}
+
+// A loop that is ahead by a tenth of a millisecond is so to either side, and by the same impulse.
+TEST(DiagnoseAnotherProgram, ADriveMayBeALittleEarlyAsWellAsLate) {
+  const HopperRun run = hop_from(0.04, 0.3);
+  const auto angle_with = [&](double late_s) {
+    Edits edits;
+    if (late_s != 0.0) edits.sensor("actuator", SensorEdit::Kind::delay_s, late_s);
+    return simulate_hopper(run, edits).angle_rad.values;
+  };
+  const auto early = angle_with(-1e-4), now = angle_with(0.0), late = angle_with(1e-4);
+  double apart = 0.0, skew = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    apart = std::max(apart, std::abs(late[i] - early[i]));
+    skew = std::max(skew, std::abs(late[i] + early[i] - 2.0 * now[i]));
+  }
+  EXPECT_GT(apart, 1e-4);
+  EXPECT_LT(skew, 0.1 * apart);
+}
+
+Recordings few_hops() {
+  Recordings r;
+  r.plant = PlantKind::hopper;
+  for (int t = 0; t < 4; ++t) {
+    r.trials.push_back(recorded(hop_from(0.03 + 0.01 * t, 0.3), {}, static_cast<std::uint64_t>(t) + 1));
+    r.trials.back().name = std::to_string(t);
+    r.beliefs.emplace_back();
+  }
+  return r;
+}
+
+// 2 % between trials are believed; all are 3 % off, and alike to 0.02 %.
+TEST(DiagnoseAnotherProgram, WhatAllTrialsShareIsAnEffectsToExplain) {
+  auto prepared = prepare(few_hops());
+  Problem& problem = prepared.problem;
+  const auto& first = problem.trials.front()->trial_nuisances;
+  const auto torque = static_cast<std::size_t>(
+      std::ranges::find(first, "torque_constant_relative", &Nuisance::name) - first.begin());
+  ASSERT_LT(torque, first.size());
+  const double believed = first[torque].sd;
+  Point point = null_point(problem);
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    point.nuisances[t][torque] = -0.03 + 2e-4 * (static_cast<double>(t) - 1.5);
+  const auto starts = take_spread_as_seen(problem, point);
+  EXPECT_LT(first[torque].sd, 0.1 * believed);
+  EXPECT_FALSE(first[torque].may_lean);
+  EXPECT_EQ(point.nuisances[0][torque], 0.0);
+  const auto start = std::ranges::find_if(starts, [&](const Point& p) {
+    return problem.candidates[p.hypothesis.candidates.front()].label() == "actuator.torque_constant";
+  });
+  ASSERT_NE(start, starts.end());
+  EXPECT_NEAR(start->hypothesis.values.front().front(), -0.03, 1e-3);
+}
+
+TEST(DiagnoseAnotherProgram, WhereTrialsDifferAsBelievedNothingIsShared) {
+  auto prepared = prepare(few_hops());
+  Problem& problem = prepared.problem;
+  const auto& first = problem.trials.front()->trial_nuisances;
+  Point point = null_point(problem);
+  std::vector<double> before;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    before.push_back(first[i].sd);
+    for (std::size_t t = 0; t < problem.trials.size(); ++t)
+      point.nuisances[t][i] = (t % 2 == 0 ? 0.9 : -1.1) * first[i].sd;
+  }
+  EXPECT_TRUE(take_spread_as_seen(problem, point).empty());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].sd, before[i]);
+}
+
+// How readings were written down is by rights the same in all trials.
+TEST(DiagnoseAnotherProgram, TheAgeOfSamplesDoesNotLean) {
+  const auto prepared = prepare(few_hops());
+  const auto& problem = prepared.problem;
+  const auto& first = problem.trials.front()->trial_nuisances;
+  Point point = null_point(problem);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i].name.ends_with("sample_age_share"))
+      for (auto& own : point.nuisances) own[i] = 3.0 * first[i].sd;
+  EXPECT_EQ(largest_lean(problem, point).z, 0.0);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
