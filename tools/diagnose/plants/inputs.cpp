@@ -106,7 +106,7 @@ Samples without_repeats(const Samples& s) {
 }
 
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz) {
-  constexpr int kPhases = 60, kRates = 10;  // rates to either side
+  constexpr int kPhases = 100, kRates = 15;  // rates to either side
   constexpr double kAgree = 0.97, kRowsPerTick = 1.02, kRateUnknown = 0.12;
   const auto* values = trial.find(channel);
   if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0) return {};
@@ -123,10 +123,7 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
   };
   std::vector<Ticks> tried;
   double most = 0.0;
-  for (int r = -kRates; r <= kRates; ++r) {
-    // Ticks counted between the first row with a sample and the last are one too many or too few at most.
-    const double rate = (periods + 1.2 * r / kRates) / span_s;
-    if (std::abs(rate / rate_Hz - 1.0) > kRateUnknown) continue;
+  const auto try_rate = [&](double rate) {
     for (int i = 0; i < kPhases; ++i) {
       const double phase = static_cast<double>(i) / kPhases;
       double agreeing = 0.0, before = std::floor(t[0] * rate - phase);
@@ -138,8 +135,16 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
       tried.push_back({rate, phase, agreeing});
       most = std::max(most, agreeing);
     }
-  }
-  if (most < kAgree * static_cast<double>(t.size() - 1)) return {};
+  };
+  const double enough = kAgree * static_cast<double>(t.size() - 1);
+  try_rate(rate_Hz);
+  if (most < enough)
+    for (int r = -kRates; r <= kRates; ++r) {
+      // Ticks counted between the first row with a sample and the last are one too many or too few at most.
+      const double rate = (periods + 1.2 * r / kRates) / span_s;
+      if (std::abs(rate / rate_Hz - 1.0) < kRateUnknown) try_rate(rate);
+    }
+  if (most < enough) return {};
   // Of those that suit as well as the best, the mean age.
   std::vector<double> ages(fresh.size(), 0.0);
   double count = 0.0;
