@@ -39,12 +39,17 @@ double Bed::stiffness_N_per_m() const noexcept {
                                               : p_.stiffness_N_per_m;
 }
 
+double Bed::unloading_line_N_per_m() const noexcept {
+  return p_.unloading_stiffness_ratio * stiffness_N_per_m() *
+         (extension_ ? extension_->unloading_factor() : 1.0);
+}
+
 double Bed::quasi_static_force_N(double depth_m) const noexcept {
   return depth_m <= 0.0 ? 0.0 : extended_N(curve_N(depth_m), depth_m);
 }
 
 double Bed::extended_N(double curve_N, double depth_m) const noexcept {
-  return extension_ ? curve_N * extension_->static_factor(depth_m) : curve_N;
+  return extension_ ? extension_->quasi_static_N(curve_N, depth_m) : curve_N;
 }
 
 double Bed::curve_N(double depth_m) const noexcept {
@@ -70,7 +75,7 @@ BedReaction Bed::reaction(const BedContact& c) const noexcept {
   BedReaction r = unextended(c);
   if (extension_ && c.depth_m > 0.0) {
     const bool virgin = c.depth_m >= c.max_depth_m && c.speed_mps > 0.0;
-    const BedReaction more = extension_->added(c, quasi_static_force_N(c.depth_m), virgin);
+    const BedReaction more = extension_->added(c, quasi_static_force_N(c.depth_m), r.force_N, virgin);
     r.force_N += more.force_N;
     r.added_mass_kg += more.added_mass_kg;
     r.least_N += more.least_N;
@@ -87,7 +92,7 @@ BedReaction Bed::unextended(const BedContact& c) const noexcept {
     return {.force_N = quasi_static_force_N(c.depth_m) + drag_kg_per_m * square(c.speed_mps),
             .added_mass_kg = engaged * added_mass_kg(c.depth_m)};
   }
-  const double line_N_per_m = p_.unloading_stiffness_ratio * stiffness_N_per_m();
+  const double line_N_per_m = unloading_line_N_per_m();
   const double deepest_N =
       c.deepest_N >= 0.0 ? extended_N(c.deepest_N, c.max_depth_m) : quasi_static_force_N(c.max_depth_m);
   const double elastic_N = deepest_N - line_N_per_m * (c.max_depth_m - c.depth_m);
@@ -100,7 +105,7 @@ BedReaction Bed::unextended(const BedContact& c) const noexcept {
 }
 
 double Bed::crater_floor_m(double max_depth_m) const noexcept {
-  const double line_N_per_m = p_.unloading_stiffness_ratio * stiffness_N_per_m();
+  const double line_N_per_m = unloading_line_N_per_m();
   return line_N_per_m > 0.0 ? max_depth_m - quasi_static_force_N(max_depth_m) / line_N_per_m : max_depth_m;
 }
 

@@ -94,10 +94,14 @@ struct BedReaction {
 class BedExtension {
  public:
   virtual ~BedExtension() = default;
-  // Multiplies the quasi-static force, on the virgin curve and where an unloading line starts from it.
-  virtual double static_factor(double depth_m) const = 0;
-  // Added where the foot is below the undisturbed surface; `virgin`: at new depth and going down.
-  virtual BedReaction added(const BedContact& contact, double quasi_static_N, bool virgin) const = 0;
+  // What becomes of the quasi-static force, on the virgin curve and where an unloading line starts from it.
+  virtual double quasi_static_N(double curve_N, double depth_m) const = 0;
+  // Multiplies the stiffness of that line.
+  virtual double unloading_factor() const = 0;
+  // Added where the foot is below the undisturbed surface. `bearing_N`: what the bed bears there by itself,
+  // at rest; `virgin`: at new depth and going down.
+  virtual BedReaction added(const BedContact& contact, double quasi_static_N, double bearing_N,
+                            bool virgin) const = 0;
 };
 
 class Bed {
@@ -120,6 +124,7 @@ class Bed {
 
  private:
   double stiffness_N_per_m() const noexcept;
+  double unloading_line_N_per_m() const noexcept;
   BedReaction unextended(const BedContact& contact) const noexcept;
   double extended_N(double curve_N, double depth_m) const noexcept;
 

@@ -5,8 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_hops.hpp"
+#include "tools/diagnose/effect.hpp"
 #include "tools/diagnose/left_over.hpp"
+#include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/spread_seen.hpp"
@@ -73,6 +76,55 @@ TEST(DiagnoseAnotherProgram, ADriveMayBeALittleEarlyAsWellAsLate) {
   }
   EXPECT_GT(apart, 1e-4);
   EXPECT_LT(skew, 0.1 * apart);
+}
+
+// Of a foot that turns round at `deepest_m`: the bed's force just before, and a little above on the way out.
+struct TurnedRound {
+  double before_N, after_N;
+};
+TurnedRound turned_round(const char* id, const std::vector<double>& values, double deepest_m,
+                         double above_m) {
+  const Recordings r = presses([](double, double) { return 0.0; });
+  const Prepared prepared = prepare(r);
+  const auto& candidates = prepared.problem.candidates;
+  const auto it = std::ranges::find_if(candidates, [&](const Candidate& c) { return c.effect->id == id; });
+  Edits edits;
+  it->effect->apply(prepared.problem.context, "", values, edits);
+  const GroundLaws laws(edits, {.pushes = 4.0, .wait_s = 300.0});
+  Bed bed({.stiffness_N_per_m = 1500.0,
+           .intercept_depth_m = 0.0,
+           .added_mass_factor = 0.0,
+           .drag_factor = 0.0,
+           .unloading_stiffness_ratio = 30.0},
+          0.04);
+  bed.extend(&laws);
+  const BedContact down{
+      .depth_m = deepest_m, .speed_mps = 0.05, .max_depth_m = deepest_m, .damping_mass_kg = 0.0};
+  BedContact up = down;
+  up.depth_m -= above_m;
+  up.speed_mps = -0.05;
+  return {bed.reaction(down).force_N, bed.reaction(up).force_N};
+}
+
+// What resists going in is let go of along the unloading line, or is gone at once: programs differ.
+TEST(DiagnoseAnotherProgram, ACrustIsUnloadedOrGoneAtOnce) {
+  const auto unloaded = turned_round("terrain.crust", {3.0, 0.002, 1.0, 1.0}, 0.02, 1e-9);
+  EXPECT_NEAR(unloaded.before_N, 33.0, 1e-3);
+  EXPECT_NEAR(unloaded.after_N, unloaded.before_N, 1e-3);
+  const auto gone = turned_round("terrain.crust", {3.0, 0.002, 1.0, 0.0}, 0.02, 1e-9);
+  EXPECT_NEAR(gone.before_N, 33.0, 1e-3);
+  EXPECT_NEAR(gone.after_N, 30.0, 1e-3);
+}
+
+// 0.4 mm of an unloading line of 45 N/mm are 18 N, those of one a fifth stiffer 21.6 N.
+TEST(DiagnoseAnotherProgram, AStifferBedMayHaveAStifferUnloadingLine) {
+  const double share = 0.2 / (1.0 - std::exp(-2.0));  // after 4 pushes
+  const auto whole = turned_round("terrain.compaction", {share, 2.0, 1.0}, 0.02, 4e-4);
+  EXPECT_NEAR(whole.before_N, 36.0, 1e-6);
+  EXPECT_NEAR(whole.before_N - whole.after_N, 21.6, 1e-6);
+  const auto loading_only = turned_round("terrain.compaction", {share, 2.0, 0.0}, 0.02, 4e-4);
+  EXPECT_NEAR(loading_only.before_N, 36.0, 1e-6);
+  EXPECT_NEAR(loading_only.before_N - loading_only.after_N, 18.0, 1e-6);
 }
 
 Recordings few_hops() {

@@ -32,6 +32,22 @@ TEST(DiagnoseRotary, NoiseOfTheTorquesSensorIsNoErrorOfTheAngle) {
   EXPECT_LT(angle->heldout.after, 1.2 * angle->floor);
 }
 
+// A drive that is off acts on nothing; its torque's sensor has a zero of its own that nobody wrote down.
+TEST(DiagnoseRotary, AZeroOfTheTorqueThatNobodyStatedIsNoTorque) {
+  auto recordings = swings([](double, double, double torque_Nm) { return -torque_Nm; }, 4, 6);
+  recordings.belief.numbers["sensors.torque_noise_Nm"] = 0.03;
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    recordings.beliefs[i] = recordings.belief;
+    Random random(8, i);
+    const double zero_Nm = 0.025 * random.normal();
+    for (double& torque : recordings.trials[i].channels["torque_Nm"])
+      torque = zero_Nm + 0.03 * random.normal();
+  }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "consistent");
+  for (const auto& fit : d.fits) EXPECT_LT(fit.heldout.before, 1.2 * fit.floor) << fit.channel;
+}
+
 // A motion begins where the encoder says: one that is off is an arm that hangs at another angle, in any
 // trial.
 TEST(DiagnoseRotary, NoTrialTellsAnEncoderThatIsOffFromAnArmThatHangsElsewhere) {

@@ -108,7 +108,7 @@ struct OtherSensors {
 struct OtherSpread {
   double initial_position_rad = 0.0;
   double accel_bias_mps2 = 0.0;
-  double torque_offset_Nm = 0.0;
+  std::optional<double> torque_offset_Nm;  // none: unknown, not nothing
   double height_bias_m = 0.0;
   std::optional<double> height_scale_relative;  // none: unknown, not nothing
   double position_bias_m = 0.0;

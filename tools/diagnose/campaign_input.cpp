@@ -1,8 +1,15 @@
 #include "tools/diagnose/campaign_input.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <optional>
 #include <type_traits>
+
+#include "tools/campaign/setup_keys.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -33,6 +40,34 @@ PlantKind kind_of(CampaignPlant plant) {
       return PlantKind::rotary_axis;
   }
   return PlantKind::hopper;
+}
+
+// Set-ups under the names that plants know, where the experimenter gave them others.
+void translate_setups(const Campaign& campaign, CampaignInput& input) {
+  auto& trials = input.recordings.trials;
+  std::map<std::string, SetupMeaning> meanings;
+  for (const auto& trial : trials)
+    for (const auto& [key, value] : trial.setup)
+      if (const auto meaning = meaning_of_setup(key)) meanings.emplace(key, *meaning);
+  for (const auto& [key, meaning] : meanings) {
+    const bool is_told =
+        std::ranges::any_of(trials, [&](const Trial& trial) { return trial.setup.contains(meaning.key); });
+    if (is_told) continue;
+    double least = 0.0;
+    if (meaning.is_ordinal) {
+      least = std::numeric_limits<double>::infinity();
+      for (const auto& trial : trials) least = std::min(least, trial.setup_or(key, least));
+    }
+    for (auto& trial : trials)
+      if (const auto it = trial.setup.find(key); it != trial.setup.end())
+        trial.setup[meaning.key] = meaning.scale * (it->second - least);
+    input.findings.push_back({.kind = FindingKind::set_up,
+                              .severity = FindingSeverity::note,
+                              .file = campaign.file.string(),
+                              .channel = key,
+                              .what = fmt::format("is taken for {}", meaning.key),
+                              .cure = fmt::format("write {} to say so", meaning.key)});
+  }
 }
 
 }  // namespace
@@ -70,6 +105,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
     input.recordings.trials.push_back(std::move(trial));
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
+  translate_setups(campaign, input);
   return input;
 }
 

@@ -21,6 +21,7 @@ struct PortState {
   double velocity = 0.0;
   double accel = 0.0;
   double load = 0.0;
+  double bearing = 0.0;
   double extreme = 0.0;
   double temperature_C = 25.0;
   double pushes = 0.0;

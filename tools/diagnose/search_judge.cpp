@@ -86,12 +86,15 @@ std::vector<std::string> channels_read(const Problem& problem, const Hypothesis&
 // shows.
 double unnoticed(const Problem& problem, const Candidate& candidate,
                  const std::vector<std::string>& channels) {
+  const double per_row =
+      problem.plant->simulations_differ(channels.empty() ? port_of(candidate) : "readings");
+  if (per_row == 0.0) return 0.0;
   double rows = 0.0;
   for (const auto& trial : problem.trials)
     for (const auto& row : trial->rows)
       rows +=
           channels.empty() || std::ranges::find(channels, problem.channels[row.channel]) != channels.end();
-  return problem.plant->simulations_differ(channels.empty() ? port_of(candidate) : "readings") * rows;
+  return per_row * rows;
 }
 
 // Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by

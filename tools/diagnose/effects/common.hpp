@@ -53,6 +53,16 @@ inline void add_onset(const Context& context, std::vector<EffectParameter>& para
 }
 inline double onset_of(std::span<const double> values) { return values.size() > 1 ? values[1] : 1e-5; }
 
+// A bed that is stiffer by a share: the force that it resists with, and where it is so, too, the line along
+// which it lets go of it.
+inline EffectParameter part_of_unloading() {
+  return {.name = "part_of_unloading", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}};
+}
+inline void stiffen(Edits& edits, double part, const Law& share) {
+  edits.law("ground.factor", share);
+  edits.law("ground.unloading", [=](const PortState& s) { return part * share(s); });
+}
+
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);
   return it == context.channels.end() ? 1.0 : std::max(it->second.high - it->second.low, 1e-12);

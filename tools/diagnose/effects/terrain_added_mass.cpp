@@ -11,19 +11,21 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .typical = 0.866 * radius,
            .low = 0.2 * radius,
            .high = 4.0 * radius,
-           .shapes = {0.4 * radius, 1.8 * radius}}};
+           .shapes = {0.4 * radius, 1.8 * radius}},
+          {.name = "growth_power", .typical = 1.0, .low = 1.0, .high = 3.0, .shapes = {2.0}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double mass = v[0], depth = v[1];
-  const auto left = [depth](double z) { return std::max(0.0, 1.0 - z / depth); };
+  const double mass = v[0], depth = v[1], power = v[2];
+  const auto taken_up = [=](double z) { return power == 1.0 ? z / depth : std::pow(z / depth, power); };
   edits.law("ground.force", [=](const PortState& s) {
-    const double l = left(s.position);
-    return s.accel * 3.0 * mass / depth * l * l * s.velocity * s.velocity;
+    const double taken = taken_up(s.position), l = std::max(0.0, 1.0 - taken);
+    const double gradient = s.position > 0.0 ? 3.0 * mass * power * taken / s.position * l * l : 0.0;
+    return s.accel * gradient * s.velocity * s.velocity;
   });
   edits.law("ground.mass", [=](const PortState& s) {
-    const double l = left(s.position);
+    const double l = std::max(0.0, 1.0 - taken_up(s.position));
     return s.accel * mass * (1.0 - l * l * l) * std::clamp(s.velocity / 0.005, 0.0, 1.0);
   });
 }
@@ -33,7 +35,7 @@ const EffectRegistration kEffect(
      .port = "ground",
      .statement = "Grains that move with the foot add to its inertia; as they are taken up with depth they "
                   "also resist with the square of speed.",
-     .equation = "F += m_a(z) z'' + m_a'(z) z'^2, m_a = m (1 - (1 - z/z_c)^3)",
+     .equation = "F += m_a(z) z'' + m_a'(z) z'^2, m_a = m (1 - (1 - (z/z_c)^p)^3)",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

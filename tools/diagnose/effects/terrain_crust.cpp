@@ -7,16 +7,19 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 2.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
   return {{.name = "crust_force_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "crust_depth_m", .typical = 0.002, .low = 0.0002, .high = 0.02, .shapes = {0.005}},
-          {.name = "left_after_a_push", .typical = 0.5, .low = 0.0, .high = 1.0, .shapes = {0.0, 1.0}}};
+          {.name = "left_after_a_push", .typical = 0.5, .low = 0.0, .high = 1.0, .shapes = {0.0, 1.0}},
+          part_of_unloading()};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double force = v[0], depth = v[1], left = v[2];
-  edits.law("ground.force", [=](const PortState& s) {
-    const double whole = s.pushes > 0.0 ? left : 1.0;
-    return s.accel * whole * force * (1.0 - std::exp(-s.position / depth));
-  });
+  const double force = v[0], depth = v[1], left = v[2], unloads = v[3];
+  const auto crust_N = [=](const PortState& s) {
+    return (s.pushes > 0.0 ? left : 1.0) * force * come_in(s.position, depth);
+  };
+  // Unloading begins at the whole force, or without what had to be broken.
+  edits.law("ground.static", [=](const PortState& s) { return unloads * crust_N(s); });
+  edits.law("ground.force", [=](const PortState& s) { return s.accel * (1.0 - unloads) * crust_N(s); });
 }
 
 const EffectRegistration kEffect(

@@ -8,14 +8,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 2.0 * std::pow(radius / 0.04, 2);
   return {{.name = "suction_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}},
-          {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0}};
+          {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0},
+          {.name = "while_it_bears", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
-  const double force = v[0], depth = v[1], power = v[2];
+  const double force = v[0], depth = v[1], power = v[2], bearing = v[3];
+  // Whether it pulls from the turn on or only where the bed bears no more: there it comes in as the bed lets
+  // go.
   const Law pull = [=](const PortState& s) {
-    return s.velocity < -1e-4 ? force * come_in(s.position, depth, power) : 0.0;
+    if (s.velocity >= -1e-4) return 0.0;
+    const double whole = force * come_in(s.position, depth, power);
+    const double bears = whole > 0.0 ? std::clamp(s.bearing / whole, 0.0, 1.0) : 0.0;
+    return whole * (1.0 - (1.0 - bearing) * bears);
   };
   edits.law("ground.force", [pull](const PortState& s) { return -pull(s); });
   edits.law("ground.tension", pull);

@@ -298,10 +298,10 @@ class FallingTrial final : public TrialModel {
     if (depth_m <= 0.0) return 0.0;
     const double quasi_static_N = f.bed_stiffness_N_per_m * depth_m;
     if (ground.empty()) return quasi_static_N;
-    const double static_N = ground.static_factor(depth_m) * quasi_static_N;
+    const double static_N = ground.quasi_static_N(quasi_static_N, depth_m);
     const BedContact contact{
         .depth_m = depth_m, .speed_mps = speed_mps, .max_depth_m = depth_m, .damping_mass_kg = 0.0};
-    return std::max(0.0, static_N + ground.added(contact, static_N, true).force_N);
+    return std::max(0.0, static_N + ground.added(contact, static_N, static_N, true).force_N);
   }
 
   Motion simulate(const Edits& edits, std::span<const double> nuisances, bool stop = false) const {

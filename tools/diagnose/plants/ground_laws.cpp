@@ -6,6 +6,8 @@ namespace sandhopper::diagnose {
 
 GroundLaws::GroundLaws(const Edits& edits, const BedHistory& history)
     : factor_(edits.at("ground.factor")),
+      static_(edits.at("ground.static")),
+      unloading_(edits.at("ground.unloading")),
       force_(edits.at("ground.force")),
       mass_(edits.at("ground.mass")),
       tension_(edits.at("ground.tension")),
@@ -17,21 +19,32 @@ double GroundLaws::deeper_m() const {
   return sum_of(surface_, {.pushes = history_.pushes, .wait_s = history_.wait_s});
 }
 
-double GroundLaws::static_factor(double depth_m) const {
-  if (factor_.empty()) return 1.0;
-  return std::max(0.0, 1.0 + sum_of(factor_, {.time_s = time_s_,
-                                              .position = depth_m,
-                                              .pushes = history_.pushes,
-                                              .wait_s = history_.wait_s,
-                                              .bed_depth_m = history_.bed_depth_m}));
+double GroundLaws::quasi_static_N(double curve_N, double depth_m) const {
+  if (factor_.empty() && static_.empty()) return curve_N;
+  const PortState state{.time_s = time_s_,
+                        .position = depth_m,
+                        .pushes = history_.pushes,
+                        .wait_s = history_.wait_s,
+                        .bed_depth_m = history_.bed_depth_m};
+  return curve_N * std::max(0.0, 1.0 + sum_of(factor_, state)) + sum_of(static_, state);
 }
 
-BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, bool virgin) const {
+double GroundLaws::unloading_factor() const {
+  if (unloading_.empty()) return 1.0;
+  return std::max(0.0, 1.0 + sum_of(unloading_, {.time_s = time_s_,
+                                                 .pushes = history_.pushes,
+                                                 .wait_s = history_.wait_s,
+                                                 .bed_depth_m = history_.bed_depth_m}));
+}
+
+BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, double bearing_N,
+                              bool virgin) const {
   const PortState state{.time_s = time_s_,
                         .position = c.depth_m,
                         .velocity = c.speed_mps,
                         .accel = virgin ? 1.0 : 0.0,
                         .load = quasi_static_N,
+                        .bearing = bearing_N,
                         .extreme = c.max_depth_m,
                         .pushes = history_.pushes,
                         .wait_s = history_.wait_s,

@@ -17,6 +17,7 @@ constexpr double kForceZeroUnknown_N = 0.02;
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
+enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kUnloadingLine, kFirstKnot };
 enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
 // The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of `f`
@@ -74,6 +75,9 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
+    // Whether a stiffer bed lets go of the foot along a stiffer line is its own affair.
+    add_nuisance("unloading_relative", trial_nuisances[kStiffness].sd, 1e-2);
+    trial_nuisances.back().may_lean = false;
     add_knots();
     if (!ages.empty()) {
       age_nuisance_ = trial_nuisances.size();
@@ -98,7 +102,7 @@ class IntruderTrial final : public TrialModel {
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
     Run run = simulate(edits, nuisances);
     observe(run.force, sensor_, edits, "force_N", sampled_s(nuisances), out);
-    for (double& f : out) f += nuisances[1];
+    for (double& f : out) f += nuisances[kForceZero];
   }
 
  private:
@@ -155,20 +159,22 @@ class IntruderTrial final : public TrialModel {
   };
   Run simulate(const Edits& edits, std::span<const double> nuisances, bool explain = false) const {
     BedParameters parameters = bed_parameters(belief_, edits);
-    parameters.stiffness_N_per_m *= 1.0 + nuisances[2];
-    parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[2];
+    parameters.stiffness_N_per_m *= 1.0 + nuisances[kStiffness];
+    parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[kStiffness];
+    parameters.unloading_stiffness_ratio *= 1.0 + nuisances[kUnloadingLine];
     if (const auto size = edits.at("foot.size"); !size.empty()) {
       const double factor = std::exp(sum_of(size, {.position = radius_m_}));
       parameters.stiffness_N_per_m *= factor;
       parameters.stiffness_per_area_N_per_m3 *= factor;
     }
     GroundLaws laws(edits, history_);
-    Bed bed(parameters, edits.edited("foot.radius_m", radius_m_), grains_.fluctuation(nuisances.subspan(3)));
+    Bed bed(parameters, edits.edited("foot.radius_m", radius_m_),
+            grains_.fluctuation(nuisances.subspan(kFirstKnot)));
     if (!laws.empty()) bed.extend(&laws);
     double compliance_m_per_N = 0.0;
     if (const double k = belief_.value("rig.stiffness_N_per_m"); k > 0.0) compliance_m_per_N = 1.0 / k;
     compliance_m_per_N = edits.edited("rig.compliance_m_per_N", compliance_m_per_N);
-    const double surface_m = edits.edited("surface_height_m", nuisances[0]);
+    const double surface_m = edits.edited("surface_height_m", nuisances[kSurface]);
     const Read read = reading(edits);
     const auto cell = edits.at("load_cell");
     const double depth_band_m = kNoiseBand * motion_.depth_sd_m;

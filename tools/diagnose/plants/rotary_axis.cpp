@@ -67,8 +67,13 @@ class RotaryTrial final : public TrialModel {
     const double row_s = median_step_s(lead.time_s);
     take_torque();
     cut(trial.time_s.back(), std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
-    const double torque_sd = belief.value("spread.torque_offset_Nm");
-    if (torque_sd > 0.0) trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
+    // Nobody knows the zero of a torque's sensor better than one of its readings, unless he says so.
+    const double unsaid_Nm = belief.value("sensors.torque_noise_Nm");
+    const double torque_sd = belief.value("spread.torque_offset_Nm", unsaid_Nm);
+    if (torque_sd > 0.0) {
+      trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
+      trial_nuisances.back().may_lean = belief.numbers.contains("spread.torque_offset_Nm");
+    }
     if (stretches_.empty()) return;
     add_rows(0, positions);
     add_rows(1, velocities);
