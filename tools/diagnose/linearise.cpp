@@ -32,8 +32,7 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   kept.block.resize(rows, static_cast<Index>(trial.block_nuisances.size()));
   for (Index i = 0; i < tolerances; ++i) {
     Edits moved = at.edits;
-    const auto& tolerance = problem.tolerances[static_cast<std::size_t>(i)];
-    moved.sensor(tolerance.channel, SensorEdit::Kind::delay_s, kToleranceStep * tolerance.scale);
+    problem.tolerances[static_cast<std::size_t>(i)].put(moved, kToleranceStep);
     kept.shared.col(i) = (predicted(problem, trial, moved, at.nuisances) - at.prediction) / kToleranceStep;
   }
   auto moved = at.nuisances;

@@ -136,6 +136,12 @@ class PlantModel {
   // By how much the drive may act late or early, as it is written down, s. 0: its torque is a recorded input,
   // whose time is as unsure as that of what is recorded.
   virtual double drive_unsure_s() const { return 0.0; }
+  // Numbers that a belief leaves open, and how far at most.
+  struct UnsureKey {
+    std::string name, belief_key;
+    double most = 1.0;
+  };
+  virtual std::vector<UnsureKey> unsure_keys() const { return {}; }
   // Motion is recorded, not simulated: no trial's simulation can go astray.
   virtual bool motion_is_prescribed() const { return false; }
   // Of one trial; none where this plant's recordings do not say enough.

@@ -246,6 +246,8 @@ Prepared prepare(const Recordings& recordings) {
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});
+  for (const auto& key : problem.plant->unsure_keys())
+    problem.tolerances.push_back({key.name, key.most / kMostTolerance, "", 0.0, key.belief_key});
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));

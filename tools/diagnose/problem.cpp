@@ -44,6 +44,13 @@ std::vector<std::string> put_in_place(Problem& problem) {
   return unknown;
 }
 
+void Tolerance::put(Edits& edits, double in_scales) const {
+  if (belief_key.empty())
+    edits.sensor(channel, SensorEdit::Kind::delay_s, in_scales * scale);
+  else
+    edits.add(belief_key, in_scales * scale);
+}
+
 Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<const double> tolerances) {
   Edits edits = problem.in_place;
   edits.laws_key = 1;
@@ -59,9 +66,7 @@ Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<
   for (std::size_t k = 0; k < hypothesis.law.size(); ++k)
     edits = with_term(std::move(edits), hypothesis.law[k], hypothesis.law_sizes[k]);
   for (std::size_t i = 0; i < tolerances.size(); ++i)
-    if (tolerances[i] != 0.0)
-      edits.sensor(problem.tolerances[i].channel, SensorEdit::Kind::delay_s,
-                   tolerances[i] * problem.tolerances[i].scale);
+    if (tolerances[i] != 0.0) problem.tolerances[i].put(edits, tolerances[i]);
   return edits;
 }
 

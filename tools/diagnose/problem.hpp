@@ -13,12 +13,15 @@
 namespace sandhopper::diagnose {
 
 // A number that belongs to no effect but cannot be believed exactly: a fraction of a sample in a channel's
-// time. Always fitted, with a narrow prior of unit variance on value / scale.
+// time, or what a belief leaves open. Always fitted, with a narrow prior of unit variance on value / scale.
 struct Tolerance {
   std::string name;
-  double scale = 1.0;  // s
-  std::string channel;
+  double scale = 1.0;        // s, or the key's unit
+  std::string channel;       // which is late; empty: of a key
   double of_sampling = 1.0;  // as much of it as instants of sampling leave unsure, s
+  std::string belief_key{};
+
+  void put(Edits& edits, double in_scales) const;
 };
 // In its scales. What is further off is no tolerance any more: only an effect may explain it, or a fault of
 // thirty scales would be paid for once and leave no trial in disagreement. What is less is no effect.

@@ -222,12 +222,20 @@ void Search::finish(SetFit& fit) const {
 }
 
 // What competes with the best must not lose only because it was fitted roughly and stopped short of what it
-// might explain.
+// might explain: one that comes out ahead is the best, or without what it does not need.
 void Search::finish_rivals() {
-  const double limit = criterion(best()) + kRival;
-  for (auto& [set, fit] : sets_)
-    if (set.size() <= best_.size() && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ < limit)
-      finish(fit);
+  const double best_so_far = criterion(best()), limit = best_so_far + kRival;
+  bool ahead = false;
+  for (auto& [set, fit] : sets_) {
+    if (!fit.rough || set.size() > best_.size() ||
+        criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit)
+      continue;
+    finish(fit);
+    ahead = ahead || criterion(fit) < best_so_far;
+  }
+  if (!ahead) return;
+  choose_best();
+  prune();
 }
 
 // With derivatives of its own: what nuisances still lean by shows only then.

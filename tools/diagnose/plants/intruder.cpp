@@ -15,9 +15,12 @@ namespace {
 constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
 constexpr double kForceZeroUnknown_N = 0.02;
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
+// Of what a trial's bed is stiffer by: whether it lets go of the foot along a stiffer line, too, is its
+// affair.
+constexpr const char* kLineFollows = "spread.unloading_follows";
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
-enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kUnloadingLine, kFirstKnot };
+enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kFirstKnot };
 enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
 // The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of `f`
@@ -75,9 +78,6 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
-    // Whether a stiffer bed lets go of the foot along a stiffer line is its own affair.
-    add_nuisance("unloading_relative", trial_nuisances[kStiffness].sd, 1e-2);
-    trial_nuisances.back().may_lean = false;
     add_knots();
     if (!ages.empty()) {
       age_nuisance_ = trial_nuisances.size();
@@ -161,7 +161,8 @@ class IntruderTrial final : public TrialModel {
     BedParameters parameters = bed_parameters(belief_, edits);
     parameters.stiffness_N_per_m *= 1.0 + nuisances[kStiffness];
     parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[kStiffness];
-    parameters.unloading_stiffness_ratio *= 1.0 + nuisances[kUnloadingLine];
+    parameters.unloading_stiffness_ratio *=
+        1.0 - nuisances[kStiffness] * (1.0 - edits.edited(kLineFollows, 0.5)) / (1.0 + nuisances[kStiffness]);
     if (const auto size = edits.at("foot.size"); !size.empty()) {
       const double factor = std::exp(sum_of(size, {.position = radius_m_}));
       parameters.stiffness_N_per_m *= factor;
@@ -182,7 +183,8 @@ class IntruderTrial final : public TrialModel {
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
     double deepest_m = 0.0, before_N = 0.0, deeper_m = laws.deeper_m();
-    bool touching = false;
+    bool touching = false, touched = false;
+    double asked_before_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
       double depth_m = 0.0;
@@ -224,11 +226,29 @@ class IntruderTrial final : public TrialModel {
                             : read.speed_mps(i) > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold
                                                                                              : kUnloading);
       }
+      if (touching && !touched && i > 0 && read.speed_mps(i) > rest_speed_mps_)
+        run.force.values[i - 1] += met_between_N(bed, contact, force_N, asked_before_m, asked_m);
+      touched = touching;
+      asked_before_m = asked_m;
       if (down) deepest_m = std::max(deepest_m, depth_m);
       before_N = force_N;
       run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
     }
     return run;
+  }
+
+  // The bed is met a share u after one step and before the next: there the force jumps to that of no depth,
+  // J, and rises to F. What the step before has to show for it so that straight lines have the same integral:
+  //   (1 - 2 u) J - u (F - J)
+  static double met_between_N(const Bed& bed, const BedContact& contact, double force_N, double before_m,
+                              double after_m) {
+    constexpr double kNoDepth_m = 1e-7;
+    if (before_m >= 0.0 || after_m <= before_m) return 0.0;
+    const double u = -before_m / (after_m - before_m);
+    BedContact first = contact;
+    first.depth_m = first.max_depth_m = std::min(kNoDepth_m, contact.depth_m);
+    const double jump_N = std::min(bed.reaction(first).force_N, force_N);
+    return (1.0 - 2.0 * u) * jump_N - u * (force_N - jump_N);
   }
 
   // By differences of the bed's law; the grains between the knots add theirs.
@@ -348,6 +368,9 @@ class Intruder final : public PlantModel {
   }
 
   bool motion_is_prescribed() const override { return true; }
+  std::vector<UnsureKey> unsure_keys() const override {
+    return {{"unloading line of a stiffer bed", kLineFollows, 0.5}};
+  }
   // Measured against another program: 0.007, as if its force sensor were slower by a millisecond.
   double simulations_differ(const std::string& /*port*/) const override { return 0.01; }
 

@@ -10,6 +10,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kFewSamples = 10;
+constexpr double kNotSampled = 1e4;   // variance of a reading that there is not, m^2 or m^2/s^2
 constexpr double kAccelError = 0.01;  // of the hardest acceleration: scale and interpolation between samples
 
 double largest(const std::vector<double>& values) {
@@ -18,15 +19,36 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-void smooth_jointly(IntruderMotion& m) {
+// Where on the grid a quantity was sampled: not inside a gap.
+std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
+  constexpr double kGapSteps = 2.5;
+  std::vector<bool> known(m.depth_m.size(), false);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const double t = m.start_s + m.step_s * static_cast<double>(i);
+    while (next < samples.time_s.size() && samples.time_s[next] < t - 0.5 * m.step_s) ++next;
+    const bool here = next < samples.time_s.size() && samples.time_s[next] < t + 0.5 * m.step_s;
+    const bool between = next > 0 && next < samples.time_s.size() &&
+                         samples.time_s[next] - samples.time_s[next - 1] < kGapSteps * m.step_s;
+    known[i] = here || between;
+  }
+  return known;
+}
+
+void smooth_jointly(IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a) {
   using Eigen::Matrix2d, Eigen::Vector2d;
   const std::size_t n = m.depth_m.size();
   const double dt = m.step_s;
   const Matrix2d advance{{1.0, dt}, {0.0, 1.0}};
   const Vector2d push{0.5 * dt * dt, dt};
-  const double accel_sd = std::hypot(m.accel_sd_mps2.front(), kAccelError * largest(m.accel_mps2));
-  const Matrix2d process = accel_sd * accel_sd * push * push.transpose() + 1e-24 * Matrix2d::Identity();
+  const double hardest = largest(m.accel_mps2);
+  const double accel_sd = std::hypot(m.accel_sd_mps2.front(), kAccelError * hardest);
+  const auto process = [&](double sd) -> Matrix2d {
+    return sd * sd * push * push.transpose() + 1e-24 * Matrix2d::Identity();
+  };
+  const Matrix2d process_known = process(accel_sd), process_unknown = process(hardest);
   const Vector2d sensor{m.depth_sd_m * m.depth_sd_m, m.speed_sd_mps * m.speed_sd_mps};
+  const auto z_known = sampled(z, m), v_known = sampled(v, m), a_known = sampled(a, m);
   std::vector<Vector2d> before(n), after(n);
   std::vector<Matrix2d> before_cov(n), after_cov(n);
   Vector2d x{m.depth_m[0], m.speed_mps[0]};
@@ -34,12 +56,13 @@ void smooth_jointly(IntruderMotion& m) {
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0) {
       x = advance * x + push * 0.5 * (m.accel_mps2[i - 1] + m.accel_mps2[i]);
-      p = advance * p * advance.transpose() + process;
+      p = advance * p * advance.transpose() + (a_known[i] ? process_known : process_unknown);
     }
     before[i] = x;
     before_cov[i] = p;
     if (i > 0) {
-      const Matrix2d gain = p * (p + Matrix2d(sensor.asDiagonal())).inverse();
+      const Vector2d noise{z_known[i] ? sensor[0] : kNotSampled, v_known[i] ? sensor[1] : kNotSampled};
+      const Matrix2d gain = p * (p + Matrix2d(noise.asDiagonal())).inverse();
       x += gain * (Vector2d{m.depth_m[i], m.speed_mps[i]} - x);
       p = (Matrix2d::Identity() - gain) * p;
     }
@@ -59,6 +82,38 @@ void smooth_jointly(IntruderMotion& m) {
   }
   m.depth_sd_m = std::sqrt(variance[0]);
   m.speed_sd_mps = std::sqrt(variance[1]);
+}
+
+// A foot that is fast meets the bed between two rows: the grid is made finer, values and rates joined by
+// cubics (Hermite).
+void refine(IntruderMotion& m) {
+  constexpr double kFarthest_m = 1.5e-4;
+  constexpr std::size_t kMostParts = 8;
+  const auto parts = std::clamp<std::size_t>(
+      static_cast<std::size_t>(m.step_s * largest(m.speed_mps) / kFarthest_m + 1.0), 1, kMostParts);
+  const std::size_t n = m.depth_m.size();
+  if (parts == 1 || n < 2) return;
+  const auto joined = [&](const std::vector<double>& value, const std::vector<double>* rate) {
+    std::vector<double> fine;
+    fine.reserve((n - 1) * parts + 1);
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      for (std::size_t k = 0; k < parts; ++k) {
+        const double u = static_cast<double>(k) / static_cast<double>(parts), w = 1.0 - u;
+        double x = w * value[i] + u * value[i + 1];
+        if (rate != nullptr) {
+          const double mean = (value[i + 1] - value[i]) / m.step_s;
+          x += u * w * m.step_s * (w * ((*rate)[i] - mean) - u * ((*rate)[i + 1] - mean));
+        }
+        fine.push_back(x);
+      }
+    fine.push_back(value[n - 1]);
+    return fine;
+  };
+  m.depth_m = joined(m.depth_m, &m.speed_mps);
+  m.speed_mps = joined(m.speed_mps, &m.accel_mps2);
+  m.accel_mps2 = joined(m.accel_mps2, nullptr);
+  m.accel_sd_mps2 = joined(m.accel_sd_mps2, nullptr);
+  m.step_s /= static_cast<double>(parts);
 }
 
 constexpr double kClear = 4.0;                             // standard errors
@@ -142,9 +197,10 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   m.speed_sd_mps = std::max(
       m.speed_from_position ? noise_m / (m.step_s * static_cast<double>(half)) : fluctuation_rms(v), 1e-7);
   if (joined)
-    smooth_jointly(m);
+    smooth_jointly(m, z, v, a);
   else if (noise_m > kQuantum_m)
     m.depth_sd_m /= std::sqrt(static_cast<double>(half));
+  refine(m);
   return m;
 }
 

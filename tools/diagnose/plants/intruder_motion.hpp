@@ -23,7 +23,8 @@ struct IntruderMotion {
 //   z' = v, v' = a,   noise of z, v and a from their own fast fluctuation;
 // otherwise speeds and accelerations come from local parabolas over n samples, with a standard deviation of
 //   s sqrt(12/n^3)/dt from speeds, s sqrt(720/n^5)/dt^2 from positions,
-// and what parabolas twice as long make of it as what they flatten.
+// and what parabolas twice as long make of it as what they flatten. Over gaps of one the smoother goes by the
+// others. Where the foot is fast the grid is finer than the recording's.
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a);
 
 // Whether the recorded position is late, or its clock runs otherwise, against the recorded velocity v or,
