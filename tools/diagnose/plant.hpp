@@ -120,6 +120,8 @@ class PlantModel {
   virtual bool filtered_in_rows(const std::string& /*channel*/, const Belief& /*belief*/) const {
     return false;
   }
+  // How long the converter of a channel takes over one sample, s: it may be the mean of that time or its end.
+  virtual double conversion_s(const std::string& /*channel*/, const Belief& /*belief*/) const { return 0.0; }
   // Null where the trial has nothing that can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;

@@ -23,6 +23,7 @@ constexpr double kRowTolerance =
     0.5;  // of a row's: a slower sensor's sample stands in the first row after it
 // A low pass that runs once a row is early or late by up to half of one, as it is written.
 constexpr double kFilterTolerance = 0.29;
+constexpr double kConversionTolerance = 0.29;  // of a conversion: its mean is half of it old
 constexpr double kOutlier = 8.0;  // standard deviations
 constexpr std::size_t kRowsPerFreeTerm = 10;
 
@@ -241,8 +242,10 @@ Prepared prepare(const Recordings& recordings) {
     const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
     const double filter_s =
         problem.plant->filtered_in_rows(channel, problem.context.belief) ? kFilterTolerance * row_s : 0.0;
+    const double conversion_s =
+        kConversionTolerance * problem.plant->conversion_s(channel, problem.context.belief);
     problem.tolerances.push_back(
-        {"time of " + channel, std::hypot(sampling_s, filter_s), channel, sampling_s});
+        {"time of " + channel, std::hypot(sampling_s, filter_s, conversion_s), channel, sampling_s});
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});

@@ -70,9 +70,9 @@ struct Problem {
 
 // Of a deviance that is explained, as much as a law of another form may leave unnoticed a part of: a form
 // that is off by more shows in what is left.
+inline constexpr double kFormUnnoticedPerRow = 10.0;
 inline double with_form_unnoticed(const Problem& problem, double explained) {
-  constexpr double kPerRow = 10.0;
-  return std::clamp(explained, 0.0, kPerRow * problem.rows());
+  return std::clamp(explained, 0.0, kFormUnnoticedPerRow * problem.rows());
 }
 
 // A law of free form at a port, as one column of a fit: amplitude times `law`.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/overlap.hpp"
 #include "tools/diagnose/search.hpp"
 #include "tools/diagnose/search_parts.hpp"
 
@@ -253,14 +254,15 @@ void Search::judge(SetFit& result) {
     if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;
-    // A law of another form may leave as much; where only readings change, of what those channels show.
+    // A law of another form may leave as much, where it shows; where only readings change, of what those
+    // channels show.
     if (result.sound && evidence.gain < least_share * explained) {
       const auto read = channels_read(*problem_, point.hypothesis, e);
-      result.sound =
-          !read.empty() &&
-          evidence.gain >= least_share * with_form_unnoticed(
-                                             *problem_, deviance_of(*problem_, null().fit.point, read) -
+      const double there =
+          read.empty() ? std::min(explained, shown_by_others(*problem_, point, e))
+                       : with_form_unnoticed(*problem_, deviance_of(*problem_, null().fit.point, read) -
                                                             deviance_of(*problem_, result.fit.point, read));
+      result.sound = result.evidence.size() > 1 && evidence.gain >= least_share * there;
     }
     result.needed = result.needed && result.sound && !evidence.too_small && !evidence.unnoticed;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;

@@ -108,6 +108,7 @@ class HopperTrial final : public TrialModel {
       take_commands(trial);
     } else {
       controller_ = RecordedController(trial, leg, world_, course_.end_s);
+      controller_.find_age(world_, compression_stiffness_, course_.phases);
       residual_ = controller_.residual_Nm(world_, compression_stiffness_, course_.phases);
     }
     blocks = static_cast<std::uint32_t>(course_.hops.size());

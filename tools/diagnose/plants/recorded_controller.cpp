@@ -42,6 +42,27 @@ RecordedController::RecordedController(const Trial& trial, const Leg& leg, const
   smooth_rate_.low_pass(1.0 / (2.0 * std::numbers::pi * believed.sensors.encoder_velocity_bandwidth_Hz));
 }
 
+void RecordedController::find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
+                                  const std::vector<PhaseChange>& phases) {
+  constexpr int kOldest = 2;  // rows
+  constexpr double kNearer = 0.5;
+  if (!measured() || commands_.empty()) return;
+  const double row_s = median_step_s(measured_.time_s);
+  const auto as_read = measured_.time_s;
+  std::vector<double> commands(commands_.time_s.size());
+  double nearest = 0.0;
+  int age = 0;
+  for (int rows = 0; rows <= kOldest; ++rows) {
+    for (std::size_t i = 0; i < as_read.size(); ++i) measured_.time_s[i] = as_read[i] + rows * row_s;
+    commands_Nm(world, compression_stiffness_N_per_m, phases, commands_.time_s, commands);
+    double apart = 0.0;
+    for (std::size_t i = kOldest; i < commands.size(); ++i)
+      apart += std::abs(commands_.value[i] - world.robot.leg.motor_count * commands[i]);
+    if (rows == 0 || apart < kNearer * nearest) nearest = apart, age = rows;
+  }
+  for (std::size_t i = 0; i < as_read.size(); ++i) measured_.time_s[i] = as_read[i] + age * row_s;
+}
+
 Signal RecordedController::residual_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,
                                        const std::vector<PhaseChange>& phases) const {
   if (!measured() || commands_.empty()) return {0.0, kTick_s, {}};

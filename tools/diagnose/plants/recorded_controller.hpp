@@ -17,6 +17,12 @@ class RecordedController {
   // The leg was recorded well enough to say what should have been commanded.
   bool measured() const { return measured_.time_s.size() >= kLeastSamples; }
 
+  // A command goes with the leg of its own row, or of a row before: a controller that acts on what it
+  // received in the cycle before. By which the recorded commands are nearest to the believed controller's,
+  // if by less than half.
+  void find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
+                const std::vector<PhaseChange>& phases);
+
   // Of both motors, on a grid of 1 ms from zero: what was commanded less what this controller makes of the
   // recorded leg, smoothed. What is left is the encoder's noise on its way through the controller. Empty
   // where the leg or the commands were not recorded.
