@@ -28,7 +28,8 @@ constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr double kSameNoise = 0.03;
-constexpr double kNoiseHidesAll = 4.0;       // times the sensors' own
+constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
+constexpr double kUnknownBesideNames = 0.7;
 constexpr double kDoubtBesideUnknown = 0.1;  // of 108 such names 9 were right: seeds 5600, 9042 to 9049
 
 std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
@@ -171,9 +172,11 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
         effect.probability = std::min(effect.probability, kDoubtBesideUnknown);
     const double unexplained =
         std::max({rest.misfit.unexplained, (rest.left * rest.left - 1.0) * problem.rows(),
-                  rest.leans ? rest.lean.z * rest.lean.z : 0.0});
+                  rest.leans ? rest.lean.z * rest.lean.z : 0.0,
+                  rest.loud ? (rest.loud->times * rest.loud->times - 1.0) * problem.rows() : 0.0});
     if (!rest.law)
       report_unknown_near(rest.misfit.explained / (rest.misfit.explained + unexplained), diagnosis);
+    if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
     if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
   } else if (search.best().set.empty()) {
     diagnosis.verdict = too_few ? "insufficient_data" : "consistent";
@@ -184,7 +187,12 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
     const bool classes = std::ranges::any_of(
         diagnosis.effects, [](const auto& effect) { return !effect.indistinguishable_from.empty(); });
     diagnosis.detail = classes ? "one_of_class" : rest.law ? "known_and_rest" : "known";
-    if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
+    if (rest.law) {
+      report_unknown(*rest.law, rest.share, diagnosis);
+      // It may be what a law on the list has another form by.
+      auto& unknown = diagnosis.effects.back();
+      unknown.probability = std::min(unknown.probability, kUnknownBesideNames);
+    }
   }
 }
 

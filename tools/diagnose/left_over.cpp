@@ -64,6 +64,37 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
   return most;
 }
 
+std::optional<LoudChannel> loudest_channel(const Problem& problem) {
+  constexpr double kLoud = 2.0, kQuiet = 1.3;
+  std::optional<LoudChannel> loudest;
+  std::size_t loud_index = 0;
+  std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const auto& channel = problem.channels[c];
+    const double believed = believed_noise(problem.context.belief, channel);
+    if (believed <= 0.0 || !problem.context.channels.contains(channel)) continue;
+    own[c] = std::max(believed, problem.floor_sd[c]);
+    times[c] = problem.noise.channel(c).sd() / own[c];
+    if (times[c] > (loudest ? loudest->times : kLoud)) {
+      loudest = LoudChannel{channel, times[c], channel};
+      loud_index = c;
+    }
+  }
+  if (!loudest) return std::nullopt;
+  const auto& by_phase = problem.noise.channel(loud_index).sd_of_phase;
+  const auto quiet_phase = problem.plant->quiet_phase();
+  bool sensor_alone = false;
+  if (quiet_phase)
+    sensor_alone = by_phase[*quiet_phase] > kLoud * own[loud_index];
+  else
+    for (std::size_t c = 0; c < times.size(); ++c)
+      if (c != loud_index && times[c] > 0.0) sensor_alone = times[c] < kQuiet;
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (!sensor_alone && !ports.empty())
+    loudest->port = ports.front().port.substr(0, ports.front().port.find('.'));
+  return loudest;
+}
+
 std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
   std::vector<Lean> leans;
   if (problem.trials.empty()) return leans;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -120,6 +121,8 @@ class PlantModel {
   virtual bool filtered_in_rows(const std::string& /*channel*/, const Belief& /*belief*/) const {
     return false;
   }
+  // A phase in which nothing acts on what is recorded, if there is one.
+  virtual std::optional<std::size_t> quiet_phase() const { return std::nullopt; }
   // How long the converter of a channel takes over one sample, s: it may be the mean of that time or its end.
   virtual double conversion_s(const std::string& /*channel*/, const Belief& /*belief*/) const { return 0.0; }
   // Null where the trial has nothing that can be predicted; `why` then says what is missing.

@@ -24,7 +24,7 @@ constexpr double kRowTolerance =
 // A low pass that runs once a row is early or late by up to half of one, as it is written.
 constexpr double kFilterTolerance = 0.29;
 constexpr double kConversionTolerance = 0.29;  // of a conversion: its mean is half of it old
-constexpr double kOutlier = 8.0;  // standard deviations
+constexpr double kOutlier = 8.0;               // standard deviations
 constexpr std::size_t kRowsPerFreeTerm = 10;
 
 // What a converter's grid is.

@@ -115,6 +115,19 @@ void report_unknown_near(double share, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(std::move(effect));
 }
 
+void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + loud.port,
+       .port = loud.port,
+       .statement =
+           fmt::format("Something that is on no list acts at {}: {} scatters {:.1f} times as much as "
+                       "its sensor is believed to.",
+                       loud.port, loud.channel, loud.times),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
   if (lean.port.empty()) return;
   diagnosis.effects.push_back(

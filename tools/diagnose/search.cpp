@@ -447,8 +447,17 @@ std::vector<Point> Search::best_points(std::size_t count) const {
       order.push_back(&fit);
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
+  // Not those that only add to a better one.
+  std::vector<const SetFit*> chosen;
   std::vector<Point> points;
-  for (std::size_t i = 0; i < order.size() && i < count; ++i) points.push_back(order[i]->fit.point);
+  for (const auto* fit : order) {
+    if (points.size() == count) break;
+    if (std::ranges::any_of(chosen,
+                            [&](const SetFit* less) { return std::ranges::includes(fit->set, less->set); }))
+      continue;
+    chosen.push_back(fit);
+    points.push_back(fit->fit.point);
+  }
   return points;
 }
 

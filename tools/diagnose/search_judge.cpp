@@ -58,6 +58,20 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
   });
 }
 
+// Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time:
+// as much variance in time as T^2 / 12.
+bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
+  Edits edits;
+  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  if (edits.sensors.empty() || !edits.belief.empty() || !edits.laws.empty()) return false;
+  const double of_mean = 1.0 / std::sqrt(12.0), unsure = 1.5;
+  return std::ranges::all_of(edits.sensors, [&](const SensorEdit& edit) {
+    return edit.kind == SensorEdit::Kind::lag_s &&
+           edit.value <= unsure * of_mean * problem.plant->conversion_s(edit.channel, problem.context.belief);
+  });
+}
+
 // Several channels that are late by the same: none is, against the others.
 bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
   std::map<std::string, double> delays;
@@ -201,7 +215,8 @@ void Search::judge(SetFit& result) {
                            (value >= p.high - 1e-9 * std::abs(p.high) ||
                             (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
     }
-    if (within_tolerance(*problem_, delays)) result.sound = false;
+    if (within_tolerance(*problem_, delays) || within_conversion(*problem_, point.hypothesis, e))
+      result.sound = false;
     const double model = std::max(1e-300, [&] {
       double s = 0.0;
       for (const double i : group.evidence.information) s += i;

@@ -170,9 +170,13 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   out.left = left_over_noise(problem, best.fit);
   if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
   out.leans = std::abs(out.lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
+  // A hopper's accelerometers shake with its structure; how much, a belief hardly says.
+  if (!problem.plant->is_costly()) out.loud = loudest_channel(problem);
+  if (out.loud)
+    log.push_back(fmt::format("loud: {}, {:.2f} times its sensor", out.loud->channel, out.loud->times));
   log.push_back(fmt::format("left: {:.2f} times the noise; all trials lean by {:.1f} {}", out.left,
                             out.lean.z, out.lean.nuisance));
-  const bool more_than_noise = !faults && (out.left > kMoreThanNoise || out.leans);
+  const bool more_than_noise = !faults && (out.left > kMoreThanNoise || out.leans || out.loud);
   if (more_than_noise && best.set.empty() && !out.law)
     out.law = first_of(beside, [&](const FreeGain& gain) {
       return !gain.family.sensor && is_more(gain) &&

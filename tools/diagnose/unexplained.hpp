@@ -33,6 +33,7 @@ struct Unexplained {
   double left = 0.0;            // times the noise
   Lean lean;
   bool leans = false;
+  std::optional<LoudChannel> loud;
   bool unknown = false;       // it is physics that is not on the list
   bool stands_alone = false;  // then names on the list are not told beside it
 

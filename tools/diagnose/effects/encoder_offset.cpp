@@ -8,10 +8,18 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   return {{.name = "encoder_offset_rad", .typical = 0.02, .low = -0.5, .high = 0.5, .either_sign = true}};
 }
 
-void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+// Of both motors, or of one alone: then the two angles part, and the controller acts on their mean.
+std::vector<std::string> channels(const Context& c) {
+  std::vector<std::string> channels{""};
+  const auto motors = present(c, {"motor_left_position_rad", "motor_right_position_rad"});
+  if (motors.size() == 2) channels.insert(channels.end(), motors.begin(), motors.end());
+  return channels;
+}
+
+void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
   if (c.plant == PlantKind::rotary_axis) return edits.sensor("position_rad", SensorEdit::Kind::offset, v[0]);
-  for (const char* channel : {"motor_left_position_rad", "motor_right_position_rad"})
-    edits.sensor(channel, SensorEdit::Kind::offset, v[0]);
+  for (const char* motor : {"motor_left_position_rad", "motor_right_position_rad"})
+    if (channel.empty() || channel == motor) edits.sensor(motor, SensorEdit::Kind::offset, v[0]);
 }
 
 const EffectRegistration kEffect(
@@ -20,6 +28,7 @@ const EffectRegistration kEffect(
      .statement = "The encoder's zero is off: the angle is not the one that is read.",
      .equation = "y = theta + o",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
+     .channels = channels,
      .parameters = parameters,
      .apply = apply});
 

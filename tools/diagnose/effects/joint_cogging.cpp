@@ -24,7 +24,10 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .typical = likeliest,
            .low = kFewestPeriods,
            .high = 500.0,
-           .shapes = orders}};
+           .shapes = orders},
+          // Of twice as many periods, beside it.
+          {.name = "second_sin_share", .typical = 0.3, .low = -3.0, .high = 3.0, .shapes = {0.0}},
+          {.name = "second_cos_share", .typical = 0.3, .low = -3.0, .high = 3.0}};
 }
 
 const EffectRegistration kEffect({.id = "joint.cogging",

@@ -23,6 +23,18 @@ constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or
 enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kFirstKnot };
 enum Phase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
+// How often the foot goes below the surface, from above by a tenth of how deep it gets.
+double pushes_of(const Samples& z) {
+  double lowest_m = 0.0, count = 0.0;
+  for (const double v : z.value) lowest_m = std::min(lowest_m, v);
+  bool above = true;
+  for (const double v : z.value) {
+    if (above && v < 0.1 * lowest_m) ++count, above = false;
+    if (v > -0.1 * lowest_m) above = true;
+  }
+  return count;
+}
+
 // The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of `f`
 // is there.
 template <class Force>
@@ -64,6 +76,7 @@ class IntruderTrial final : public TrialModel {
     const auto force = without_repeats(recorded);
     auto ages = ages_s(trial, "force_N", belief.value("sensors.load_cell_rate_Hz"));
     if (ages.size() != force.value.size()) ages.clear();
+    row_s_ = std::max(median_step_s(trial.time_s), 1e-6);
     const auto z = averaged(samples_of(trial, "foot_z_m"), least_s);
     if (force.empty() || z.value.size() < 10) return;
     radius_m_ = belief.value("foot.radius_m", 0.04);
@@ -267,6 +280,17 @@ class IntruderTrial final : public TrialModel {
                       std::hypot(reaction.added_mass_kg * accel_sd_mps2, grains_N));
   }
 
+  // Where the force is steep, an instant of sampling that is off by a twentieth of a row shows.
+  double edge_sd_N(const std::vector<double>& force_N, std::size_t i) const {
+    constexpr double kPartOfARow = 0.05;
+    const auto to_side = static_cast<std::size_t>(std::ceil(row_s_ / motion_.step_s));
+    const auto first = force_N.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, to_side));
+    const auto last =
+        force_N.begin() + static_cast<std::ptrdiff_t>(std::min(i + to_side + 1, force_N.size()));
+    const auto [low, high] = std::minmax_element(first, last);
+    return kPartOfARow * (*high - *low) / 2.0;
+  }
+
   void add_nuisance(const char* what, double sd, double step) { trial_nuisances.push_back({what, sd, step}); }
 
   void add_knots() {
@@ -294,13 +318,14 @@ class IntruderTrial final : public TrialModel {
           static_cast<std::size_t>(std::max(0.0, (row.time_s - motion_.start_s) / motion_.step_s + 0.5)),
           run.phase.size() - 1);
       row.phase = run.phase[i];
-      row.relative_sd = std::hypot(row.relative_sd, run.input_sd_N[i] / cell_sd_N);
+      row.relative_sd = std::hypot(row.relative_sd, run.input_sd_N[i] / cell_sd_N,
+                                   edge_sd_N(run.force.values, i) / cell_sd_N);
     }
     coordinates = {std::move(depth), std::move(speed), std::move(accel), std::move(time)};
   }
 
   Belief belief_;
-  double radius_m_ = 0.04, rest_speed_mps_ = 0.0;
+  double radius_m_ = 0.04, rest_speed_mps_ = 0.0, row_s_ = 1e-3;
   IntruderMotion motion_;
   BedHistory history_;
   BedGrains grains_;
@@ -355,6 +380,11 @@ class Intruder final : public PlantModel {
       const double near_m = std::max(1e-3, bed_m + lowest);
       context.scales["floor_distance_m"] = it == context.scales.end() ? near_m : std::min(it->second, near_m);
     }
+    // A trial may push more than once.
+    double pushes = 0.0;
+    for (const auto& trial : trials) pushes = std::max(pushes, pushes_of(samples_of(trial, "foot_z_m")));
+    double& range = context.scales["range of pushes_since_preparation"];
+    range = std::max(range, pushes - 1.0);
     // The foot's position is an input, no prediction; its faults are candidates, too.
     double longest_s = 1e-3;
     for (const auto& trial : trials) longest_s = std::max(longest_s, median_step_s(trial.time_s));
@@ -368,6 +398,8 @@ class Intruder final : public PlantModel {
   }
 
   bool motion_is_prescribed() const override { return true; }
+  bool starts_as_believed() const override { return true; }
+  std::optional<std::size_t> quiet_phase() const override { return kAbove; }
   double conversion_s(const std::string& channel, const Belief& belief) const override {
     const double rate_Hz = belief.value("sensors.load_cell_rate_Hz");
     return channel == "force_N" && rate_Hz > 0.0 ? 1.0 / rate_Hz : 0.0;
