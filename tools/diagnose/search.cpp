@@ -132,7 +132,6 @@ void Search::evaluate_straight(const SetFit& from) {
   straight_[from.set] = from.fit.deviance;
   Point straight = null_point(*problem_);
   straight.hypothesis = from.fit.point.hypothesis;
-  straight.tolerances = from.fit.point.tolerances;
   const auto columns = columns_at(*problem_, straight);
   struct Nearest {
     Point start;

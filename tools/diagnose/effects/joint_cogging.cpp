@@ -26,23 +26,32 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .high = 500.0,
            .shapes = orders},
           // Of twice as many periods, beside it.
-          {.name = "second_sin_share", .typical = 0.3, .low = -3.0, .high = 3.0, .shapes = {0.0}},
-          {.name = "second_cos_share", .typical = 0.3, .low = -3.0, .high = 3.0}};
+          {.name = "cogging_second_sin_Nm",
+           .typical = typical,
+           .low = -50.0 * typical,
+           .high = 50.0 * typical,
+           .amplitude = true},
+          {.name = "cogging_second_cos_Nm",
+           .typical = typical,
+           .low = -50.0 * typical,
+           .high = 50.0 * typical,
+           .amplitude = true}};
 }
 
-const EffectRegistration kEffect({.id = "joint.cogging",
-                                  .port = "joint",
-                                  .statement = "Torque ripples with the angle of the motor (cogging).",
-                                  .equation = "tau += A sin(h theta) + B cos(h theta)",
-                                  .plants = {PlantKind::rotary_axis, PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = [](const Context& c, const std::string&, std::span<const double> v,
-                                              Edits& edits) {
-                                    const double a = v[0], b = v[1], h = v[2];
-                                    edits.law(port_on(c.plant, "joint"), [=](const PortState& s) {
-                                      return a * std::sin(h * s.position) + b * std::cos(h * s.position);
-                                    });
-                                  }});
+const EffectRegistration kEffect(
+    {.id = "joint.cogging",
+     .port = "joint",
+     .statement = "Torque ripples with the angle of the motor (cogging).",
+     .equation = "tau += A sin(h theta) + B cos(h theta) + A_2 sin(2 h theta) + B_2 cos(2 h theta)",
+     .plants = {PlantKind::rotary_axis, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+       const double a = v[0], b = v[1], h = v[2], a2 = v[3], b2 = v[4];
+       edits.law(port_on(c.plant, "joint"), [=](const PortState& s) {
+         const double sin = std::sin(h * s.position), cos = std::cos(h * s.position);
+         return a * sin + b * cos + 2.0 * a2 * sin * cos + b2 * (1.0 - 2.0 * sin * sin);
+       });
+     }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

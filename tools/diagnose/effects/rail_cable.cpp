@@ -8,24 +8,20 @@ const EffectRegistration kEffect(
     {.id = "rail.cable",
      .port = "rail",
      .statement = "The cable pulls at the body like a spring, perhaps damped.",
-     .equation = "F += -k (z - z_0) - b z'",
+     .equation = "F += -k (z - z_0 + T z')",
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
                {.name = "cable_stiffness_N_per_m", .typical = 5.0, .low = 0.0, .high = 200.0},
                {.name = "cable_rest_height_m", .typical = 0.4, .low = -1.0, .high = 2.0},
-               {.name = "cable_damping_N_s_per_m",
-                .typical = 0.2,
-                .low = 0.0,
-                .high = 10.0,
-                .shapes = {0.0}}};
+               {.name = "cable_damping_s", .typical = 0.1, .low = 0.0, .high = 2.0, .shapes = {0.0}}};
          },
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double stiffness = v[0], rest = v[1], damping = v[2];
            edits.law("rail", [=](const PortState& s) {
-             return -stiffness * (s.position - rest) - damping * s.velocity;
+             return -stiffness * (s.position - rest + damping * s.velocity);
            });
          }});
 
