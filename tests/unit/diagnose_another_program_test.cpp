@@ -11,6 +11,8 @@
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/intruder_motion.hpp"
+#include "tools/diagnose/plants/recorded_controller.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/spread_seen.hpp"
 
@@ -125,6 +127,77 @@ TEST(DiagnoseAnotherProgram, AStifferBedMayHaveAStifferUnloadingLine) {
   const auto loading_only = turned_round("terrain.compaction", {share, 2.0, 0.0}, 0.02, 4e-4);
   EXPECT_NEAR(loading_only.before_N, 36.0, 1e-6);
   EXPECT_NEAR(loading_only.before_N - loading_only.after_N, 18.0, 1e-6);
+}
+
+// A foot that goes 30 mm down and up within 0.2 s, sampled at 1 kHz.
+struct Plunge {
+  Samples z, v, a;
+  static double depth_m(double t) { return 0.015 * (1.0 - std::cos(10.0 * M_PI * t)); }
+};
+Plunge plunge() {
+  Plunge p;
+  const double w = 10.0 * M_PI;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 1e-3 * i;
+    for (auto* samples : {&p.z, &p.v, &p.a}) samples->time_s.push_back(t);
+    const double tiny = i % 2 == 0 ? 1.0 : -1.0;  // quantisation
+    p.z.value.push_back(-Plunge::depth_m(t) + 1e-5 * tiny);
+    p.v.value.push_back(-0.015 * w * std::sin(w * t) + 1e-3 * tiny);
+    p.a.value.push_back(-0.015 * w * w * std::cos(w * t) + 5e-2 * tiny);
+  }
+  return p;
+}
+
+double worst_depth_m(const IntruderMotion& m) {
+  double worst_m = 0.0;
+  for (std::size_t i = 0; i < m.depth_m.size(); ++i)
+    worst_m = std::max(
+        worst_m, std::abs(m.depth_m[i] - Plunge::depth_m(m.start_s + m.step_s * static_cast<double>(i))));
+  return worst_m;
+}
+
+TEST(DiagnoseAnotherProgram, AFastFootIsOnAFinerGridThanItsRecording) {
+  const auto p = plunge();
+  const auto m = intruder_motion(p.z, p.v, p.a);
+  EXPECT_LE(m.step_s * 0.47, 1.6e-4);  // at its fastest, between two steps
+  EXPECT_LT(worst_depth_m(m), 2e-5);
+}
+
+// A straight line over 80 ms of the turn would be off by 5 mm and more.
+TEST(DiagnoseAnotherProgram, AGapOfThePositionIsBridgedByItsRates) {
+  auto p = plunge();
+  p.z.time_s.erase(p.z.time_s.begin() + 60, p.z.time_s.begin() + 140);
+  p.z.value.erase(p.z.value.begin() + 60, p.z.value.begin() + 140);
+  EXPECT_LT(worst_depth_m(intruder_motion(p.z, p.v, p.a)), 2e-4);
+}
+
+// The commands of a controller that acts on what it received in the cycle before.
+TEST(DiagnoseAnotherProgram, ACommandMayGoWithTheLegOfTheRowBefore) {
+  const HopperRun run = hop_from(0.04, 0.3);
+  Trial trial = recorded(run, {}, 5);
+  const Leg leg(run.world.robot.leg);
+  const auto commands = [&](RecordedController controller, bool by_age) {
+    if (by_age) controller.find_age(run.world, run.compression_stiffness_N_per_m, phase_changes(trial));
+    std::vector<double> out(trial.time_s.size());
+    controller.commands_Nm(run.world, run.compression_stiffness_N_per_m, phase_changes(trial), trial.time_s,
+                           out);
+    return out;
+  };
+  const RecordedController as_read(trial, leg, run.world, run.to_s);
+  const auto at_once = commands(as_read, false);
+  const std::size_t rows = trial.time_s.size();
+  for (const char* channel : {"command_left_torque_Nm", "command_right_torque_Nm"})
+    for (std::size_t i = rows; i-- > 1;) trial.channels[channel][i] = at_once[i - 1];
+  const RecordedController late(trial, leg, run.world, run.to_s);
+  const auto at_age = commands(late, true);
+  double worst = 0.0, worst_at_once = 0.0;
+  for (std::size_t i = 3; i < rows; ++i) {
+    worst = std::max(worst, std::abs(at_age[i] - trial.channels["command_left_torque_Nm"][i]));
+    worst_at_once =
+        std::max(worst_at_once, std::abs(at_once[i] - trial.channels["command_left_torque_Nm"][i]));
+  }
+  EXPECT_GT(worst_at_once, 0.05);
+  EXPECT_LT(worst, 0.2 * worst_at_once);
 }
 
 Recordings few_hops() {

@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/report_parts.hpp"
+#include "tools/diagnose/residuals.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -87,6 +89,38 @@ double left_of(const Recordings& recordings) {
 TEST(DiagnoseMisfit, MoreThanTheNoiseIsLeftWhereSomethingIsMissing) {
   EXPECT_LT(left_of(drops(nothing)), 1.2);
   EXPECT_GT(left_of(drops(tether)), 1.5);
+}
+
+// Hum has another phase in every trial: no law of time, depth or force finds it, and it passes for noise.
+TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
+  auto recordings = presses([](double, double) { return 0.0; }, 3, 8);
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    auto& trial = recordings.trials[i];
+    auto& force = trial.channels["force_N"];
+    for (std::size_t k = 0; k < force.size(); ++k)
+      force[k] += 0.5 * std::sin(2.0 * M_PI * 50.0 * trial.time_s[k] + 2.4 * static_cast<double>(i));
+  }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "unknown_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "unknown@force_N");
+}
+
+TEST(DiagnoseMisfit, NamesThatLeaveOtherTrialsNoNearerGainNothing) {
+  const auto prepared = prepare(drops(nothing, 1, 4));
+  const Problem& problem = prepared.problem;
+  const auto gain = [&](double held_out) {
+    Residuals residuals;
+    for (const auto& trial : problem.trials) {
+      residuals.before.emplace_back(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(trial->rows.size())));
+      residuals.held_out.emplace_back(held_out * residuals.before.back());
+    }
+    return held_out_gain(problem, residuals);
+  };
+  EXPECT_GT(gain(0.9), 0.0);
+  EXPECT_EQ(gain(1.0), 0.0);
+  EXPECT_LT(gain(1.1), 0.0);
 }
 
 TEST(DiagnoseMisfit, OfSensorsThatNobodyDescribedItIsNotSaid) {
