@@ -99,7 +99,7 @@ TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
     auto& trial = recordings.trials[i];
     auto& force = trial.channels["force_N"];
     for (std::size_t k = 0; k < force.size(); ++k)
-      force[k] += 0.5 * std::sin(2.0 * M_PI * 50.0 * trial.time_s[k] + 2.4 * static_cast<double>(i));
+      force[k] += 1.0 * std::sin(2.0 * M_PI * 50.0 * trial.time_s[k] + 2.4 * static_cast<double>(i));
   }
   const auto d = diagnose(recordings);
   EXPECT_EQ(d.verdict, "unknown_physics");

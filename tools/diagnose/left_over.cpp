@@ -65,7 +65,7 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
 }
 
 std::optional<LoudChannel> loudest_channel(const Problem& problem) {
-  constexpr double kLoud = 2.0, kQuiet = 1.3;
+  constexpr double kLoud = 4.5, kQuiet = 1.3;
   std::optional<LoudChannel> loudest;
   std::size_t loud_index = 0;
   std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
