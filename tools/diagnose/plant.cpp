@@ -23,4 +23,10 @@ std::unique_ptr<PlantModel> make_plant(PlantKind kind) {
   throw std::invalid_argument("diagnose: this plant cannot be simulated");
 }
 
+double conversion_s(const Belief& belief, const std::string& channel) {
+  const double rate_Hz = belief.value("sensors.load_cell_rate_Hz");
+  const bool load_cell = channel == "force_N" || channel == "load_cell_force_N";
+  return load_cell && rate_Hz > 0.0 ? 1.0 / rate_Hz : 0.0;
+}
+
 }  // namespace sandhopper::diagnose

@@ -29,8 +29,8 @@ struct Nuisance {
   double sd = 1.0;
   double step = 0.01;  // of numerical derivatives
   std::string port{};  // where it acts, if what moves it in all trials alike can be placed by that
-  // Whether it says something where it is off by as much in all trials: not of how readings were written down,
-  // nor where nobody said how far trials differ.
+  // Whether it says something where it is off by as much in all trials: not of how readings were written
+  // down, nor where nobody said how far trials differ.
   bool may_lean = true;
   // A number of the robot, which trials may share as well as differ in (`spread_seen`): the label of the
   // effect that this is then.
@@ -123,8 +123,6 @@ class PlantModel {
   }
   // A phase in which nothing acts on what is recorded, if there is one.
   virtual std::optional<std::size_t> quiet_phase() const { return std::nullopt; }
-  // How long the converter of a channel takes over one sample, s: it may be the mean of that time or its end.
-  virtual double conversion_s(const std::string& /*channel*/, const Belief& /*belief*/) const { return 0.0; }
   // Null where the trial has nothing that can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;
@@ -164,5 +162,9 @@ class PlantModel {
 };
 
 std::unique_ptr<PlantModel> make_plant(PlantKind kind);
+
+// How long the converter of a channel takes over one sample, s: it may give the mean of that time or its end.
+// 0: not known.
+double conversion_s(const Belief& belief, const std::string& channel);
 
 }  // namespace sandhopper::diagnose

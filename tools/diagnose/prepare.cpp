@@ -242,10 +242,9 @@ Prepared prepare(const Recordings& recordings) {
     const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
     const double filter_s =
         problem.plant->filtered_in_rows(channel, problem.context.belief) ? kFilterTolerance * row_s : 0.0;
-    const double conversion_s =
-        kConversionTolerance * problem.plant->conversion_s(channel, problem.context.belief);
+    const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
     problem.tolerances.push_back(
-        {"time of " + channel, std::hypot(sampling_s, filter_s, conversion_s), channel, sampling_s});
+        {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});

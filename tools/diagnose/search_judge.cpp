@@ -68,7 +68,7 @@ bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std
   const double of_mean = 1.0 / std::sqrt(12.0), unsure = 1.5;
   return std::ranges::all_of(edits.sensors, [&](const SensorEdit& edit) {
     return edit.kind == SensorEdit::Kind::lag_s &&
-           edit.value <= unsure * of_mean * problem.plant->conversion_s(edit.channel, problem.context.belief);
+           edit.value <= unsure * of_mean * conversion_s(problem.context.belief, edit.channel);
   });
 }
 

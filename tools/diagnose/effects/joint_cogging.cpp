@@ -14,28 +14,23 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
     if (const double order = c.scale(key, 0.0); order > 0.0) orders.push_back(order);
   if (orders.empty()) return {};
   const double likeliest = orders.front();
-  return {{.name = "cogging_sin_Nm", .typical = typical, .low = -50.0 * typical, .high = 50.0 * typical},
-          {.name = "cogging_cos_Nm",
-           .typical = typical,
-           .low = -50.0 * typical,
-           .high = 50.0 * typical,
-           .amplitude = true},
+  const auto of_sine = [&](const char* name, bool amplitude) {
+    return EffectParameter{.name = name,
+                           .typical = typical,
+                           .low = -50.0 * typical,
+                           .high = 50.0 * typical,
+                           .amplitude = amplitude};
+  };
+  return {of_sine("cogging_sin_Nm", false),
+          of_sine("cogging_cos_Nm", true),
           {.name = "cogging_periods_per_rev",
            .typical = likeliest,
            .low = kFewestPeriods,
            .high = 500.0,
            .shapes = orders},
           // Of twice as many periods, beside it.
-          {.name = "cogging_second_sin_Nm",
-           .typical = typical,
-           .low = -50.0 * typical,
-           .high = 50.0 * typical,
-           .amplitude = true},
-          {.name = "cogging_second_cos_Nm",
-           .typical = typical,
-           .low = -50.0 * typical,
-           .high = 50.0 * typical,
-           .amplitude = true}};
+          of_sine("cogging_second_sin_Nm", true),
+          of_sine("cogging_second_cos_Nm", true)};
 }
 
 const EffectRegistration kEffect(

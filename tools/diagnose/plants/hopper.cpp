@@ -54,10 +54,6 @@ class Hopper final : public PlantModel {
     return std::ranges::any_of(belief.numbers,
                                [](const auto& number) { return number.first.starts_with("spread."); });
   }
-  double conversion_s(const std::string& channel, const Belief& belief) const override {
-    const double rate_Hz = belief.value("sensors.load_cell_rate_Hz");
-    return channel == "load_cell_force_N" && rate_Hz > 0.0 ? 1.0 / rate_Hz : 0.0;
-  }
   // Measured against another program: up to 0.035 at joint and rail, 0.006 at the ground and in readings.
   double simulations_differ(const std::string& port) const override {
     return port.starts_with("ground") || port == "readings" ? 0.01 : 0.05;

@@ -400,10 +400,6 @@ class Intruder final : public PlantModel {
   bool motion_is_prescribed() const override { return true; }
   bool starts_as_believed() const override { return true; }
   std::optional<std::size_t> quiet_phase() const override { return kAbove; }
-  double conversion_s(const std::string& channel, const Belief& belief) const override {
-    const double rate_Hz = belief.value("sensors.load_cell_rate_Hz");
-    return channel == "force_N" && rate_Hz > 0.0 ? 1.0 / rate_Hz : 0.0;
-  }
   std::vector<UnsureKey> unsure_keys() const override {
     return {{"unloading line of a stiffer bed", kLineFollows, 0.5}};
   }
