@@ -78,7 +78,7 @@ console.log(table(['size', ...plants.map((p) => p.name)],
 for (const plant of plants) {
   console.log(`## ${capital(plant.name)}, by effect\nCampaigns in which it is the only thing hidden.\n`);
   console.log(table(['effect', 'campaigns', 'right alone', 'right in a class', 'unknown', 'nothing missing', 'no answer', 'other names'],
-    Object.entries(plant.own.by_effect).map(([id, f]) => [`\`${id}\``, f.cases, f.right_alone, f.right_in_class, f.unknown, f.nothing_missing,
+    Object.entries(plant.own.by_effect ?? {}).map(([id, f]) => [`\`${id}\``, f.cases, f.right_alone, f.right_in_class, f.unknown, f.nothing_missing,
       f.no_answer, Object.entries(f.other_names ?? {}).map(([name, count]) => `\`${name}\` ${count}`).join(', ')])));
   console.log(`### ${capital(plant.name)}: every campaign that was not right`);
   console.log('A number after a name is its probability; = stands before what it cannot be told from.\n');
