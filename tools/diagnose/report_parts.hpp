@@ -20,7 +20,8 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
 // Where no law of free form stands out: at the port of what explains most of those on the list, `share` of
 // what is there. After report_effects.
 void report_unknown_near(double share, Diagnosis& diagnosis);
-// Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of that.
+// Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of
+// that.
 void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
