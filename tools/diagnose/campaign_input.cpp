@@ -50,8 +50,9 @@ void translate_setups(const Campaign& campaign, CampaignInput& input) {
     for (const auto& [key, value] : trial.setup)
       if (const auto meaning = meaning_of_setup(key)) meanings.emplace(key, *meaning);
   for (const auto& [key, meaning] : meanings) {
+    const std::string& usual = meaning.key;
     const bool is_told =
-        std::ranges::any_of(trials, [&](const Trial& trial) { return trial.setup.contains(meaning.key); });
+        std::ranges::any_of(trials, [&](const Trial& trial) { return trial.setup.contains(usual); });
     if (is_told) continue;
     double least = 0.0;
     if (meaning.is_ordinal) {
@@ -60,13 +61,13 @@ void translate_setups(const Campaign& campaign, CampaignInput& input) {
     }
     for (auto& trial : trials)
       if (const auto it = trial.setup.find(key); it != trial.setup.end())
-        trial.setup[meaning.key] = meaning.scale * (it->second - least);
+        trial.setup[usual] = meaning.scale * (it->second - least);
     input.findings.push_back({.kind = FindingKind::set_up,
                               .severity = FindingSeverity::note,
                               .file = campaign.file.string(),
                               .channel = key,
-                              .what = fmt::format("is taken for {}", meaning.key),
-                              .cure = fmt::format("write {} to say so", meaning.key)});
+                              .what = fmt::format("is taken for {}", usual),
+                              .cure = fmt::format("write {} to say so", usual)});
   }
 }
 
