@@ -83,12 +83,13 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
   if (!loudest) return std::nullopt;
   const auto& by_phase = problem.noise.channel(loud_index).sd_of_phase;
   const auto quiet_phase = problem.plant->quiet_phase();
-  bool sensor_alone = false;
-  if (quiet_phase)
-    sensor_alone = by_phase[*quiet_phase] > kLoud * own[loud_index];
-  else
-    for (std::size_t c = 0; c < times.size(); ++c)
-      if (c != loud_index && times[c] > 0.0) sensor_alone = times[c] < kQuiet;
+  // It is loud where nothing acts, or the other channels show nothing.
+  bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kLoud * own[loud_index];
+  if (!quiet_phase) {
+    times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
+    std::erase(times, 0.0);  // of no sensor that the belief describes
+    sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuiet; });
+  }
   const auto ports = problem.plant->free_ports(problem.context);
   if (!sensor_alone && !ports.empty())
     loudest->port = ports.front().port.substr(0, ports.front().port.find('.'));

@@ -31,12 +31,18 @@ constexpr double kUnmistakablePerRow =
 constexpr double kSmallestShare = 0.002;   // of what all effects explain
 constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
 
-// By how much this effect makes channels late. The tolerances of those channels do the same and would leave
-// the trials nothing to say. Stamps of a recorded drive that are late make what acts early.
-std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+// What one effect alone changes.
+Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
   Edits edits;
   candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  return edits;
+}
+
+// By how much this effect makes channels late. The tolerances of those channels do the same and would leave
+// the trials nothing to say. Stamps of a recorded drive that are late make what acts early.
+std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const Edits edits = edits_of(problem, hypothesis, e);
   std::map<std::string, double> delays;
   for (const auto& edit : edits.sensors)
     if (edit.kind == SensorEdit::Kind::delay_s)
@@ -61,9 +67,7 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
 // Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time:
 // as much variance in time as T^2 / 12.
 bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
-  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
-  Edits edits;
-  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  const Edits edits = edits_of(problem, hypothesis, e);
   if (edits.sensors.empty() || !edits.belief.empty() || !edits.laws.empty()) return false;
   const double of_mean = 1.0 / std::sqrt(12.0), unsure = 1.5;
   return std::ranges::all_of(edits.sensors, [&](const SensorEdit& edit) {
@@ -85,9 +89,7 @@ bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
 
 // Channels whose readings it changes; empty where it changes what happens, too.
 std::vector<std::string> channels_read(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
-  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
-  Edits edits;
-  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  const Edits edits = edits_of(problem, hypothesis, e);
   std::vector<std::string> channels;
   for (const auto& edit : edits.sensors) {
     if (!problem.context.channels.contains(edit.channel) || edit.channel.ends_with("position_rad")) return {};
