@@ -30,6 +30,48 @@ TEST(DiagnoseFallingBody, WhereTheBodyMayHaveLandedNoHeightCounts) {
   EXPECT_EQ(heights(prepare(recordings).problem), all);
 }
 
+// A ball thrown upwards with only an accelerometer on it: set-ups give a speed without saying which way. In
+// air that is known the two ways read differently; in none they read the same, and down it stays.
+TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
+  const auto thrown = [](double drag_coefficient, double believed) {
+    constexpr double kMass_kg = 0.045, kArea_m2 = 0.0113, kDensity = 1.2, kStep_s = 1e-4;
+    Recordings r;
+    r.plant = PlantKind::falling_body;
+    r.belief.numbers = {{"gravity_mps2", 9.81},
+                        {"body.mass_kg", kMass_kg},
+                        {"body.frontal_area_m2", kArea_m2},
+                        {"medium.density_kg_per_m3", kDensity},
+                        {"medium.drag_coefficient", believed},
+                        {"spread.release_speed_mps", 0.03},
+                        {"sensors.accel_noise_mps2", 0.05}};
+    for (std::size_t i = 0; i < 8; ++i) {
+      Random random(3, i);
+      Trial trial;
+      trial.name = std::to_string(i + 1);
+      trial.kind = "drop";
+      trial.setup = {{"release_height_m", 0.8}, {"release_speed_mps", 2.0 + 0.25 * static_cast<double>(i)}};
+      double h = 0.8, v = trial.setup.at("release_speed_mps");
+      for (long step = 0; h > 0.0; ++step) {
+        const double a = -0.5 * kDensity * kArea_m2 * drag_coefficient / kMass_kg * std::abs(v) * v;
+        if (step % 20 == 0) {
+          trial.time_s.push_back(kStep_s * static_cast<double>(step));
+          trial.channels["accel_mps2"].push_back(a + 0.05 * random.normal());
+        }
+        h += kStep_s * (v + 0.5 * kStep_s * (a - 9.81));
+        v += kStep_s * (a - 9.81);
+      }
+      r.trials.push_back(std::move(trial));
+      r.beliefs.push_back(r.belief);
+    }
+    return r;
+  };
+  EXPECT_EQ(diagnose(thrown(0.5, 0.5)).verdict, "consistent");
+  EXPECT_EQ(diagnose(thrown(0.0, 0.0)).verdict, "consistent");
+  const auto more = diagnose(thrown(0.75, 0.5));
+  ASSERT_EQ(more.verdict, "missing_physics");
+  EXPECT_EQ(more.effects.front().id, "air.quadratic_drag");
+}
+
 // Its drag is of another form than those on the list; a small fault of the camera makes up for that.
 TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
   auto recordings =

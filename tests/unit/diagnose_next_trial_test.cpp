@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
@@ -35,6 +36,29 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
     apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
   // Hundreds of samples settle it together; one need not.
   EXPECT_GT(apart, 0.3 * d.next.floor);
+}
+
+// Air slows the fall by a third: a planned trial lasts until the body as it is now believed lands, not four
+// times a free fall, and counts nothing below the ground.
+TEST(DiagnoseNextTrial, PlansADropThatAirSlowsUntilItLands) {
+  constexpr double kDrag_kg_per_m = 0.044, kBelieved_kg_per_m = 0.04, kMass_kg = 0.2;
+  auto recordings = drops([](double, double, double v) { return -kDrag_kg_per_m * std::abs(v) * v; });
+  recordings.belief.numbers["medium.drag_coefficient"] = kBelieved_kg_per_m / (0.5 * 1.2 * 0.01);
+  std::ranges::fill(recordings.beliefs, recordings.belief);
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.next.purpose, "split");
+  ASSERT_EQ(d.next.kind, "drop");
+  const auto& setup = d.next.setup;
+  const double height_m = setup.at("release_height_m"), speed_mps = setup.at("release_speed_mps");
+  const double mass_kg = kMass_kg + (setup.contains("payload_kg") ? setup.at("payload_kg") : 0.0);
+  double h = height_m, v = -speed_mps, landing_s = 0.0;
+  for (constexpr double kStep_s = 1e-4; h > 0.0; landing_s += kStep_s) {
+    v += kStep_s * (-9.81 - kDrag_kg_per_m * std::abs(v) * v / mass_kg);
+    h += kStep_s * v;
+  }
+  EXPECT_GT(landing_s, 1.05 * (std::sqrt(speed_mps * speed_mps + 2.0 * 9.81 * height_m) - speed_mps) / 9.81);
+  ASSERT_FALSE(d.next.time_s.empty());
+  EXPECT_NEAR(d.next.time_s.back(), landing_s, 0.1 * landing_s);
 }
 
 // A drive that acts late and a torque whose stamps are early are the same recordings, whatever is recorded.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/signal.hpp"
 
 namespace sandhopper::diagnose {
@@ -182,6 +183,26 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
         a.colPivHouseholderQr().solve(Eigen::Map<Eigen::VectorXd>(short_by.data(), a.rows()));
     EXPECT_NEAR(share[2], 0.0, 2e-4) << "stretch " << b;
   }
+}
+
+// Three clamped trials, in which torque moves nothing, say nothing of the axis' motion and are left out by name.
+TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
+  auto recordings = swings([](double, double, double) { return 0.0; });
+  for (std::size_t i = 0; i < 3; ++i) {
+    Random random(7, i);
+    Trial clamped = recordings.trials[i];
+    clamped.name += " clamped";
+    clamped.kind = "clamped";
+    for (double& angle : clamped.channels["position_rad"]) angle = 5e-4 * random.normal();
+    for (double& speed : clamped.channels["velocity_radps"]) speed = 0.02 * random.normal();
+    recordings.trials.push_back(std::move(clamped));
+    recordings.beliefs.push_back(recordings.belief);
+  }
+  const auto prepared = prepare(recordings);
+  EXPECT_EQ(prepared.problem.trials.size(), recordings.trials.size() - 3);
+  ASSERT_EQ(prepared.left_out.size(), 3u);
+  EXPECT_NE(prepared.left_out.front().find("clamped"), std::string::npos);
+  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
 }
 
 }  // namespace

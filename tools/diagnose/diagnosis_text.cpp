@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/diagnose/page/quantity.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -40,10 +42,7 @@ std::string where_text(const Where& w) {
 
 std::string next_text(const NextTrial& next) {
   if (next.kind.empty()) return next.why.empty() ? "" : "next   " + next.why + "\n";
-  std::string setup = next.kind;
-  for (const auto& [key, text] : next.words) setup += fmt::format(", {} {}", key, text);
-  for (const auto& [key, value] : next.setup) setup += fmt::format(", {} {:.4g}", key, value);
-  return fmt::format("next   {}\n       {}\n", setup, next.why);
+  return fmt::format("next   {}\n       {}\n", trial_in_words(next.kind, next.words, next.setup), next.why);
 }
 
 // The few that matter: what was looked for and is left with the widest bounds.

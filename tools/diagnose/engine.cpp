@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kSeeds = 14;
 constexpr std::size_t kManyTrials = 30, kSearchedTrials = 20;
+constexpr double kManyRows = 20'000.0;  // of all trials: what an axis of a dozen trials has
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
@@ -69,8 +70,9 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
       evidence += fmt::format(" ({}: {:.3g} typical, p {:.1e}, flip {:.3f}, gain {:.1f}{})",
                               problem.candidates[e.candidate].label(), e.typicals, e.p_value, e.flip_p_value,
                               e.gain, e.at_bound ? ", at bound" : "");
-    diagnosis.log.push_back(fmt::format("criterion {:.1f} deviance {:.1f} dispersion {:.2f} {}{} {}{}",
+    diagnosis.log.push_back(fmt::format("criterion {:.1f} deviance {:.1f} dispersion {:.2f} {}{}{} {}{}",
                                         search.criterion(f), f.fit.deviance, f.dispersion, f.rough ? "~" : "",
+                                        f.fit.status == FitStatus::failed ? "unsettled " : "",
                                         f.needed ? "needed" : "-", set_text(problem, f.set), evidence));
   }
 }
@@ -101,9 +103,11 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   search_options.most_effects = options.most_effects;
   search_options.straight = problem.plant->starts_as_believed();
   // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
-  if (!problem.plant->is_costly()) {
+  if (!problem.plant->is_costly() && problem.rows() < kManyRows) {
     search_options.fits_per_screen = 10;
     search_options.proposals = 10;
+  } else if (!problem.plant->is_costly()) {
+    search_options.proposals = 6;
   }
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));

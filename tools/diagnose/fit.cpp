@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 constexpr double kSettled = 0.01;
 constexpr int kNuisanceSteps = 3;       // of a trial at each point that is tried
 constexpr double kNuisanceGain = 0.03;  // of the deviance: less is not worth a simulation
+constexpr double kSpeedsUp = 2.0;       // an iteration may gain so many times what the last one did
 constexpr int kAttempts = 3;
 constexpr double kWorse = 1.0;     // of a trial's deviance
 constexpr double kPromise = 10.0;  // of the deviance: worth derivatives of its own
@@ -88,12 +89,13 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
 
 // The nuisances of one trial follow by themselves (Levenberg-Marquardt): each trial at its own pace.
 void settle(const Problem& problem, std::size_t t, const Edits& edits,
-            const std::vector<KeptColumns>& columns, TrialState& state) {
+            const std::vector<KeptColumns>& columns, double far_gain, TrialState& state) {
   double damping = 0.0;
   for (int step = 0; step < kNuisanceSteps; ++step) {
     const auto linear = linearise(problem, t, edits, state.nuisances, {},
                                   {.columns = &columns, .prediction = &state.prediction, .damping = damping});
-    if (state.deviance - linear.gram(0, 0) < kNuisanceGain) return;
+    const double far = state.deviance - static_cast<double>(problem.trials[t]->rows.size());
+    if (state.deviance - linear.gram(0, 0) < std::max(kNuisanceGain, far_gain * far)) return;
     TrialState next = state;
     for (std::size_t i = 0; i < next.nuisances.size(); ++i)
       next.nuisances[i] += linear.solution(static_cast<Index>(i), 0);
@@ -108,15 +110,17 @@ void settle(const Problem& problem, std::size_t t, const Edits& edits,
 // Everything that a fit moves.
 class Fitter {
  public:
-  Fitter(const Problem& problem, const Point& start, const std::vector<KeptColumns>* given)
-      : problem_(problem), given_(given != nullptr ? given : &problem.kept_columns) {
+  Fitter(const Problem& problem, const Point& start, const FitOptions& options)
+      : problem_(problem),
+        given_(options.columns != nullptr ? options.columns : &problem.kept_columns),
+        far_gain_(options.far_gain) {
     at_.point = start;
     at_.trials.resize(problem.trials.size());
     const Edits edits = edits_for(problem, start.hypothesis, start.tolerances);
     each_trial([&](std::size_t t) {
       at_.trials[t].nuisances = start.nuisances[t];
       evaluate(problem_, t, edits, at_.trials[t]);
-      if (!given_->empty()) settle(problem_, t, edits, columns(), at_.trials[t]);
+      if (!given_->empty()) settle(problem_, t, edits, columns(), far_gain_, at_.trials[t]);
     });
     finish(at_);
     if (given_->empty()) refresh();
@@ -158,12 +162,12 @@ class Fitter {
         for (std::size_t i = 0; i < trial.nuisances.size(); ++i)
           trial.nuisances[i] += follow[static_cast<Index>(i)];
         evaluate(problem_, t, moved, trial);
-        settle(problem_, t, moved, columns(), trial);
+        settle(problem_, t, moved, columns(), far_gain_, trial);
         if (trial.deviance < at_.trials[t].deviance + kWorse) return;
         // This one was led astray: from where it was.
         TrialState other{at_.trials[t].nuisances, {}, 0.0};
         evaluate(problem_, t, moved, other);
-        settle(problem_, t, moved, columns(), other);
+        settle(problem_, t, moved, columns(), far_gain_, other);
         if (other.deviance < trial.deviance) trial = std::move(other);
       });
       finish(next);
@@ -220,6 +224,7 @@ class Fitter {
 
   const Problem& problem_;
   const std::vector<KeptColumns>* given_;
+  double far_gain_;
   At at_;
   std::vector<KeptColumns> own_columns_;
   double damping_ = 1e-3;
@@ -285,7 +290,7 @@ VectorXd prior_information(const Problem& problem, const Point& point) {
 }
 
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
-  Fitter fitter(problem, start, options.columns);
+  Fitter fitter(problem, start, options);
   Fit fit;
   const bool far = problem.kept_columns.empty();  // from where anything was known
   const auto may_refresh = [&] { return options.refresh && !far && !fitter.refreshed(); };
@@ -298,6 +303,9 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
     if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
       const bool short_of = fitter.promised > kPromise && drop < 0.5 * fitter.promised;
       if (far || (short_of && may_refresh())) fitter.refresh();
+      if (fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
+          options.of_use_below)
+        break;
       continue;
     }
     // Perhaps only the kept derivatives are stale.

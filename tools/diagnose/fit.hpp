@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tools/diagnose/linearise.hpp"
@@ -30,6 +31,11 @@ struct FitOptions {
   double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
   bool refresh = true;     // once steps fall short, go on with derivatives by the nuisances made there
   const std::vector<KeptColumns>* columns = nullptr;  // until then; the problem's own where not given
+  // Of what a trial is off beyond its rows: nuisances that would follow for less stay.
+  double far_gain = 0.0;
+  // Of the deviance: what could not come below it if each iteration left gained twice what the last one did
+  // is given up.
+  double of_use_below = std::numeric_limits<double>::infinity();
 };
 
 // From `start`; its nuisances and tolerances are kept as starting values.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/sign_smooth.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -27,7 +28,7 @@ double velocity_of(const PortState& s) { return s.velocity; }
 double fallen_of(const PortState& s) { return s.extreme - s.position; }
 double since_turn_of(const PortState& s) { return std::abs(s.position - s.extreme); }
 double load_of(const PortState& s) { return s.load; }
-double direction_of(const PortState& s) { return std::tanh(s.velocity / 0.02); }
+double direction_of(const PortState& s) { return sign_smooth(s.velocity, 0.02); }
 double virgin(const PortState& s) { return s.accel; }
 double not_virgin(const PortState& s) { return 1.0 - s.accel; }
 double virgin_load(const PortState& s) { return s.accel * s.load / 20.0; }

@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/page/quantity.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {
@@ -38,13 +37,6 @@ std::vector<std::size_t> shown_trials(const Problem& problem, const Residuals& r
   return shown;
 }
 
-std::string in_words(const Trial& trial) {
-  std::string text = trial.kind;
-  for (const auto& [key, value] : trial.setup)
-    if (key != "session") text += fmt::format(", {} {:.4g}", key, value);
-  return text;
-}
-
 }  // namespace
 
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
@@ -53,7 +45,7 @@ void report_traces(const Problem& problem, const Recordings& recordings, const R
     const TrialModel& model = *problem.trials[t];
     std::string setup;
     for (const auto& trial : recordings.trials)
-      if (trial.name == model.name) setup = in_words(trial);
+      if (trial.name == model.name) setup = trial_in_words(trial.kind, {}, trial.setup);
     for (std::uint32_t c = 0; c < problem.channels.size(); ++c) {
       if (!problem.context.has(problem.channels[c])) continue;
       std::vector<std::size_t> rows;

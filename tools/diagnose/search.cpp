@@ -26,7 +26,9 @@ constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what more 
 
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
+constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
 constexpr double kRival = 20.0;                                // of the criterion
+constexpr double kUnsettled = 1e-5;    // of what is explained: a rough fit may be short by so much
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
@@ -93,6 +95,7 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
   result.rough = true;
   FitOptions rough = kRough;
   rough.columns = columns_for(from.set);
+  rough.of_use_below = from.fit.deviance;
   result.fit = fit_at(start, rough);
   // A second start where the first got nowhere near what its linear approximation promised, if that would
   // pay.
@@ -167,10 +170,13 @@ void Search::evaluate_straight(const SetFit& from) {
     SetFit result;
     result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
     result.fit = fit_at(order[i]->start, {.max_iterations = kRough.max_iterations, .columns = &columns});
+    result.rough = true;
     // Nuisances have far to go: no rough fit of what comes near.
     if (result.fit.status == FitStatus::failed &&
-        result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest))
+        result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest)) {
       result.fit = fit_at(Point(result.fit.point), {.columns = &columns});
+      result.rough = false;
+    }
     closest = std::min(closest, result.fit.deviance);
     const auto known = sets_.find(result.set);
     if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
@@ -210,6 +216,7 @@ const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_
 
 Fit Search::fit_at(const Point& start, FitOptions options) const {
   if (options.columns == nullptr) options.columns = columns_for(start.hypothesis.candidates);
+  options.far_gain = kFarGain;
   options.tolerance *= dispersion_;  // a gain counts by what it is between trials
   return fit_from(*problem_, start, options);
 }
@@ -223,7 +230,9 @@ void Search::finish(SetFit& fit) const {
 // What competes with the best must not lose only because it was fitted roughly and stopped short of what it
 // might explain: one that comes out ahead is the best, or without what it does not need.
 void Search::finish_rivals() {
-  const double best_so_far = criterion(best()), limit = best_so_far + kRival;
+  const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
+  const double best_so_far = criterion(best()),
+               limit = best_so_far + std::max(kRival, kUnsettled * explained);
   bool ahead = false;
   for (auto& [set, fit] : sets_) {
     if (!fit.rough || set.size() > best_.size() ||
@@ -410,7 +419,9 @@ bool Search::try_proposals() {
     fit.set = set;
     Point start = from;
     start.hypothesis = proposal.start;
-    fit.fit = fit_at(start);
+    const double effects = static_cast<double>(best_.size()) - static_cast<double>(set.size());
+    fit.fit = fit_at(start, {.of_use_below = best().fit.deviance +
+                                             (kRival + cost * std::max(0.0, effects)) * dispersion_});
     if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
     sets_[set] = std::move(fit);
     tried = true;

@@ -14,8 +14,8 @@ Json added_mass(Bed& b, double size, Random&) {
   return {{"added_mass_kg", b.hidden.added_mass_kg}, {"growth_depth_m", b.hidden.added_mass_depth_m}};
 }
 
-// Resistances to speed grow with the foot's area: sizes are those of a foot of 40 mm, what is told is what acts
-// on this one.
+// Resistances to speed grow with the foot's area: sizes are those of a foot of 40 mm, what is told is what
+// acts on this one.
 double share_of_area(const Bed& b) { return std::pow(b.foot_radius_m / 0.04, 2); }
 
 Json quadratic(Bed& b, double size, Random&) {

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "tools/diagnose/effect.hpp"
+#include "tools/diagnose/sign_smooth.hpp"
 
 // What effects share.
 namespace sandhopper::diagnose {
 
 inline constexpr double kSwitchSpeed_mps = 0.01;  // of friction laws: below it they fade through zero
-
-inline double sign_smooth(double velocity, double switch_speed) { return std::tanh(velocity / switch_speed); }
 
 inline std::vector<std::string> present(const Context& context, std::initializer_list<const char*> channels) {
   std::vector<std::string> found;

@@ -184,13 +184,7 @@ StudyAnswer what_next(const Diagnosis& d) {
     if (!d.next.why.empty()) box.lines.emplace_back(Style::text, d.next.why);
     return box;
   }
-  std::string setup = d.next.kind;
-  for (const auto& [key, text] : d.next.words) setup += ", " + text;
-  for (const auto& [key, value] : d.next.setup) {
-    const auto q = quantity_of(key);
-    setup += fmt::format(", {} {}{}", q.words, number(value), q.unit.empty() ? "" : " " + q.unit);
-  }
-  box.lines.emplace_back(Style::lead, setup);
+  box.lines.emplace_back(Style::lead, trial_in_words(d.next.kind, d.next.words, d.next.setup));
   box.lines.emplace_back(Style::text, d.next.why);
   return box;
 }

@@ -57,6 +57,18 @@ Quantity quantity_of(const std::string& key) {
   return q;
 }
 
+std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,
+                           const std::map<std::string, double>& setup) {
+  std::string text = kind;
+  for (const auto& [key, word] : words) text += ", " + word;
+  for (const auto& [key, value] : setup) {
+    if (key == "session") continue;
+    const auto q = quantity_of(key);
+    text += fmt::format(", {} {}{}", q.words, number(value), q.unit.empty() ? "" : " " + q.unit);
+  }
+  return text;
+}
+
 std::string number(double value) {
   const double magnitude = std::abs(value);
   if (magnitude > 0.0 && (magnitude < 1e-3 || magnitude >= 1e5)) return fmt::format("{:.3g}", value);

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 
 namespace sandhopper::diagnose {
@@ -11,6 +12,11 @@ struct Quantity {
   std::string label() const { return unit.empty() ? words : words + ", " + unit; }
 };
 Quantity quantity_of(const std::string& key);
+
+// A trial for a reader: "drop, release height 2 m, payload 0.1 kg"; the session says nothing about what was
+// done.
+std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,
+                           const std::map<std::string, double>& setup);
 
 // Four digits, no zeros at the end, no exponent between 0.001 and 100,000.
 std::string number(double value);

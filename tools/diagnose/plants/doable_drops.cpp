@@ -18,8 +18,16 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
               const Drop& drop) {
   const double g = belief.value("gravity_mps2", 9.81);
   const double duration_s = std::min(kLongest_s, 4.0 * std::sqrt(2.0 * drop.height_m / g));
+  const double ground_m = belief.value("bed.surface_height_m");
+  const bool bed = belief.value("bed.stiffness_N_per_m") > 0.0;
+  // Where no bed stops the body the guess stays aloft: a recording counts only until it lands, and what slows
+  // the fall brings it down later than a free fall.
+  const auto guess_m = [&](double t) {
+    const double free_m = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
+    return bed ? free_m : std::max(free_m, ground_m + 0.5 * (drop.height_m - ground_m));
+  };
   Trial trial = recorded_like(sample, duration_s, [&](const std::string& channel, double t) {
-    return channel == "height_m" ? drop.height_m - drop.speed_mps * t - 0.5 * g * t * t : 0.0;
+    return channel == "height_m" ? guess_m(t) : 0.0;
   });
   trial.setup = {{"release_height_m", drop.height_m}, {"release_speed_mps", drop.speed_mps}};
   if (drop.payload_kg > 0.0) trial.setup["payload_kg"] = drop.payload_kg;
@@ -27,17 +35,12 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   // A height is always simulated, for it says when the fall ends.
   Trial with_height = trial;
   auto& heights = with_height.channels["height_m"];
-  for (std::size_t i = 0; i < trial.time_s.size(); ++i) {
-    const double t = trial.time_s[i];
-    if (heights.size() <= i) heights.push_back(0.0);
-    heights[i] = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
-  }
+  heights.resize(trial.time_s.size());
+  std::ranges::transform(trial.time_s, heights.begin(), guess_m);
   const auto model = plant.trial(with_height, belief, why);
   if (!model) return {};
   std::vector<double> predicted(model->rows.size());
   model->predict(edits, std::vector<double>(model->nuisance_count(), 0.0), predicted);
-  const double ground_m = belief.value("bed.surface_height_m");
-  const bool bed = belief.value("bed.stiffness_N_per_m") > 0.0;
   double end_s = duration_s;
   const auto channels = plant.channels();
   for (std::size_t k = 1; k < model->rows.size(); ++k)

@@ -4,6 +4,7 @@
 
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
+#include "tools/diagnose/sign_smooth.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -26,7 +27,7 @@ struct Axis {
   double passive_Nm(double t_s, double angle, double speed, double drive_Nm) const {
     return sum_of(laws, {.time_s = t_s, .position = angle, .velocity = speed, .load = drive_Nm}) -
            is.gravity_torque_Nm * std::sin(angle - is.bottom_rad) - is.viscous_Nm_s * speed -
-           is.coulomb_Nm * std::tanh(speed / is.switch_speed_radps);
+           is.coulomb_Nm * sign_smooth(speed, is.switch_speed_radps);
   }
 };
 

@@ -25,6 +25,7 @@ constexpr double kUnknownImpact_m = 0.05;  // of a stop that is simulated apart 
 constexpr double kUnknownImpact_mps = 0.3;
 constexpr double kUnknownBias_mps2 = 0.08;
 constexpr double kLongestRow_s = 4e-3;
+constexpr double kSinks = 0.5;       // of the speed of a free fall
 constexpr double kUnknownBed = 0.3;  // of its stiffness from place to place
 constexpr double kLanded = 4.0;      // standard deviations of the height's noise
 constexpr double kLetGo_s = 0.05;    // after a release that only the fall's growth shows
@@ -85,6 +86,7 @@ class FallingTrial final : public TrialModel {
     add_rows(0, heights);
     add_rows(1, accels);
     if (touchdown_nuisance_ >= 0) rows.push_back({2, 0, kBed, touchdown_s_, 0.0});
+    if (heights.empty() && start_speed_mps_ < 0.0 && impact_s_ < 0.0) choose_direction();
     label_rows();
   }
 
@@ -190,7 +192,8 @@ class FallingTrial final : public TrialModel {
       for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
     }
     start_height_m_ = told ? trial.setup_or("release_height_m", 0.0) : seen;
-    // Downward, as one writes it down for a drop, unless the heights rise.
+    // Downward, as one writes it down for a drop, unless the heights rise (or the air says so:
+    // choose_direction).
     const double told_mps =
         std::abs(trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0)));
     const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
@@ -259,6 +262,23 @@ class FallingTrial final : public TrialModel {
       times.push_back(samples.time_s[i]);
       rows.push_back({channel, 0, kSlow, samples.time_s[i], samples.value[i]});
     }
+  }
+
+  // Without heights only what the air does tells a throw upwards from one downwards: the simulation that
+  // comes clearly nearer.
+  void choose_direction() {
+    constexpr double kClearly = 0.7;  // of the squares
+    const std::vector<double> nothing(nuisance_count(), 0.0);
+    std::vector<double> predicted(rows.size());
+    const auto squares = [&] {
+      predict({}, nothing, predicted);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < rows.size(); ++k) sum += std::pow(rows[k].measured - predicted[k], 2);
+      return sum;
+    };
+    const double down = squares();
+    start_speed_mps_ = -start_speed_mps_;
+    if (!(squares() < kClearly * down)) start_speed_mps_ = -start_speed_mps_;
   }
 
   // Heights are over the ground where a release's is: within their noise of it the body may lie there.
@@ -420,6 +440,19 @@ class FallingTrial final : public TrialModel {
   std::vector<double> height_times_, accel_times_;
 };
 
+// Mean over a tenth of a trial, where that was fastest; 0 without heights.
+double fastest_recorded_mps(const std::vector<Trial>& trials) {
+  double fastest = 0.0;
+  for (const auto& trial : trials) {
+    const auto heights = samples_of(trial, "height_m");
+    const std::size_t apart = std::max<std::size_t>(1, heights.value.size() / 10);
+    for (std::size_t i = apart; i < heights.value.size(); ++i)
+      fastest = std::max(fastest, std::abs(heights.value[i] - heights.value[i - apart]) /
+                                      (heights.time_s[i] - heights.time_s[i - apart]));
+  }
+  return fastest;
+}
+
 class FallingBody final : public PlantModel {
  public:
   std::vector<std::string> channels() const override { return {"height_m", "accel_mps2", "touchdown_s"}; }
@@ -446,7 +479,9 @@ class FallingBody final : public PlantModel {
     double drop_m = 0.0;
     if (const auto it = context.channels.find("height_m"); it != context.channels.end())
       drop_m = it->second.high - it->second.low;
-    const double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
+    double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
+    // What sinks slowly is never as fast as a fall from there.
+    if (const double seen = fastest_recorded_mps(trials); seen > 0.0 && seen < kSinks * speed) speed = seen;
     context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
     context.scales["speed_mps"] = std::max(speed, 0.1);
     context.scales["duration_s"] = longest_s;

@@ -38,7 +38,7 @@ struct HopperRun {
   double cable_force_N = 0.0;
   double torque_constant_factor = 1.0;
   double motor_temperature_C = 25.0;
-  PlantState start{};  // its angle as the encoder reads it
+  PlantState start{};     // its angle as the encoder reads it
   double crater_m = 0.0;  // deepest point of earlier strides
   BedHistory bed_history{};
   double from_s = 0.0, to_s = 1.0;

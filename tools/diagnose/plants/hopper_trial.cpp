@@ -360,7 +360,10 @@ class HopperTrial final : public TrialModel {
     sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
     spans_[c].assign(blocks, {});
     // The believed controller is that of a hop: what holds a leg still is not written down.
-    if (trial.kind == "hold" && (c == kLeftCommand || c == kRightCommand)) return;
+    // Nor is a command held against a speed that was not recorded: exact to its digits, it would show every
+    // hundredth of a radian per second by which a simulation is off.
+    const bool command = c == kLeftCommand || c == kRightCommand;
+    if (command && (trial.kind == "hold" || !controller_.measured())) return;
     const auto samples = samples_of(trial, kSources[c].channel);
     if (samples.value.size() < 10) return;
     auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));
@@ -447,6 +450,13 @@ class HopperTrial final : public TrialModel {
       phi.values.push_back(run.angle_rad.at(row.time_s));
       time.values.push_back(row.time_s);
       row.phase = window_at(row.time_s);
+      // Aloft the controller damps what it measures of the speed, noise and all, on the ground it does not:
+      // the commands change at the instants themselves, not around them.
+      if (row.channel == kLeftCommand || row.channel == kRightCommand) {
+        const bool aloft = phase_at(course_.phases, row.time_s) == HopperPhase::flight;
+        if (row.phase == kTouchdown && aloft) row.phase = kFlight;
+        if (row.phase == kLiftoff && !aloft) row.phase = kExtension;
+      }
     }
     coordinates = {std::move(z), std::move(v), std::move(a), std::move(phi), std::move(time)};
   }

@@ -11,13 +11,14 @@
 #include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
+#include "tools/diagnose/sign_smooth.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kBlock_s = 0.5;
 constexpr double kMostRows = 3000.0;    // of a channel
-constexpr double kLong_s = 10.0;        // a recording this long is simulated in longer steps
+constexpr double kLong_s = 4.0;         // a recording this long is simulated in longer steps
 constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
 constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
 // Seconds and rows without torque: nothing is simulated over them.
@@ -44,6 +45,20 @@ bool without_noise_alone(Samples& torque) {
   std::ranges::fill(torque.value, std::abs(mean) < 3.0 * sd / std::sqrt(n) ? 0.0 : mean);
   return true;
 }
+
+// Sines of angles near one: a step of the simulation asks for several. Good to 2e-9.
+class NearbySine {
+ public:
+  explicit NearbySine(double angle) : at_(angle), sine_(std::sin(angle)), cosine_(std::cos(angle)) {}
+  double operator()(double angle) const {
+    const double d = angle - at_, q = d * d;
+    if (q > 0.01) return std::sin(angle);
+    return sine_ * (1.0 - q * (0.5 - q / 24.0)) + cosine_ * d * (1.0 - q * (1.0 / 6.0 - q / 120.0));
+  }
+
+ private:
+  double at_, sine_, cosine_;
+};
 
 // Whether a speed is an encoder's own estimate, or of whatever else measures it.
 bool speed_of_encoder(const Belief& belief) {
@@ -333,9 +348,9 @@ class RotaryTrial final : public TrialModel {
     // Friction near rest is stiff: its own rate limits the step.
     const double stiffness_per_s = f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
     const double slow_steps = std::ceil(step_s_ * stiffness_per_s / 1.5);
-    const auto accel = [&](double t, double torque_Nm, double angle, double speed) {
-      double sum = torque_Nm - f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
-      if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
+    const auto accel = [&](const NearbySine& sine, double t, double torque_Nm, double angle, double speed) {
+      double sum = torque_Nm - f.gravity_torque_Nm * sine(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
+      if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
       if (!laws.empty())
         sum += sum_of(
             laws,
@@ -352,7 +367,7 @@ class RotaryTrial final : public TrialModel {
                                                      : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
     };
     // A reading that is late shows at first what was before: what a steady acceleration leads there from.
-    const double first = accel(s.from_s, torque_at(s.from_s), th, w);
+    const double first = accel(NearbySine(th - f.bottom_rad), s.from_s, torque_at(s.from_s), th, w);
     for (std::size_t i = 0; i < lead_in; ++i) {
       const double t = -step_s_ * static_cast<double>(lead_in - i);
       position.values[i] = th + t * (w + 0.5 * t * first);
@@ -370,10 +385,11 @@ class RotaryTrial final : public TrialModel {
       for (int k = 0; k < parts; ++k) {
         const double t = t0 + dt * k, half = 0.5 / parts;
         const double middle = tau + rise * ((k + 0.5) / parts - 0.5);
-        const double a1 = accel(t, middle - half * rise, th, w);
-        const double a2 = accel(t, middle, th + 0.5 * dt * w, w + 0.5 * dt * a1);
-        const double a3 = accel(t, middle, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
-        const double a4 = accel(t, middle + half * rise, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
+        const NearbySine sine(th - f.bottom_rad);
+        const double a1 = accel(sine, t, middle - half * rise, th, w);
+        const double a2 = accel(sine, t, middle, th + 0.5 * dt * w, w + 0.5 * dt * a1);
+        const double a3 = accel(sine, t, middle, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
+        const double a4 = accel(sine, t, middle + half * rise, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
         th += dt * (w + dt * (a1 + a2 + a3) / 6.0);
         w += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
         w = std::clamp(w, -1e4, 1e4);
@@ -430,6 +446,10 @@ class RotaryAxis final : public PlantModel {
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
+    if (trial.kind == "clamped") {
+      why = "the axis is clamped: what only its torque would show is not predicted";
+      return nullptr;
+    }
     auto model = std::make_unique<RotaryTrial>(trial, belief);
     if (model->rows.size() >= 20) return model;
     why = "needs torque_Nm, and position_rad or velocity_radps";

@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
+#include "tools/diagnose/sign_smooth.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -62,7 +63,7 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
     const double angle = at.value[i], speed = at.rate[i], tau = acting.value[i];
     if (std::abs(speed) < kMoves * f.switch_speed_radps) continue;
     const double needed = f.inertia_kg_m2 * accel[i] + f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) +
-                          f.viscous_Nm_s * speed + f.coulomb_Nm * std::tanh(speed / f.switch_speed_radps);
+                          f.viscous_Nm_s * speed + f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
     balance.rest.push_back(needed - tau);
     balance.states.push_back({.time_s = position.time_s[i],
                               .position = angle,
