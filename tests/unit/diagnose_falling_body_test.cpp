@@ -72,6 +72,17 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
   EXPECT_EQ(more.effects.front().id, "air.quadratic_drag");
 }
 
+// A typical drag takes a tenth of the weight at the speed that was reached: not that of a fall where a body
+// sinks.
+TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
+  const auto speed_mps = [](double drag_N_s_per_m) {
+    const auto sinking = drops([=](double, double, double v) { return -drag_N_s_per_m * v; });
+    return prepare(sinking).problem.context.scale("speed_mps");
+  };
+  EXPECT_NEAR(speed_mps(0.0), std::sqrt(2.0 * 9.81 * 7.0), 0.3);
+  EXPECT_NEAR(speed_mps(1.0), 0.2 * 9.81, 0.1);
+}
+
 // Its drag is of another form than those on the list; a small fault of the camera makes up for that.
 TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
   auto recordings =

@@ -83,6 +83,43 @@ TEST(DiagnoseHopper, AnotherStiffnessOfTheControllerShowsInTheCommandsAlone) {
   EXPECT_LT(largest_error(trial, "motor_left_current_A", true_stiffness), 0.5);
 }
 
+// The row of each command with the phase whose noise it has.
+std::vector<std::pair<double, std::string>> command_rows(const Trial& trial) {
+  std::string why;
+  const auto plant = make_plant(PlantKind::hopper);
+  const auto channels = plant->channels(), phases = plant->phases();
+  const auto model = plant->trial(trial, Belief{}, why);
+  EXPECT_NE(model, nullptr) << why;
+  std::vector<std::pair<double, std::string>> rows;
+  for (const Row& row : model->rows)
+    if (channels[row.channel].starts_with("command_")) rows.emplace_back(row.time_s, phases[row.phase]);
+  return rows;
+}
+
+// Around an impact a sensor's noise is another one. A command's is not: damped aloft, exact on the ground.
+TEST(DiagnoseHopper, ACommandHasTheNoiseOfTheControllersOwnPhase) {
+  const auto rows = command_rows(hop(3));
+  ASSERT_GT(rows.size(), 100u);
+  for (const auto& [t, phase] : rows) {
+    const char* expected = t < 0.0895               ? "flight"
+                           : t > 0.0905 && t < 0.1  ? "touchdown"
+                           : t > 0.3 && t < 0.3595  ? "extension"
+                           : t > 0.3605 && t < 0.37 ? "liftoff"
+                                                    : nullptr;
+    if (expected != nullptr) {
+      EXPECT_EQ(phase, expected) << t;
+    }
+  }
+}
+
+// Without a recorded speed what is commanded aloft follows from the simulation's own, to a digit too many.
+TEST(DiagnoseHopper, WithoutASpeedCommandsAreNoEvidence) {
+  Trial trial = hop(3);
+  for (const char* side : {"left", "right"})
+    trial.channels.erase("motor_" + std::string(side) + "_velocity_radps");
+  EXPECT_TRUE(command_rows(trial).empty());
+}
+
 TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
   const auto world = world_of(Belief{}, {});
   const auto late = [&](double switch_s) {

@@ -30,5 +30,27 @@ TEST(DiagnoseLawFit, ALawOfFreeFormIsFittedThroughTheSimulation) {
             0.05 * deviance_of(problem, null.point, problem.channels));
 }
 
+// A fit takes several iterations from the null; what is worse than would be of use whatever it still gains is
+// left where it is, and what may come below is not.
+TEST(DiagnoseLawFit, WhatCannotComeNearIsGivenUp) {
+  const Problem problem =
+      prepare(swings([](double, double velocity, double) { return -0.08 * velocity; }, 1, 4)).problem;
+  Point start = null_point(problem);
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c)
+    if (problem.candidates[c].label() == "axis.viscous") {
+      start.hypothesis.candidates = {c};
+      start.hypothesis.values = {{0.3}};
+    }
+  ASSERT_EQ(start.hypothesis.candidates.size(), 1u);
+  const Fit whole = fit_from(problem, start);
+  ASSERT_EQ(whole.status, FitStatus::converged);
+  EXPECT_NEAR(whole.point.hypothesis.values.front().front(), 0.08, 2e-3);
+  const Fit given_up = fit_from(problem, start, {.of_use_below = -1e12});
+  EXPECT_EQ(given_up.status, FitStatus::failed);
+  EXPECT_LT(given_up.iterations, whole.iterations);
+  const Fit of_use = fit_from(problem, start, {.of_use_below = whole.deviance + 1.0});
+  EXPECT_EQ(of_use.deviance, whole.deviance);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

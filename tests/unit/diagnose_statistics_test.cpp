@@ -10,11 +10,19 @@
 #include "tools/diagnose/noise_model.hpp"
 #include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/sign_smooth.hpp"
 #include "tools/diagnose/signal.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
+
+TEST(DiagnoseStatistics, ASmoothSignIsTheHyperbolicTangent) {
+  for (double x = -12.0; x <= 12.0; x += 0.01)
+    EXPECT_NEAR(sign_smooth(0.02 * x, 0.02), std::tanh(x), 4e-8) << x;
+  EXPECT_EQ(sign_smooth(1e300, 0.02), 1.0);
+  EXPECT_EQ(sign_smooth(-1e300, 0.02), -1.0);
+}
 
 TEST(DiagnoseStatistics, StudentTailsAreThoseOfTables) {
   EXPECT_NEAR(student_t_two_sided(2.228, 10.0), 0.05, 1e-4);

@@ -294,18 +294,17 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
   Fit fit;
   const bool far = problem.kept_columns.empty();  // from where anything was known
   const auto may_refresh = [&] { return options.refresh && !far && !fitter.refreshed(); };
-  bool done = false;
+  bool done = false, given_up = false;
   double last_drop = 0.0;  // of the deviance, relative
-  for (fit.iterations = 0; fit.iterations < options.max_iterations && !done; ++fit.iterations) {
+  for (fit.iterations = 0; fit.iterations < options.max_iterations && !done && !given_up; ++fit.iterations) {
     const double drop = fitter.step(0.5 * options.tolerance);
     fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
       const bool short_of = fitter.promised > kPromise && drop < 0.5 * fitter.promised;
       if (far || (short_of && may_refresh())) fitter.refresh();
-      if (fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
-          options.of_use_below)
-        break;
+      given_up = fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
+                 options.of_use_below;
       continue;
     }
     // Perhaps only the kept derivatives are stale.
@@ -317,7 +316,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
   fit.trial_deviance = fitter.trial_deviance();
   fit.information = fitter.information;
   // Out of iterations is a failure only where the last one still gained much.
-  const bool settled = done || last_drop < kSettled;
+  const bool settled = done || (!given_up && last_drop < kSettled);
   fit.status = !settled ? FitStatus::failed : fitter.bounded ? FitStatus::at_bound : FitStatus::converged;
   if (!std::isfinite(fit.deviance)) fit.status = FitStatus::failed;
   return fit;

@@ -419,9 +419,7 @@ bool Search::try_proposals() {
     fit.set = set;
     Point start = from;
     start.hypothesis = proposal.start;
-    const double effects = static_cast<double>(best_.size()) - static_cast<double>(set.size());
-    fit.fit = fit_at(start, {.of_use_below = best().fit.deviance +
-                                             (kRival + cost * std::max(0.0, effects)) * dispersion_});
+    fit.fit = fit_at(start, {.of_use_below = limit + kRival * dispersion_});
     if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
     sets_[set] = std::move(fit);
     tried = true;
