@@ -3,8 +3,8 @@
 
 namespace sandhopper::diagnose {
 
-// tanh(velocity / switch_speed), good to the rounding of 1; a library's keeps the digits of small ones as
-// well, which no friction needs, and takes three times as long.
+// tanh(velocity / switch_speed), good to 3e-8; a library's keeps the digits of small ones as well, which no
+// friction needs, and takes three times as long.
 inline double sign_smooth(double velocity, double switch_speed) {
   const double x = velocity / switch_speed;
   if (std::abs(x) > 9.0) return std::copysign(1.0, x);

@@ -88,6 +88,7 @@ enum Source : std::size_t {
   kTof,
   kLoadCell
 };
+constexpr bool is_command(std::size_t source) { return source == kLeftCommand || source == kRightCommand; }
 
 class HopperTrial final : public TrialModel {
  public:
@@ -269,7 +270,7 @@ class HopperTrial final : public TrialModel {
 
   void read_channel(const WorldConfig& world, const HopperTraces& traces, const Edits& edits,
                     std::span<const double> n, std::size_t c, const Span& span, std::span<double> at) const {
-    if (const bool command = c == kLeftCommand || c == kRightCommand; command && controller_.measured()) {
+    if (is_command(c) && controller_.measured()) {
       read_command(world, edits, span, at);
       return;
     }
@@ -362,8 +363,7 @@ class HopperTrial final : public TrialModel {
     // The believed controller is that of a hop: what holds a leg still is not written down.
     // Nor is a command held against a speed that was not recorded: exact to its digits, it would show every
     // hundredth of a radian per second by which a simulation is off.
-    const bool command = c == kLeftCommand || c == kRightCommand;
-    if (command && (trial.kind == "hold" || !controller_.measured())) return;
+    if (is_command(c) && (trial.kind == "hold" || !controller_.measured())) return;
     const auto samples = samples_of(trial, kSources[c].channel);
     if (samples.value.size() < 10) return;
     auto ages = ages_s(trial, kSources[c].channel, rate_Hz(c));
@@ -452,7 +452,7 @@ class HopperTrial final : public TrialModel {
       row.phase = window_at(row.time_s);
       // Aloft the controller damps what it measures of the speed, noise and all, on the ground it does not:
       // the commands change at the instants themselves, not around them.
-      if (row.channel == kLeftCommand || row.channel == kRightCommand) {
+      if (is_command(row.channel)) {
         const bool aloft = phase_at(course_.phases, row.time_s) == HopperPhase::flight;
         if (row.phase == kTouchdown && aloft) row.phase = kFlight;
         if (row.phase == kLiftoff && !aloft) row.phase = kExtension;
