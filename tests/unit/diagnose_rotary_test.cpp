@@ -185,7 +185,8 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
   }
 }
 
-// Three clamped trials, in which torque moves nothing, say nothing of the axis' motion and are left out by name.
+// Three clamped trials, in which torque moves nothing, say nothing of the axis' motion and are left out by
+// name.
 TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
   auto recordings = swings([](double, double, double) { return 0.0; });
   for (std::size_t i = 0; i < 3; ++i) {
