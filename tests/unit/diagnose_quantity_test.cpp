@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/plants/nearby_sine.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/signal.hpp"
 
@@ -183,6 +184,12 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
         a.colPivHouseholderQr().solve(Eigen::Map<Eigen::VectorXd>(short_by.data(), a.rows()));
     EXPECT_NEAR(share[2], 0.0, 2e-4) << "stretch " << b;
   }
+}
+
+TEST(DiagnoseRotary, ANearbySineIsTheSine) {
+  for (const double at : {-3.0, -0.4, 0.0, 1.5, 40.0})
+    for (double d = -0.3; d <= 0.3; d += 1e-3)
+      EXPECT_NEAR(NearbySine(at)(at + d), std::sin(at + d), 2e-9) << at;
 }
 
 // Three clamped trials, in which torque moves nothing, say nothing of the axis' motion and are left out by

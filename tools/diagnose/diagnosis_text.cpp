@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

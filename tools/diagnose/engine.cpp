@@ -103,12 +103,8 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   search_options.most_effects = options.most_effects;
   search_options.straight = problem.plant->starts_as_believed();
   // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
-  if (!problem.plant->is_costly() && problem.rows() < kManyRows) {
-    search_options.fits_per_screen = 10;
-    search_options.proposals = 10;
-  } else if (!problem.plant->is_costly()) {
-    search_options.proposals = 6;
-  }
+  if (!problem.plant->is_costly())
+    search_options.fits_per_screen = search_options.proposals = problem.rows() < kManyRows ? 10 : 6;
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
   // Where next to nothing else is seen and the recordings' balances may say at once what it is, a search

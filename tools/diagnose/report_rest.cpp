@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
 namespace sandhopper::diagnose {

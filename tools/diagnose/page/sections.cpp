@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tools/diagnose/page/diagnosis_page.hpp"
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

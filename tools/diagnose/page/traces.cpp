@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "tools/diagnose/page/diagnosis_page.hpp"
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

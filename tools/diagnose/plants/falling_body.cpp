@@ -440,19 +440,6 @@ class FallingTrial final : public TrialModel {
   std::vector<double> height_times_, accel_times_;
 };
 
-// Mean over a tenth of a trial, where that was fastest; 0 without heights.
-double fastest_recorded_mps(const std::vector<Trial>& trials) {
-  double fastest = 0.0;
-  for (const auto& trial : trials) {
-    const auto heights = samples_of(trial, "height_m");
-    const std::size_t apart = std::max<std::size_t>(1, heights.value.size() / 10);
-    for (std::size_t i = apart; i < heights.value.size(); ++i)
-      fastest = std::max(fastest, std::abs(heights.value[i] - heights.value[i - apart]) /
-                                      (heights.time_s[i] - heights.time_s[i - apart]));
-  }
-  return fastest;
-}
-
 class FallingBody final : public PlantModel {
  public:
   std::vector<std::string> channels() const override { return {"height_m", "accel_mps2", "touchdown_s"}; }
@@ -473,15 +460,17 @@ class FallingBody final : public PlantModel {
   void describe(const std::vector<Trial>& trials, Context& context) const override {
     const auto& b = context.belief;
     const double g = b.value("gravity_mps2", 9.81);
-    double longest_s = 0.0;
-    for (const auto& trial : trials)
+    double longest_s = 0.0, seen_mps = 0.0;
+    for (const auto& trial : trials) {
       if (!trial.time_s.empty()) longest_s = std::max(longest_s, trial.time_s.back());
+      seen_mps = std::max(seen_mps, fastest_mps(samples_of(trial, "height_m")));
+    }
     double drop_m = 0.0;
     if (const auto it = context.channels.find("height_m"); it != context.channels.end())
       drop_m = it->second.high - it->second.low;
     double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
     // What sinks slowly is never as fast as a fall from there.
-    if (const double seen = fastest_recorded_mps(trials); seen > 0.0 && seen < kSinks * speed) speed = seen;
+    if (seen_mps > 0.0 && seen_mps < kSinks * speed) speed = seen_mps;
     context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
     context.scales["speed_mps"] = std::max(speed, 0.1);
     context.scales["duration_s"] = longest_s;

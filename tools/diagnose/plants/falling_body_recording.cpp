@@ -85,6 +85,15 @@ std::optional<double> release_by_hand_s(const Samples& heights) {
   return best_s;
 }
 
+double fastest_mps(const Samples& heights) {
+  const auto& [t, h] = heights;
+  const std::size_t apart = std::max<std::size_t>(1, h.size() / 10);
+  double fastest = 0.0;
+  for (std::size_t i = apart; i < h.size(); ++i)
+    fastest = std::max(fastest, std::abs(h[i] - h[i - apart]) / (t[i] - t[i - apart]));
+  return fastest;
+}
+
 std::optional<double> hardest_deceleration_s(const Samples& accels, double g) {
   constexpr double kShareOfPeak = 0.85;
   double most = 0.0;

@@ -3,8 +3,9 @@
 
 #include "tools/diagnose/plants/inputs.hpp"
 
-// What the recording of a fall shows before anything is simulated: when the body was let go and when it
-// stopped. Times in s, heights in m over any zero, accelerations in m/s^2 as an accelerometer reads them.
+// What the recording of a fall shows before anything is simulated: when the body was let go, how fast
+// it fell and when it stopped. Times in s, heights in m over any zero, accelerations in m/s^2 as an
+// accelerometer reads them.
 namespace sandhopper::diagnose {
 
 // Held, then let go, within some tenths of a second where a rope is paid out: the last loss of weight before
@@ -17,6 +18,9 @@ std::optional<double> end_of_rest_s(const Samples& heights, double believed_nois
 // A slow recording of a body let go by hand: the release at rest that suits its first second best, with any
 // acceleration. What comes before is the hand's motion.
 std::optional<double> release_by_hand_s(const Samples& heights);
+
+// Mean speed over a tenth of a trial, where that is fastest; 0 without heights.
+double fastest_mps(const Samples& heights);
 
 // Shortly before the peak of a deceleration of more than 3 g.
 std::optional<double> hardest_deceleration_s(const Samples& accels, double gravity_mps2);

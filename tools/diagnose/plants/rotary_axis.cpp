@@ -8,6 +8,7 @@
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/nearby_sine.hpp"
 #include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
@@ -45,20 +46,6 @@ bool without_noise_alone(Samples& torque) {
   std::ranges::fill(torque.value, std::abs(mean) < 3.0 * sd / std::sqrt(n) ? 0.0 : mean);
   return true;
 }
-
-// Sines of angles near one: a step of the simulation asks for several. Good to 2e-9.
-class NearbySine {
- public:
-  explicit NearbySine(double angle) : at_(angle), sine_(std::sin(angle)), cosine_(std::cos(angle)) {}
-  double operator()(double angle) const {
-    const double d = angle - at_, q = d * d;
-    if (q > 0.01) return std::sin(angle);
-    return sine_ * (1.0 - q * (0.5 - q / 24.0)) + cosine_ * d * (1.0 - q * (1.0 / 6.0 - q / 120.0));
-  }
-
- private:
-  double at_, sine_, cosine_;
-};
 
 // Whether a speed is an encoder's own estimate, or of whatever else measures it.
 bool speed_of_encoder(const Belief& belief) {

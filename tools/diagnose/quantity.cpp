@@ -1,4 +1,4 @@
-#include "tools/diagnose/page/quantity.hpp"
+#include "tools/diagnose/quantity.hpp"
 
 #include <fmt/format.h>
 
