@@ -11,7 +11,7 @@ inline double calibrated(double weight) {
   struct Knot {
     double weight, probability;
   };
-  constexpr std::array<Knot, 5> kMap{{{0.0, 0.0}, {0.4, 0.45}, {0.7, 0.7}, {0.95, 0.88}, {1.0, 0.96}}};
+  constexpr std::array<Knot, 5> kMap{{{0.0, 0.0}, {0.4, 0.45}, {0.7, 0.7}, {0.95, 0.88}, {1.0, 0.985}}};
   const double w = std::clamp(weight, 0.0, 1.0);
   std::size_t i = 1;
   while (i + 1 < kMap.size() && w > kMap[i].weight) ++i;
