@@ -69,6 +69,8 @@ struct Finding {
   std::string channel{};     // the column's, channel's or key's name, where one is meant
   std::string what{};
   std::string cure{};
+
+  bool operator==(const Finding&) const = default;
 };
 
 // "file:line:column: channel: what; cure"

@@ -91,7 +91,9 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.findings = campaign.findings;
   for (const auto& described : campaign.trials) {
     const TrialRecording recording = read_trial(campaign, described);
-    input.findings.insert(input.findings.end(), recording.findings.begin(), recording.findings.end());
+    for (const auto& finding : recording.findings)  // a file that several trials share has each once
+      if (std::ranges::find(input.findings, finding) == input.findings.end())
+        input.findings.push_back(finding);
     if (!recording.usable()) {
       ++input.unusable;
       continue;
