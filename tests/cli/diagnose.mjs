@@ -57,10 +57,27 @@ function rewritten(source, one, target) {
   writeFileSync(join(target, 'campaign.toml'), join_trials(toml));
 }
 
+// On the model that the first run corrected, beside its recordings: nothing is missing, and the model stays as it is.
+function second_run({ plant, folder }) {
+  const target = join(scratch, `second-${plant}`);
+  cpSync(folder, target, { recursive: true });
+  const corrected = readFileSync(join(scratch, `answer-${plant}`, 'corrected.toml'), 'utf8');
+  writeFileSync(join(target, 'corrected.toml'), corrected);
+  const toml = readFileSync(join(target, 'campaign.toml'), 'utf8').replace(/^model *= *".*"$/m, 'model = "corrected.toml"');
+  expect(toml.includes('model = "corrected.toml"'), `${plant}: campaign.toml names no model`);
+  writeFileSync(join(target, 'campaign.toml'), toml);
+  const done = run('diagnose', target, '--json', '--no-report');
+  const again = JSON.parse(done.stdout || '{}');
+  console.log(`    on the corrected model: ${again.verdict}, ${named(again)}`);
+  expect(again.verdict === 'consistent', `${plant} on its corrected model: ${again.verdict}, ${named(again)}`);
+  expect(readFileSync(join(target, 'corrected.toml'), 'utf8') === corrected, `${plant}: the model in use was overwritten`);
+}
+
 for (const campaign of made) {
   const plain = answer(campaign.folder, campaign.plant);
   console.log(`${campaign.plant}: ${plain.verdict}, ${named(plain)}`);
   expect(plain.verdict === 'missing_physics', `${campaign.plant}: ${plain.verdict}`);
+  second_run(campaign);
   for (const one of rewritings) {
     if (one.name === campaign.without) continue;
     const target = join(scratch, `${campaign.plant}-${one.name.replace(/\W+/g, '_')}`);

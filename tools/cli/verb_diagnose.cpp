@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -29,6 +31,16 @@ void write(const std::filesystem::path& file, const std::string& text) {
                   "name a folder that can be written with --output");
 }
 
+// corrected.toml, or corrected_2.toml and so on where that is the very model that was corrected.
+std::filesystem::path corrected_file(const std::filesystem::path& folder,
+                                     const std::filesystem::path& believed) {
+  std::error_code missing;
+  auto file = folder / "corrected.toml";
+  for (int i = 2; std::filesystem::equivalent(file, believed, missing); ++i)
+    file = folder / fmt::format("corrected_{}.toml", i);
+  return file;
+}
+
 ExitCode diagnose(Session& session, const Options& options) {
   const Campaign campaign = load_campaign(options.campaign);
   const auto input = sandhopper::diagnose::read_campaign(campaign);
@@ -50,8 +62,9 @@ ExitCode diagnose(Session& session, const Options& options) {
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
   if (!diagnosis.corrected_model_toml.empty()) {
-    write(folder / "corrected.toml", diagnosis.corrected_model_toml);
-    session.say("corrected model: {}", (folder / "corrected.toml").string());
+    const auto file = corrected_file(folder, campaign.model);
+    write(file, diagnosis.corrected_model_toml);
+    session.say("corrected model: {}", file.string());
   }
   if (options.residuals) {
     write(folder / "residuals.csv", sandhopper::diagnose::residuals_csv(diagnosis));

@@ -47,7 +47,8 @@ class Corrected {
         numbers_(recordings.belief.numbers),
         effects_(recordings.belief.effects) {}
 
-  void add(const FoundEffect& found) {
+  void add(FoundEffect found) {
+    std::erase_if(found.parameters, [](const FoundParameter& p) { return p.derived; });
     const auto candidate =
         std::find_if(problem_.candidates.begin(), problem_.candidates.end(), [&](const Candidate& c) {
           return c.effect->id == found.id && c.channel == found.channel &&
@@ -55,6 +56,10 @@ class Corrected {
         });
     if (candidate == problem_.candidates.end()) return comment(found);
     if (!as_keys(*candidate, found)) as_effect(*candidate, found);
+  }
+
+  bool differs() const {
+    return numbers_ != recordings_.belief.numbers || effects_ != recordings_.belief.effects;
   }
 
   std::string text() const {
@@ -128,7 +133,7 @@ std::string corrected_model(const Recordings& recordings, const Problem& problem
                             const Diagnosis& diagnosis) {
   Corrected corrected(recordings, problem);
   for (const auto& found : diagnosis.effects) corrected.add(found);
-  return corrected.text();
+  return corrected.differs() ? corrected.text() : "";
 }
 
 }  // namespace sandhopper::diagnose

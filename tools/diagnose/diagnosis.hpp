@@ -13,6 +13,7 @@ struct FoundParameter {
   std::string name;
   double value = 0.0;
   double low = 0.0, high = 0.0;  // 95 %
+  bool derived = false;          // says the one before it again, as a change of what was believed
 };
 
 struct FoundEffect {

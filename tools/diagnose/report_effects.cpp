@@ -99,7 +99,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       const double value = point.hypothesis.values[e][j];
       const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
       FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
-                         p.reported(std::min(p.high, value + half))};
+                         p.reported(std::min(p.high, value + half)), false};
       if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
         const double within = p.resolution + 1e-3 * std::abs(out.value);
         out.low = out.value - within;
@@ -110,7 +110,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       // What was added to the belief, where that held something already.
       if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
         found.parameters.push_back(
-            {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base});
+            {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
     }
     found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
     found.indistinguishable_from = candidate.effect->same_as;

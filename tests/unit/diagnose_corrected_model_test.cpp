@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/corrected_model.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// The number of `key` in a table of `toml`, whose keys stand one to a line.
+std::optional<double> number(const std::string& toml, const std::string& table, const std::string& key) {
+  const auto start = toml.find("\n[" + table + "]\n");
+  if (start == std::string::npos) return {};
+  const auto end = toml.find("\n[", start + 1);
+  const auto at = toml.find("\n" + key + " = ", start);
+  if (at == std::string::npos || at > end) return {};
+  return std::stod(toml.substr(at + key.size() + 4));
+}
+
+Recordings believing(Recordings recordings, const std::string& key, double value) {
+  recordings.belief.numbers[key] = value;
+  for (auto& belief : recordings.beliefs) belief.numbers[key] = value;
+  return recordings;
+}
+
+// What is added to something believed already is reported twice, as the whole and as the change; the whole is
+// the key of nominal.toml. A second run on it finds nothing.
+TEST(DiagnoseCorrectedModel, HoldsTheWholeOfWhatWasBelievedInPart) {
+  // 0.12 kg m^2 instead of the 0.1 that are believed.
+  const auto recordings = swings([](double angle, double, double torque) {
+    return (torque - 2.0 * std::sin(angle)) * (0.1 / 0.12 - 1.0);
+  });
+  const auto first = diagnose(recordings);
+  ASSERT_EQ(first.verdict, "missing_physics");
+  ASSERT_EQ(first.effects.front().id, "axis.inertia");
+  const auto inertia_kg_m2 = number(first.corrected_model_toml, "axis", "inertia_kg_m2");
+  ASSERT_TRUE(inertia_kg_m2) << first.corrected_model_toml;
+  EXPECT_NEAR(*inertia_kg_m2, 0.12, 0.002);
+  EXPECT_EQ(diagnose(believing(recordings, "axis.inertia_kg_m2", *inertia_kg_m2)).verdict, "consistent");
+}
+
+TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
+  // 0.25 kg and drag that is known: the air slows it less than the 0.2 kg that are believed.
+  const auto drag_N = [](double v) { return -0.5 * 1.2 * 0.01 * 0.9 * std::abs(v) * v; };
+  auto recordings = drops([&](double, double, double v) { return drag_N(v) * 0.2 / 0.25; });
+  recordings = believing(std::move(recordings), "medium.drag_coefficient", 0.9);
+  const auto first = diagnose(recordings);
+  ASSERT_EQ(first.verdict, "missing_physics");
+  for (const auto& effect : first.effects) {
+    for (const auto& p : effect.parameters)
+      if (!p.derived)
+        EXPECT_TRUE(first.corrected_model_toml.find(p.name + " = ") != std::string::npos) << p.name;
+  }
+  EXPECT_TRUE(first.corrected_model_toml.find('#') == std::string::npos) << first.corrected_model_toml;
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
