@@ -49,11 +49,11 @@ TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
   recordings = believing(std::move(recordings), "medium.drag_coefficient", 0.9);
   const auto first = diagnose(recordings);
   ASSERT_EQ(first.verdict, "missing_physics");
-  for (const auto& effect : first.effects) {
-    for (const auto& p : effect.parameters)
-      if (!p.derived)
-        EXPECT_TRUE(first.corrected_model_toml.find(p.name + " = ") != std::string::npos) << p.name;
-  }
+  for (const auto& effect : first.effects)
+    for (const auto& p : effect.parameters) {
+      if (p.derived) continue;
+      EXPECT_TRUE(first.corrected_model_toml.find(p.name + " = ") != std::string::npos) << p.name;
+    }
   EXPECT_TRUE(first.corrected_model_toml.find('#') == std::string::npos) << first.corrected_model_toml;
 }
 
