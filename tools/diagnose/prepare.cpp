@@ -237,7 +237,7 @@ Prepared prepare(const Recordings& recordings) {
     prepared.left_out.push_back(label + " of [effects]: no effect of that name can be in this campaign");
   std::vector<double> row_steps;
   for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
-  const double row_s = median(row_steps);
+  const double row_s = problem.row_s = median(row_steps);
   for (const auto& [channel, scale] : problem.context.channels) {
     const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
     const double filter_s =

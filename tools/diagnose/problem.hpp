@@ -51,6 +51,7 @@ struct Problem {
   std::vector<Candidate> candidates;
   Edits in_place;  // effects that the belief holds already
   std::vector<Tolerance> tolerances;
+  double row_s = 0.0;            // middling time between rows
   std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
   NoiseModel noise;
   mutable std::uint64_t simulations = 0;

@@ -64,15 +64,17 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
   });
 }
 
-// Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time:
-// as much variance in time as T^2 / 12.
+// Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time,
+// and rows do between which what moves the foot is interpolated: as much variance in time as T^2 / 12 of
+// each.
 bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const Edits edits = edits_of(problem, hypothesis, e);
   if (edits.sensors.empty() || !edits.belief.empty() || !edits.laws.empty()) return false;
   const double of_mean = 1.0 / std::sqrt(12.0), unsure = 1.5;
   return std::ranges::all_of(edits.sensors, [&](const SensorEdit& edit) {
-    return edit.kind == SensorEdit::Kind::lag_s &&
-           edit.value <= unsure * of_mean * conversion_s(problem.context.belief, edit.channel);
+    const double conversion = conversion_s(problem.context.belief, edit.channel);
+    return edit.kind == SensorEdit::Kind::lag_s && conversion > 0.0 &&
+           edit.value <= unsure * of_mean * std::hypot(conversion, problem.row_s);
   });
 }
 
