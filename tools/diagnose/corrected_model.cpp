@@ -66,7 +66,10 @@ class Corrected {
     std::map<std::string, std::string> tables;
     for (const auto& [key, value] : numbers_) tables[table_of(key)] += line(key, value);
     std::string text = comments_;
-    for (const auto& [table, lines] : tables) text += (table.empty() ? "" : "\n[" + table + "]\n") + lines;
+    for (const auto& [table, lines] : tables) {
+      if (!table.empty()) text += fmt::format("\n[{}]\n", table);
+      text += lines;
+    }
     if (!effects_.empty()) text += "\n[effects]\n";
     for (const auto& [label, parameters] : effects_) {
       std::string inside;

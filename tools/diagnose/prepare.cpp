@@ -175,6 +175,7 @@ void update_noise(Problem& problem, const Point& point) {
   double taken_up = solver.solve(information).trace();
   for (const auto& trial : problem.trials) taken_up += static_cast<double>(trial->nuisance_count());
   std::vector<VectorXd> residuals;
+  residuals.reserve(linear.size());
   for (const auto& trial : linear) residuals.push_back(trial.plain.col(0) - trial.plain.rightCols(k) * size);
   find_noisy_trials(problem, residuals);
   problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
