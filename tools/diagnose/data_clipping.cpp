@@ -3,19 +3,60 @@
 #include <limits>
 
 #include "tools/diagnose/data_fault_parts.hpp"
+#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kPileUp = 0.01;    // of all samples, exactly on the end value
 constexpr std::size_t kLeast = 6;   // samples there
+constexpr std::size_t kFewest = 10; // that tell a trial's noise
 constexpr std::size_t kInARow = 4;  // of them whose forerunner is there, too: a blow is short
 constexpr double kGridSteps = 3.0;  // noise must move the sensor by this many
 constexpr double kLifted = 3.0;     // standard deviations that noise may take a sample off the limit
+constexpr std::ptrdiff_t kAround = 12;  // samples on each side, whose median says where the quantity is
+constexpr std::ptrdiff_t kBeside = 2;   // samples on each side that a blow may lift off the limit
 
 // An accelerometer clips; the other sensors saturate.
 std::string range_fault(const std::string& channel) {
   return channel.starts_with("imu_") ? "imu.clipping" : "sensor.saturation";
+}
+
+// Of the samples off the ends: on them there is no noise.
+double noise_off(const std::vector<SampledChannel>& samples, double low, double high) {
+  auto inside = samples;
+  for (auto& s : inside) {
+    std::vector<double> values, times_s;
+    for (std::size_t i = 0; i < s.value.size(); ++i)
+      if (s.value[i] != low && s.value[i] != high) {
+        values.push_back(s.value[i]);
+        times_s.push_back(s.time_s[i]);
+      }
+    s.value = std::move(values);
+    s.time_s = std::move(times_s);
+  }
+  std::erase_if(inside, [](const SampledChannel& s) { return s.value.size() < kFewest; });
+  return own_noise(inside);
+}
+
+// Which samples may have been cut. Where the quantity changes slowly, its neighbours say so and not its own
+// value: of samples near the limit those that noise took down would be left, and pass for what the quantity
+// was.
+std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double noise) {
+  const auto n = static_cast<std::ptrdiff_t>(beyond.size());
+  const auto at = [&](std::ptrdiff_t i) { return beyond[static_cast<std::size_t>(i)]; };
+  std::vector<std::size_t> near;
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    bool cut = at(i) == 0.0;
+    for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - kBeside); k <= std::min(n - 1, i + kBeside); ++k)
+      cut = cut || (at(k) == 0.0 && at(i) > -kLifted * noise);
+    if (!cut && at(i) > -2.0 * kLifted * noise) {
+      const auto reach = std::min({kAround, i, n - 1 - i});
+      cut = median({beyond.begin() + (i - reach), beyond.begin() + (i + reach + 1)}) > -kLifted * noise;
+    }
+    if (cut) near.push_back(static_cast<std::size_t>(i));
+  }
+  return near;
 }
 
 }  // namespace
@@ -29,7 +70,7 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
       high = std::max(high, v);
       ++total;
     }
-  const double noise = own_noise(samples), grid = value_grid(samples);
+  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
   if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
     // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
     DataFault always{.channel = channel,
@@ -68,11 +109,13 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   for (const auto& s : samples) {
     auto& values = s.trial->channels[channel];
     bool hit = false;
-    for (std::size_t i = 0; i < s.value.size(); ++i) {
-      const double v = s.value[i];
-      const double beyond = both ? std::abs(v) - high : fault.limit == high ? v - high : low - v;
-      hit = hit || beyond == 0.0;
-      if (beyond > -kLifted * noise) values[s.rows[i]] = std::numeric_limits<double>::quiet_NaN();
+    for (const double sign : {1.0, -1.0}) {
+      if (!both && fault.limit != (sign > 0.0 ? high : low)) continue;
+      std::vector<double> beyond;
+      for (const double v : s.value) beyond.push_back(sign > 0.0 ? v - high : low - v);
+      hit = hit || std::ranges::find(beyond, 0.0) != beyond.end();
+      for (const std::size_t i : near_limit(beyond, noise))
+        values[s.rows[i]] = std::numeric_limits<double>::quiet_NaN();
     }
     if (hit) {
       fault.trials.push_back(s.trial->name);
