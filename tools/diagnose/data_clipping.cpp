@@ -79,7 +79,11 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
                      .limit = high,
                      .borderline = true,
                      .trials = {}};
-    for (const auto& s : samples) always.trials.push_back(s.trial->name);
+    for (const auto& s : samples) {
+      always.trials.push_back(s.trial->name);
+      for (const std::size_t row : s.rows)
+        s.trial->channels[channel][row] = std::numeric_limits<double>::quiet_NaN();
+    }
     faults.push_back(std::move(always));
     return;
   }

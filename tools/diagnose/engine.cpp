@@ -210,6 +210,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (problem.trials.empty()) {
     diagnosis.verdict = "insufficient_data";
     diagnosis.detail = "too_little_data";
+    report_data_faults(faults, diagnosis);
     return diagnosis;
   }
   options.progress(0.0, "");

@@ -83,6 +83,7 @@ class FallingTrial final : public TrialModel {
     if (bed_ && held_ && !height_known) find_stop(accels);
     place(trial, heights);
     if (bed_ && impact_s_ < 0.0) find_touchdown(heights, accels);
+    if (!bed_) landed_after_s_ = landed_after_s(heights, belief.value("sensors.height_noise_m")).value_or(1e300);
     add_rows(0, heights);
     add_rows(1, accels);
     if (touchdown_nuisance_ >= 0) rows.push_back({2, 0, kBed, touchdown_s_, 0.0});
@@ -256,7 +257,8 @@ class FallingTrial final : public TrialModel {
     auto& times = channel == 0 ? height_times_ : accel_times_;
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       if (from_release_ && samples.time_s[i] < release_s_) continue;
-      if (samples.time_s[i] > stop_s_ || (channel == 0 && may_have_landed(samples.value[i]))) break;
+      if (samples.time_s[i] > stop_s_ || (channel == 0 && may_have_landed(samples.time_s[i], samples.value[i])))
+        break;
       if (channel == 1 && touchdown_nuisance_ >= 0 && std::abs(samples.time_s[i] - touchdown_s_) < kKink_s)
         continue;
       times.push_back(samples.time_s[i]);
@@ -282,7 +284,8 @@ class FallingTrial final : public TrialModel {
   }
 
   // Heights are over the ground where a release's is: within their noise of it the body may lie there.
-  bool may_have_landed(double height_m) const {
+  bool may_have_landed(double time_s, double height_m) const {
+    if (time_s > landed_after_s_) return true;
     return height_told_ && !bed_ && height_m < kLanded * belief_.value("sensors.height_noise_m");
   }
 
@@ -429,7 +432,7 @@ class FallingTrial final : public TrialModel {
   bool height_told_ = false;   // in the set-up
   bool from_release_ = false;  // rows before it are left out
   double release_s_ = 0.0;
-  double stop_s_ = 1e300;
+  double stop_s_ = 1e300, landed_after_s_ = 1e300;
   int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, height_scale_ = -1, accel_bias_ = -1;
   int touchdown_nuisance_ = -1, impact_nuisance_ = -1;
   double touchdown_s_ = 0.0;

@@ -64,6 +64,25 @@ std::optional<double> end_of_rest_s(const Samples& heights, double believed_nois
   return still_s - fall_s;
 }
 
+std::optional<double> landed_after_s(const Samples& heights, double believed_noise_m) {
+  constexpr double kStill = 4.0, kShort = 6.0;  // standard deviations: off their mean, of what it would fall
+  constexpr std::size_t kBefore = 5;            // samples that tell how fast
+  const auto& [t, h] = heights;
+  const double noise = std::max({fluctuation_rms(heights), believed_noise_m, 1e-6});
+  std::size_t first = h.size();
+  double sum = 0.0;
+  while (first > 0) {
+    const auto still = static_cast<double>(h.size() - first);
+    if (still > 0.0 && std::abs(h[first - 1] - sum / still) > kStill * noise) break;
+    sum += h[--first];
+  }
+  if (first <= kBefore || h.size() - first < 2) return std::nullopt;
+  const double fell_mps = (h[first - 1 - kBefore] - h[first - 1]) / (t[first - 1] - t[first - 1 - kBefore]);
+  const double would_fall_m = fell_mps * (t.back() - t[first]);
+  if (would_fall_m - (h[first] - h.back()) < kShort * noise) return std::nullopt;
+  return t[first - 1];
+}
+
 std::optional<double> release_by_hand_s(const Samples& heights) {
   constexpr double kLook_s = 1.0, kStep_s = 0.01;
   constexpr std::size_t kFewest = 8;

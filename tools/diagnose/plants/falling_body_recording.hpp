@@ -15,6 +15,10 @@ std::optional<double> release_before_shock_s(const Samples& accels, double gravi
 // Heights that stand still, within 4 standard deviations of their noise, and then fall.
 std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double gravity_mps2);
 
+// The last sample before heights that stand still at the end although the body fell until then: it lies on
+// the ground, whatever the sensor calls its height.
+std::optional<double> landed_after_s(const Samples& heights, double believed_noise_m);
+
 // A slow recording of a body let go by hand: the release at rest that suits its first second best, with any
 // acceleration. What comes before is the hand's motion.
 std::optional<double> release_by_hand_s(const Samples& heights);
