@@ -75,14 +75,22 @@ std::vector<Stretch> stretches_at(const std::vector<double>& v, double code) {
   return found;
 }
 
-bool rests_there(const std::vector<double>& v, const Stretch& s, double code) {
+// Where the quantity went far off the code and back, that is another stretch.
+bool rests_there(const std::vector<double>& v, const Stretch& s, double code, double noise) {
   double at_code = 0.0, count = 0.0;
-  const auto add = [&](std::size_t i) {
-    at_code += v[i] == code ? 1.0 : 0.0;
-    ++count;
+  const auto look = [&](std::ptrdiff_t from, std::ptrdiff_t by) {
+    bool left = false;
+    for (std::size_t n = 0; n < kNeighbours; ++n, from += by) {
+      if (from < 0 || from >= static_cast<std::ptrdiff_t>(v.size())) return;
+      const double off = std::abs(v[static_cast<std::size_t>(from)] - code);
+      if (off == 0.0 && left) return;
+      left = left || off > kFar * noise;
+      at_code += off == 0.0 ? 1.0 : 0.0;
+      ++count;
+    }
   };
-  for (std::size_t i = s.first > kNeighbours ? s.first - kNeighbours : 0; i < s.first; ++i) add(i);
-  for (std::size_t i = s.last + 1; i < std::min(v.size(), s.last + 1 + kNeighbours); ++i) add(i);
+  look(static_cast<std::ptrdiff_t>(s.first) - 1, -1);
+  look(static_cast<std::ptrdiff_t>(s.last) + 1, 1);
   return count == 0.0 || at_code > kSeldom * count;
 }
 
@@ -104,7 +112,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   const auto lasts = [&](const std::vector<double>& v, const Stretch& s) {
     return always_noisy && !at_edge(v, s) &&
            samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
-           !rests_there(v, s, code);
+           !rests_there(v, s, code, noise);
   };
   std::vector<std::vector<Stretch>> lost(channel.size());
   std::size_t proven = 0, shortest = std::numeric_limits<std::size_t>::max(), longest = 0;
@@ -122,7 +130,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
       const bool as_long =
           stretch.samples() <= longest && (at_edge(v, stretch) || 2 * stretch.samples() >= shortest);
       if (falls_out(v, stretch.first, stretch.last, code, noise) || lasts(v, stretch) ||
-          (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code)))
+          (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code, noise)))
         lost[c].push_back(stretch);
     }
   return lost;

@@ -27,7 +27,9 @@ struct EffectParameter {
   bool amplitude = false;        // besides the first: zero switches this part off, too
   double power = 1.0;            // reported as (base + scale * value)^power
   bool other_law_above = false;  // at its upper bound this is not the effect any more
-  std::vector<double> shapes{};  // of a shape: values worth a start of their own
+  // Of a shape: values worth a start of their own. Of what switches it off: sizes at which its signature is
+  // taken, too, where another size acts elsewhere.
+  std::vector<double> shapes{};
 
   double reported(double value) const {
     const double plain = base + scale * value;

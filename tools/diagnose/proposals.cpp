@@ -145,8 +145,7 @@ class Weigher {
           if (!is_amplitude(parameters, i)) continue;
           Hypothesis with = point.hypothesis;
           auto values = choice;
-          const double step =
-              std::min(problem_.candidates[c].probe(), parameters[i].high / parameters[i].typical);
+          const double step = signature_step(problem_.candidates[c], choice, i);
           values[i] = step * parameters[i].typical;
           with.candidates.push_back(c);
           with.values.push_back(values);

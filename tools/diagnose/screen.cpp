@@ -39,6 +39,12 @@ std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
   return choices;
 }
 
+double signature_step(const Candidate& candidate, const std::vector<double>& choice, std::size_t amplitude) {
+  const auto& p = candidate.parameters[amplitude];
+  return choice[amplitude] != 0.0 ? choice[amplitude] / p.typical
+                                  : std::min(candidate.probe(), p.high / p.typical);
+}
+
 std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index first, Index count,
                                  const VectorXd& prior_information) {
   std::vector<MatrixXd> grams;
@@ -133,7 +139,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
         if (!is_amplitude(candidate.parameters, i)) continue;
         Hypothesis with = point.hypothesis;
         auto values = choice;
-        const double step = std::min(candidate.probe(), parameter.high / parameter.typical);
+        const double step = signature_step(candidate, choice, i);
         values[i] = step * parameter.typical;
         with.candidates.push_back(c);
         with.values.push_back(values);

@@ -34,8 +34,10 @@ HeldOut held_out_gain(const std::vector<Eigen::MatrixXd>& grams, const std::vect
                       const Eigen::MatrixXd& prior_information);
 
 // Parameters of a candidate with its amplitudes off: shapes as typical, and once more for every value of the
-// shape that has a list of them.
+// shape that has a list of them; what has a list of sizes is on at those.
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate);
+// The part of its typical size at which an amplitude's signature is taken with these shapes.
+double signature_step(const Candidate& candidate, const std::vector<double>& choice, std::size_t amplitude);
 
 // A candidate as it looks in a linear approximation at a point that does not contain it.
 struct Screened {

@@ -156,11 +156,16 @@ void Search::evaluate_straight(const SetFit& from) {
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
     if (straight.hypothesis.contains(c)) continue;
     const auto& p = problem_->candidates[c].parameters[0];
-    for (auto values : shape_choices(problem_->candidates[c]))
+    for (auto values : shape_choices(problem_->candidates[c])) {
+      if (values[0] != 0.0) {
+        hold(c, values);
+        continue;
+      }
       for (const double typicals : kCommonSizes) {
         values[0] = typicals * p.typical;
         if ((typicals > 0.0 || p.either_sign) && values[0] >= p.low && values[0] <= p.high) hold(c, values);
       }
+    }
   }
   std::vector<const Nearest*> order;
   for (const auto& [candidate, one] : nearest) order.push_back(&one);

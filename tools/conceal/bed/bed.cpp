@@ -40,6 +40,11 @@ Cone cone(const Bed& b, double z_m) {
           scale * flat_m * flat_m};
 }
 
+// Pushes lower the surface; the floor and the deepest point stay where they are.
+double below_surface_m(const Bed& b, const BedState& s, double z_m) {
+  return z_m - b.hidden.crater_m_per_push * s.pushes;
+}
+
 double bell(double x) { return std::exp(-x * x); }
 
 }  // namespace
@@ -48,7 +53,7 @@ double Bed::area_m2() const { return std::numbers::pi * foot_radius_m * foot_rad
 
 double static_N(const Bed& b, const BedState& s, double z_m) {
   const auto& h = b.hidden;
-  const double z = z_m - h.crater_m_per_push * s.pushes;
+  const double z = below_surface_m(b, s, z_m);
   if (z <= 0.0) return 0.0;
   const double k = stiffness_N_per_m(b);
   double force = b.per_area_N_per_m3 > 0.0
@@ -56,29 +61,31 @@ double static_N(const Bed& b, const BedState& s, double z_m) {
                      : k * (z + b.intercept_depth_m * (1.0 - std::exp(-z / b.intercept_growth_depth_m)));
   if (h.exponent_excess != 0.0) force *= std::pow(std::max(z, 1e-5) / kReferenceDepth_m, h.exponent_excess);
   if (h.floor_stiffening != 0.0)
-    force *= 1.0 + h.floor_stiffening * std::exp(-(s.bed_depth_m - z) / (0.5 * b.foot_radius_m));
+    force *= 1.0 + h.floor_stiffening * std::exp(-(s.bed_depth_m - z_m) / (0.5 * b.foot_radius_m));
   if (h.tilt_depth_m > 0.0) force *= 1.0 - std::exp(-z / h.tilt_depth_m);
   return force * (1.0 + s.stiffness_relative + fluctuation_at(s, z)) * ageing(b, s);
 }
 
 VirginForce virgin(const Bed& b, const BedState& s, double t_s, double z_m, double v_mps) {
   const auto& h = b.hidden;
+  const double z = below_surface_m(b, s, z_m);
+  if (z <= 0.0) return {0.0, 0.0};
   const double v = std::max(v_mps, 0.0);
-  const auto grains = cone(b, z_m);
-  const double quasi_N = static_N(b, s, z_m), in = 1.0 - std::exp(-z_m / kOnset_m);
+  const auto grains = cone(b, z);
+  const double quasi_N = static_N(b, s, z_m), in = 1.0 - std::exp(-z / kOnset_m);
   double steady = quasi_N + b.drag_factor * grains.gradient_kg_per_m * v * v +
                   b.steady_drag_coefficient * b.bulk_density_kg_per_m3 * b.area_m2() * v * v;
   double mass = grains.mass_kg * std::clamp(v / b.switch_speed_mps, 0.0, 1.0);
 
-  const double share = std::exp(-z_m / h.added_mass_depth_m);
+  const double share = std::exp(-z / h.added_mass_depth_m);
   steady += h.added_mass_kg / h.added_mass_depth_m * share * v * v;
   mass += h.added_mass_kg * (1.0 - share) * (1.0 - std::exp(-v / 4e-3));
   steady += in * (h.quadratic_N_s2_per_m2 * v * v + h.viscous_N_s_per_m * v);
-  if (s.pushes == 0) steady += h.crust_N * z_m / (z_m + h.crust_depth_m);
+  if (s.pushes == 0) steady += h.crust_N * z / (z + h.crust_depth_m);
   steady += h.coupling * quasi_N * v * v / (v * v + h.coupling_speed_mps * h.coupling_speed_mps);
   steady -= h.weakening * quasi_N * bell((v - h.weakening_at_mps) / h.weakening_width_mps);
-  steady += h.ripple_N * in * std::sin(2.0 * std::numbers::pi * z_m / h.ripple_length_m);
-  steady += h.layer_N * bell((z_m - h.layer_at_m) / h.layer_width_m);
+  steady += h.ripple_N * in * std::sin(2.0 * std::numbers::pi * z / h.ripple_length_m);
+  steady += h.layer_N * bell((z - h.layer_at_m) / h.layer_width_m);
   steady -= h.shaken * quasi_N * std::exp(-(t_s - s.touched_s) / h.shaken_s);
   return {steady, mass};
 }
@@ -93,8 +100,8 @@ double rebound_N(const Bed& b, const BedState& s, double z_m, double v_mps, doub
     force = std::max(0.0, elastic_N + damping * v_mps * std::clamp(elastic_N / 5.0, 0.0, 1.0));
     if (h.viscous_N_s_per_m != 0.0) force = std::max(0.0, force + h.viscous_N_s_per_m * v_mps);
   }
-  if (h.suction_N > 0.0 && v_mps < 0.0 && z_m > 0.0)
-    force -= h.suction_N * (1.0 - std::exp(-z_m / 5e-3)) * (1.0 - std::exp(v_mps / 0.02));
+  if (const double z = below_surface_m(b, s, z_m); h.suction_N > 0.0 && v_mps < 0.0 && z > 0.0)
+    force -= h.suction_N * (1.0 - std::exp(-z / 5e-3)) * (1.0 - std::exp(v_mps / 0.02));
   return force;
 }
 

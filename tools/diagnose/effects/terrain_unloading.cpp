@@ -10,7 +10,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .low = 1.0 - believed,
            .high = 10.0 * believed,
            .either_sign = true,
-           .base = believed}};
+           .base = believed,
+           .shapes = {-0.65 * believed}}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

@@ -19,13 +19,18 @@ double GroundLaws::deeper_m() const {
   return sum_of(surface_, {.pushes = history_.pushes, .wait_s = history_.wait_s});
 }
 
+// How deep under the surface, as it is by now.
+double GroundLaws::floor_m() const {
+  return history_.bed_depth_m > 0.0 ? history_.bed_depth_m + deeper_m() : 0.0;
+}
+
 double GroundLaws::quasi_static_N(double curve_N, double depth_m) const {
   if (factor_.empty() && static_.empty()) return curve_N;
   const PortState state{.time_s = time_s_,
                         .position = depth_m,
                         .pushes = history_.pushes,
                         .wait_s = history_.wait_s,
-                        .bed_depth_m = history_.bed_depth_m};
+                        .bed_depth_m = floor_m()};
   return curve_N * std::max(0.0, 1.0 + sum_of(factor_, state)) + sum_of(static_, state);
 }
 
@@ -34,7 +39,7 @@ double GroundLaws::unloading_factor() const {
   return std::max(0.0, 1.0 + sum_of(unloading_, {.time_s = time_s_,
                                                  .pushes = history_.pushes,
                                                  .wait_s = history_.wait_s,
-                                                 .bed_depth_m = history_.bed_depth_m}));
+                                                 .bed_depth_m = floor_m()}));
 }
 
 BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, double bearing_N,
@@ -48,7 +53,7 @@ BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, double
                         .extreme = c.max_depth_m,
                         .pushes = history_.pushes,
                         .wait_s = history_.wait_s,
-                        .bed_depth_m = history_.bed_depth_m,
+                        .bed_depth_m = floor_m(),
                         .since_touch_s = time_s_ - touched_s_};
   return {.force_N = sum_of(force_, state),
           .added_mass_kg = sum_of(mass_, state),

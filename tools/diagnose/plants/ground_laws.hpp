@@ -47,6 +47,8 @@ class GroundLaws final : public BedExtension {
   }
 
  private:
+  double floor_m() const;
+
   std::vector<const Law*> factor_, static_, unloading_, force_, mass_, tension_, surface_;
   BedHistory history_;
   double time_s_ = 0.0, touched_s_ = 0.0;
