@@ -163,6 +163,16 @@ TEST(DiagnoseAnotherProgram, AFastFootIsOnAFinerGridThanItsRecording) {
   EXPECT_LT(worst_depth_m(m), 2e-5);
 }
 
+// Samples at a limit were taken out between the third and the fourth: a mean of both sides would be a
+// reading of an instant at which nothing was read.
+TEST(DiagnoseAnotherProgram, NoMeanIsTakenAcrossAGap) {
+  const Samples samples{{0.001, 0.002, 0.003, 0.103, 0.104, 0.105}, {5.0, 5.0, 5.0, 5.0, 5.0, 5.0}};
+  const auto taken = means(samples, slow_groups(samples, 4, 1.0));
+  ASSERT_EQ(taken.time_s.size(), 2u);
+  EXPECT_NEAR(taken.time_s[0], 0.002, 1e-12);
+  EXPECT_NEAR(taken.time_s[1], 0.104, 1e-12);
+}
+
 // A straight line over 80 ms of the turn would be off by 5 mm and more.
 TEST(DiagnoseAnotherProgram, AGapOfThePositionIsBridgedByItsRates) {
   auto p = plunge();

@@ -44,6 +44,26 @@ TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
               0.02 * static_cast<double>(lost) / recorded_s);
 }
 
+// A foot that goes in meanwhile: before such a stretch the force is small, after it large, and the next one
+// follows at once.
+TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {
+  std::vector<Trial> trials(6);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    Random random(11, t);
+    auto& force = trials[t].channels["force_N"];
+    for (int i = 0; i < 400; ++i) {
+      trials[t].time_s.push_back(0.001 * i);
+      force.push_back(1e-3 * std::round(1e3 * (0.5 * std::max(0, i - 100) + 0.1 * random.normal())));
+    }
+    for (const std::size_t first : {110, 122, 250, 330}) std::fill_n(force.begin() + first, 10, 0.0);
+  }
+  const auto faults = remove_data_faults(trials);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().id, "data.dropout");
+  EXPECT_EQ(faults.front().stretches, 24u);
+  for (const auto& trial : trials) EXPECT_TRUE(std::isnan(trial.channels.at("force_N")[115]));
+}
+
 // An accelerometer in free fall reads nothing but its noise, which does not give the same value six times.
 TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
   auto recordings = drops([](double, double, double) { return 0.0; });
@@ -233,6 +253,58 @@ TEST(DiagnoseDataFaults, SamplesThatPileUpAtALimitAreASaturation) {
   for (const auto& e : d.effects) named.insert(e.id);
   EXPECT_TRUE(named.contains("sensor.saturation"));
   EXPECT_TRUE(named.contains("air.quadratic_drag"));
+}
+
+// A reading that nears its limit slowly, in steps of a thirtieth of its noise: were each sample taken out by
+// its own value, those that are left would be low by half a standard deviation where it ends.
+TEST(DiagnoseDataFaults, WhatIsLeftBelowALimitIsWhatTheQuantityWas) {
+  constexpr double kNoise = 0.05, kLimit = 0.6, kPerSample = 0.0015;
+  std::vector<Trial> trials(20);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    Random random(7, t);
+    for (int i = 0; i < 600; ++i) {
+      trials[t].time_s.push_back(0.002 * i);
+      const double read = std::min(kPerSample * i + kNoise * random.normal(), kLimit);
+      trials[t].channels["accel_mps2"].push_back(1e-3 * std::round(1e3 * read));
+    }
+  }
+  ASSERT_EQ(remove_data_faults(trials).size(), 1u);
+  double sum = 0.0, count = 0.0, highest = 0.0;
+  for (const auto& trial : trials)
+    for (std::size_t i = 300; i < 600; ++i) {
+      const double left = trial.channels.at("accel_mps2")[i], was = kPerSample * static_cast<double>(i);
+      if (!std::isfinite(left)) continue;
+      highest = std::max(highest, was);
+      sum += (left - was) / kNoise;
+      ++count;
+    }
+  EXPECT_GT(highest, kLimit - 4.0 * kNoise);  // near enough to say something
+  EXPECT_LT(highest, kLimit - 1.5 * kNoise);
+  EXPECT_LT(std::abs(sum) / count, 4.0 / std::sqrt(count)) << count << " samples";
+}
+
+// Most of the time at the limit there is no noise at all to be seen.
+TEST(DiagnoseDataFaults, ALimitThatIsMetMostOfTheTimeIsASaturation) {
+  auto trials = drops([](double, double, double v) { return -0.1 * std::abs(v) * v; }).trials;
+  for (auto& trial : trials)
+    for (double& a : trial.channels["accel_mps2"]) a = 1e-3 * std::round(1e3 * std::min(a, 0.6));
+  const auto faults = remove_data_faults(trials);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().id, "sensor.saturation");
+  EXPECT_EQ(faults.front().limit, 0.6);
+}
+
+// An accelerometer at its limit from the first sample to the last tells of nothing else.
+TEST(DiagnoseDataFaults, WhereAChannelShowsNothingButItsLimitNothingElseIsNamed) {
+  auto recordings = drops([](double, double, double) { return 0.0; });
+  for (auto& trial : recordings.trials) {
+    std::ranges::fill(trial.channels["accel_mps2"], 0.6);
+    trial.channels.erase("height_m");
+  }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "sensor.saturation");
 }
 
 // At rest on a hard bed an accelerometer shows its limit from the touch to the end, and comes back from

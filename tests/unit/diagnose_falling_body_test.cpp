@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/plants/falling_body_recording.hpp"
 #include "tools/diagnose/prepare.hpp"
 
 namespace sandhopper::diagnose {
@@ -28,6 +29,32 @@ TEST(DiagnoseFallingBody, WhereTheBodyMayHaveLandedNoHeightCounts) {
   *last = 0.008;
   recordings.trials.front().setup.erase("release_height_m");  // heights over who knows what
   EXPECT_EQ(heights(prepare(recordings).problem), all);
+}
+
+// Heights that read 60 mm too much and stand still at the end: it lies there. What sinks slowly and what is
+// only slow to be sampled goes on.
+TEST(DiagnoseFallingBody, HeightsThatStandStillAtTheEndAreTheGround) {
+  constexpr double kNoise_m = 0.005;
+  Random random(5, 0);
+  Samples fall;
+  for (int i = 0; i < 170; ++i) {
+    const double t = 0.004 * i;
+    fall.time_s.push_back(t);
+    fall.value.push_back(0.06 + std::max(0.0, 2.1 - 4.905 * t * t) + kNoise_m * random.normal());
+  }
+  const double landed_s = std::sqrt(2.1 / 4.905);
+  const auto last_s = landed_after_s(fall, kNoise_m);
+  ASSERT_TRUE(last_s.has_value());
+  EXPECT_LT(*last_s, landed_s);
+  EXPECT_GT(*last_s, landed_s - 0.013);
+  while (fall.time_s.back() > landed_s) fall.time_s.pop_back(), fall.value.pop_back();
+  EXPECT_FALSE(landed_after_s(fall, kNoise_m).has_value());
+  Samples sinks;
+  for (int i = 0; i < 600; ++i) {
+    sinks.time_s.push_back(0.004 * i);
+    sinks.value.push_back(1.0 - 0.1 * sinks.time_s.back() + kNoise_m * random.normal());
+  }
+  EXPECT_FALSE(landed_after_s(sinks, kNoise_m).has_value());
 }
 
 // A ball thrown upwards with only an accelerometer on it: set-ups give a speed without saying which way. In

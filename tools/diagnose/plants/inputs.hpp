@@ -48,7 +48,8 @@ inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 // kept, the number of rows is not.
 Samples averaged(const Samples& samples, double least_step_s);
 
-// Successive samples, up to `most` together, fewer where the signal moves by more than `step` within them.
+// Successive samples, up to `most` together, fewer where the signal moves by more than `step` within them and
+// none across a gap.
 struct Group {
   std::size_t first, count;
 };

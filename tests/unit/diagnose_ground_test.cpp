@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/plants/ground_laws.hpp"
+
+// What pushes do to a bed, and the line along which it gives back.
+namespace sandhopper::diagnose {
+namespace {
+
+// Two pushes lowered the surface by 10 mm each; of the 60 mm to the floor 40 are left.
+TEST(DiagnoseGround, TheFloorStaysWhereItIsUnderACrater) {
+  Edits edits;
+  edits.law("ground.surface", [](const PortState& s) { return -0.01 * s.pushes; });
+  edits.law("ground.factor", [](const PortState& s) { return s.bed_depth_m - s.position; });
+  const GroundLaws laws(edits, {.pushes = 2.0, .wait_s = 0.0, .bed_depth_m = 0.06});
+  EXPECT_NEAR(laws.deeper_m(), -0.02, 1e-12);
+  EXPECT_NEAR(laws.quasi_static_N(1.0, 0.03), 1.0 + 0.04 - 0.03, 1e-12);
+}
+
+// A line a third as steep as believed, beside a mass beyond the load cell. A yielding rig and a gain do about
+// the same, and the believed line made steeper changes nothing.
+TEST(DiagnoseGround, ASofterUnloadingLineIsNotAYieldingRig) {
+  constexpr double kMass_kg = 0.2;
+  auto recordings = presses([](double, double) { return 0.0; });
+  recordings.belief.numbers["terrain.unloading_stiffness_ratio"] = 90.0;
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  for (auto& trial : recordings.trials)
+    for (std::size_t i = 0; i < trial.time_s.size(); ++i)
+      trial.channels["force_N"][i] += kMass_kg * -trial.channels["foot_accel_mps2"][i];
+  const auto d = diagnose(recordings);
+  std::set<std::string> named;
+  for (const auto& effect : d.effects) named.insert(effect.id);
+  EXPECT_EQ(named, (std::set<std::string>{"load_cell.inertia", "terrain.unloading"}));
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
