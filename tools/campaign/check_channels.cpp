@@ -88,7 +88,10 @@ class Checker {
       const auto* traits = find_channel(plant_, recording_.channels[i].name);
       if (traits == nullptr || traits->may_rest == MayRest::always) continue;
       if (shapes_[i].samples < kFewestSamples) continue;
-      unusable[i] = is_stuck(i, *traits) || (traits->has_range && is_saturated(i));
+      const bool stuck = is_stuck(i, *traits), saturated = !stuck && traits->has_range && is_saturated(i);
+      unusable[i] = stuck || saturated;
+      if (saturated || (stuck && shapes_[i].runs.size() == 1))
+        recording_.at_one_value.push_back(recording_.channels[i]);
     }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < unusable.size(); ++i) {

@@ -30,6 +30,8 @@ class TrialRecording {
 
   std::vector<double> t_s;
   std::vector<Channel> channels;
+  // Of those that are not used: at the end of their range for too long, or at one value throughout.
+  std::vector<Channel> at_one_value;
   bool own_log = false;                     // a log of this firmware, not a table from somewhere
   std::vector<std::string> unused_columns;  // of the file, that no channel or mapping names
   std::vector<SaturatedRows> saturated;

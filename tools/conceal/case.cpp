@@ -153,6 +153,19 @@ bool acts(const Case& c, const HiddenEffect& effect) {
          (effect.size >= 1.0 || visibility(c, {effect}).ratio > 0.0);
 }
 
+// Nor is it hidden where another hides all that it does: what a sensor at its limit would show.
+bool acts_beside(const Case& c, std::size_t which) {
+  auto others = c.hidden;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
+  return others.empty() || difference(c, c.hidden, others).ratio > kActs;
+}
+
+bool all_act(const Case& c) {
+  for (std::size_t i = 0; i < c.hidden.size(); ++i)
+    if (!acts(c, c.hidden[i]) || !acts_beside(c, i)) return false;
+  return true;
+}
+
 }  // namespace
 
 void check(const Request& request) {
@@ -194,8 +207,7 @@ Case make_case(const Request& request, std::uint64_t index) {
   const auto base = Random(request.seed).stream("case", index);
   for (int i = 0; i < kAttempts; ++i) {
     auto c = attempt(request, index, base, i);
-    if (!std::all_of(c.hidden.begin(), c.hidden.end(), [&](const HiddenEffect& e) { return acts(c, e); }))
-      continue;
+    if (!all_act(c)) continue;
     c.bench = c.plant->build(c.apparatus);
     if (c.restriction) c.bench->restrict_to(*c.restriction);
     for (auto& effect : c.hidden) {

@@ -42,6 +42,19 @@ PlantKind kind_of(CampaignPlant plant) {
   return PlantKind::hopper;
 }
 
+// A channel at the end of its range, or at one value, in all trials: what it does show counts, and what ails it
+// is a finding.
+void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
+                               std::vector<Trial>& trials) {
+  std::map<std::string, std::size_t> count;
+  for (const auto& channels : of_trials)
+    for (const auto& channel : channels) ++count[channel.name];
+  for (std::size_t t = 0; t < trials.size(); ++t)
+    for (const auto& channel : of_trials[t])
+      if (count[channel.name] == trials.size() && channel.values.size() == trials[t].time_s.size())
+        trials[t].channels[channel.name] = channel.values;
+}
+
 // Set-ups under the names that plants know, where the experimenter gave them others.
 void translate_setups(const Campaign& campaign, CampaignInput& input) {
   auto& trials = input.recordings.trials;
@@ -89,6 +102,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.recordings.plant = kind_of(campaign.plant);
   input.recordings.belief = flattened(campaign.belief);
   input.findings = campaign.findings;
+  std::vector<std::vector<TrialRecording::Channel>> at_one_value;
   for (const auto& described : campaign.trials) {
     const TrialRecording recording = read_trial(campaign, described);
     for (const auto& finding : recording.findings)  // a file that several trials share has each once
@@ -106,8 +120,10 @@ CampaignInput read_campaign(const Campaign& campaign) {
     for (const double t : recording.t_s) trial.time_s.push_back(t - recording.t_s.front());
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));
+    at_one_value.push_back(recording.at_one_value);
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
+  take_what_is_at_one_value(at_one_value, input.recordings.trials);
   translate_setups(campaign, input);
   return input;
 }

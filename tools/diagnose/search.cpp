@@ -29,6 +29,7 @@ constexpr FitOptions kRough{
 constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
 constexpr double kRival = 20.0;                                // of the criterion
 constexpr double kUnsettled = 1e-5;    // of what is explained: a rough fit may be short by so much
+constexpr double kSurely = 1e-8;
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
@@ -71,10 +72,12 @@ double Search::cost_of_a_parameter() const {
   return std::log(std::max<double>(3.0, static_cast<double>(problem_->trials.size())));
 }
 
-double Search::criterion(const SetFit& fit) const {
+double Search::criterion(const SetFit& fit) const { return criterion(fit, dispersion_); }
+
+double Search::criterion(const SetFit& fit, double dispersion) const {
   const auto effects = static_cast<double>(fit.set.size());
   const auto parameters = static_cast<double>(fit.fit.point.hypothesis.parameters());
-  return fit.fit.deviance / dispersion_ + size_deviance(*problem_, fit.fit.point.hypothesis) +
+  return fit.fit.deviance / dispersion + size_deviance(*problem_, fit.fit.point.hypothesis) +
          effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter();
 }
 
@@ -249,6 +252,30 @@ void Search::finish_rivals() {
   if (!ahead) return;
   choose_best();
   prune();
+}
+
+// Trials may differ by far more in one effect than in another beside it, and the mean of both would hide the
+// other: what is beyond doubt by its own dispersion, and pays by that, is added.
+void Search::grow_best() {
+  const auto pays = [&](SetFit& fit) {
+    if (!fit.judged) judge(fit);
+    if (!fit.needed) return false;
+    const auto added = std::ranges::find_if(
+        fit.evidence, [&](const auto& e) { return !std::ranges::binary_search(best_, e.candidate); });
+    return added->p_value < kSurely &&
+           criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
+  };
+  for (bool grown = true; grown && best_.size() < options_.most_effects;) {
+    std::vector<SetFit*> order;
+    for (auto& [set, fit] : sets_)
+      if (!best_.empty() && set.size() == best_.size() + 1 && std::ranges::includes(set, best_) &&
+          !fit.rough && fit.fit.status != FitStatus::failed)
+        order.push_back(&fit);
+    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
+    const auto found = std::ranges::find_if(order, [&](SetFit* fit) { return pays(*fit); });
+    grown = found != order.end();
+    if (grown) best_ = (*found)->set;
+  }
 }
 
 // With derivatives of its own: what nuisances still lean by shows only then.
@@ -531,6 +558,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     prune();
   }
   finish_rivals();
+  grow_best();
   settle_best();
   return best();
 }

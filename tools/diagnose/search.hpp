@@ -16,6 +16,7 @@ struct EffectEvidence {
   double gain = 0.0;     // what the deviance would rise by without it, linearly
   double p_value = 1.0;  // trials as units, for all candidates together
   double flip_p_value = 1.0;
+  double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
   double typicals = 0.0;  // |size| of the first amplitude
   bool at_bound = false;
   bool too_small = false;  // to be named, though it may be there
@@ -26,7 +27,7 @@ struct SetFit {
   std::vector<std::size_t> set;  // sorted
   Fit fit;
   std::vector<EffectEvidence> evidence;
-  double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
+  double dispersion = 1.0;  // the mean of the effects'
   bool rough = false;       // only tried: finished before it can be the answer
   bool judged = false;
   bool needed = false;    // every effect stands on its own; known once judged
@@ -77,6 +78,7 @@ class Search {
   double dispersion() const { return dispersion_; }
 
  private:
+  double criterion(const SetFit& fit, double dispersion) const;
   double cost_of_an_effect() const;  // of the criterion, with one parameter
   double cost_of_a_parameter() const;
   void evaluate(const SetFit& from, const Screened& added);
@@ -94,6 +96,7 @@ class Search {
   Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;
   void finish_rivals();
+  void grow_best();
   void settle_best();
   void choose_best();
 

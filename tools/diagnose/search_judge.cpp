@@ -24,11 +24,14 @@ constexpr double kComesTrue = 0.05;
 constexpr double kTrialsAgree = 0.01;
 constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
 constexpr double kWithoutFlips = 1e-4;
+constexpr double kFarShare = 0.02;  // of what is explained
 constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kUnmistakablePerRow =
     0.3;  // what gains this share of the noise's power is not too small to name
 constexpr double kSmallestShare = 0.002;   // of what all effects explain
+constexpr std::size_t kTrialsToDoubt = 10;
+constexpr double kFormInDoubt = 0.01;
 constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
 
 // What one effect alone changes.
@@ -227,6 +230,7 @@ void Search::judge(SetFit& result) {
       return s;
     }());
     const double robust = std::pow(group.evidence.standard_error() * model, 2);
+    evidence.dispersion = std::max(1.0, robust / model);
     dispersion += robust / model;
     ++count;
     result.evidence.push_back(std::move(evidence));
@@ -236,8 +240,12 @@ void Search::judge(SetFit& result) {
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
+  const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
+    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
+                        problem_->plant->form_error() >= kFormInDoubt;
+    const double significance = beside ? kSignificanceBeside : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
@@ -253,10 +261,12 @@ void Search::judge(SetFit& result) {
     } else {
       evidence.flip_p_value = 0.0;
     }
-    // Flips are made where the simulation is linear in nothing yet; what the trials say this clearly at the
-    // fit itself does not need them. Nor can they say much where a few trials carry nearly all information.
+    // Flips are made where the effect is not there yet, which may be far from where the simulation is linear in
+    // it; what the trials say this clearly at the fit itself does not need them. What explains little is near. Nor can they say much where a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
+    const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
     const bool beyond_doubt =
+        (far || !flips_can_tell || (fitted != sets_.end() && unbends(fitted->second.fit, result.fit))) &&
         evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
         (fitted == sets_.end() || unbends(fitted->second.fit, result.fit) ||
          fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
@@ -270,7 +280,7 @@ void Search::judge(SetFit& result) {
     evidence.too_small = evidence.typicals < smallest;
     evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
                                                      channels_read(*problem_, point.hypothesis, e));
-    if (!(evidence.p_value < kSignificance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
+    if (!(evidence.p_value < significance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;
     // A law of another form may leave as much, where it shows; where only readings change, of what those

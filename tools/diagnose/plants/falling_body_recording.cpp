@@ -83,6 +83,15 @@ std::optional<double> landed_after_s(const Samples& heights, double believed_noi
   return t[first - 1];
 }
 
+std::optional<double> gap_around_s(const Samples& accels, double about_s) {
+  constexpr double kNear_s = 0.03, kLeast_s = 0.01;
+  for (std::size_t i = 1; i < accels.time_s.size(); ++i) {
+    const double from_s = accels.time_s[i - 1], to_s = accels.time_s[i];
+    if (to_s - from_s > kLeast_s && from_s - kNear_s < about_s && about_s < to_s + kNear_s) return from_s;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> release_by_hand_s(const Samples& heights) {
   constexpr double kLook_s = 1.0, kStep_s = 0.01;
   constexpr std::size_t kFewest = 8;
