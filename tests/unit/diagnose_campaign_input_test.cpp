@@ -1,6 +1,10 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "tests/unit/campaign_folder.hpp"
 #include "tools/diagnose/campaign_input.hpp"
@@ -28,6 +32,35 @@ TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {
   };
   EXPECT_EQ(gaps_in("force.csv"), 1);
   EXPECT_EQ(gaps_in("3.csv"), 1);
+}
+
+std::string force_rows(const std::function<double(int)>& force_N) {
+  std::string text = "t_s,foot_z_m,force_N\n";
+  for (int i = 0; i < 400; ++i) text += fmt::format("{:.3f},{:.6f},{:.3f}\n", 1e-3 * i, -1e-4 * i, force_N(i));
+  return text;
+}
+
+// A load cell at its limit for half of its samples, or at one value, in all trials still shows what it shows;
+// one that failed in a single trial does not.
+TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
+  const auto live = [](int i) { return 0.05 * i + 0.01 * ((i * 7919) % 13); };
+  const auto limited = [&](int i) { return std::min(live(i), i > 395 ? live(i - 300) : 10.0); };
+  const auto stuck = [](int) { return 3.25; };
+  const auto forces_in = [&](const std::vector<std::function<double(int)>>& of_trials) {
+    CampaignFolder folder;
+    std::string campaign = "name = \"x\"\nplant = \"intruder\"\n";
+    for (std::size_t t = 0; t < of_trials.size(); ++t) {
+      campaign += fmt::format("[[trial]]\nfile = \"{}.csv\"\n", t);
+      folder.write(fmt::format("{}.csv", t), force_rows(of_trials[t]));
+    }
+    folder.write("campaign.toml", campaign);
+    const auto input = read_campaign(load_campaign(folder.path()));
+    return std::ranges::count_if(input.recordings.trials,
+                                 [](const Trial& trial) { return trial.channels.contains("force_N"); });
+  };
+  EXPECT_EQ(forces_in({limited, limited, limited}), 3);
+  EXPECT_EQ(forces_in({stuck, stuck, stuck}), 3);
+  EXPECT_EQ(forces_in({live, stuck, live}), 2);
 }
 
 }  // namespace

@@ -57,6 +57,38 @@ TEST(DiagnoseFallingBody, HeightsThatStandStillAtTheEndAreTheGround) {
   EXPECT_FALSE(landed_after_s(sinks, kNoise_m).has_value());
 }
 
+// A sensor at 180 Hz in rows at 500 Hz: its samples stand three or two rows apart and are up to one old.
+TEST(DiagnoseFallingBody, HeightsOfAClockOfTheirOwnAreAsUnsureAsTheyAreFast) {
+  auto recordings = drops([](double, double, double) { return 0.0; }, 1, 1);
+  EXPECT_EQ(prepare(recordings).problem.trials.front()->rows.front().relative_sd, 1.0);
+  auto& trial = recordings.trials.front();
+  auto& height = trial.channels["height_m"];
+  double next_s = 0.0;
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const double fallen_m = 4.905 * trial.time_s[i] * trial.time_s[i];
+    height[i] = trial.time_s[i] >= next_s ? trial.setup["release_height_m"] - fallen_m : std::nan("");
+    if (trial.time_s[i] >= next_s) next_s += 0.0125;
+  }
+  const Prepared prepared = prepare(recordings);
+  const auto& rows = prepared.problem.trials.front()->rows;
+  EXPECT_NEAR(rows.front().relative_sd, 1.0, 0.1);
+  const auto last = std::find_if(rows.rbegin(), rows.rend(), [](const Row& row) { return row.channel == 0; });
+  const double fell_mps = 9.81 * last->time_s;
+  EXPECT_NEAR(last->relative_sd, fell_mps * 0.005 / std::sqrt(12.0) / 0.003, 0.1 * last->relative_sd);
+}
+
+// Blow taken out where the accelerometer was at its limit: the bed began before it, though a height that is
+// late shows it only afterwards.
+TEST(DiagnoseFallingBody, ABlowThatIsNotThereIsWhereTheBedBegan) {
+  Samples accels;
+  for (int i = 0; i < 200; ++i)
+    if (i < 100 || i > 140) accels.time_s.push_back(0.001 * i), accels.value.push_back(i < 100 ? 0.0 : 9.8);
+  const auto began_s = gap_around_s(accels, 0.112);
+  ASSERT_TRUE(began_s.has_value());
+  EXPECT_NEAR(*began_s, 0.099, 1e-9);
+  EXPECT_FALSE(gap_around_s(accels, 0.19).has_value());  // that one is something else
+}
+
 // A ball thrown upwards with only an accelerometer on it: set-ups give a speed without saying which way. In
 // air that is known the two ways read differently; in none they read the same, and down it stays.
 TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {

@@ -20,11 +20,11 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   const double duration_s = std::min(kLongest_s, 4.0 * std::sqrt(2.0 * drop.height_m / g));
   const double ground_m = belief.value("bed.surface_height_m");
   const bool bed = belief.value("bed.stiffness_N_per_m") > 0.0;
-  // Where no bed stops the body the guess stays aloft: a recording counts only until it lands, and what slows
-  // the fall brings it down later than a free fall.
+  // Where no bed stops the body the guess stays aloft, sinking: a recording counts only until it lands or
+  // stands still, and what slows the fall brings it down later than a free fall.
   const auto guess_m = [&](double t) {
     const double free_m = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
-    return bed ? free_m : std::max(free_m, ground_m + 0.5 * (drop.height_m - ground_m));
+    return bed ? free_m : std::max(free_m, ground_m + (0.5 - 0.2 * t / duration_s) * (drop.height_m - ground_m));
   };
   Trial trial = recorded_like(sample, duration_s, [&](const std::string& channel, double t) {
     return channel == "height_m" ? guess_m(t) : 0.0;

@@ -83,6 +83,7 @@ class FallingTrial final : public TrialModel {
     if (bed_ && held_ && !height_known) find_stop(accels);
     place(trial, heights);
     if (bed_ && impact_s_ < 0.0) find_touchdown(heights, accels);
+    height_jitter_s_ = jitter_s(heights.time_s, median_step_s(trial.time_s));
     if (!bed_) landed_after_s_ = landed_after_s(heights, belief.value("sensors.height_noise_m")).value_or(1e300);
     add_rows(0, heights);
     add_rows(1, accels);
@@ -308,9 +309,12 @@ class FallingTrial final : public TrialModel {
     for (const double v : motion.velocity.values) fastest = std::max(fastest, std::abs(v));
     Coordinate height{"height_m", {}}, velocity{"velocity_mps", {}}, time{"t_s", {}};
     const double surface_m = belief_.value("bed.surface_height_m");
+    const double noise_m = belief_.value("sensors.height_noise_m");
     for (Row& row : rows) {
       height.values.push_back(motion.height.at(row.time_s));
       velocity.values.push_back(motion.velocity.at(row.time_s));
+      if (row.channel == 0 && noise_m > 0.0)
+        row.relative_sd = std::hypot(1.0, velocity.values.back() * height_jitter_s_ / noise_m);
       time.values.push_back(row.time_s);
       row.phase = held_ && row.time_s < release_s_                   ? kHeld
                   : bed_ && height.values.back() <= surface_m        ? kBed
@@ -436,7 +440,7 @@ class FallingTrial final : public TrialModel {
   bool height_told_ = false;   // in the set-up
   bool from_release_ = false;  // rows before it are left out
   double release_s_ = 0.0;
-  double stop_s_ = 1e300, landed_after_s_ = 1e300;
+  double height_jitter_s_ = 0.0, stop_s_ = 1e300, landed_after_s_ = 1e300;
   int bed_nuisance_ = -1, release_nuisance_ = -1, height_bias_ = -1, height_scale_ = -1, accel_bias_ = -1;
   int touchdown_nuisance_ = -1, impact_nuisance_ = -1;
   double touchdown_s_ = 0.0;

@@ -113,6 +113,18 @@ std::optional<double> release_by_hand_s(const Samples& heights) {
   return best_s;
 }
 
+double jitter_s(const std::vector<double>& sampled_s, double row_s) {
+  constexpr double kOften = 0.02;
+  if (sampled_s.size() < 10) return 0.0;
+  const double usual_s = median_step_s(sampled_s);
+  double other = 0.0;  // a row more or less; more than that is a gap
+  for (std::size_t i = 1; i < sampled_s.size(); ++i) {
+    const double rows = std::abs(sampled_s[i] - sampled_s[i - 1] - usual_s) / row_s;
+    other += rows > 0.5 && rows < 1.5;
+  }
+  return other > kOften * static_cast<double>(sampled_s.size()) ? row_s / std::sqrt(12.0) : 0.0;
+}
+
 double fastest_mps(const Samples& heights) {
   const auto& [t, h] = heights;
   const std::size_t apart = std::max<std::size_t>(1, h.size() / 10);

@@ -27,6 +27,10 @@ std::optional<double> release_by_hand_s(const Samples& heights);
 // the bed began.
 std::optional<double> gap_around_s(const Samples& accels, double about_s);
 
+// Root mean square of how long before its row a sample was taken, against the mean of that: a sensor with a
+// clock of its own, whose samples come after now three rows, now two, is up to a row old. 0: always as many.
+double jitter_s(const std::vector<double>& sampled_s, double row_s);
+
 // Mean speed over a tenth of a trial, where that is fastest; 0 without heights.
 double fastest_mps(const Samples& heights);
 
