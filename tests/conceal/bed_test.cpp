@@ -1,11 +1,12 @@
-#include <gtest/gtest.h>
-
 #include "tools/conceal/bed/bed.hpp"
+
+#include <gtest/gtest.h>
 
 namespace sandhopper::conceal {
 namespace {
 
-// Two pushes lower the surface by 5 mm each: nothing resists above it, neither grains nor what goes with speed.
+// Two pushes lower the surface by 5 mm each: nothing resists above it, neither grains nor what goes with
+// speed.
 TEST(ConcealedBed, NothingResistsAboveALoweredSurface) {
   Bed bed;
   bed.hidden.crater_m_per_push = 5e-3;

@@ -36,7 +36,8 @@ TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {
 
 std::string force_rows(const std::function<double(int)>& force_N) {
   std::string text = "t_s,foot_z_m,force_N\n";
-  for (int i = 0; i < 400; ++i) text += fmt::format("{:.3f},{:.6f},{:.3f}\n", 1e-3 * i, -1e-4 * i, force_N(i));
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{:.3f},{:.6f},{:.3f}\n", 1e-3 * i, -1e-4 * i, force_N(i));
   return text;
 }
 

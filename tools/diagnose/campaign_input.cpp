@@ -42,8 +42,8 @@ PlantKind kind_of(CampaignPlant plant) {
   return PlantKind::hopper;
 }
 
-// A channel at the end of its range, or at one value, in all trials: what it does show counts, and what ails it
-// is a finding.
+// A channel at the end of its range, or at one value, in all trials: what it does show counts, and what ails
+// it is a finding.
 void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
                                std::vector<Trial>& trials) {
   std::map<std::string, std::size_t> count;

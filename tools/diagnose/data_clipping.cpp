@@ -8,12 +8,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kPileUp = 0.01;    // of all samples, exactly on the end value
-constexpr std::size_t kLeast = 6;   // samples there
-constexpr std::size_t kFewest = 10; // that tell a trial's noise
-constexpr std::size_t kInARow = 4;  // of them whose forerunner is there, too: a blow is short
-constexpr double kGridSteps = 3.0;  // noise must move the sensor by this many
-constexpr double kLifted = 3.0;     // standard deviations that noise may take a sample off the limit
+constexpr double kPileUp = 0.01;        // of all samples, exactly on the end value
+constexpr std::size_t kLeast = 6;       // samples there
+constexpr std::size_t kFewest = 10;     // that tell a trial's noise
+constexpr std::size_t kInARow = 4;      // of them whose forerunner is there, too: a blow is short
+constexpr double kGridSteps = 3.0;      // noise must move the sensor by this many
+constexpr double kLifted = 3.0;         // standard deviations that noise may take a sample off the limit
 constexpr std::ptrdiff_t kAround = 12;  // samples on each side, whose median says where the quantity is
 constexpr std::ptrdiff_t kBeside = 2;   // samples on each side that a blow may lift off the limit
 

@@ -28,7 +28,7 @@ constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
 constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
 constexpr double kRival = 20.0;                                // of the criterion
-constexpr double kUnsettled = 1e-5;    // of what is explained: a rough fit may be short by so much
+constexpr double kUnsettled = 1e-5;  // of what is explained: a rough fit may be short by so much
 constexpr double kSurely = 1e-8;
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;

@@ -17,7 +17,7 @@ struct EffectEvidence {
   double p_value = 1.0;  // trials as units, for all candidates together
   double flip_p_value = 1.0;
   double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
-  double typicals = 0.0;  // |size| of the first amplitude
+  double typicals = 0.0;    // |size| of the first amplitude
   bool at_bound = false;
   bool too_small = false;  // to be named, though it may be there
   bool unnoticed = false;  // explains no more than two simulations differ by

@@ -29,7 +29,7 @@ constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kUnmistakablePerRow =
     0.3;  // what gains this share of the noise's power is not too small to name
-constexpr double kSmallestShare = 0.002;   // of what all effects explain
+constexpr double kSmallestShare = 0.002;  // of what all effects explain
 constexpr std::size_t kTrialsToDoubt = 10;
 constexpr double kFormInDoubt = 0.01;
 constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
@@ -261,8 +261,9 @@ void Search::judge(SetFit& result) {
     } else {
       evidence.flip_p_value = 0.0;
     }
-    // Flips are made where the effect is not there yet, which may be far from where the simulation is linear in
-    // it; what the trials say this clearly at the fit itself does not need them. What explains little is near. Nor can they say much where a few trials carry nearly all information.
+    // Flips are made where the effect is not there yet, which may be far from where the simulation is linear
+    // in it; what the trials say this clearly at the fit itself does not need them. What explains little is
+    // near. Nor can they say much where a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
     const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
     const bool beyond_doubt =

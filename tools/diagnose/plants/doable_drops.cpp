@@ -24,7 +24,8 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   // stands still, and what slows the fall brings it down later than a free fall.
   const auto guess_m = [&](double t) {
     const double free_m = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
-    return bed ? free_m : std::max(free_m, ground_m + (0.5 - 0.2 * t / duration_s) * (drop.height_m - ground_m));
+    return bed ? free_m
+               : std::max(free_m, ground_m + (0.5 - 0.2 * t / duration_s) * (drop.height_m - ground_m));
   };
   Trial trial = recorded_like(sample, duration_s, [&](const std::string& channel, double t) {
     return channel == "height_m" ? guess_m(t) : 0.0;

@@ -84,7 +84,8 @@ class FallingTrial final : public TrialModel {
     place(trial, heights);
     if (bed_ && impact_s_ < 0.0) find_touchdown(heights, accels);
     height_jitter_s_ = jitter_s(heights.time_s, median_step_s(trial.time_s));
-    if (!bed_) landed_after_s_ = landed_after_s(heights, belief.value("sensors.height_noise_m")).value_or(1e300);
+    if (!bed_)
+      landed_after_s_ = landed_after_s(heights, belief.value("sensors.height_noise_m")).value_or(1e300);
     add_rows(0, heights);
     add_rows(1, accels);
     if (touchdown_nuisance_ >= 0) rows.push_back({2, 0, kBed, touchdown_s_, 0.0});
@@ -262,7 +263,8 @@ class FallingTrial final : public TrialModel {
     auto& times = channel == 0 ? height_times_ : accel_times_;
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       if (from_release_ && samples.time_s[i] < release_s_) continue;
-      if (samples.time_s[i] > stop_s_ || (channel == 0 && may_have_landed(samples.time_s[i], samples.value[i])))
+      if (samples.time_s[i] > stop_s_ ||
+          (channel == 0 && may_have_landed(samples.time_s[i], samples.value[i])))
         break;
       if (channel == 1 && touchdown_nuisance_ >= 0 && std::abs(samples.time_s[i] - touchdown_s_) < kKink_s)
         continue;

@@ -23,8 +23,8 @@ std::optional<double> landed_after_s(const Samples& heights, double believed_noi
 // acceleration. What comes before is the hand's motion.
 std::optional<double> release_by_hand_s(const Samples& heights);
 
-// The last sample before a gap near `about_s`, where an accelerometer went to its limit and was not used: then
-// the bed began.
+// The last sample before a gap near `about_s`, where an accelerometer went to its limit and was not used:
+// then the bed began.
 std::optional<double> gap_around_s(const Samples& accels, double about_s);
 
 // Root mean square of how long before its row a sample was taken, against the mean of that: a sensor with a
