@@ -172,15 +172,15 @@ class FallingTrial final : public TrialModel {
       if (accels.time_s[i] > release_s_ + 0.2 * fall.touchdown_s &&
           accels.value[i] - accels.value[i - window] > rise)
         found_s = accels.time_s[i - window];
-    if (found_s < 0.0) {
+    bool felt = found_s >= 0.0;
+    if (!felt) {
       for (std::size_t i = 0; i < heights.value.size() && found_s < 0.0; ++i)
         if (heights.value[i] < f.surface_height_m) found_s = heights.time_s[i];
       const auto blow_s = gap_around_s(accels, found_s < 0.0 ? fall.touchdown_s : found_s);
-      if (blow_s) found_s = *blow_s;
-      if (blow_s) stop_s_ = found_s + kLastPhase_rad / rate_radps;
-    } else {
-      stop_s_ = found_s + kLastPhase_rad / rate_radps;
+      felt = blow_s.has_value();
+      found_s = blow_s.value_or(found_s);
     }
+    if (felt) stop_s_ = found_s + kLastPhase_rad / rate_radps;
     if (found_s < 0.0) return;
     touchdown_s_ = found_s;
     touchdown_nuisance_ = static_cast<int>(trial_nuisances.size());
