@@ -9,7 +9,8 @@ namespace sandhopper {
 // reached and left at once) or stuck (one value while the rest of the recording moves). Held values of slow
 // sensors, rest before and after the motion, and channels that are constant by nature are left alone.
 // Saturation is listed in `recording.saturated`; a channel that stands still or at its limit for a fifth of
-// its samples is removed.
+// its samples is removed; at its limit or at one value throughout it is kept apart in
+// `recording.at_one_value`.
 struct RecordingPlaces {
   std::string file;
   std::vector<std::uint64_t> lines{};    // of the rows

@@ -47,7 +47,7 @@ std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double no
   const auto at = [&](std::ptrdiff_t i) { return beyond[static_cast<std::size_t>(i)]; };
   std::vector<std::size_t> near;
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    bool cut = at(i) == 0.0;
+    bool cut = false;
     for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - kBeside); k <= std::min(n - 1, i + kBeside); ++k)
       cut = cut || (at(k) == 0.0 && at(i) > -kLifted * noise);
     if (!cut && at(i) > -2.0 * kLifted * noise) {
@@ -70,7 +70,6 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
       high = std::max(high, v);
       ++total;
     }
-  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
   if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
     // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
     DataFault always{.channel = channel,
@@ -87,7 +86,9 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
     faults.push_back(std::move(always));
     return;
   }
-  if (total < 50.0 || !(high > low) || noise < kGridSteps * grid) return;
+  if (total < 50.0 || !(high > low)) return;
+  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
+  if (noise < kGridSteps * grid) return;
   DataFault fault;
   fault.channel = channel;
   fault.id = range_fault(channel);

@@ -261,23 +261,23 @@ void Search::judge(SetFit& result) {
     } else {
       evidence.flip_p_value = 0.0;
     }
+    // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
+    const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
     // Flips are made where the effect is not there yet, which may be far from where the simulation is linear
     // in it; what the trials say this clearly at the fit itself does not need them. What explains little is
     // near. Nor can they say much where a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
     const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
     const bool beyond_doubt =
-        (far || !flips_can_tell || (fitted != sets_.end() && unbends(fitted->second.fit, result.fit))) &&
+        (far || !flips_can_tell || hidden) &&
         evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
-        (fitted == sets_.end() || unbends(fitted->second.fit, result.fit) ||
+        (fitted == sets_.end() || hidden ||
          fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
     const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     const double lost = fitted == sets_.end()
                             ? evidence.gain
                             : std::min(evidence.gain, fitted->second.fit.deviance - result.fit.deviance);
-    // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
-    const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
     evidence.too_small = evidence.typicals < smallest;
     evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
                                                      channels_read(*problem_, point.hypothesis, e));
