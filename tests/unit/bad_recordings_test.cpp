@@ -203,6 +203,29 @@ TEST(BadRecording, RestAndHeldValuesAndConstantChannelsAreNotStuck) {
   EXPECT_EQ(recording.channels.size(), 7U);
 }
 
+// The encoder's steps are coarse, the speed's sensor is noise about `speed_radps`.
+std::string axis_whose_encoder_reads_one_angle(double speed_radps) {
+  std::string text = "t_s,position_rad,velocity_radps,torque_Nm\n";
+  for (int i = 0; i < 1000; ++i) {
+    const double noise = 0.02 * std::sin(2.1 * i * i);
+    text += fmt::format("{:.3f},0.3876,{:.4f},{:.4f}\n", 1e-3 * i, speed_radps * std::sin(0.02 * i) + noise,
+                        1.6 + 0.5 * noise);
+  }
+  return text;
+}
+
+TEST(BadRecording, AnAngleThatIsHeldIsNotStuck) {
+  const auto recording = read(axis_whose_encoder_reads_one_angle(0.0), "rotary_axis");
+  EXPECT_TRUE(recording.findings.empty()) << to_string(recording.findings.front());
+  EXPECT_TRUE(recording.has("position_rad"));
+}
+
+TEST(BadRecording, AnAngleThatStaysWhileTheAxisTurnsIsStuck) {
+  const auto recording = read(axis_whose_encoder_reads_one_angle(0.5), "rotary_axis");
+  expect_finding(recording, stuck, channel_unusable, {2, 7});
+  EXPECT_FALSE(recording.has("position_rad"));
+}
+
 TEST(BadRecording, ADwellOfThePrescribedMotionIsNotSaturation) {
   std::string text = "t_s,foot_z_m,force_N\n";
   for (int i = 0; i < 900; ++i) {

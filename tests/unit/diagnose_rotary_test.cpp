@@ -213,5 +213,31 @@ TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
   EXPECT_EQ(diagnose(recordings).verdict, "consistent");
 }
 
+// Without an encoder the angle is where the set-up says, and gravity what it is there.
+TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
+  for (const double gravity_Nm : {2.0, 2.6}) {  // 2 are believed
+    auto recordings = swings([](double, double, double) { return 0.0; }, 1, 8);
+    for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+      Random random(9, i);
+      auto& trial = recordings.trials[i];
+      const double angle = 0.3 + 0.1 * static_cast<double>(i);
+      trial.kind = "hold";
+      trial.setup["position_rad"] = angle;
+      trial.channels.erase("position_rad");
+      for (double& speed : trial.channels["velocity_radps"]) speed = 0.02 * random.normal();
+      for (double& torque : trial.channels["torque_Nm"])
+        torque = gravity_Nm * std::sin(angle) + 1e-3 * random.normal();
+    }
+    const auto d = diagnose(recordings);
+    if (gravity_Nm == 2.0) {
+      EXPECT_EQ(d.verdict, "consistent");
+      continue;
+    }
+    ASSERT_EQ(d.effects.size(), 1u);
+    EXPECT_EQ(d.effects.front().id, "axis.gravity");
+    EXPECT_NEAR(d.effects.front().parameters.front().value, 2.6, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

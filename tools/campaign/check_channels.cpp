@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <string>
+#include <string_view>
 
 #include "firmware/log/csv_import.hpp"
 
@@ -64,6 +68,28 @@ double spread_of(std::vector<double> values) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   };
   return at(0.95) - at(0.05);
+}
+
+// What is left of noise, whose samples do not know of each other, is small; what moves, moves in these means.
+std::vector<double> means_of_stretches(const std::vector<double>& values) {
+  constexpr std::size_t kStretches = 30;
+  std::vector<double> fresh;
+  std::ranges::copy_if(values, std::back_inserter(fresh), [](double value) { return !std::isnan(value); });
+  const std::size_t each = std::max<std::size_t>(1, fresh.size() / kStretches);
+  std::vector<double> means;
+  for (auto at = fresh.begin(); fresh.end() - at >= static_cast<std::ptrdiff_t>(each);
+       at += static_cast<std::ptrdiff_t>(each))
+    means.push_back(std::accumulate(at, at + static_cast<std::ptrdiff_t>(each), 0.0) /
+                    static_cast<double>(each));
+  return means;
+}
+
+// "position_rad" and "motor_left_position_rad" have theirs beside them.
+std::string rate_of(const std::string& channel) {
+  constexpr std::string_view kPosition = "position_rad";
+  return channel.ends_with(kPosition)
+             ? channel.substr(0, channel.size() - kPosition.size()) + "velocity_radps"
+             : "";
 }
 
 bool natural_rest(const ChannelTraits& traits, double value) {
@@ -145,17 +171,25 @@ class Checker {
     return std::abs((at + 1)->value - at->value) > kJump * *ninth;
   }
 
-  // During a rest of the whole robot every channel keeps to a small part of what it does over the trial.
+  // During a rest of the whole robot every channel keeps to a small part of what it does over the trial. Of
+  // an angle its speed knows best: that of an axis held still is noise, and the angle within one step of its
+  // encoder.
   bool others_move(std::size_t self, const Run& run) const {
     constexpr double kMoves = 0.3;
+    const auto part_of = [&](std::size_t i) {
+      const auto values = recording_.channels[i].values.begin();
+      return std::vector<double>(values + static_cast<std::ptrdiff_t>(run.first_row),
+                                 values + static_cast<std::ptrdiff_t>(run.last_row + 1));
+    };
+    const std::string rate = rate_of(recording_.channels[self].name);
+    for (std::size_t i = 0; i < recording_.channels.size(); ++i)
+      if (spreads_[i] > 0.0 && recording_.channels[i].name == rate)
+        return spread_of(means_of_stretches(part_of(i))) > kMoves * spreads_[i];
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
       if (i == self || spreads_[i] <= 0.0) continue;
       const auto* traits = find_channel(plant_, recording_.channels[i].name);
       if (traits == nullptr || traits->may_rest == MayRest::always) continue;
-      const auto& values = recording_.channels[i].values;
-      const auto from = values.begin() + static_cast<std::ptrdiff_t>(run.first_row);
-      const auto to = values.begin() + static_cast<std::ptrdiff_t>(run.last_row + 1);
-      if (spread_of({from, to}) > kMoves * spreads_[i]) return true;
+      if (spread_of(part_of(i)) > kMoves * spreads_[i]) return true;
     }
     return false;
   }

@@ -29,4 +29,7 @@ inline double calibrated_beside(double probability, double share_of_explained) {
   return share_of_explained < kSmallShare ? std::min(probability, kMostBeside) : probability;
 }
 
+// What is named alone on evidence that would not do beside others.
+inline constexpr double kMostOfWeak = 0.75;
+
 }  // namespace sandhopper::diagnose

@@ -232,18 +232,22 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   }
   // Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
   // nuisances move too much for that to say anything.
-  if (!problem.plant->is_costly() && !search.best().set.empty() &&
-      held_out_gain(problem, residuals_of(problem, search.null().fit.point, search.best().fit.point)) <=
-          0.0) {
+  const auto name_nothing_in_vain = [&] {
+    if (problem.plant->is_costly() || search.best().set.empty() ||
+        held_out_gain(problem, residuals_of(problem, search.null().fit.point, search.best().fit.point)) > 0.0)
+      return;
     diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
     search.name_nothing();
-  }
+  };
+  name_nothing_in_vain();
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   // What a name on the list says as well is not unknown, however small the effect.
-  if (rest.unknown && rest.law && search.name_small(rest.remainder()))
+  if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
+    name_nothing_in_vain();
     rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
+  }
   Point answer = search.best().fit.point;
   if (rest.law && (rest.unknown || !search.best().set.empty()))
     answer = with_law_fitted(problem, search.best().fit, *rest.law);

@@ -125,6 +125,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
         found.heldout_gain = std::min(1.0, lost_without(search, evidence) / explained);
         found.p_value = std::max(evidence.p_value, 1e-300);
         found.typicals = evidence.typicals;
+        if (evidence.weak) found.probability = std::min(found.probability, kMostOfWeak);
       }
     diagnosis.effects.push_back(std::move(found));
   }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
+constexpr double kLikelierThanOneMore = 2.0;  // that anything is missing
 constexpr double kLinearError =
     0.05;  // of what is explained: a proposal's estimate may be worse than its fit
 // Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
@@ -78,7 +79,8 @@ double Search::criterion(const SetFit& fit, double dispersion) const {
   const auto effects = static_cast<double>(fit.set.size());
   const auto parameters = static_cast<double>(fit.fit.point.hypothesis.parameters());
   return fit.fit.deviance / dispersion + size_deviance(*problem_, fit.fit.point.hypothesis) +
-         effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter();
+         effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter() -
+         (fit.set.empty() ? 0.0 : 2.0 * std::log(kLikelierThanOneMore));
 }
 
 const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {

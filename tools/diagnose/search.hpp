@@ -21,6 +21,7 @@ struct EffectEvidence {
   bool at_bound = false;
   bool too_small = false;  // to be named, though it may be there
   bool unnoticed = false;  // explains no more than two simulations differ by
+  bool weak = false;       // enough to be named alone, not beside others
 };
 
 struct SetFit {

@@ -22,6 +22,9 @@ constexpr double kTrialsToFlip = 6.0;  // that carry the information: 64 flips
 // amplifies its smallest change, this is nothing while the derivative is huge.
 constexpr double kComesTrue = 0.05;
 constexpr double kTrialsAgree = 0.01;
+constexpr double kFlips = 0.05;  // family-wise, beside the trials' own p
+// Of what is named alone: that anything is missing is likelier than that one more thing is.
+constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
 constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kFarShare = 0.02;  // of what is explained
@@ -240,12 +243,14 @@ void Search::judge(SetFit& result) {
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
+  const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
   const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
     const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
                         problem_->plant->form_error() >= kFormInDoubt;
-    const double significance = beside ? kSignificanceBeside : kSignificance;
+    const bool alone = enough && result.set.size() == 1;
+    const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
@@ -273,7 +278,9 @@ void Search::judge(SetFit& result) {
         evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
         (fitted == sets_.end() || hidden ||
          fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
-    const double flip_needed = problem_->trials.size() >= 6 && !beyond_doubt ? 0.05 : 1.0;
+    const bool flips_decide = enough && !beyond_doubt;
+    const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
+    evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     const double lost = fitted == sets_.end()
                             ? evidence.gain

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "tools/diagnose/balance.hpp"
@@ -28,6 +29,7 @@ constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
 constexpr double kGap_s = 5e-3, kGapRows = 2.5, kAlone_s = 0.3;
 constexpr double kShortest_s = 0.1;     // of what is simulated between two such times
 constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
+constexpr double kStart_rad = 0.05;     // a start is unsure by at least that
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 enum BlockNuisance : std::size_t { kPosition, kVelocity, kTorque, kTorqueRise };
 
@@ -79,7 +81,7 @@ class RotaryTrial final : public TrialModel {
     if (stretches_.empty()) return;
     add_rows(0, positions);
     add_rows(1, velocities);
-    find_starts(positions, velocities);
+    find_starts(positions, velocities, where_it_began(trial));
   }
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
@@ -270,8 +272,16 @@ class RotaryTrial final : public TrialModel {
     return belief_.value("sensors.torque_noise_Nm") / std::sqrt(std::max(1.0, rows));
   }
 
-  // State at the beginning of each block, from the recording smoothed; the fit moves it from there.
-  void find_starts(const Samples& positions, const Samples& velocities) {
+  // By the set-up.
+  static std::optional<double> where_it_began(const Trial& trial) {
+    for (const auto* key : {"position_rad", "release_position_rad"})
+      if (const auto it = trial.setup.find(key); it != trial.setup.end()) return it->second;
+    return std::nullopt;
+  }
+
+  // State at the beginning of each block, from the recording smoothed; the fit moves it from there. Without a
+  // position it starts from `began_rad`.
+  void find_starts(const Samples& positions, const Samples& velocities, std::optional<double> began_rad) {
     const auto& lead = positions.empty() ? velocities : positions;
     const double row_s = median_step_s(lead.time_s);
     const auto half_width = static_cast<std::size_t>(std::clamp(0.01 / row_s, 3.0, 12.0));
@@ -282,7 +292,7 @@ class RotaryTrial final : public TrialModel {
       velocity.value = at.rate;
     } else {
       velocity.value = at.value;
-      double angle = 0.0;
+      double angle = began_rad.value_or(0.0);
       for (std::size_t i = 0; i < position.value.size(); ++i) {
         if (i > 0) angle += 0.5 * (at.value[i] + at.value[i - 1]) * (lead.time_s[i] - lead.time_s[i - 1]);
         position.value[i] = angle;
@@ -301,7 +311,8 @@ class RotaryTrial final : public TrialModel {
     double fastest = 0.0;
     for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
     const double noise = std::max(fluctuation_rms(lead), 1e-6);
-    block_nuisances = {{"position_rad", std::max(0.05, 20.0 * noise), 1e-4},
+    const bool is_told = positions.empty() && began_rad;
+    block_nuisances = {{"position_rad", is_told ? kStart_rad : std::max(kStart_rad, 20.0 * noise), 1e-4},
                        {"velocity_radps", std::max(0.3 * fastest, 0.05), 1e-3 * std::max(fastest, 0.1)}};
     if (const double sd = torque_unknown_Nm(); sd > 0.0) {
       block_nuisances.push_back({"torque_Nm", sd, 0.1 * sd});
