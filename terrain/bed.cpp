@@ -72,10 +72,12 @@ double Bed::added_mass_kg(double depth_m) const noexcept {
 }
 
 BedReaction Bed::reaction(const BedContact& c) const noexcept {
-  BedReaction r = unextended(c);
-  if (extension_ && c.depth_m > 0.0) {
-    const bool virgin = c.depth_m >= c.max_depth_m && c.speed_mps > 0.0;
-    const BedReaction more = extension_->added(c, quasi_static_force_N(c.depth_m), r.force_N, virgin);
+  if (c.depth_m <= 0.0) return {};
+  const bool virgin = c.depth_m >= c.max_depth_m && c.speed_mps > 0.0;
+  const double bears_N = virgin || extension_ ? quasi_static_force_N(c.depth_m) : 0.0;
+  BedReaction r = virgin ? going_deeper(c, bears_N) : unloading(c);
+  if (extension_) {
+    const BedReaction more = extension_->added(c, bears_N, r.force_N, virgin);
     r.force_N += more.force_N;
     r.added_mass_kg += more.added_mass_kg;
     r.least_N += more.least_N;
@@ -83,15 +85,15 @@ BedReaction Bed::reaction(const BedContact& c) const noexcept {
   return r;
 }
 
-BedReaction Bed::unextended(const BedContact& c) const noexcept {
-  if (c.depth_m <= 0.0) return {};
-  if (c.depth_m >= c.max_depth_m && c.speed_mps > 0.0) {
-    const double drag_kg_per_m = p_.drag_factor * added_mass_gradient_kg_per_m(c.depth_m) +
-                                 p_.steady_drag_coefficient * p_.bulk_density_kg_per_m3 * area_m2_;
-    const double engaged = std::min(1.0, c.speed_mps / p_.added_mass_switch_speed_mps);
-    return {.force_N = quasi_static_force_N(c.depth_m) + drag_kg_per_m * square(c.speed_mps),
-            .added_mass_kg = engaged * added_mass_kg(c.depth_m)};
-  }
+BedReaction Bed::going_deeper(const BedContact& c, double bears_N) const noexcept {
+  const double drag_kg_per_m = p_.drag_factor * added_mass_gradient_kg_per_m(c.depth_m) +
+                               p_.steady_drag_coefficient * p_.bulk_density_kg_per_m3 * area_m2_;
+  const double engaged = std::min(1.0, c.speed_mps / p_.added_mass_switch_speed_mps);
+  return {.force_N = bears_N + drag_kg_per_m * square(c.speed_mps),
+          .added_mass_kg = engaged * added_mass_kg(c.depth_m)};
+}
+
+BedReaction Bed::unloading(const BedContact& c) const noexcept {
   const double line_N_per_m = unloading_line_N_per_m();
   const double deepest_N =
       c.deepest_N >= 0.0 ? extended_N(c.deepest_N, c.max_depth_m) : quasi_static_force_N(c.max_depth_m);

@@ -125,7 +125,9 @@ class Bed {
  private:
   double stiffness_N_per_m() const noexcept;
   double unloading_line_N_per_m() const noexcept;
-  BedReaction unextended(const BedContact& contact) const noexcept;
+  // Without an extension's laws, but for what `bears_N` holds of them: the quasi-static force at the depth.
+  BedReaction going_deeper(const BedContact& contact, double bears_N) const noexcept;
+  BedReaction unloading(const BedContact& contact) const noexcept;
   double extended_N(double curve_N, double depth_m) const noexcept;
 
   const BedExtension* extension_ = nullptr;

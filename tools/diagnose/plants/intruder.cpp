@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
 constexpr double kForceZeroUnknown_N = 0.02;
+constexpr double kNotKnown_N = -1.0;    // of BedContact::deepest_N
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 // Of what a trial's bed is stiffer by: whether it lets go of the foot along a stiffer line, too, is its
 // affair.
@@ -195,7 +196,7 @@ class IntruderTrial final : public TrialModel {
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
-    double deepest_m = 0.0, before_N = 0.0, deeper_m = laws.deeper_m();
+    double deepest_m = 0.0, deepest_N = kNotKnown_N, before_N = 0.0, deeper_m = laws.deeper_m();
     bool touching = false, touched = false;
     double asked_before_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -206,6 +207,7 @@ class IntruderTrial final : public TrialModel {
         laws.pushed();
         // Where the surface is lower now, the deepest point has not moved.
         deepest_m += laws.deeper_m() - deeper_m;
+        deepest_N = kNotKnown_N;
         deeper_m = laws.deeper_m();
       }
       touching = asked_m > 0.0;
@@ -222,11 +224,13 @@ class IntruderTrial final : public TrialModel {
         // stands.
         down = depth_m > deepest_m + depth_band_m ||
                (speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_band_m);
+        if (!down && deepest_N < 0.0) deepest_N = bed.curve_N(deepest_m);
         const double at_m = down ? std::max(depth_m, deepest_m) : std::min(depth_m, deepest_m);
         contact = {.depth_m = std::max(0.0, at_m),
                    .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
                    .max_depth_m = deepest_m,
-                   .damping_mass_kg = 0.0};
+                   .damping_mass_kg = 0.0,
+                   .deepest_N = deepest_N};
         reaction = bed.reaction(contact);
         return reaction.at_acceleration(-read.accel_mps2(i));
       };
@@ -243,7 +247,10 @@ class IntruderTrial final : public TrialModel {
         run.force.values[i - 1] += met_between_N(bed, contact, force_N, asked_before_m, asked_m);
       touched = touching;
       asked_before_m = asked_m;
-      if (down) deepest_m = std::max(deepest_m, depth_m);
+      if (down && depth_m > deepest_m) {
+        deepest_m = depth_m;
+        deepest_N = kNotKnown_N;
+      }
       before_N = force_N;
       run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
     }
@@ -260,6 +267,7 @@ class IntruderTrial final : public TrialModel {
     const double u = -before_m / (after_m - before_m);
     BedContact first = contact;
     first.depth_m = first.max_depth_m = std::min(kNoDepth_m, contact.depth_m);
+    first.deepest_N = kNotKnown_N;
     const double jump_N = std::min(bed.reaction(first).force_N, force_N);
     return (1.0 - 2.0 * u) * jump_N - u * (force_N - jump_N);
   }
