@@ -102,6 +102,30 @@ TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
   EXPECT_NEAR(d.effects.front().parameters.front().value, 0.15, 0.01);
 }
 
+// Twelve trials show a clock that is fast by 3e-4 with p near 0.02 for all candidates together, by 5e-4 with
+// p < 1e-3.
+TEST(DiagnoseSmall, WhatIsBarelyThereIsNamedAloneButNotConfidently) {
+  const auto with_fast_clock = [](double drift) {
+    auto recordings = drops(no_force, 7, 12);
+    for (auto& trial : recordings.trials) {
+      trial.channels.erase("accel_mps2");
+      for (double& t : trial.time_s) t *= 1.0 + drift;
+    }
+    return diagnose(recordings);
+  };
+  const auto barely = with_fast_clock(3e-4);
+  ASSERT_EQ(barely.effects.size(), 1u);
+  EXPECT_EQ(barely.effects.front().id, "clock.drift");
+  EXPECT_GT(barely.effects.front().p_value, 0.01);
+  EXPECT_LT(barely.effects.front().p_value, 0.05);
+  EXPECT_LT(barely.effects.front().probability, 0.8);
+  const auto clearly = with_fast_clock(5e-4);
+  ASSERT_EQ(clearly.effects.size(), 1u);
+  EXPECT_EQ(clearly.effects.front().id, "clock.drift");
+  EXPECT_LT(clearly.effects.front().p_value, 0.01);
+  EXPECT_GT(clearly.effects.front().probability, 0.8);
+}
+
 TEST(DiagnoseSmall, ADragOfATwentiethOfItsTypicalSizeIsNoUnknown) {
   const auto d =
       diagnose(drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.025 * std::abs(v) * v; }));
