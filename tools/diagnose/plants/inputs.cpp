@@ -163,10 +163,6 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
   return ages;
 }
 
-namespace {
-constexpr double kGap = 2.5;  // steps: over a longer one no mean is taken
-}  // namespace
-
 Samples averaged(const Samples& s, double least_step_s) {
   const double step_s = median_step_s(s.time_s);
   const auto group = static_cast<std::size_t>(std::max(1.0, std::round(least_step_s / step_s)));
@@ -175,7 +171,7 @@ Samples averaged(const Samples& s, double least_step_s) {
   for (std::size_t i = 0; i + group <= s.value.size();) {
     // A gap ends a group.
     std::size_t n = 1;
-    while (n < group && s.time_s[i + n] - s.time_s[i + n - 1] < kGap * step_s) ++n;
+    while (n < group && s.time_s[i + n] - s.time_s[i + n - 1] < kGapSteps * step_s) ++n;
     double time = 0.0, value = 0.0;
     for (std::size_t k = i; k < i + n; ++k) {
       time += s.time_s[k];
@@ -192,7 +188,7 @@ Samples averaged(const Samples& s, double least_step_s) {
 
 std::vector<Group> slow_groups(const Samples& samples, std::size_t most, double step) {
   std::vector<Group> groups;
-  const double gap_s = kGap * median_step_s(samples.time_s);
+  const double gap_s = kGapSteps * median_step_s(samples.time_s);
   double low = 0.0, high = 0.0;
   for (std::size_t i = 0; i < samples.value.size(); ++i) {
     const double value = samples.value[i];

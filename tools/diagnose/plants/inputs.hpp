@@ -44,6 +44,8 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
 // The share of that age by which a row's value is older than its row: all of it, or half; believed so.
 inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 
+inline constexpr double kGapSteps = 2.5;  // over a longer one no mean is taken, nothing known between
+
 // Means over successive samples, so that no two are closer than `least_step_s`: what a slow motion shows is
 // kept, the number of rows is not.
 Samples averaged(const Samples& samples, double least_step_s);

@@ -19,6 +19,7 @@ constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 // Of what a trial's bed is stiffer by: whether it lets go of the foot along a stiffer line, too, is its
 // affair.
 constexpr const char* kLineFollows = "spread.unloading_follows";
+constexpr double kClose_N = 1e-6;  // a force to itself where the rig has yielded
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
 enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kFirstKnot };
@@ -39,11 +40,10 @@ double pushes_of(const Samples& z) {
 // The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of `f`
 // is there.
 template <class Force>
-double balanced_N(const Force& f, double guess_N) {
+double bracketed_N(const Force& f) {
   constexpr int kMost = 30;
-  constexpr double kClose_N = 1e-6;
   double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
-  double force_N = guess_N > low && guess_N < high ? guess_N : high;
+  double force_N = high;
   int side = 0;
   for (int i = 0; i < kMost && high - low > kClose_N; ++i) {
     const double off = f(force_N) - force_N;
@@ -61,6 +61,24 @@ double balanced_N(const Force& f, double guess_N) {
   }
   f(force_N);
   return force_N;
+}
+
+// From the force of the step before by secants, the first along the `slope` of f there, which becomes the
+// present one. `f` is evaluated last where the answer is.
+template <class Force>
+double balanced_N(const Force& f, double guess_N, double& slope) {
+  constexpr int kSecants = 5;
+  double force_N = guess_N, off = f(force_N) - force_N;
+  for (int i = 0; i < kSecants && std::abs(off) >= kClose_N; ++i) {
+    const double next_N = std::max(0.0, force_N + off / (1.0 - slope));
+    const double next_off = f(next_N) - next_N;
+    const double steeper = 1.0 + (next_off - off) / (next_N - force_N);
+    if (!(steeper <= 0.0)) break;
+    slope = steeper;
+    force_N = next_N;
+    off = next_off;
+  }
+  return std::abs(off) < kClose_N ? force_N : bracketed_N(f);
 }
 
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force sensor.
@@ -196,7 +214,8 @@ class IntruderTrial final : public TrialModel {
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
-    double deepest_m = 0.0, deepest_N = kNotKnown_N, before_N = 0.0, deeper_m = laws.deeper_m();
+    double deepest_m = 0.0, deepest_N = kNotKnown_N, deeper_m = laws.deeper_m();
+    double before_N = 0.0, slope = 0.0;
     bool touching = false, touched = false;
     double asked_before_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -234,7 +253,7 @@ class IntruderTrial final : public TrialModel {
         reaction = bed.reaction(contact);
         return reaction.at_acceleration(-read.accel_mps2(i));
       };
-      const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N) : at_force(0.0);
+      const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N, slope) : at_force(0.0);
       if (explain) {
         run.input_sd_N.push_back(
             touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction, motion_.accel_sd_mps2[i]) : 0.0);

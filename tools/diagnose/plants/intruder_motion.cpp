@@ -21,7 +21,6 @@ double largest(const std::vector<double>& values) {
 
 // Where on the grid a quantity was sampled: not inside a gap.
 std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
-  constexpr double kGapSteps = 2.5;
   std::vector<bool> known(m.depth_m.size(), false);
   std::size_t next = 0;
   for (std::size_t i = 0; i < known.size(); ++i) {
