@@ -1,4 +1,4 @@
-#include "tools/diagnose/effects/common.hpp"
+#include "tools/diagnose/effects/axis_friction.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -14,16 +14,16 @@ const EffectRegistration kEffect(
            if (c.scale("moves") == 0.0) return std::vector<EffectParameter>{};
            std::vector<EffectParameter> all{
                {.name = "load_friction_coefficient", .typical = 0.05, .low = 0.0, .high = 0.9}};
+           all.push_back(own_switch_speed(c));
            if (c.belief.value("axis.gravity_torque_Nm") > 0.0)
              all.push_back({.name = "gravity_part", .shapes = {0.0}});
            return all;
          },
      .apply =
          [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-           const double mu = v[0];
-           const double hanging_Nm = v.size() > 1 ? v[1] * c.belief.value("axis.gravity_torque_Nm") : 0.0;
+           const double mu = v[0], switch_speed = v[1];
+           const double hanging_Nm = v.size() > 2 ? v[2] * c.belief.value("axis.gravity_torque_Nm") : 0.0;
            const double bottom_rad = c.belief.value("axis.bottom_rad");
-           const double switch_speed = c.belief.value("axis.friction_switch_speed_radps", 0.02);
            edits.law("axis", [=](const PortState& s) {
              const double load_Nm =
                  std::abs(s.load) + hanging_Nm * std::abs(std::sin(s.position - bottom_rad));

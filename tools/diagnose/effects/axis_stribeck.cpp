@@ -1,14 +1,11 @@
-#include "tools/diagnose/effects/common.hpp"
+#include "tools/diagnose/effects/axis_friction.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 // Of bearings and gears; what fades over several rad/s is no boundary lubrication.
 constexpr double kFastest_radps = 1.5;
-
-double switch_speed_radps(const Context& c) {
-  return c.belief.value("axis.friction_switch_speed_radps", 0.02);
-}
+constexpr double kNoTail = 1e-3;
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.scale("moves") == 0.0) return {};
@@ -22,22 +19,24 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .low = slowest,
            .high = fastest,
            .other_law_above = true,
-           .shapes = {slowest, 0.8 * fastest}}};
+           .shapes = {slowest, 0.8 * fastest}},
+          {.name = "tail", .high = 2.0, .shapes = {0.0}}};
 }
 
 const EffectRegistration kEffect(
     {.id = "axis.stribeck",
      .port = "axis",
      .statement = "Near standstill dry friction is larger than in motion (Stribeck).",
-     .equation = "tau += -dF exp(-(w/w_s)^2) sign(w)",
+     .equation = "tau += -dF (1 + q (w/w_s)^2)^(-1/q) sign(w); tail q: 0 exp(-(w/w_s)^2), 1 Hess and Soom",
      .plants = {PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-       const double torque = v[0], speed = v[1];
+       const double torque = v[0], speed = v[1], tail = v[2];
        const double switch_speed = switch_speed_radps(c);
        edits.law("axis", [=](const PortState& s) {
-         const double u = s.velocity / speed;
-         return -torque * std::exp(-u * u) * sign_smooth(s.velocity, switch_speed);
+         const double square = std::pow(s.velocity / speed, 2);
+         const double left = tail > kNoTail ? std::pow(1.0 + tail * square, -1.0 / tail) : std::exp(-square);
+         return -torque * left * sign_smooth(s.velocity, switch_speed);
        });
      }});
 

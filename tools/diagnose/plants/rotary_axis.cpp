@@ -14,6 +14,7 @@
 #include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
 #include "tools/diagnose/sign_smooth.hpp"
+#include "tools/diagnose/virtual_channels.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -104,6 +105,7 @@ class RotaryTrial final : public TrialModel {
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
       simulate(f, laws, torque, stretch, position, velocity);
+      read_by_angle(edits, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
         if (span.count == 0) continue;
@@ -116,6 +118,14 @@ class RotaryTrial final : public TrialModel {
   }
 
  private:
+  // What the velocity is read as where that hangs on the angle, too.
+  static void read_by_angle(const Edits& edits, const Signal& position, Signal& velocity) {
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == kVelocityOfAngle)
+        for (std::size_t i = 0; i < velocity.values.size(); ++i)
+          velocity.values[i] += edit.law({.position = position.values[i], .velocity = velocity.values[i]});
+  }
+
   // A stretch begins where the encoder says, less what it is believed to be off by.
   static double read_too_far_rad(const Edits& edits) {
     double sum = 0.0;
