@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/campaign_folder.hpp"
@@ -32,6 +33,35 @@ TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {
   };
   EXPECT_EQ(gaps_in("force.csv"), 1);
   EXPECT_EQ(gaps_in("3.csv"), 1);
+}
+
+// Where in its camera's row a body was let go is kept, in any time base; trials with clocks of their own have
+// lost it.
+TEST(DiagnoseCampaignInput, AFallBeginsBetweenTwoRows) {
+  const auto first_rows_s = [](double first_s, double second_s) {
+    CampaignFolder folder;
+    folder.write("campaign.toml",
+                 "name = \"x\"\nplant = \"falling_body\"\n[[trial]]\nfile = \"1.csv\"\n[[trial]]\nfile = "
+                 "\"2.csv\"\n");
+    const auto write = [&](const char* name, double start_s) {
+      std::string text = "t_s,height_m\n";
+      for (int i = 0; i < 20; ++i) text += fmt::format("{:.4f},{:.4f}\n", start_s + 0.01 * i, 1.0 - 0.03 * i);
+      folder.write(name, text);
+    };
+    write("1.csv", first_s);
+    write("2.csv", second_s);
+    const auto input = read_campaign(load_campaign(folder.path()));
+    return std::pair(input.recordings.trials[0].time_s.front(), input.recordings.trials[1].time_s.front());
+  };
+  const auto [early, late] = first_rows_s(0.002, 0.007);
+  EXPECT_NEAR(early, 0.002, 1e-9);
+  EXPECT_NEAR(late, 0.007, 1e-9);
+  const auto [shifted_early, shifted_late] = first_rows_s(137.002, 137.007);
+  EXPECT_NEAR(shifted_early, 0.0, 1e-9);
+  EXPECT_NEAR(shifted_late, 0.005, 1e-9);
+  const auto [own, other] = first_rows_s(137.002, 512.3);
+  EXPECT_EQ(own, 0.0);
+  EXPECT_EQ(other, 0.0);
 }
 
 std::string force_rows(const std::function<double(int)>& force_N) {

@@ -196,5 +196,21 @@ TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
   }
 }
 
+// A body that hardly sinks stays within its noise for as long as one that is held would.
+TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
+  constexpr double kCarried = 0.9;  // of its weight
+  auto recordings = drops([](double, double, double) { return kCarried * 0.2 * 9.81; });
+  recordings.belief.numbers["medium.density_kg_per_m3"] = kCarried * 0.2 / 7e-4;
+  recordings.belief.numbers["medium.buoyancy_factor"] = 1.0;
+  recordings.belief.numbers["medium.drag_coefficient"] = 0.0;
+  recordings.beliefs.assign(recordings.trials.size(), recordings.belief);
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "consistent");
+  const auto problem = prepare(recordings).problem;
+  for (const auto& trial : problem.trials)
+    EXPECT_TRUE(std::ranges::none_of(trial->trial_nuisances,
+                                     [](const Nuisance& n) { return n.name == "release_time_s"; }));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

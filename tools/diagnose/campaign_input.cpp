@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "tools/campaign/setup_keys.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -84,6 +85,28 @@ void translate_setups(const Campaign& campaign, CampaignInput& input) {
   }
 }
 
+// A trial's time begins with its first row. A body falls from the start of its trial, which lies up to a row
+// of its camera before that: where the first rows of all trials are within a row of each other, one time is
+// the start of all: 0, or the earliest of them where the clock began elsewhere.
+void begin_at_zero(Recordings& recordings) {
+  constexpr double kRows = 1.5;
+  auto& trials = recordings.trials;
+  double earliest_s = 1e300, latest_s = -1e300, row_s = 0.0;
+  for (const auto& trial : trials) {
+    if (trial.time_s.empty()) continue;
+    earliest_s = std::min(earliest_s, trial.time_s.front());
+    latest_s = std::max(latest_s, trial.time_s.front());
+    row_s = std::max(row_s, kRows * median_step_s(trial.time_s));
+  }
+  const bool together = recordings.plant == PlantKind::falling_body && latest_s - earliest_s <= row_s;
+  const double shared_s = earliest_s >= 0.0 && earliest_s <= row_s ? 0.0 : earliest_s;
+  for (auto& trial : trials) {
+    if (trial.time_s.empty()) continue;
+    const double start_s = together ? shared_s : trial.time_s.front();
+    for (double& t : trial.time_s) t -= start_s;
+  }
+}
+
 }  // namespace
 
 Belief flattened(const sandhopper::Belief& belief) {
@@ -117,13 +140,14 @@ CampaignInput read_campaign(const Campaign& campaign) {
     trial.kind = name_of(described.kind);
     for (const auto& entry : described.setup)
       if (const auto* number = std::get_if<double>(&entry.value)) trial.setup[entry.key] = *number;
-    for (const double t : recording.t_s) trial.time_s.push_back(t - recording.t_s.front());
+    trial.time_s = recording.t_s;
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));
     at_one_value.push_back(recording.at_one_value);
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
   take_what_is_at_one_value(at_one_value, input.recordings.trials);
+  begin_at_zero(input.recordings);
   translate_setups(campaign, input);
   return input;
 }

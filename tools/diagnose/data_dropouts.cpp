@@ -13,7 +13,8 @@ constexpr std::size_t kNeighbours = 6;
 constexpr double kIsolated = 0.3;  // of the range of all other values
 constexpr double kOften = 2.0;     // gaps in a trial that has any: more than one now and then
 constexpr double kManyTrials = 0.5;
-constexpr double kShareLost = 0.004;
+// Files may lack rows. A fault are many of them, or several gaps of many rows each.
+constexpr double kShareLost = 0.05, kShareInLongGaps = 0.01, kLongGap = 6.0;
 constexpr std::size_t kEnough = 3;
 constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
 constexpr double kByChance = 0.001;  // stretches in a whole campaign
@@ -211,11 +212,12 @@ void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& fa
   fault.stretches = lengths.size();
   const auto count = static_cast<double>(trials.size());
   const auto hit = static_cast<double>(fault.trials.size());
-  if (static_cast<double>(fault.stretches) < kOften * hit || hit < kManyTrials * count ||
-      lost < kShareLost * rows)
+  if (static_cast<double>(fault.stretches) < kOften * hit || hit < kManyTrials * count || lengths.empty())
     return;
   std::sort(lengths.begin(), lengths.end());
   fault.duration_s = lengths[lengths.size() / 2];
+  const bool long_gaps = fault.duration_s > (kLongGap - 0.5) * fault.step_s;
+  if (lost < (long_gaps ? kShareInLongGaps : kShareLost) * rows) return;
   fault.rate_Hz = static_cast<double>(fault.stretches) / std::max(fault.recorded_s, 1e-9);
   faults.push_back(std::move(fault));
 }

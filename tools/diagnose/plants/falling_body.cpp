@@ -124,11 +124,21 @@ class FallingTrial final : public TrialModel {
             out.subspan(height_times_.size() + first));
   }
 
+  // How fast it is believed to speed up when it is let go: slowly in a liquid.
+  double released_mps2() const {
+    constexpr double kSlowest = 0.05;  // of free fall
+    const Figures f(belief_, {});
+    const double mass_kg = f.mass_kg + payload_kg_, fluid_kg = f.density_kg_per_m3 * f.volume_m3;
+    const double share =
+        std::abs(mass_kg - f.buoyancy_factor * fluid_kg) / (mass_kg + f.added_mass_factor * fluid_kg);
+    return f.gravity_mps2 * std::clamp(share, kSlowest, 1.0);
+  }
+
   // The recording may begin while the body is still held.
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = belief_.value("gravity_mps2", 9.81);
     auto found_s = release_before_shock_s(accels, g);
-    if (!found_s) found_s = end_of_rest_s(heights, belief_.value("sensors.height_noise_m"), g);
+    if (!found_s) found_s = end_of_rest_s(heights, belief_.value("sensors.height_noise_m"), released_mps2());
     held_ = found_s.has_value();
     release_s_ = found_s.value_or(0.0);
     if (held_ || !accels.empty() || height_told_) return;

@@ -47,7 +47,7 @@ std::optional<double> release_before_shock_s(const Samples& accels, double g) {
   return release_s;
 }
 
-std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double g) {
+std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double fall_mps2) {
   if (heights.value.size() < 10) return std::nullopt;
   const double noise = std::max({fluctuation_rms(heights), believed_noise_m, 1e-6});
   std::size_t still = 0;
@@ -58,7 +58,7 @@ std::optional<double> end_of_rest_s(const Samples& heights, double believed_nois
     sum += heights.value[still++];
   }
   if (still < 5 || still >= heights.value.size()) return std::nullopt;
-  const double fall_s = std::sqrt(2.0 * 5.0 * noise / g);
+  const double fall_s = std::sqrt(2.0 * 5.0 * noise / fall_mps2);
   const double still_s = heights.time_s[still] - heights.time_s[0];
   if (still_s <= 2.0 * fall_s + 0.02) return std::nullopt;
   return still_s - fall_s;

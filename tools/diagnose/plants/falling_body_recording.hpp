@@ -12,8 +12,9 @@ namespace sandhopper::diagnose {
 // the hardest shock. A body at its terminal speed feels its whole weight, too, but does not lose it again.
 std::optional<double> release_before_shock_s(const Samples& accels, double gravity_mps2);
 
-// Heights that stand still, within 4 standard deviations of their noise, and then fall.
-std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double gravity_mps2);
+// Heights that stand still, within 4 standard deviations of their noise, and then fall: for longer than a
+// body let go at their first would seem to, which speeds up by `fall_mps2`.
+std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double fall_mps2);
 
 // The last sample before heights that stand still at the end although the body fell until then: it lies on
 // the ground, whatever the sensor calls its height.
