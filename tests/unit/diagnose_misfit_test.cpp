@@ -110,17 +110,25 @@ TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
 TEST(DiagnoseMisfit, NamesThatLeaveOtherTrialsNoNearerGainNothing) {
   const auto prepared = prepare(drops(nothing, 1, 4));
   const Problem& problem = prepared.problem;
+  Point null;
+  for (const auto& trial : problem.trials) null.nuisances.emplace_back(trial->nuisance_count(), 0.0);
+  Point point = null;
   const auto gain = [&](double held_out) {
     Residuals residuals;
     for (const auto& trial : problem.trials) {
       residuals.before.emplace_back(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(trial->rows.size())));
       residuals.held_out.emplace_back(held_out * residuals.before.back());
     }
-    return held_out_gain(problem, residuals);
+    return held_out_gain(problem, residuals, null, point);
   };
   EXPECT_GT(gain(0.9), 0.0);
   EXPECT_EQ(gain(1.0), 0.0);
   EXPECT_LT(gain(1.1), 0.0);
+  // What trials no longer differ by is a gain, too.
+  const Nuisance& release = problem.trials.front()->trial_nuisances.front();
+  ASSERT_TRUE(release.may_lean);
+  null.nuisances.front().front() = 3.0 * release.sd;
+  EXPECT_DOUBLE_EQ(gain(1.0), 9.0);
 }
 
 TEST(DiagnoseMisfit, OfSensorsThatNobodyDescribedItIsNotSaid) {

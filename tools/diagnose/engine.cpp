@@ -178,6 +178,8 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
       report_unknown_near(rest.misfit.explained / (rest.misfit.explained + unexplained), diagnosis);
     if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
     if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
+    const auto is_unknown = [](const auto& effect) { return effect.id.starts_with("unknown@"); };
+    if (std::ranges::none_of(diagnosis.effects, is_unknown)) report_unknown_of_plant(problem, diagnosis);
   } else if (search.best().set.empty()) {
     diagnosis.verdict = too_few ? "insufficient_data" : "consistent";
     diagnosis.detail = too_few ? "too_little_data" : "null";
@@ -232,20 +234,20 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   }
   // Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
   // nuisances move too much for that to say anything.
-  const auto name_nothing_in_vain = [&] {
-    if (problem.plant->is_costly() || search.best().set.empty() ||
-        held_out_gain(problem, residuals_of(problem, search.null().fit.point, search.best().fit.point)) > 0.0)
-      return;
+  const auto drop_names_in_vain = [&] {
+    if (problem.plant->is_costly() || search.best().set.empty()) return;
+    const Point &null = search.null().fit.point, &point = search.best().fit.point;
+    if (held_out_gain(problem, residuals_of(problem, null, point), null, point) > 0.0) return;
     diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
     search.name_nothing();
   };
-  name_nothing_in_vain();
+  drop_names_in_vain();
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   // What a name on the list says as well is not unknown, however small the effect.
   if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
-    name_nothing_in_vain();
+    drop_names_in_vain();
     rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   }
   Point answer = search.best().fit.point;

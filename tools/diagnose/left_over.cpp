@@ -65,7 +65,7 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
 }
 
 std::optional<LoudChannel> loudest_channel(const Problem& problem) {
-  constexpr double kLoud = 4.5, kQuiet = 1.3;
+  constexpr double kLoud = 4.5, kQuiet = 1.3, kSmooth = 0.6;  // of it all, what is new in a sample
   std::optional<LoudChannel> loudest;
   std::size_t loud_index = 0;
   std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
@@ -85,7 +85,14 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
   const auto quiet_phase = problem.plant->quiet_phase();
   // It is loud where nothing acts, or the other channels show nothing.
   bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kLoud * own[loud_index];
-  if (!quiet_phase) {
+  // What accelerates a body changes slowly from sample to sample, a sensor's own noise does not; heights
+  // hardly show what comes and goes.
+  const auto is_smooth = [&] {
+    const auto& of_phase = problem.noise.channel(loud_index).correlation_of_phase;
+    return std::ranges::all_of(of_phase, [](const Autoregression& a) { return a.innovation_sd < kSmooth; });
+  };
+  const bool accelerates = loudest->channel.find("accel") != std::string::npos && is_smooth();
+  if (!quiet_phase && !accelerates) {
     times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
     std::erase(times, 0.0);  // of no sensor that the belief describes
     sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuiet; });

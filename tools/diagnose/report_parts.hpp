@@ -24,6 +24,9 @@ void report_unknown_near(double share, Diagnosis& diagnosis);
 // that.
 void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
+// Where nothing says more, and the plant has one port only: there, unless sensors are loud where nothing
+// acts.
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis);
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/quantity.hpp"
 #include "tools/diagnose/report_parts.hpp"
 
@@ -136,6 +137,30 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
        .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
                                 "trial, is off by the same in all, by {:.1f} standard errors.",
                                 lean.port, lean.nuisance, std::abs(lean.z)),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
+  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (ports.size() != 1) return;
+  if (const auto quiet = problem.plant->quiet_phase())
+    for (std::size_t c = 0; c < problem.channels.size(); ++c)
+      if (problem.context.has(problem.channels[c]) &&
+          problem.noise.channel(c).sd_of_phase[*quiet] >
+              kQuiet *
+                  std::max(believed_noise(problem.context.belief, problem.channels[c]), problem.floor_sd[c]))
+        return;
+  const auto port = ports.front().port.substr(0, ports.front().port.find('.'));
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + port,
+       .port = port,
+       .statement =
+           fmt::format("Something that is on no list acts, as far as these recordings tell, at {}: what "
+                       "is left is more than noise and goes with nothing that was recorded.",
+                       port),
        .equation = "not known",
        .parameters = {},
        .probability = kNearProbability});

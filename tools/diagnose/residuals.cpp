@@ -30,10 +30,15 @@ std::vector<VectorXd> changes(const Problem& problem, const Point& point, const 
 
 }  // namespace
 
-double held_out_gain(const Problem& problem, const Residuals& residuals) {
+double held_out_gain(const Problem& problem, const Residuals& residuals, const Point& null,
+                     const Point& point) {
   double gain = 0.0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const TrialModel& trial = *problem.trials[t];
+    for (std::size_t i = 0; i < trial.trial_nuisances.size(); ++i)
+      if (trial.trial_nuisances[i].may_lean)
+        gain += (std::pow(null.nuisances[t][i], 2) - std::pow(point.nuisances[t][i], 2)) /
+                std::pow(trial.trial_nuisances[i].sd, 2);
     for (std::size_t k = 0; k < trial.rows.size(); ++k) {
       if (!problem.used[t][k]) continue;
       const auto row = static_cast<Index>(k);

@@ -21,7 +21,9 @@ Residuals residuals_of(const Problem& problem, const Point& null, const Point& p
 
 // By how much the trials, each left out of what is fitted, are nearer to `residuals.held_out` than to what is
 // believed: sum over rows of squares, in standard deviations. Not whitened: that hides what drifts apart
-// slowly.
-double held_out_gain(const Problem& problem, const Residuals& residuals);
+// slowly. And by how much less trials then differ in what they are believed to differ by: a bed that grows
+// stiffer from trial to trial shows in nothing else.
+double held_out_gain(const Problem& problem, const Residuals& residuals, const Point& null,
+                     const Point& point);
 
 }  // namespace sandhopper::diagnose

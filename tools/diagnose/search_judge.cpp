@@ -25,6 +25,9 @@ constexpr double kTrialsAgree = 0.01;
 constexpr double kFlips = 0.05;  // family-wise, beside the trials' own p
 // Of what is named alone: that anything is missing is likelier than that one more thing is.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
+// Of what is named beside something stronger: of 12 trials what is there has less by decades, what only mends
+// the form of the other's law has not.
+constexpr double kSignificanceBeside = 1e-4;
 constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
 constexpr double kWithoutFlips = 1e-4;
 constexpr double kFarShare = 0.02;  // of what is explained
@@ -244,12 +247,12 @@ void Search::judge(SetFit& result) {
   const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
   const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
   const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
+  const bool alone = enough && result.set.size() == 1;
   const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
     const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
                         problem_->plant->form_error() >= kFormInDoubt;
-    const bool alone = enough && result.set.size() == 1;
     const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);

@@ -8,9 +8,6 @@
 namespace sandhopper::diagnose {
 
 inline constexpr double kSignificance = 0.01;  // family-wise
-// Of what is named beside something stronger: of 12 trials what is there has less by decades, what only mends
-// the form of the other's law has not.
-inline constexpr double kSignificanceBeside = 1e-4;
 inline constexpr double kSmallestOfTypical = 0.08;
 
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {

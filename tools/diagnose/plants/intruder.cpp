@@ -46,6 +46,7 @@ double bracketed_N(const Force& f) {
   double force_N = high;
   int side = 0;
   for (int i = 0; i < kMost && high - low > kClose_N; ++i) {
+    force_N = above > below ? (low * below - high * above) / (below - above) : 0.5 * (low + high);
     const double off = f(force_N) - force_N;
     if (std::abs(off) < kClose_N) break;
     if (off > 0.0) {
@@ -57,9 +58,7 @@ double bracketed_N(const Force& f) {
       if (side < 0) above *= 0.5;
       side = -1;
     }
-    force_N = above > below ? (low * below - high * above) / (below - above) : 0.5 * (low + high);
   }
-  f(force_N);
   return force_N;
 }
 
@@ -214,7 +213,7 @@ class IntruderTrial final : public TrialModel {
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
-    double deepest_m = 0.0, deepest_N = kNotKnown_N, deeper_m = laws.deeper_m();
+    double deepest_m = 0.0, known_m = -1.0, known_N = 0.0, deeper_m = laws.deeper_m();
     double before_N = 0.0, slope = 0.0;
     bool touching = false, touched = false;
     double asked_before_m = 0.0;
@@ -226,7 +225,6 @@ class IntruderTrial final : public TrialModel {
         laws.pushed();
         // Where the surface is lower now, the deepest point has not moved.
         deepest_m += laws.deeper_m() - deeper_m;
-        deepest_N = kNotKnown_N;
         deeper_m = laws.deeper_m();
       }
       touching = asked_m > 0.0;
@@ -243,13 +241,16 @@ class IntruderTrial final : public TrialModel {
         // stands.
         down = depth_m > deepest_m + depth_band_m ||
                (speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_band_m);
-        if (!down && deepest_N < 0.0) deepest_N = bed.curve_N(deepest_m);
+        if (!down && known_m != deepest_m) {
+          known_m = deepest_m;
+          known_N = bed.curve_N(deepest_m);
+        }
         const double at_m = down ? std::max(depth_m, deepest_m) : std::min(depth_m, deepest_m);
         contact = {.depth_m = std::max(0.0, at_m),
                    .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
                    .max_depth_m = deepest_m,
                    .damping_mass_kg = 0.0,
-                   .deepest_N = deepest_N};
+                   .deepest_N = known_m == deepest_m ? known_N : kNotKnown_N};
         reaction = bed.reaction(contact);
         return reaction.at_acceleration(-read.accel_mps2(i));
       };
@@ -266,10 +267,7 @@ class IntruderTrial final : public TrialModel {
         run.force.values[i - 1] += met_between_N(bed, contact, force_N, asked_before_m, asked_m);
       touched = touching;
       asked_before_m = asked_m;
-      if (down && depth_m > deepest_m) {
-        deepest_m = depth_m;
-        deepest_N = kNotKnown_N;
-      }
+      if (down) deepest_m = std::max(deepest_m, depth_m);
       before_N = force_N;
       run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
     }
@@ -426,6 +424,9 @@ class Intruder final : public PlantModel {
 
   bool motion_is_prescribed() const override { return true; }
   bool starts_as_believed() const override { return true; }
+  bool says_how_trials_differ(const Belief& belief) const override {
+    return belief.value("spread.bed_stiffness_relative") > 0.0;
+  }
   std::optional<std::size_t> quiet_phase() const override { return kAbove; }
   std::vector<UnsureKey> unsure_keys() const override {
     return {{"unloading line of a stiffer bed", kLineFollows, 0.5}};
