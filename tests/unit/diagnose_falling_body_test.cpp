@@ -212,5 +212,47 @@ TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
                                      [](const Nuisance& n) { return n.name == "release_time_s"; }));
 }
 
+// Bodies of three masses in water: a balance that reads 5 % too little, or 10 g on each that nobody weighed.
+TEST(DiagnoseFallingBody, WhatIsOnEveryBodyIsAMassAsABalanceThatIsOffIs) {
+  constexpr double kVolume_m3 = 1e-4, kLightest_kg = 0.2, kMiddle_kg = 0.3;
+  for (const bool in_proportion : {true, false}) {
+    Recordings recordings;
+    for (std::size_t i = 0; i < 9; ++i) {
+      const double mass_kg = kLightest_kg * (1.0 + 0.5 * static_cast<double>(i % 3));
+      const double is_kg = in_proportion ? 1.05 * mass_kg : mass_kg + 0.01;
+      // `drops` divides by its own mass and knows neither fluid nor these bodies.
+      auto one = drops(
+          [&](double, double, double v) {
+            const double force_N =
+                -is_kg * 9.81 + 1000.0 * kVolume_m3 * 9.81 - 0.5 * 1000.0 * 0.01 * 0.4 * v * std::abs(v);
+            return 0.2 * (force_N / (is_kg + 500.0 * kVolume_m3) + 9.81);
+          },
+          40 + i, 1);
+      auto& belief = one.belief.numbers;
+      belief["medium.density_kg_per_m3"] = 1000.0;
+      belief["medium.drag_coefficient"] = 0.4;
+      belief["medium.buoyancy_factor"] = 1.0;
+      belief["medium.added_mass_factor"] = 0.5;
+      belief["body.volume_m3"] = kVolume_m3;
+      belief["body.mass_kg"] = kLightest_kg;
+      if (i == 0) {
+        recordings.plant = one.plant;
+        recordings.belief = one.belief;
+      }
+      belief["body.mass_kg"] = mass_kg;
+      one.trials.front().name = std::to_string(i + 1);
+      one.trials.front().setup["mass_kg"] = mass_kg;
+      recordings.trials.push_back(one.trials.front());
+      recordings.beliefs.push_back(one.belief);
+    }
+    const auto d = diagnose(recordings);
+    ASSERT_EQ(d.effects.size(), 1u) << in_proportion;
+    EXPECT_EQ(d.effects.front().id, "body.mass");
+    EXPECT_NEAR(d.effects.front().parameters.front().value,
+                in_proportion ? 1.05 * kMiddle_kg : kMiddle_kg + 0.01, 0.001);
+    EXPECT_NEAR(d.effects.front().parameters.back().value, in_proportion ? 1.0 : 0.0, 0.2);
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -14,7 +14,7 @@ constexpr double kIsolated = 0.3;  // of the range of all other values
 constexpr double kOften = 2.0;     // gaps in a trial that has any: more than one now and then
 constexpr double kManyTrials = 0.5;
 // Files may lack rows. A fault are many of them, or several gaps of many rows each.
-constexpr double kShareLost = 0.05, kShareInLongGaps = 0.01, kLongGap = 6.0;
+constexpr double kShareLost = 0.12, kShareInLongGaps = 0.01, kLongGap = 6.0;
 constexpr std::size_t kEnough = 3;
 constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
 constexpr double kByChance = 0.001;  // stretches in a whole campaign

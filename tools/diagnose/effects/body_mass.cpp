@@ -3,29 +3,41 @@
 namespace sandhopper::diagnose {
 namespace {
 
+const char* mass_key(const Context& c) {
+  return c.plant == PlantKind::hopper ? "robot.body_mass_kg" : "body.mass_kg";
+}
+
+double believed_kg(const Context& c) {
+  return c.belief.value(mass_key(c), c.plant == PlantKind::hopper ? 1.6 : 1.0);
+}
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const std::string key = c.plant == PlantKind::hopper ? "robot.body_mass_kg" : "body.mass_kg";
-  const double believed = c.belief.value(key, c.plant == PlantKind::hopper ? 1.6 : 1.0);
-  return {{.name = c.plant == PlantKind::hopper ? "body_mass_kg" : "mass_kg",
-           .typical = 0.05,
-           .low = -0.8,
-           .high = 4.0,
-           .either_sign = true,
-           .base = believed,
-           .scale = believed}};
+  std::vector<EffectParameter> all{{.name = c.plant == PlantKind::hopper ? "body_mass_kg" : "mass_kg",
+                                    .typical = 0.05,
+                                    .low = -0.8,
+                                    .high = 4.0,
+                                    .either_sign = true,
+                                    .base = believed_kg(c),
+                                    .scale = believed_kg(c)}};
+  // A balance that reads too much, or something on every body that nobody weighed.
+  if (c.scale("masses_differ", 0.0) > 0.0) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
+  return all;
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const double in_proportion = v.size() > 1 ? v[1] : 1.0;
+  edits.scale(mass_key(c), 1.0 + in_proportion * v[0]);
+  if (in_proportion < 1.0) edits.add(mass_key(c), (1.0 - in_proportion) * v[0] * believed_kg(c));
 }
 
 const EffectRegistration kEffect(
     {.id = "body.mass",
      .port = "inertia",
      .statement = "The body's mass is not what is believed.",
-     .equation = "m -> m (1 + e)",
+     .equation = "m -> m + e (p m + (1 - p) m_0), p 1 where all have one mass m_0",
      .plants = {PlantKind::falling_body, PlantKind::hopper},
      .parameters = parameters,
-     .apply =
-         [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-           edits.scale(c.plant == PlantKind::hopper ? "robot.body_mass_kg" : "body.mass_kg", 1.0 + v[0]);
-         },
+     .apply = apply,
      .belief_key = "body.mass_kg"});
 
 }  // namespace

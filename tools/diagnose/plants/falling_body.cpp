@@ -497,6 +497,7 @@ class FallingBody final : public PlantModel {
     context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
     context.scales["speed_mps"] = std::max(speed, 0.1);
     context.scales["duration_s"] = longest_s;
+    context.scales["masses_differ"] = range_of_setup(trials, "mass_kg");
     if (b.value("bed.stiffness_N_per_m") > 0.0) {
       context.scales["depth_m"] = std::max(
           0.01, std::abs(speed) * std::sqrt(b.value("body.mass_kg", 1.0) / b.value("bed.stiffness_N_per_m")));
