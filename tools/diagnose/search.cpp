@@ -29,7 +29,9 @@ constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
 constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
 constexpr double kRival = 20.0;                                // of the criterion
-constexpr double kUnsettled = 1e-5;  // of what is explained: a rough fit may be short by so much
+// Of what is explained: a rough fit may be short by so much, a single one of few by far more.
+constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
+constexpr std::size_t kNearestRivals = 3;
 constexpr double kSurely = 1e-8;
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
@@ -242,11 +244,17 @@ void Search::finish(SetFit& fit) const {
 void Search::finish_rivals() {
   const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
   const double best_so_far = criterion(best()),
-               limit = best_so_far + std::max(kRival, kUnsettled * explained);
+               limit = best_so_far + std::max(kRival, kUnsettled * explained),
+               far = best_so_far + std::max(kRival, kFarUnsettled * explained);
+  std::vector<SetFit*> order;
+  for (auto& [set, fit] : sets_)
+    if (set.size() <= best_.size()) order.push_back(&fit);
+  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
   bool ahead = false;
-  for (auto& [set, fit] : sets_) {
-    if (!fit.rough || set.size() > best_.size() ||
-        criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    SetFit& fit = *order[i];
+    const bool near = i <= kNearestRivals && criterion(fit) < far;
+    if (!fit.rough || (!near && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit))
       continue;
     finish(fit);
     ahead = ahead || criterion(fit) < best_so_far;
