@@ -210,6 +210,23 @@ TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
   EXPECT_EQ(d.effects.front().id, "data.dropout");
 }
 
+// A drive that reports in coarse steps and hardly any noise turns round at zero, within one of them.
+TEST(DiagnoseDataFaults, ATurnWithinOneStepOfTheGridIsNoDropout) {
+  constexpr double kStep_Nm = 0.0088;
+  std::vector<Trial> trials(3);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    trials[t].name = std::to_string(t + 1);
+    auto& torque = trials[t].channels["torque_Nm"];
+    for (int i = 0; i < 3000; ++i) {
+      trials[t].time_s.push_back(1e-3 * i);
+      const double torque_Nm =
+          0.012 + 0.0124 * std::sin(0.02 * i) + 0.1 * std::sin(0.0007 * i * static_cast<double>(t));
+      torque.push_back(kStep_Nm * std::round(torque_Nm / kStep_Nm));
+    }
+  }
+  for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout");
+}
+
 // Files may lack rows; a few of a hundred are no fault that anybody hid.
 TEST(DiagnoseDataFaults, FewRowsThatAreMissingAreNoFault) {
   auto recordings = drops([](double, double, double) { return 0.0; });

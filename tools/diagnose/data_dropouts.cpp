@@ -101,6 +101,7 @@ bool rests_there(const std::vector<double>& v, const Stretch& s, double code, do
 std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code,
                                                  bool always_noisy) {
   const double noise = own_noise(channel), grid = value_grid(channel);
+  const double still = std::max(noise, 0.5 * grid);  // a reading that turns round at the code does not fall
   double samples = 0.0;
   for (const auto& s : channel) samples += static_cast<double>(s.value.size());
   // A quantity near the code meets it by chance, but not again and again: noise spreads over many steps of
@@ -119,7 +120,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   std::size_t proven = 0, shortest = std::numeric_limits<std::size_t>::max(), longest = 0;
   for (const auto& s : channel)
     for (const auto& stretch : stretches_at(s.value, code))
-      if (falls_out(s.value, stretch.first, stretch.last, code, noise) || lasts(s.value, stretch)) {
+      if (falls_out(s.value, stretch.first, stretch.last, code, still) || lasts(s.value, stretch)) {
         ++proven;
         shortest = std::min(shortest, stretch.samples());
         longest = std::max(longest, stretch.samples());
@@ -130,7 +131,7 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
       const auto& v = channel[c].value;
       const bool as_long =
           stretch.samples() <= longest && (at_edge(v, stretch) || 2 * stretch.samples() >= shortest);
-      if (falls_out(v, stretch.first, stretch.last, code, noise) || lasts(v, stretch) ||
+      if (falls_out(v, stretch.first, stretch.last, code, still) || lasts(v, stretch) ||
           (as_long && stretch.samples() > 1 && !rests_there(v, stretch, code, noise)))
         lost[c].push_back(stretch);
     }
