@@ -5,12 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "terrain/none.hpp"
+
 namespace sandhopper {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 // Mean over the plate of the confined layer's stress, relative to that at the rim.
 double friction_hill(double x) {
   if (x < 1e-3) return 1.0 + x / 3.0;

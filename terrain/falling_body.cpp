@@ -5,18 +5,17 @@
 #include <limits>
 
 #include "terrain/accelerometer_fusion.hpp"
+#include "terrain/none.hpp"
 
 namespace sandhopper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-struct Line {
+struct LineThroughSpeeds {
   double at_zero = 0.0, slope = 0.0, deviation = 0.0;
   double operator()(double x) const { return at_zero + slope * x; }
 };
 
-Line line_through(std::span<const double> x, std::span<const double> y) {
+LineThroughSpeeds line_through(std::span<const double> x, std::span<const double> y) {
   const double n = static_cast<double>(x.size());
   double sx = 0.0, sy = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -27,7 +26,7 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
     xx += (x[i] - sx / n) * (x[i] - sx / n);
     xy += (x[i] - sx / n) * (y[i] - sy / n);
   }
-  Line line;
+  LineThroughSpeeds line;
   line.slope = xx > 0.0 ? xy / xx : 0.0;
   line.at_zero = sy / n - line.slope * sx / n;
   for (std::size_t i = 0; i < x.size(); ++i) squares += std::pow(y[i] - line(x[i]), 2);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "terrain/none.hpp"
+
 namespace sandhopper {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t place_of_greatest(std::span<const double> force_N) {
   return static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());

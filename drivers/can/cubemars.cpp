@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNearRangeEnd = 0.88;  // of the position range: 11 rad of 12.5
 // Kernel stamps of vcan and of the clock read before sending may swap within this.
-constexpr std::int64_t kStampSlack_ns = 1000;
+constexpr std::int64_t kReplyStampSlack_ns = 1000;
 // A reply that has not come after one and a half cycles is lost.
 constexpr std::int64_t kPatience_ns = 1'500'000;
 
@@ -221,7 +221,7 @@ std::int64_t CubeMarsBus::state_time(std::size_t i, std::int64_t time_ns) noexce
   if (!codecs_[i].answers_commands()) return time_ns;
   auto& o = outstanding_[i];
   const auto delay_ns = to_ns(codecs_[i].config().state_delay_s);
-  if (o.waiting && time_ns + kStampSlack_ns >= o.sent_ns) {
+  if (o.waiting && time_ns + kReplyStampSlack_ns >= o.sent_ns) {
     o.waiting = false;
     o.previous_missed = false;
     return o.sent_ns + delay_ns;

@@ -30,8 +30,6 @@ double decode(const Field& f, std::uint32_t count) noexcept {
   return f.low + count * (f.high - f.low) / f.max;
 }
 
-constexpr std::uint8_t byte(std::uint32_t value) { return static_cast<std::uint8_t>(value & 0xFFU); }
-
 }  // namespace
 
 MitPayload pack_mit_command(const MitRanges& r, const MitCommand& c) noexcept {
@@ -40,14 +38,14 @@ MitPayload pack_mit_command(const MitRanges& r, const MitCommand& c) noexcept {
   const auto kp = encode(from_zero(r.kp_Nm_per_rad, k12), c.kp_Nm_per_rad);
   const auto kd = encode(from_zero(r.kd_Nm_s_per_rad, k12), c.kd_Nm_s_per_rad);
   const auto t = encode(symmetric(r.torque_Nm, k12), c.torque_Nm);
-  MitPayload out{byte(p >> 8U),
-                 byte(p),
-                 byte(v >> 4U),
-                 byte(((v & 0xFU) << 4U) | (kp >> 8U)),
-                 byte(kp),
-                 byte(kd >> 4U),
-                 byte(((kd & 0xFU) << 4U) | (t >> 8U)),
-                 byte(t)};
+  MitPayload out{low_byte(p >> 8U),
+                 low_byte(p),
+                 low_byte(v >> 4U),
+                 low_byte(((v & 0xFU) << 4U) | (kp >> 8U)),
+                 low_byte(kp),
+                 low_byte(kd >> 4U),
+                 low_byte(((kd & 0xFU) << 4U) | (t >> 8U)),
+                 low_byte(t)};
   // Only with every field at full scale do the bytes spell enter, leave or zero: take one count off kp.
   if (is_special(out)) out[4] = 0xFE;
   return out;
@@ -91,14 +89,14 @@ MitPayload pack_mit_reply(const MitRanges& r, ReplyFlavour flavour, const MitRep
   const auto t = nearest(symmetric(r.torque_Nm, k12), reply.torque_Nm);
   // 0 for what was not measured (NaN).
   const auto raw_byte = [](double value) {
-    return value > 0.0 ? byte(static_cast<std::uint32_t>(std::min(value + 0.5, 255.0))) : byte(0);
+    return value > 0.0 ? low_byte(static_cast<std::uint32_t>(std::min(value + 0.5, 255.0))) : low_byte(0);
   };
   MitPayload out{reply.drive_id,
-                 byte(p >> 8U),
-                 byte(p),
-                 byte(v >> 4U),
-                 byte(((v & 0xFU) << 4U) | (t >> 8U)),
-                 byte(t),
+                 low_byte(p >> 8U),
+                 low_byte(p),
+                 low_byte(v >> 4U),
+                 low_byte(((v & 0xFU) << 4U) | (t >> 8U)),
+                 low_byte(t),
                  0,
                  reply.error_code};
   if (flavour == ReplyFlavour::temperature_offset_40) out[6] = raw_byte(reply.temperature_C + 40.0);

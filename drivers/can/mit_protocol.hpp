@@ -12,6 +12,8 @@
 // V1.0.15, section 5.3; B. Katz' motor-controller note.
 namespace sandhopper {
 
+constexpr std::uint8_t low_byte(std::uint32_t value) { return static_cast<std::uint8_t>(value & 0xFFU); }
+
 using MitPayload = std::array<std::uint8_t, 8>;
 
 // Full scale of each field: position, velocity and torque span -range..+range, gains 0..range. The manual's

@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kMostCurrent_A = 60.0;
 
-constexpr std::uint8_t byte(std::uint32_t value) { return static_cast<std::uint8_t>(value & 0xFFU); }
-
 double signed16(std::uint8_t high, std::uint8_t low) noexcept {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(high << 8U | low));
 }
@@ -21,7 +19,7 @@ std::array<std::uint8_t, 4> pack_servo_current(double current_A) noexcept {
   const double limited =
       std::isfinite(current_A) ? std::clamp(current_A, -kMostCurrent_A, kMostCurrent_A) : 0.0;
   const auto milli = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(1000.0 * limited)));
-  return {byte(milli >> 24U), byte(milli >> 16U), byte(milli >> 8U), byte(milli)};
+  return {low_byte(milli >> 24U), low_byte(milli >> 16U), low_byte(milli >> 8U), low_byte(milli)};
 }
 
 // The same fields as pack_mit_command makes, put in their other places.
@@ -32,8 +30,8 @@ MitPayload pack_v3_command(const MitRanges& ranges, const MitCommand& command) n
   const std::uint32_t kp = (b[3] & 0xFU) << 8U | b[4];
   const std::uint32_t kd = static_cast<std::uint32_t>(b[5]) << 4U | b[6] >> 4U;
   const std::uint32_t t = (b[6] & 0xFU) << 8U | b[7];
-  return {byte(kp >> 4U), byte((kp & 0xFU) << 4U | kd >> 8U), byte(kd), byte(p >> 8U), byte(p),
-          byte(v >> 4U),  byte((v & 0xFU) << 4U | t >> 8U),   byte(t)};
+  return {low_byte(kp >> 4U), low_byte((kp & 0xFU) << 4U | kd >> 8U), low_byte(kd), low_byte(p >> 8U), low_byte(p),
+          low_byte(v >> 4U),  low_byte((v & 0xFU) << 4U | t >> 8U),   low_byte(t)};
 }
 
 std::optional<ServoStatus> unpack_servo_status(std::span<const std::uint8_t> b) noexcept {

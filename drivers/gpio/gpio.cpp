@@ -14,6 +14,11 @@
 // The C library: its C++ layer allocates for every level it reads, and the e-stop is read in the cycle.
 namespace sandhopper {
 
+struct CloseChip {
+  void operator()(gpiod_line* line) const noexcept { ::gpiod_line_close_chip(line); }
+};
+using FoundLine = std::unique_ptr<gpiod_line, CloseChip>;
+
 namespace {
 
 constexpr const char* kConsumer = "sandhopper";
@@ -36,11 +41,6 @@ int flags_of(const LineConfig& config) {
 }
 
 timespec duration(std::int64_t ns) { return {ns / kNanosecondsPerSecond, ns % kNanosecondsPerSecond}; }
-
-struct CloseChip {
-  void operator()(gpiod_line* line) const noexcept { ::gpiod_line_close_chip(line); }
-};
-using FoundLine = std::unique_ptr<gpiod_line, CloseChip>;
 
 FoundLine find(const std::string& device, const LineConfig& config) {
   const auto& name = config.line;

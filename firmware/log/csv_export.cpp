@@ -46,7 +46,7 @@ struct Source {
   }
 };
 
-struct Cell {
+struct ExportCell {
   const CsvChannel* channel = nullptr;
   const Source* source = nullptr;
   const RecordLayout::Field* field = nullptr;
@@ -103,7 +103,7 @@ class Exporter {
 
   CsvExportResult run() {
     std::string line = "t_s";
-    for (const Cell& cell : cells_) {
+    for (const ExportCell& cell : cells_) {
       line += ',';
       line += cell.channel->name;
       result_.columns.emplace_back(cell.channel->name);
@@ -130,7 +130,7 @@ class Exporter {
   }
 
   void add_cell(const CsvChannel& channel) {
-    Cell cell;
+    ExportCell cell;
     cell.channel = &channel;
     cell.source = source_of(channel.topic);
     if (!cell.source->layout) return;  // no such topic in this log: no such column
@@ -152,7 +152,7 @@ class Exporter {
     if (!start_ns_) start_ns_ = time_ns;
     line_.clear();
     append_seconds(line_, time_ns - *start_ns_);
-    for (Cell& cell : cells_) {
+    for (ExportCell& cell : cells_) {
       line_ += ',';
       if (const auto value = cell.value()) append_number(line_, *value);
     }
@@ -167,7 +167,7 @@ class Exporter {
   std::array<Source, 3> sources_{Source{topic::kFrame}, Source{topic::kOutput}, Source{topic::kTruth}};
   Source& frame_ = sources_[0];
   const RecordLayout::Field* time_ = nullptr;
-  std::vector<Cell> cells_;
+  std::vector<ExportCell> cells_;
   std::optional<std::int64_t> start_ns_;
   std::string line_;
   CsvExportResult result_;

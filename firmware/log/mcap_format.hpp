@@ -54,6 +54,13 @@ inline std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// Length of the content of the record at `offset`; its head must lie in `file`.
+inline std::uint64_t length_at(Bytes file, std::uint64_t offset) {
+  std::uint64_t length = 0;
+  std::memcpy(&length, file.data() + offset + 1, sizeof length);
+  return length;
+}
+
 // zlib's CRC-32 (polynomial 0xEDB88320 reflected), continued from `crc`; 0 to start.
 std::uint32_t crc32(std::uint32_t crc, Bytes bytes);
 

@@ -5,16 +5,6 @@
 #include <utility>
 
 namespace sandhopper::mcap {
-namespace {
-
-std::uint64_t length_at(Bytes file, std::uint64_t offset) {
-  std::uint64_t length = 0;
-  std::memcpy(&length, file.data() + offset + 1, sizeof length);
-  return length;
-}
-
-}  // namespace
-
 Reader::Reader(const std::filesystem::path& file, ReaderOptions options)
     : name_(file.string()), options_(options), map_(file), file_(map_.bytes()) {
   open();

@@ -24,10 +24,6 @@ ChunkHead chunk_head(Bytes content, std::uint64_t length) {
 
 bool is_known(std::byte op) { return op >= std::byte{0x01} && op <= std::byte{0x0F}; }
 
-std::uint64_t length_at(Bytes file, std::uint64_t offset) {
-  return Cursor(file.subspan(static_cast<std::size_t>(offset) + 1)).take<std::uint64_t>();
-}
-
 }  // namespace
 
 Salvage::Salvage(Bytes file) : file_(file) {

@@ -9,24 +9,22 @@
 namespace sandhopper::benchmark {
 namespace {
 
-using Json = nlohmann::json;
-
-Json read_json(const std::filesystem::path& file) {
+nlohmann::json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw std::runtime_error("cannot read " + file.string());
   try {
-    return Json::parse(in);
-  } catch (const Json::exception& error) {  // a number too large for a double is out_of_range, no parse_error
+    return nlohmann::json::parse(in);
+  } catch (const nlohmann::json::exception& error) {  // a number too large for a double is out_of_range, no parse_error
     throw std::runtime_error(file.string() + " is not JSON: " + error.what());
   }
 }
 
-std::optional<double> number(const Json& json, const char* key) {
+std::optional<double> number(const nlohmann::json& json, const char* key) {
   const auto found = json.find(key);
   return found == json.end() || !found->is_number() ? std::nullopt : std::optional(found->get<double>());
 }
 
-std::vector<std::string> texts(const Json& json, const char* key) {
+std::vector<std::string> texts(const nlohmann::json& json, const char* key) {
   std::vector<std::string> all;
   const auto found = json.find(key);
   if (found != json.end() && found->is_array())
@@ -35,7 +33,7 @@ std::vector<std::string> texts(const Json& json, const char* key) {
   return all;
 }
 
-Truth truth_of(const Json& json, std::string name) {
+Truth truth_of(const nlohmann::json& json, std::string name) {
   Truth t;
   t.name = std::move(name);
   t.plant = json.at("plant");
@@ -52,7 +50,7 @@ Truth truth_of(const Json& json, std::string name) {
   return t;
 }
 
-Claim claim_of(const Json& json) {
+Claim claim_of(const nlohmann::json& json) {
   Claim c;
   c.id = json.value("id", "");
   c.probability = number(json, "probability").value_or(0.0);
@@ -87,7 +85,7 @@ std::vector<Truth> read_truths(const std::filesystem::path& folder) {
     if (entry.path().extension() != ".json") continue;
     try {
       all.push_back(truth_of(read_json(entry.path()), entry.path().stem().string()));
-    } catch (const Json::exception& error) {
+    } catch (const nlohmann::json::exception& error) {
       throw std::runtime_error(entry.path().string() + " is not an answer of hop conceal: " + error.what());
     }
   }
@@ -99,7 +97,7 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::exists(file, none) || std::filesystem::file_size(file, none) == 0)
     return std::nullopt;
-  Json json;
+  nlohmann::json json;
   try {
     json = read_json(file);
   } catch (const std::runtime_error&) {
@@ -122,9 +120,9 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
   }
   if (json.contains("next_trial") && json["next_trial"].is_object()) {
     const auto& next = json["next_trial"];
-    const auto setup = next.value("setup", Json());
+    const auto setup = next.value("setup", nlohmann::json());
     d.asks_for_a_split =
-        setup.is_object() && !setup.empty() && next.value("purpose", Json("split")) == "split";
+        setup.is_object() && !setup.empty() && next.value("purpose", nlohmann::json("split")) == "split";
   }
   return d;
 }

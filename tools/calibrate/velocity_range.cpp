@@ -14,7 +14,7 @@ namespace {
 constexpr double kStretch_s = 0.05;
 constexpr std::size_t kStretchSamples = 4;
 constexpr double kMoving_radps = 0.5;  // 20 steps of the MIT dialect's velocity
-constexpr int kStretches = 10;
+constexpr int kMovingStretches = 10;
 constexpr double kSystematic = 0.02;
 constexpr double kWidest = 0.15;  // ranges in the field are wrong by a fifth or more
 constexpr double kNoSpeed = 0.05;
@@ -50,7 +50,7 @@ std::optional<double> ratio_of(const std::vector<MotorSample>& samples) {
     squares += stretch.slope_radps * stretch.slope_radps;
     ++moving;
   }
-  if (moving < kStretches) return std::nullopt;
+  if (moving < kMovingStretches) return std::nullopt;
   return products / squares;
 }
 
@@ -85,7 +85,7 @@ SpeedRatio check_velocity_range(const std::vector<Recording>& moved, std::size_t
       refusals.push_back(
           {"moved_too_little",
            fmt::format("{}: motor {} turned faster than {} rad/s for less than {:.1f} s", recording.name,
-                       config.name, kMoving_radps, kStretches * kStretch_s),
+                       config.name, kMoving_radps, kMovingStretches * kStretch_s),
            "move the leg to and fro by hand, once a second or faster, for the whole recording"});
       return out;
     }

@@ -57,21 +57,21 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
       {.known_length_m = known_length_m(options, input), .length_accuracy_m = options.length_accuracy_m});
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--length-m", options->length_m,
+  arguments.add_option("--length-m", options->length_m,
                  "hip axis to toe joint in the known pose; default arming.zero_pose_length_m")
-      ->check(CLI::Range(0.05, 2.0));
-  app.add_option("--length-accuracy-m", options->length_accuracy_m, "how well that is known (95 %)")
-      ->check(CLI::Range(0.0, 0.02))
-      ->capture_default_str();
-  app.add_option(
+      .in_range(0.05, 2.0);
+  arguments.add_option("--length-accuracy-m", options->length_accuracy_m, "how well that is known (95 %)")
+      .in_range(0.0, 0.02)
+      .show_default();
+  arguments.add_option(
          "--repeats", options->repeats,
          "pairs of recordings: known pose, then leg shortened by hand; and after them as many with the "
          "leg moved to and fro")
-      ->check(CLI::Range(3, 50))
-      ->capture_default_str();
-  add_seconds(app, options->seconds);
+      .in_range(3, 50)
+      .show_default();
+  add_seconds(arguments, options->seconds);
   return {.steps = [options](const CalibrationInput& input) { return steps(*options, input); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

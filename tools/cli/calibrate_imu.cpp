@@ -50,16 +50,16 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
                        {.gravity_mps2 = options.gravity_mps2});
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--imu", options->imu, "which one")
-      ->check(CLI::IsMember({"body", "foot"}))
-      ->capture_default_str();
-  app.add_option("--poses", options->poses, "how many still poses; the six faces first, in turn")
-      ->check(CLI::Range(9, 200))
-      ->capture_default_str();
-  add_gravity(app, options->gravity_mps2, "of this place; the firmware computes with 9.81");
-  add_seconds(app, options->seconds);
+  arguments.add_option("--imu", options->imu, "which one")
+      .one_of({"body", "foot"})
+      .show_default();
+  arguments.add_option("--poses", options->poses, "how many still poses; the six faces first, in turn")
+      .in_range(9, 200)
+      .show_default();
+  add_gravity(arguments, options->gravity_mps2, "of this place; the firmware computes with 9.81");
+  add_seconds(arguments, options->seconds);
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

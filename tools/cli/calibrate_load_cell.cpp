@@ -35,15 +35,15 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   return calibrate_load_cell(points, input.board.load_cell, {.gravity_mps2 = options.gravity_mps2});
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--weights-kg", options->weights_kg,
+  arguments.add_option("--weights-kg", options->weights_kg,
                  "weights in the order of the recordings; up and down again shows drift")
-      ->delimiter(',')
-      ->check(CLI::Range(0.0, 50.0))
-      ->capture_default_str();
-  add_gravity(app, options->gravity_mps2, "where the weights stand");
-  add_seconds(app, options->seconds);
+      .separated_by(',')
+      .in_range(0.0, 50.0)
+      .show_default();
+  add_gravity(arguments, options->gravity_mps2, "where the weights stand");
+  add_seconds(arguments, options->seconds);
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

@@ -101,23 +101,23 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   return outcome;
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  const auto sensors = CLI::IsMember({"imu_body", "imu_foot", "load_cell"});
-  app.add_option("--reference", options->reference, "sensor whose time stamps are right")
-      ->check(sensors)
-      ->capture_default_str();
-  app.add_option("--sensors", options->sensors, "whose latency is found")
-      ->delimiter(',')
-      ->check(sensors)
-      ->capture_default_str();
-  app.add_option("--taps", options->taps, "how many")->check(CLI::Range(5, 200))->capture_default_str();
-  app.add_option(
+  const std::vector<std::string> sensors{"imu_body", "imu_foot", "load_cell"};
+  arguments.add_option("--reference", options->reference, "sensor whose time stamps are right")
+      .one_of(sensors)
+      .show_default();
+  arguments.add_option("--sensors", options->sensors, "whose latency is found")
+      .separated_by(',')
+      .one_of(sensors)
+      .show_default();
+  arguments.add_option("--taps", options->taps, "how many").in_range(5, 200).show_default();
+  arguments.add_option(
          "--foreign", options->foreign,
          "table (.csv) of another computer with the same taps: its clock is found in place of latencies")
-      ->check(CLI::ExistingFile);
-  app.add_option("--foreign-column", options->foreign_column, "of that table, where the taps show");
-  app.add_option("--aligned", options->aligned, "writes that table with times of the recording (t_s)");
+      .existing_file();
+  arguments.add_option("--foreign-column", options->foreign_column, "of that table, where the taps show");
+  arguments.add_option("--aligned", options->aligned, "writes that table with times of the recording (t_s)");
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

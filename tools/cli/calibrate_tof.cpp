@@ -32,13 +32,13 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   return calibrate_tof(points, input.board.tof);
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--heights-m", options->heights_m, "of the hip axis, in the order of the recordings")
-      ->delimiter(',')
-      ->check(CLI::Range(0.02, 10.0))
-      ->capture_default_str();
-  add_seconds(app, options->seconds);
+  arguments.add_option("--heights-m", options->heights_m, "of the hip axis, in the order of the recordings")
+      .separated_by(',')
+      .in_range(0.02, 10.0)
+      .show_default();
+  add_seconds(arguments, options->seconds);
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,
                            const auto& input) { return fit(recordings, input, *options); }};

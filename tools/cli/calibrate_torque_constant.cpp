@@ -43,14 +43,14 @@ double load_cell_ci95_relative(const LinuxBoardConfig& board) {
   return record.ci95[static_cast<std::size_t>(found - record.keys.begin())] / board.load_cell.scale_N_per_V;
 }
 
-Calibration::Actions set_up(CLI::App& app) {
+Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--peak-torque-Nm", options->peak_torque_Nm, "of each motor")
-      ->check(CLI::Range(0.1, 50.0))
-      ->capture_default_str();
-  app.add_option("--repeats", options->repeats, "presses: left motor, right motor, both, up and down each")
-      ->check(CLI::Range(3, 50))
-      ->capture_default_str();
+  arguments.add_option("--peak-torque-Nm", options->peak_torque_Nm, "of each motor")
+      .in_range(0.1, 50.0)
+      .show_default();
+  arguments.add_option("--repeats", options->repeats, "presses: left motor, right motor, both, up and down each")
+      .in_range(3, 50)
+      .show_default();
   return {.steps = [options](const CalibrationInput& input) { return steps(*options, input); },
           .fit =
               [](const auto& recordings, const auto& input) {

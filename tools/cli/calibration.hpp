@@ -1,6 +1,4 @@
 #pragma once
-#include <CLI/App.hpp>
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <string>
@@ -8,6 +6,7 @@
 
 #include "tools/calibrate/outcome.hpp"
 #include "tools/calibrate/recorder.hpp"
+#include "tools/cli/arguments.hpp"
 
 namespace sandhopper::cli {
 
@@ -28,12 +27,12 @@ struct Calibration {
   };
   std::string name;
   std::string summary;
-  std::function<Actions(CLI::App&)> set_up;
+  std::function<Actions(Arguments&)> set_up;
 };
 
 // Options that several calibrations have: how long each recording lasts, and gravity where it is made.
-void add_seconds(CLI::App& app, double& seconds);
-void add_gravity(CLI::App& app, double& gravity_mps2, const std::string& help);
+void add_seconds(Arguments& arguments, double& seconds);
+void add_gravity(Arguments& arguments, double& gravity_mps2, const std::string& help);
 
 // A constant of this type in a file tools/cli/calibrate_NAME.cpp makes the calibration known.
 class CalibrationRegistration {

@@ -47,16 +47,17 @@ std::vector<std::string> verbs_of(const CLI::App& app) {
 
 }  // namespace
 
-CommandLine::CommandLine(Session& session) : app_(kAbout, "hop") {
+CommandLine::CommandLine(Session& session, const std::vector<Verb>& verbs) : app_(kAbout, "hop") {
   app_.set_version_flag("--version", "hop " + std::string(kVersion), "print the version");
   app_.footer(kFooter);
   app_.get_formatter()->label("SUBCOMMAND", "VERB");
   add_common_options(app_, session);
-  for (const auto& verb : known_verbs()) {
+  for (const auto& verb : verbs) {
     auto* sub = app_.add_subcommand(verb.name, verb.summary);
     sub->group("Verbs");
     add_common_options(*sub, session);
-    verbs_.emplace_back(sub, verb.set_up(*sub));
+    Arguments arguments(*sub);
+    verbs_.emplace_back(sub, verb.set_up(arguments));
     let_options_through(*sub);
   }
   app_.allow_extras();
@@ -72,6 +73,8 @@ Run CommandLine::parse(int argc, char** argv) {
   } catch (const CLI::Error& error) {
     throw explain(error);
   }
+  for (const auto& [sub, run] : verbs_)
+    if (sub->parsed() && sub->get_prefix_command()) return run;
   if (const auto words = app_.remaining(true); !words.empty()) throw not_expected(words.front());
   for (const auto& [sub, run] : verbs_)
     if (sub->parsed()) return run;

@@ -1,4 +1,6 @@
 #pragma once
+#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -6,10 +8,10 @@
 
 namespace sandhopper::cli {
 
-// The parser of `hop`: every verb with its options, and messages that name the cure.
+// The parser of `hop` and of its verbs' programs: each verb with its options, and messages that name the cure.
 class CommandLine {
  public:
-  explicit CommandLine(Session& session);
+  CommandLine(Session& session, const std::vector<Verb>& verbs);
 
   // What to run. Throws Failure(usage) for a wrong command line, Help when help or the version was asked for.
   struct Help {

@@ -70,14 +70,14 @@ ExitCode run(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--seeds", options->seeds, "repetitions of the 75 hops")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_flag("--quick", options->quick, "one repetition, and no other conditions");
-  app.add_option("--threads", options->threads, "default: one a core")->check(CLI::Range(1U, 1024U));
-  app.add_option("--output", options->output, "folder for paper.html and paper.json")->capture_default_str();
+  arguments.add_option("--seeds", options->seeds, "repetitions of the 75 hops")
+      .in_range(1, 1000)
+      .show_default();
+  arguments.add_flag("--quick", options->quick, "one repetition, and no other conditions");
+  arguments.add_option("--threads", options->threads, "default: one a core").in_range(1U, 1024U);
+  arguments.add_option("--output", options->output, "folder for paper.html and paper.json").show_default();
   return [options](Session& session) { return run(session, *options); };
 }
 

@@ -121,19 +121,19 @@ ExitCode merge(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto o = std::make_shared<Options>();
-  app.add_option("--strides", o->strides, "how many, over the 15 cells of the hop set, five at a time")
-      ->check(CLI::Range(1L, 100'000'000L))
-      ->capture_default_str();
-  app.add_option("--seed", o->seed, "of the first stride")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--threads", o->threads, "default: one a core")->check(CLI::Range(1U, 1024U));
-  app.add_option("--part", o->part, "only this part of the whole, I/N; merge the parts with --merge")
-      ->capture_default_str();
-  app.add_option("--output", o->output, "file for the sums (JSON)");
-  app.add_option("--merge", o->files, "add up what parts wrote instead of running")->type_name("FILES");
+  arguments.add_option("--strides", o->strides, "how many, over the 15 cells of the hop set, five at a time")
+      .in_range(1L, 100'000'000L)
+      .show_default();
+  arguments.add_option("--seed", o->seed, "of the first stride")
+      .non_negative()
+      .show_default();
+  arguments.add_option("--threads", o->threads, "default: one a core").in_range(1U, 1024U);
+  arguments.add_option("--part", o->part, "only this part of the whole, I/N; merge the parts with --merge")
+      .show_default();
+  arguments.add_option("--output", o->output, "file for the sums (JSON)");
+  arguments.add_option("--merge", o->files, "add up what parts wrote instead of running").type_name("FILES");
   return [o](Session& session) { return o->files.empty() ? run(session, *o) : merge(session, *o); };
 }
 

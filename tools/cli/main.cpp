@@ -1,91 +1,33 @@
-#include <fmt/format.h>
+#include <unistd.h>
 
-#include <cstdio>
-#include <exception>
+#include <cerrno>
+#include <system_error>
 
-#include "config/problem.hpp"
-#include "drivers/device_error.hpp"
-#include "tools/cli/command_line.hpp"
+#include "config/program.hpp"
+#include "tools/cli/program.hpp"
 
-// The `hop` command: reads the command line, runs one verb, turns what went wrong into a message, a cure and
-// an exit status.
+// `hop`: finds out which verb is meant and becomes that verb's program.
 namespace sandhopper::cli {
 namespace {
 
-struct Complaint {
-  ExitCode exit;
-  std::string message;
-  std::string cure;
-  nlohmann::ordered_json problems = nullptr;
-};
-
-void print_json(const nlohmann::ordered_json& object) {
-  // Text that is not UTF-8 (a file name, a device's answer) must not spoil the answer.
-  const auto text = object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::fputs((text + "\n").c_str(), stdout);
-}
-
-int complain(const Session& session, const std::string& who, const Complaint& complaint) {
-  std::fputs(fmt::format("{}: {}\n", who, complaint.message).c_str(), stderr);
-  if (!complaint.cure.empty()) std::fputs(fmt::format("{}: {}\n", who, complaint.cure).c_str(), stderr);
-  if (session.json) {
-    nlohmann::ordered_json error{{"command", who},
-                                 {"message", complaint.message},
-                                 {"cure", complaint.cure},
-                                 {"exit", static_cast<int>(complaint.exit)}};
-    if (!complaint.problems.is_null()) error["problems"] = complaint.problems;
-    print_json({{"error", error}});
-  }
-  return static_cast<int>(complaint.exit);
-}
-
-Complaint about(const ConfigError& error) {
-  auto problems = nlohmann::ordered_json::array();
-  for (const auto& p : error.problems())
-    problems.push_back({{"file", p.file},
-                        {"line", p.position.line},
-                        {"column", p.position.column},
-                        {"key", p.key},
-                        {"text", p.text}});
-  const auto count = error.problems().size();
-  return {ExitCode::usage,
-          fmt::format("{} in the configuration; nothing was started\n{}",
-                      count == 1 ? "one problem" : fmt::format("{} problems", count), error.what()),
-          "config/README.md explains the files; 'hop config check' looks at all of them", problems};
-}
-
-int run(int argc, char** argv) {
-  Session session;
-  // Known before parsing, so that a wrong command line is answered as asked, too.
-  for (int i = 1; i < argc; ++i) session.json |= std::string_view(argv[i]) == "--json";
-  CommandLine command_line(session);
-  try {
-    const auto verb = command_line.parse(argc, argv);
-    const auto exit = verb(session);
-    if (session.json) print_json(session.result);
-    return static_cast<int>(exit);
-  } catch (const CommandLine::Help& help) {
-    session.say_line(help.text);
-    if (session.json) print_json({{"help", help.text}});
-    return static_cast<int>(ExitCode::ok);
-  } catch (const Failure& failure) {
-    return complain(session, command_line.understood(), {failure.exit(), failure.what(), failure.cure()});
-  } catch (const ConfigError& error) {
-    return complain(session, command_line.understood(), about(error));
-  } catch (const DeviceError& error) {
-    const auto message = std::string_view(error.what());
-    return complain(session, command_line.understood(),
-                    {ExitCode::fault, std::string(message.substr(0, message.size() - error.cure().size())),
-                     error.cure()});
-  } catch (const std::exception& error) {
-    return complain(session, command_line.understood(), {ExitCode::fault, error.what(), ""});
-  }
+Run become(const std::string& name, char** argv) {
+  return [name, argv](Session&) -> ExitCode {
+    const auto program = find_program("hop-" + name);
+    ::execv(program.c_str(), argv);
+    throw std::system_error(errno, std::generic_category(), program.string());
+  };
 }
 
 }  // namespace
 }  // namespace sandhopper::cli
 
-int main(int argc, char** argv) try { return sandhopper::cli::run(argc, argv); } catch (...) {
-  std::fputs("hop: a verb could not be set up\n", stderr);
-  return static_cast<int>(sandhopper::cli::ExitCode::fault);
+int main(int argc, char** argv) {
+  using namespace sandhopper::cli;
+  auto verbs = all_verbs();
+  for (auto& verb : verbs)
+    verb.set_up = [name = verb.name, argv](Arguments& arguments) {
+      arguments.leave_the_rest();
+      return become(name, argv);
+    };
+  return run_program(verbs, argc, argv);
 }

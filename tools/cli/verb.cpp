@@ -1,23 +1,30 @@
 #include "tools/cli/verb.hpp"
 
-#include <algorithm>
+#include <stdexcept>
 
 namespace sandhopper::cli {
 namespace {
 
-std::vector<Verb>& registry() {
-  static std::vector<Verb> verbs;
-  return verbs;
+Verb& registered() {
+  static Verb verb;
+  return verb;
 }
 
 }  // namespace
 
-VerbRegistration::VerbRegistration(Verb verb) { registry().push_back(std::move(verb)); }
+VerbRegistration::VerbRegistration(std::string name, std::function<Run(Arguments&)> set_up) {
+  registered().name = std::move(name);
+  registered().set_up = std::move(set_up);
+}
 
-std::vector<Verb> known_verbs() {
-  auto verbs = registry();
-  std::sort(verbs.begin(), verbs.end(), [](const Verb& a, const Verb& b) { return a.name < b.name; });
-  return verbs;
+Verb verb_of_this_program() {
+  auto verb = registered();
+  for (const auto& known : all_verbs())
+    if (known.name == verb.name) {
+      verb.summary = known.summary;
+      return verb;
+    }
+  throw std::logic_error("tools/cli/verbs.cmake does not list the verb '" + verb.name + "'");
 }
 
 }  // namespace sandhopper::cli

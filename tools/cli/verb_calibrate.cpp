@@ -212,44 +212,42 @@ ExitCode calibrate_one(Session& session, const Options& options, const std::stri
   return ExitCode::ok;
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("--from", options.from, "recordings made before, one a step: logs (.mcap) or tables (.csv)");
-  app.add_option("--board", options.board,
+void add_options(Arguments& arguments, Options& options) {
+  arguments.add_option("--from", options.from, "recordings made before, one a step: logs (.mcap) or tables (.csv)");
+  arguments.add_option("--board", options.board,
                  "whose devices are recorded: linux, this machine's; sim, simulated ones")
-      ->check(CLI::IsMember({"linux", "sim"}))
-      ->capture_default_str();
-  app.add_option("--devices", options.devices,
+      .one_of({"linux", "sim"})
+      .show_default();
+  arguments.add_option("--devices", options.devices,
                  "device file that is read and written; default linux.toml, inside tools/bench bench.toml");
-  app.add_option(
+  arguments.add_option(
       "--sim-devices", options.sim_devices,
       "configuration directory that says what the simulated devices really are; default: as believed");
-  app.add_option("--seed", options.seed, "of the simulated devices")->capture_default_str();
-  app.add_option("--output", options.output,
+  arguments.add_option("--seed", options.seed, "of the simulated devices").show_default();
+  arguments.add_option("--output", options.output,
                  "folder for recordings and plots; default calibration/DATE_NAME");
-  app.add_flag("--dry-run", options.dry_run, "fit and show, but write no configuration");
+  arguments.add_flag("--dry-run", options.dry_run, "fit and show, but write no configuration");
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.require_subcommand(1);
-  app.footer(
+  arguments.require_verb();
+  arguments.footer(
       "Exit status: 0 written (or fitted, with --dry-run), 1 the fit was refused and nothing was written.");
-  std::vector<std::tuple<CLI::App*, std::string, Calibration::Actions>> choices;
+  std::vector<std::tuple<Arguments, std::string, Calibration::Actions>> choices;
   for (const auto& calibration : known_calibrations()) {
-    auto* sub = app.add_subcommand(calibration.name, calibration.summary);
-    choices.emplace_back(sub, calibration.name, calibration.set_up(*sub));
-    add_options(*sub, *options);
+    auto sub = arguments.add_verb(calibration.name, calibration.summary);
+    choices.emplace_back(sub, calibration.name, calibration.set_up(sub));
+    add_options(sub, *options);
   }
   return [options, choices](Session& session) {
     for (const auto& [sub, name, actions] : choices)
-      if (sub->parsed()) return calibrate_one(session, *options, name, actions);
+      if (sub.parsed()) return calibrate_one(session, *options, name, actions);
     return ExitCode::usage;
   };
 }
 
-const VerbRegistration kCalibrate({"calibrate",
-                                   "find zeros, gains and delays of the sensors, and write them down",
-                                   set_up});
+const VerbRegistration kCalibrate("calibrate", set_up);
 
 }  // namespace
 
@@ -257,14 +255,14 @@ CalibrationRegistration::CalibrationRegistration(Calibration calibration) {
   registered().push_back(std::move(calibration));
 }
 
-void add_seconds(CLI::App& app, double& seconds) {
-  app.add_option("--seconds", seconds, "of each recording")
-      ->check(CLI::Range(1.0, 60.0))
-      ->capture_default_str();
+void add_seconds(Arguments& arguments, double& seconds) {
+  arguments.add_option("--seconds", seconds, "of each recording")
+      .in_range(1.0, 60.0)
+      .show_default();
 }
 
-void add_gravity(CLI::App& app, double& gravity_mps2, const std::string& help) {
-  app.add_option("--gravity-mps2", gravity_mps2, help)->check(CLI::Range(9.7, 9.9))->capture_default_str();
+void add_gravity(Arguments& arguments, double& gravity_mps2, const std::string& help) {
+  arguments.add_option("--gravity-mps2", gravity_mps2, help).in_range(9.7, 9.9).show_default();
 }
 
 std::vector<Calibration> known_calibrations() {

@@ -76,32 +76,31 @@ ExitCode make(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.require_subcommand(1);
-  auto* checking =
-      app.add_subcommand("check", "read every recording and say what is wrong, where, and the cure");
-  checking->add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file")
-      ->required();
-  auto* making = app.add_subcommand("make", "write a campaign of simulated recordings to try the tools on");
-  making->add_option("--plant", options->plant, "hopper: first strides; intruder: a plate moved into the bed")
-      ->check(CLI::IsMember({"hopper", "intruder"}))
-      ->capture_default_str();
+  arguments.require_verb();
+  auto checking =
+      arguments.add_verb("check", "read every recording and say what is wrong, where, and the cure");
+  checking.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file")
+      .required();
+  auto making = arguments.add_verb("make", "write a campaign of simulated recordings to try the tools on");
+  making.add_option("--plant", options->plant, "hopper: first strides; intruder: a plate moved into the bed")
+      .one_of({"hopper", "intruder"})
+      .show_default();
   making
-      ->add_option("--trials", options->trials,
+      .add_option("--trials", options->trials,
                    "how many, over heights and stiffnesses, or speeds and plates")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  making->add_option("--seed", options->seed, "of the first trial; the next ones count up")
-      ->capture_default_str();
-  making->add_option("--output", options->output, "folder to write")->required();
+      .in_range(1, 100000)
+      .show_default();
+  making.add_option("--seed", options->seed, "of the first trial; the next ones count up")
+      .show_default();
+  making.add_option("--output", options->output, "folder to write").required();
   return [options, checking](Session& session) {
-    return checking->parsed() ? check(session, *options) : make(session, *options);
+    return checking.parsed() ? check(session, *options) : make(session, *options);
   };
 }
 
-const VerbRegistration kCampaign({"campaign", "check a campaign of recordings, or make a simulated one",
-                                  set_up});
+const VerbRegistration kCampaign("campaign", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "config/program.hpp"
 #include "tools/benchmark/runner.hpp"
 #include "tools/benchmark/score_study.hpp"
 #include "tools/cli/output_folder.hpp"
@@ -189,7 +190,8 @@ ExitCode run_and_score(Session& session, Options options) {
   run.jobs = options.jobs;
   run.follow_up = !options.no_follow_up;
   if (options.tool.empty()) {
-    run.tool = {fs::read_symlink("/proc/self/exe").string(),
+    find_program("hop-diagnose");  // fail now, not once a campaign
+    run.tool = {find_program("hop").string(),
                 "diagnose",
                 "{campaign}",
                 "--json",
@@ -215,70 +217,68 @@ ExitCode run_and_score(Session& session, Options options) {
   return exit;
 }
 
-void add_request_options(CLI::App& app, Options& o) {
-  app.add_option("--output", o.output, "folder to make; campaigns/ and answers/ go into it");
-  app.add_option("--campaigns", o.campaigns, "how many")->check(CLI::Range(1, 100000))->capture_default_str();
-  app.add_option("--seed", o.seed, "the same seed gives the same campaigns")->capture_default_str();
-  app.add_option("--plant", o.plant, "hopper, intruder, falling_body or rotary_axis; default: any");
-  app.add_option("--kind", o.kind, "what is hidden; default: a mixture")
-      ->check(CLI::IsMember({"null", "decoy", "single", "several", "unknown", "indistinguishable"}));
-  app.add_option("--effect", o.effect, "hide this one; --list names them");
-  app.add_option("--size", o.size, "of what is hidden, relative to typical; default: 0.1 to 3")
-      ->check(CLI::Range(0.001, 100.0));
-  app.add_option("--trials", o.trials, "of a campaign")->check(CLI::Range(1, 500))->capture_default_str();
+void add_request_options(Arguments& arguments, Options& o) {
+  arguments.add_option("--output", o.output, "folder to make; campaigns/ and answers/ go into it");
+  arguments.add_option("--campaigns", o.campaigns, "how many").in_range(1, 100000).show_default();
+  arguments.add_option("--seed", o.seed, "the same seed gives the same campaigns").show_default();
+  arguments.add_option("--plant", o.plant, "hopper, intruder, falling_body or rotary_axis; default: any");
+  arguments.add_option("--kind", o.kind, "what is hidden; default: a mixture")
+      .one_of({"null", "decoy", "single", "several", "unknown", "indistinguishable"});
+  arguments.add_option("--effect", o.effect, "hide this one; --list names them");
+  arguments.add_option("--size", o.size, "of what is hidden, relative to typical; default: 0.1 to 3")
+      .in_range(0.001, 100.0);
+  arguments.add_option("--trials", o.trials, "of a campaign").in_range(1, 500).show_default();
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   auto& o = *options;
-  app.require_subcommand(0, 1);
-  add_request_options(app, o);
-  app.add_flag("--list", o.list, "name plants and effects, write nothing");
+  arguments.allow_one_verb();
+  add_request_options(arguments, o);
+  arguments.add_flag("--list", o.list, "name plants and effects, write nothing");
 
-  auto* following = app.add_subcommand("follow-up", "the campaign again with one trial more");
-  following->add_option("CAMPAIGN", o.campaign, "a campaign's folder")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  auto following = arguments.add_verb("follow-up", "the campaign again with one trial more");
+  following.add_option("CAMPAIGN", o.campaign, "a campaign's folder")
+      .required()
+      .existing_folder();
   following
-      ->add_option("SETUP", o.setup, "JSON: the trial's set-up, or a diagnosis whose next_trial is meant")
-      ->required()
-      ->check(CLI::ExistingFile);
-  following->add_option("--answers", o.answers, "folder of the answers; default: beside the campaigns");
-  following->add_option("--output", o.output, "folder of the new campaign")->required();
+      .add_option("SETUP", o.setup, "JSON: the trial's set-up, or a diagnosis whose next_trial is meant")
+      .required()
+      .existing_file();
+  following.add_option("--answers", o.answers, "folder of the answers; default: beside the campaigns");
+  following.add_option("--output", o.output, "folder of the new campaign").required();
 
-  auto* scoring = app.add_subcommand("score", "hold diagnoses against the answers");
-  scoring->add_option("ANSWERS", o.answers, "folder of NNN.json by 'hop conceal'")->required();
-  scoring->add_option("DIAGNOSES", o.diagnoses, "folder of NNN.json by 'hop diagnose --json'")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  scoring->add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
-  scoring->add_option("--report", o.report, "page to write");
+  auto scoring = arguments.add_verb("score", "hold diagnoses against the answers");
+  scoring.add_option("ANSWERS", o.answers, "folder of NNN.json by 'hop conceal'").required();
+  scoring.add_option("DIAGNOSES", o.diagnoses, "folder of NNN.json by 'hop diagnose --json'")
+      .required()
+      .existing_folder();
+  scoring.add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
+  scoring.add_option("--report", o.report, "page to write");
 
-  auto* running =
-      app.add_subcommand("benchmark", "conceal, diagnose and score; goes on where it was stopped");
-  add_request_options(*running, o);
-  running->add_option("--jobs", o.jobs, "diagnoses at a time")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  running->add_option("--limit-s", o.limit_s, "time for one diagnosis")
-      ->check(CLI::Range(0.1, 86400.0))
-      ->capture_default_str();
-  running->add_flag("--no-follow-up", o.no_follow_up, "do not add the trials the tool recommends");
-  running->add_option("--tool", o.tool,
+  auto running =
+      arguments.add_verb("benchmark", "conceal, diagnose and score; goes on where it was stopped");
+  add_request_options(running, o);
+  running.add_option("--jobs", o.jobs, "diagnoses at a time")
+      .in_range(1, 64)
+      .show_default();
+  running.add_option("--limit-s", o.limit_s, "time for one diagnosis")
+      .in_range(0.1, 86400.0)
+      .show_default();
+  running.add_flag("--no-follow-up", o.no_follow_up, "do not add the trials the tool recommends");
+  running.add_option("--tool", o.tool,
                       "command that prints diagnosis.json; {campaign} and {output} stand for folders");
-  running->add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
+  running.add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
 
   return [=](Session& session) {
-    if (following->parsed()) return follow_up(session, *options);
-    if (scoring->parsed()) return score(session, *options);
-    if (running->parsed()) return run_and_score(session, *options);
+    if (following.parsed()) return follow_up(session, *options);
+    if (scoring.parsed()) return score(session, *options);
+    if (running.parsed()) return run_and_score(session, *options);
     return generate(session, *options);
   };
 }
 
-const VerbRegistration kConceal({"conceal",
-                                 "make campaigns in which physics is hidden, to test 'hop diagnose'",
-                                 set_up});
+const VerbRegistration kConceal("conceal", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

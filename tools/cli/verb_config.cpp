@@ -59,19 +59,19 @@ ExitCode show(Session& session, const std::vector<std::string>& named) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto files = std::make_shared<std::vector<std::string>>();
-  app.require_subcommand(1);
-  auto* checking = app.add_subcommand("check", "say whether the files are right, and what is wrong where");
-  auto* showing = app.add_subcommand("show", "print every key as the program understands it");
-  for (auto* sub : {checking, showing})
-    sub->add_option("FILES", *files, "TOML files; default: all of the configuration directory");
+  arguments.require_verb();
+  auto checking = arguments.add_verb("check", "say whether the files are right, and what is wrong where");
+  auto showing = arguments.add_verb("show", "print every key as the program understands it");
+  for (auto sub : {checking, showing})
+    sub.add_option("FILES", *files, "TOML files; default: all of the configuration directory");
   return [files, checking](Session& session) {
-    return checking->parsed() ? check(session, *files) : show(session, *files);
+    return checking.parsed() ? check(session, *files) : show(session, *files);
   };
 }
 
-const VerbRegistration kConfig({"config", "check or show the configuration files", set_up});
+const VerbRegistration kConfig("config", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

@@ -81,19 +81,18 @@ ExitCode diagnose(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml")->required();
-  app.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
-  app.add_flag("!--no-report", options->report, "write no page");
-  app.add_flag("--search", options->search, "also print what was tried");
-  app.add_flag("--residuals", options->residuals,
+  arguments.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml").required();
+  arguments.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
+  arguments.add_flag("!--no-report", options->report, "write no page");
+  arguments.add_flag("--search", options->search, "also print what was tried");
+  arguments.add_flag("--residuals", options->residuals,
                "also write residuals.csv: recorded minus simulated, before and after, of every row");
   return [options](Session& session) { return diagnose(session, *options); };
 }
 
-const VerbRegistration kDiagnose({"diagnose", "find the physics that a simulation lacks against recordings",
-                                  set_up});
+const VerbRegistration kDiagnose("diagnose", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

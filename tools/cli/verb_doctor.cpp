@@ -75,17 +75,16 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
   return findings;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto board = std::make_shared<std::string>("linux");
-  app.add_option("--board", *board,
+  arguments.add_option("--board", *board,
                  "linux: machine and device nodes; sim: only what the simulated robot needs")
-      ->check(CLI::IsMember({"linux", "sim"}))
-      ->capture_default_str();
+      .one_of({"linux", "sim"})
+      .show_default();
   return [board](Session& session) { return report(session, examine(session, *board)); };
 }
 
-const VerbRegistration kDoctor({"doctor", "say whether this machine can run the robot, and what to do if not",
-                                set_up});
+const VerbRegistration kDoctor("doctor", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

@@ -10,24 +10,23 @@ std::vector<Verb>& experiments() {
   return known;
 }
 
-Run set_up(CLI::App& app) {
-  app.require_subcommand(1);
+Run set_up(Arguments& arguments) {
+  arguments.require_verb();
   auto known = experiments();
   std::sort(known.begin(), known.end(), [](const Verb& a, const Verb& b) { return a.name < b.name; });
-  auto runs = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>();
+  auto runs = std::make_shared<std::vector<std::pair<Arguments, Run>>>();
   for (const auto& experiment : known) {
-    auto* sub = app.add_subcommand(experiment.name, experiment.summary);
-    runs->emplace_back(sub, experiment.set_up(*sub));
+    auto sub = arguments.add_verb(experiment.name, experiment.summary);
+    runs->emplace_back(sub, experiment.set_up(sub));
   }
   return [runs](Session& session) {
     for (const auto& [sub, run] : *runs)
-      if (sub->parsed()) return run(session);
+      if (sub.parsed()) return run(session);
     return ExitCode::usage;  // the parser asks for one
   };
 }
 
-const VerbRegistration kExperiment({"experiment", "many simulated trials and what they say together",
-                                    set_up});
+const VerbRegistration kExperiment("experiment", set_up);
 
 }  // namespace
 

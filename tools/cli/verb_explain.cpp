@@ -46,13 +46,13 @@ ExitCode explain(Session& session, const std::string& code) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto code = std::make_shared<std::string>();
-  app.add_option("CODE", *code, "number or name of a fault; without it all are listed");
+  arguments.add_option("CODE", *code, "number or name of a fault; without it all are listed");
   return [code](Session& session) { return explain(session, *code); };
 }
 
-const VerbRegistration kExplain({"explain", "what a fault means and how to cure it", set_up});
+const VerbRegistration kExplain("explain", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

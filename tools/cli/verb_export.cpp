@@ -79,18 +79,18 @@ ExitCode export_log(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  auto* log = app.add_option("LOG", options->log, "a trial's .mcap file")->check(CLI::ExistingFile);
-  app.add_option("--output", options->output, "CSV file; default: beside the log");
-  app.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
-  app.add_option(
+  auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
+  arguments.add_option("--output", options->output, "CSV file; default: beside the log");
+  arguments.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
+  arguments.add_option(
       "--layouts", options->layouts,
       "write into this folder: layouts for PlotJuggler and Foxglove, loaders for Python and MATLAB or "
       "Octave; without LOG only these");
   return [options, log](Session& session) {
     if (!options->layouts.empty()) write_layouts(session, options->layouts);
-    if (log->count() > 0) return export_log(session, *options);
+    if (log.given()) return export_log(session, *options);
     if (options->layouts.empty())
       throw Failure(ExitCode::usage, "LOG is required: a trial's .mcap file",
                     "name it, or a folder for --layouts; see 'hop export --help'");
@@ -98,7 +98,7 @@ Run set_up(CLI::App& app) {
   };
 }
 
-const VerbRegistration kExport({"export", "write a log as CSV, one row per cycle", set_up});
+const VerbRegistration kExport("export", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

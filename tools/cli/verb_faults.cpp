@@ -96,16 +96,15 @@ ExitCode run_matrix(Session& session, const Options& options) {
   return wrong == 0 ? ExitCode::ok : ExitCode::no;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("--only", options->only, "cells whose name or fault contains this text");
-  app.add_option("--without", options->without,
+  arguments.add_option("--only", options->only, "cells whose name or fault contains this text");
+  arguments.add_option("--without", options->without,
                  "with this fault's detector switched off: the matrix must fail");
   return [options](Session& session) { return run_matrix(session, *options); };
 }
 
-const VerbRegistration kFaultsVerb(
-    {"faults", "break every device of the simulated robot in every phase, and judge the reaction", set_up});
+const VerbRegistration kFaults("faults", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

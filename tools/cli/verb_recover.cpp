@@ -82,13 +82,13 @@ nlohmann::ordered_json as_json(const LogRecovery& found, const std::string& outp
   return result;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("LOG", options->log, "a trial's .mcap or .candump file")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--output", options->output, "where to write what was saved; default: LOG with .recovered");
-  app.footer(
+  arguments.add_option("LOG", options->log, "a trial's .mcap or .candump file")
+      .required()
+      .existing_file();
+  arguments.add_option("--output", options->output, "where to write what was saved; default: LOG with .recovered");
+  arguments.footer(
       "The log itself is not changed. A whole one is not copied. Exit status: 0 the log is whole or what can "
       "be\n"
       "read of it was written, 1 nothing can be read of it, 2 command line, 3 a file cannot be read or "
@@ -102,7 +102,7 @@ Run set_up(CLI::App& app) {
   };
 }
 
-const VerbRegistration kRecover({"recover", "save what can be read of a cut or damaged log", set_up});
+const VerbRegistration kRecover("recover", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

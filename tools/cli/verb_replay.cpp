@@ -104,19 +104,19 @@ ExitCode replay_trace(Session& session, const Options& options) {
   return result.identical() ? ExitCode::ok : ExitCode::no;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  auto* log = app.add_option("LOG", options->log, "a trial's .mcap file")->check(CLI::ExistingFile);
-  auto* trace =
-      app.add_option("--can", options->trace, "a candump -L trace instead of a log: decode its motor replies")
-          ->check(CLI::ExistingFile)
-          ->excludes(log);
-  app.add_option(
+  auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
+  auto trace =
+      arguments.add_option("--can", options->trace, "a candump -L trace instead of a log: decode its motor replies")
+          .existing_file()
+          .excludes(log);
+  arguments.add_option(
          "--interface", options->interface,
          "also play the trace's replies on this CAN interface (vcan0) into the robot's driver, and compare")
-      ->needs(trace);
-  app.add_option("--output", options->output, "write the decoded replies as CSV")->needs(trace);
-  app.footer(
+      .needs(trace);
+  arguments.add_option("--output", options->output, "write the decoded replies as CSV").needs(trace);
+  arguments.footer(
       "In CI, a lab's own trace through the real driver on a virtual bus:\n"
       "  tools/bench --no-devices tools/hop replay --can my_trace.log --interface vcan0 --json");
   return [options](Session& session) {
@@ -127,8 +127,7 @@ Run set_up(CLI::App& app) {
   };
 }
 
-const VerbRegistration kReplay({"replay", "run the cycle again on a log's frames and compare every output",
-                                set_up});
+const VerbRegistration kReplay("replay", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

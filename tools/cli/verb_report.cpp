@@ -36,14 +36,14 @@ ExitCode report(Session& session, const Options& options) {
   return ExitCode::ok;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("LOG", options->log, "a trial's .mcap file")->required()->check(CLI::ExistingFile);
-  app.add_option("--output", options->output, "page to write; default: beside the log, ending in .html");
+  arguments.add_option("LOG", options->log, "a trial's .mcap file").required().existing_file();
+  arguments.add_option("--output", options->output, "page to write; default: beside the log, ending in .html");
   return [options](Session& session) { return report(session, *options); };
 }
 
-const VerbRegistration kReport({"report", "make a trial's report page from its log", set_up});
+const VerbRegistration kReport("report", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

@@ -143,28 +143,27 @@ ExitCode terrain(Session& session, const Options& options) {
   return usable > 0 ? ExitCode::ok : ExitCode::no;
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  app.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file");
-  app.add_option("--output", options->output,
+  arguments.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file");
+  arguments.add_option("--output", options->output,
                  "folder for terrain.json and terrain.html; default FOLDER/terrain");
-  app.add_option("--part", options->part,
+  arguments.add_option("--part", options->part,
                  "analyse one part of the trials, e.g. 2/4; writes terrain_part_2_of_4.json for --merge");
-  app.add_option("--merge", options->merge, "put the JSON files of every part together")
-      ->check(CLI::ExistingFile);
-  app.add_option("--threads", options->threads, "trials analysed at a time")
-      ->check(CLI::Range(1U, 1024U))
-      ->capture_default_str();
-  app.add_flag("!--no-report", options->report, "write no page");
-  app.footer(
+  arguments.add_option("--merge", options->merge, "put the JSON files of every part together")
+      .existing_file();
+  arguments.add_option("--threads", options->threads, "trials analysed at a time")
+      .in_range(1U, 1024U)
+      .show_default();
+  arguments.add_flag("!--no-report", options->report, "write no page");
+  arguments.footer(
       "Broken recordings are named with file, line, column and cure; the good trials are analysed all the "
       "same.\n"
       "Exit status 1: no trial could be used. A campaign to try it on: hop campaign make --output FOLDER");
   return [options](Session& session) { return terrain(session, *options); };
 }
 
-const VerbRegistration kTerrain({"terrain", "say what a campaign of recordings tells about the ground",
-                                 set_up});
+const VerbRegistration kTerrain("terrain", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

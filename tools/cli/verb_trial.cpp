@@ -102,68 +102,68 @@ ExitCode trial(Session& session, TrialOptions options) {
   return tally.all_good && !tally.trials.empty() ? ExitCode::ok : ExitCode::no;
 }
 
-void add_sheet_options(CLI::App& app, TrialOptions& options) {
-  app.add_option("--series", options.series,
+void add_sheet_options(Arguments& arguments, TrialOptions& options, const Option& trials) {
+  arguments.add_option("--series", options.series,
                  "so many trials with the operator: before each, what to do to the bed, its release height "
                  "and notes; "
                  "the folder becomes a campaign for hop terrain and hop diagnose")
-      ->check(CLI::Range(1, 1000));
-  app.add_option(
+      .in_range(1, 1000)
+      .excludes(trials);
+  arguments.add_option(
       "--sheet", options.sheet,
       "trial sheet for the logs, a TOML file with who, bed, bed_preparation, release_height_m, payload_kg, "
       "notes; the options below go before it");
-  app.add_option("--who", options.who, "trial sheet: who runs the trials");
-  app.add_option("--bed", options.bed, "trial sheet: the bed's material");
-  app.add_option("--bed-preparation", options.bed_preparation,
+  arguments.add_option("--who", options.who, "trial sheet: who runs the trials");
+  arguments.add_option("--bed", options.bed, "trial sheet: the bed's material");
+  arguments.add_option("--bed-preparation", options.bed_preparation,
                  "trial sheet: what is done to the bed before each trial");
-  app.add_option("--payload-kg", options.payload_kg, "trial sheet: mass on the body besides robot.toml's")
-      ->check(CLI::Range(0.0, 20.0));
-  app.add_option("--notes", options.notes, "trial sheet: notes");
+  arguments.add_option("--payload-kg", options.payload_kg, "trial sheet: mass on the body besides robot.toml's")
+      .in_range(0.0, 20.0);
+  arguments.add_option("--notes", options.notes, "trial sheet: notes");
 }
 
-Run set_up(CLI::App& app) {
+Run set_up(Arguments& arguments) {
   auto options = std::make_shared<TrialOptions>();
-  app.add_option("--board", options->board,
+  arguments.add_option("--board", options->board,
                  "sim: simulated robot in the process; linux: hopperd on this machine's devices")
-      ->check(CLI::IsMember({"sim", "linux"}))
-      ->capture_default_str();
-  app.add_option("--trials", options->trials, "how many, each with a fresh bed")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app.add_option("--strides", options->strides, "strides per trial, then a soft stop")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  auto* height = app.add_option("--release-height-m", options->release_height_m,
+      .one_of({"sim", "linux"})
+      .show_default();
+  const auto trials = arguments.add_option("--trials", options->trials, "how many, each with a fresh bed")
+      .in_range(1, 100000)
+      .show_default();
+  arguments.add_option("--strides", options->strides, "strides per trial, then a soft stop")
+      .in_range(1, 10000)
+      .show_default();
+  auto height = arguments.add_option("--release-height-m", options->release_height_m,
                                 "height of the sole when released; 0.0618 gives 1 m/s")
-                     ->check(CLI::Range(0.0005, 1.0))
-                     ->capture_default_str();
-  app.add_option("--compression-stiffness-N-per-m", options->compression_stiffness_N_per_m,
+                     .in_range(0.0005, 1.0)
+                     .show_default();
+  arguments.add_option("--compression-stiffness-N-per-m", options->compression_stiffness_N_per_m,
                  "instead of robot.toml's, e.g. 250, 375, 500")
-      ->check(CLI::Range(10.0, 5000.0));
-  app.add_option("--seed", options->seed, "of the first simulated trial; the next ones count up")
-      ->capture_default_str();
-  app.add_option("--noise", options->noise, "off: simulated sensors without noise, bias and spread")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
-  app.add_option("--output", options->output, "folder for logs and reports; default trials/DATE_TIME");
-  app.add_option("--devices", options->devices,
+      .in_range(10.0, 5000.0);
+  arguments.add_option("--seed", options->seed, "of the first simulated trial; the next ones count up")
+      .show_default();
+  arguments.add_option("--noise", options->noise, "off: simulated sensors without noise, bias and spread")
+      .one_of({"on", "off"})
+      .show_default();
+  arguments.add_option("--output", options->output, "folder for logs and reports; default trials/DATE_TIME");
+  arguments.add_option("--devices", options->devices,
                  "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
-  add_sheet_options(app, *options);
-  app.add_flag("--plain", options->plain,
+  add_sheet_options(arguments, *options, trials);
+  arguments.add_flag("--plain", options->plain,
                "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
                "where standard output is no terminal");
-  app.add_option("--speed", options->speed, "of the simulated board in the live view; 1: real time")
-      ->check(CLI::Range(0.05, 10.0))
-      ->capture_default_str();
-  app.add_flag("!--no-report", options->report, "write no report page");
-  app.get_option("--series")->excludes("--trials");
+  arguments.add_option("--speed", options->speed, "of the simulated board in the live view; 1: real time")
+      .in_range(0.05, 10.0)
+      .show_default();
+  arguments.add_flag("!--no-report", options->report, "write no report page");
   return [options, height](Session& session) {
-    options->release_height_given = height->count() > 0;
+    options->release_height_given = height.given();
     return trial(session, *options);
   };
 }
 
-const VerbRegistration kTrial({"trial", "run hop trials and say how stiff the ground is", set_up});
+const VerbRegistration kTrial("trial", set_up);
 
 }  // namespace
 }  // namespace sandhopper::cli

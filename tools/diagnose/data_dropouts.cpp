@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFar = 8.0;    // of the neighbours' own changes
 constexpr double kAlike = 0.5;  // of the fall: what lies between the two neighbours
-constexpr std::size_t kNeighbours = 6;
+constexpr std::size_t kDropoutNeighbours = 6;
 constexpr double kIsolated = 0.3;  // of the range of all other values
 constexpr double kOften = 2.0;     // gaps in a trial that has any: more than one now and then
 constexpr double kManyTrials = 0.5;
@@ -17,8 +17,8 @@ constexpr double kManyTrials = 0.5;
 constexpr double kShareLost = 0.12, kShareInLongGaps = 0.01, kLongGap = 6.0;
 constexpr std::size_t kEnough = 3;
 constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
-constexpr double kByChance = 0.001;  // stretches in a whole campaign
-constexpr double kSeldom = 0.3;  // of the neighbours: a channel that shows the code more often rests there
+constexpr double kDropoutsByChance = 0.001;  // stretches in a whole campaign
+constexpr double kSeldomCode = 0.3;  // of the neighbours: a channel that shows the code more often rests there
 
 // Zero, and an end of the range that stands apart from all other values.
 std::vector<double> codes(const std::vector<SampledChannel>& channel) {
@@ -44,8 +44,8 @@ double changes_beside(const std::vector<double>& v, std::size_t first, std::size
     sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
     ++count;
   };
-  for (std::size_t i = first > kNeighbours ? first - kNeighbours : 1; i < first; ++i) add(i);
-  for (std::size_t i = last + 2; i < std::min(v.size(), last + 2 + kNeighbours); ++i) add(i);
+  for (std::size_t i = first > kDropoutNeighbours ? first - kDropoutNeighbours : 1; i < first; ++i) add(i);
+  for (std::size_t i = last + 2; i < std::min(v.size(), last + 2 + kDropoutNeighbours); ++i) add(i);
   return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
 }
 
@@ -59,13 +59,13 @@ bool falls_out(const std::vector<double>& v, std::size_t first, std::size_t last
 }
 
 // Samples from first to last, all at the code.
-struct Stretch {
+struct Dropout {
   std::size_t first, last;
   std::size_t samples() const { return last - first + 1; }
 };
 
-std::vector<Stretch> stretches_at(const std::vector<double>& v, double code) {
-  std::vector<Stretch> found;
+std::vector<Dropout> stretches_at(const std::vector<double>& v, double code) {
+  std::vector<Dropout> found;
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (v[i] != code) continue;
     if (i > 0 && v[i - 1] == code)
@@ -77,11 +77,11 @@ std::vector<Stretch> stretches_at(const std::vector<double>& v, double code) {
 }
 
 // Where the quantity went far off the code and back, that is another stretch.
-bool rests_there(const std::vector<double>& v, const Stretch& s, double code, double noise) {
+bool rests_there(const std::vector<double>& v, const Dropout& s, double code, double noise) {
   double at_code = 0.0, count = 0.0;
   const auto look = [&](std::ptrdiff_t from, std::ptrdiff_t by) {
     bool left = false;
-    for (std::size_t n = 0; n < kNeighbours; ++n, from += by) {
+    for (std::size_t n = 0; n < kDropoutNeighbours; ++n, from += by) {
       if (from < 0 || from >= static_cast<std::ptrdiff_t>(v.size())) return;
       const double off = std::abs(v[static_cast<std::size_t>(from)] - code);
       if (off == 0.0 && left) return;
@@ -92,13 +92,13 @@ bool rests_there(const std::vector<double>& v, const Stretch& s, double code, do
   };
   look(static_cast<std::ptrdiff_t>(s.first) - 1, -1);
   look(static_cast<std::ptrdiff_t>(s.last) + 1, 1);
-  return count == 0.0 || at_code > kSeldom * count;
+  return count == 0.0 || at_code > kSeldomCode * count;
 }
 
 // The stretches of one channel that fall out. Those where the quantity is far from the code, or that last
 // longer than chance makes them, prove the fault and show how long one lasts; stretches as long are lost,
 // too, where the quantity is near the code or changes.
-std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChannel>& channel, double code,
+std::vector<std::vector<Dropout>> lost_stretches(const std::vector<SampledChannel>& channel, double code,
                                                  bool always_noisy) {
   const double noise = own_noise(channel), grid = value_grid(channel);
   const double still = std::max(noise, 0.5 * grid);  // a reading that turns round at the code does not fall
@@ -108,15 +108,15 @@ std::vector<std::vector<Stretch>> lost_stretches(const std::vector<SampledChanne
   // the grid.
   const double by_chance = noise > 0.0 ? std::min(1.0, grid / (kGauss * noise)) : 1.0;
   // At an edge nothing shows that it comes back: a sensor may rest at its limit there.
-  const auto at_edge = [](const std::vector<double>& v, const Stretch& s) {
+  const auto at_edge = [](const std::vector<double>& v, const Dropout& s) {
     return s.first == 0 || s.last + 1 == v.size();
   };
-  const auto lasts = [&](const std::vector<double>& v, const Stretch& s) {
+  const auto lasts = [&](const std::vector<double>& v, const Dropout& s) {
     return always_noisy && !at_edge(v, s) &&
-           samples * std::pow(by_chance, static_cast<double>(s.samples())) < kByChance &&
+           samples * std::pow(by_chance, static_cast<double>(s.samples())) < kDropoutsByChance &&
            !rests_there(v, s, code, noise);
   };
-  std::vector<std::vector<Stretch>> lost(channel.size());
+  std::vector<std::vector<Dropout>> lost(channel.size());
   std::size_t proven = 0, shortest = std::numeric_limits<std::size_t>::max(), longest = 0;
   for (const auto& s : channel)
     for (const auto& stretch : stretches_at(s.value, code))

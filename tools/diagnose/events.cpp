@@ -15,18 +15,18 @@ constexpr double kFar = 9.0;  // mean square over the noise, which the event its
 constexpr double kFartherThanAny = 25.0;  // times the next stretch's
 constexpr double kFewestRows = 10.0;
 
-struct Stretch {
+struct EventStretch {
   Event event;
   double mean_square = 0.0;
 };
 
-std::vector<Stretch> stretches_of(const Problem& problem, const Point& point) {
+std::vector<EventStretch> stretches_of(const Problem& problem, const Point& point) {
   const auto linear = linearise_all(problem, point, {});
-  std::vector<Stretch> all;
+  std::vector<EventStretch> all;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const auto& trial = *problem.trials[t];
     if (trial.blocks < kStretchesOfATrial) continue;
-    std::vector<Stretch> own(trial.blocks);
+    std::vector<EventStretch> own(trial.blocks);
     std::vector<double> rows(trial.blocks, 0.0), worst(trial.blocks, 0.0);
     for (auto& stretch : own) stretch.event.trial = t;
     for (std::size_t k = 0; k < trial.rows.size(); ++k) {
@@ -58,7 +58,7 @@ std::vector<Stretch> stretches_of(const Problem& problem, const Point& point) {
 
 std::vector<Event> find_events(const Problem& problem, const Point& point) {
   auto all = stretches_of(problem, point);
-  std::ranges::sort(all, std::ranges::greater{}, &Stretch::mean_square);
+  std::ranges::sort(all, std::ranges::greater{}, &EventStretch::mean_square);
   for (std::size_t n = all.size() / kStretches; n > 0; --n) {
     const double others = all[n].mean_square;
     if (all[n - 1].mean_square < std::max(kFar, kFartherThanAny * others)) continue;

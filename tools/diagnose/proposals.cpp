@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPriorInformation = 0.01;  // of an amplitude in typicals; of a shape 1
+constexpr double kProposalInformation = 0.01;  // of an amplitude in typicals; of a shape 1
 constexpr std::size_t kGrowing = 24;        // sets that the next larger ones are made of
 
 // One candidate at one choice of its shapes: the columns it brings.
@@ -79,7 +79,7 @@ class Weigher {
       score[i] = gram_(a, 0);
       for (Index j = 0; j < k; ++j) information(i, j) = gram_(a, columns[static_cast<std::size_t>(j)]);
       const auto& [option, at] = which[static_cast<std::size_t>(i)];
-      information(i, i) += amplitude_at(*option, at) ? kPriorInformation : 1.0;
+      information(i, i) += amplitude_at(*option, at) ? kProposalInformation : 1.0;
     }
     set.size = information.ldlt().solve(score);
     set.deviance = gram_(0, 0) - score.dot(set.size);

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPriorInformation = 0.01;  // of a size in typicals: only what the data leave open is held
+constexpr double kAnswerInformation = 0.01;  // of a size in typicals: only what the data leave open is held
 
 }  // namespace
 
@@ -39,7 +39,7 @@ SimpleAnswers simple_answers(const Problem& problem, const Point& null) {
   const double whole = std::max(gram(0, 0), 1e-300);
   const VectorXd score = gram.col(0).tail(k);
   MatrixXd information = gram.bottomRightCorner(k, k);
-  information.diagonal().array() += kPriorInformation;
+  information.diagonal().array() += kAnswerInformation;
   const VectorXd all = information.ldlt().solve(score);
   for (Index i = 0; i < k; ++i) {
     const auto& id = problem.candidates[static_cast<std::size_t>(i)].effect->id;

@@ -21,7 +21,7 @@ constexpr std::uint64_t kAfter_cycles = 20;    // of watching the reaction
 constexpr std::uint64_t kSoft_cycles = 3000;   // of watching a soft stop
 constexpr int kZeroWithin_cycles = 2;          // limp: no torque commanded any more
 constexpr std::uint64_t kStall_cycles = 50;
-constexpr double kNoTorque_Nm = 1e-9;
+constexpr double kLimpTorque_Nm = 1e-9;
 
 std::uint64_t cycles_into(Phase phase) {
   switch (phase) {
@@ -172,7 +172,7 @@ class CellTrial {
     const bool off = command.drive == DriveRequest::off;
     if (since >= kZeroWithin_cycles) most_torque_Nm_ = std::max(most_torque_Nm_, torque);
     result_.torque = off ? "off" : fmt::format("{:.2f} N m, kp {:.1f}, kd {:.2f}", torque, kp, kd);
-    if (turns_since_++ == 1) limp_at_once_ = off && torque < kNoTorque_Nm && kp == 0.0 && kd == 0.0;
+    if (turns_since_++ == 1) limp_at_once_ = off && torque < kLimpTorque_Nm && kp == 0.0 && kd == 0.0;
   }
 
   void judge() {
@@ -193,7 +193,7 @@ class CellTrial {
     if (!latched) wrong(fmt::format("ended in state {}", name_of(result_.state)));
     const bool acts = cell_.phase != Phase::idle && entry.reaction != Reaction::limp;
     if (!acts && !limp_at_once_) wrong("torque after the reaction: " + result_.torque);
-    if (most_torque_Nm_ > kNoTorque_Nm && entry.reaction != Reaction::stop)
+    if (most_torque_Nm_ > kLimpTorque_Nm && entry.reaction != Reaction::stop)
       wrong(fmt::format("a torque of {:.2f} N m was commanded after the reaction", most_torque_Nm_));
   }
 

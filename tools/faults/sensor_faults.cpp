@@ -3,7 +3,7 @@
 namespace sandhopper::faults {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr double kImuRange_mps2 = 156.9;
 constexpr double kGyroRange_radps = 34.9;
 constexpr double kLoadCellRange_N = 409.6;
@@ -14,15 +14,15 @@ double anywhere(Random& random, double range) { return range * (2.0 * random.uni
 
 template <>
 SensorDefect defect_of<ImuSample>() {
-  return {.slow_period_ns = 15 * kMs, .delay_ns = 15 * kMs, .keep_one_in = 3};
+  return {.slow_period_ns = 15 * kMillisecond_ns, .delay_ns = 15 * kMillisecond_ns, .keep_one_in = 3};
 }
 template <>
 SensorDefect defect_of<TofSample>() {
-  return {.slow_period_ns = 150 * kMs, .delay_ns = 130 * kMs, .keep_one_in = 4};
+  return {.slow_period_ns = 150 * kMillisecond_ns, .delay_ns = 130 * kMillisecond_ns, .keep_one_in = 4};
 }
 template <>
 SensorDefect defect_of<LoadCellSample>() {
-  return {.slow_period_ns = 70 * kMs, .delay_ns = 70 * kMs, .keep_one_in = 3};
+  return {.slow_period_ns = 70 * kMillisecond_ns, .delay_ns = 70 * kMillisecond_ns, .keep_one_in = 3};
 }
 
 void spoil(ImuSample& s, Kind kind, Random& random) {

@@ -10,7 +10,7 @@ namespace sandhopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Results = std::vector<const TrialResult*>;
+using ResultPointers = std::vector<const TrialResult*>;
 
 TrialKind kind_of(const TrialResult& result) {
   const auto& names = EnumNames<TrialKind>::value;
@@ -18,8 +18,8 @@ TrialKind kind_of(const TrialResult& result) {
 }
 
 template <class Takes>
-Results usable_results(const CampaignResults& results, Takes&& takes) {
-  Results taken;
+ResultPointers usable_results(const CampaignResults& results, Takes&& takes) {
+  ResultPointers taken;
   for (const auto& result : results.results)
     if (result.usable && takes(result)) taken.push_back(&result);
   return taken;
@@ -37,9 +37,9 @@ Json pooled_json(const std::vector<PooledQuantity>& pooled) {
 }
 
 // Trials whose numbers in the set-up are the same, pooled by themselves.
-Json pooled_by_setup(const Results& results) {
+Json pooled_by_setup(const ResultPointers& results) {
   constexpr std::size_t kMostGroups = 200;
-  std::vector<std::pair<const TrialResult*, Results>> groups;
+  std::vector<std::pair<const TrialResult*, ResultPointers>> groups;
   for (const auto* result : results) {
     const auto same = std::find_if(groups.begin(), groups.end(),
                                    [&](const auto& group) { return group.first->setup == result->setup; });

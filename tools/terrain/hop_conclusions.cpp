@@ -7,6 +7,7 @@
 #include "tools/experiment/treatments.hpp"
 #include "tools/terrain/figure_text.hpp"
 #include "tools/terrain/hop_trials.hpp"
+#include "tools/terrain/mean_json.hpp"
 
 namespace sandhopper {
 namespace {
@@ -30,11 +31,10 @@ std::string window_text(const TreatmentCase& definition) {
 
 bool is_joint(std::string_view way) { return way.ends_with("joint"); }
 
-Json mean_json(const TrialMean& mean) {
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  return {{"value_N_per_m", number(mean.value)},
-          {"ci95_N_per_m", {number(mean.ci95_low), number(mean.ci95_high)}},
-          {"standard_deviation_N_per_m", number(mean.standard_deviation)},
+Json stiffness_json(const TrialMean& mean) {
+  return {{"value_N_per_m", number_or_null(mean.value)},
+          {"ci95_N_per_m", {number_or_null(mean.ci95_low), number_or_null(mean.ci95_high)}},
+          {"standard_deviation_N_per_m", number_or_null(mean.standard_deviation)},
           {"trials", mean.trials}};
 }
 
@@ -184,11 +184,11 @@ Json treatments_json(Results results) {
   Json json = Json::object();
   for (const auto& way : stiffness_ways()) {
     if (is_joint(way.name)) {
-      json[std::string(way.name)] = mean_json(stiffness_of(results, way.name, ""));
+      json[std::string(way.name)] = stiffness_json(stiffness_of(results, way.name, ""));
       continue;
     }
     for (const auto& window : windows())
-      json[std::string(way.name)][window] = mean_json(stiffness_of(results, way.name, window));
+      json[std::string(way.name)][window] = stiffness_json(stiffness_of(results, way.name, window));
   }
   return json;
 }

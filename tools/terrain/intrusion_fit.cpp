@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "terrain/none.hpp"
+
 namespace sandhopper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kContactForce_N = 2.0;
 constexpr double kDisplacementResolution_m = 2e-5;
 

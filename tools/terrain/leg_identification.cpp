@@ -6,12 +6,12 @@
 #include <random>
 #include <stdexcept>
 
+#include "terrain/none.hpp"
 #include "tools/terrain/leg_forces.hpp"
 
 namespace sandhopper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equations) {
   std::vector<const HopEquations*> out;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/terrain/figure_text.hpp"
+#include "tools/terrain/mean_json.hpp"
 #include "tools/terrain/penetrometer_trials.hpp"
 
 namespace sandhopper {
@@ -14,9 +15,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::array kColors{"blue", "orange", "green", "purple", "sand", "grey"};
 const char* color_of(std::size_t i) { return kColors[i % kColors.size()]; }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json mean_json(const TrialMean& mean) {
-  return {{"value", number(mean.value)}, {"ci95", {number(mean.ci95_low), number(mean.ci95_high)}}};
+Json value_json(const TrialMean& mean) {
+  return {{"value", number_or_null(mean.value)}, {"ci95", {number_or_null(mean.ci95_low), number_or_null(mean.ci95_high)}}};
 }
 
 std::string title_of(ResistanceLaw law) {
@@ -222,29 +222,29 @@ Json json_of(const PenetrometerFit& fit, const std::vector<PenetrometerDrop>& dr
     const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
     json["drops"].push_back(
         {{"trial", drop.trial},
-         {"impact_speed_mps", number(drop.impact_speed_mps)},
-         {"depth_m", number(drop.depth_m)},
-         {"alpha", number(drop.fluid.alpha)},
-         {"kappa_per_m", number(drop.fluid.kappa_per_m)},
-         {"moving_mass_kg", {number(low.moving_mass_kg), number(high.moving_mass_kg)}},
-         {"added_mass_factor", {number(low.added_mass_factor), number(high.added_mass_factor)}},
-         {"drag_coefficient", {number(low.drag_coefficient), number(high.drag_coefficient)}},
+         {"impact_speed_mps", number_or_null(drop.impact_speed_mps)},
+         {"depth_m", number_or_null(drop.depth_m)},
+         {"alpha", number_or_null(drop.fluid.alpha)},
+         {"kappa_per_m", number_or_null(drop.fluid.kappa_per_m)},
+         {"moving_mass_kg", {number_or_null(low.moving_mass_kg), number_or_null(high.moving_mass_kg)}},
+         {"added_mass_factor", {number_or_null(low.added_mass_factor), number_or_null(high.added_mass_factor)}},
+         {"drag_coefficient", {number_or_null(low.drag_coefficient), number_or_null(high.drag_coefficient)}},
          {"greatest_resistance_N",
-          {number(low.moving_mass_kg * greatest_resistance(drop)),
-           number(high.moving_mass_kg * greatest_resistance(drop))}},
-         {"fallen_m", number(drop.fallen_m)},
-         {"fallen_by_pressure_m", number(drop.fallen_by_pressure_m)},
-         {"speed_while_it_hung_mps", number(drop.speed_before_release_mps)}});
+          {number_or_null(low.moving_mass_kg * greatest_resistance(drop)),
+           number_or_null(high.moving_mass_kg * greatest_resistance(drop))}},
+         {"fallen_m", number_or_null(drop.fallen_m)},
+         {"fallen_by_pressure_m", number_or_null(drop.fallen_by_pressure_m)},
+         {"speed_while_it_hung_mps", number_or_null(drop.speed_before_release_mps)}});
   }
   for (const auto& law : fit.laws)
     json["laws"].push_back({{"law", name_of(law.fit.law)},
                             {"depth_exponent", law.fit.exponent},
-                            {"depth_exponent_by_drop", mean_json(law.exponent)},
+                            {"depth_exponent_by_drop", value_json(law.exponent)},
                             {"rate_exponent", law.fit.rate},
-                            {"rate_exponent_by_drop", mean_json(law.rate)},
+                            {"rate_exponent_by_drop", value_json(law.rate)},
                             {"strength_mps2", law.fit.strength},
                             {"rms_mps2", law.fit.rms},
-                            {"leave_one_drop_out", number(law.cross_validation)}});
+                            {"leave_one_drop_out", number_or_null(law.cross_validation)}});
   json["chosen"] = name_of(fit.laws[fit.chosen].fit.law);
   return json;
 }

@@ -5,19 +5,13 @@
 #include <numbers>
 
 #include "tools/terrain/figure_text.hpp"
+#include "tools/terrain/mean_json.hpp"
 #include "tools/terrain/press_trials.hpp"
 
 namespace sandhopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json mean_json(const TrialMean& mean) {
-  return {{"value", number(mean.value)},
-          {"ci95", {number(mean.ci95_low), number(mean.ci95_high)}},
-          {"trials", mean.trials}};
-}
 
 std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:+.1f} %", 100.0 * share) : "–";
@@ -223,15 +217,15 @@ Json law_json(const LawResult& law) {
   Json json{{"law", name_of(law.fit.law)},
             {"stiffness_per_area_N_per_m3", mean_json(law.stiffness_per_area_N_per_m3)},
             {"shape", mean_json(law.shape)},
-            {"pooled_stiffness_per_area_N_per_m3", number(law.fit.stiffness_per_area_N_per_m3)},
-            {"pooled_shape", number(law.fit.shape)},
-            {"rms_N", number(law.fit.rms_N)},
-            {"leave_one_trial_out_rms_N", number(law.cross_validation_N)},
-            {"held_out_rms_N", number(law.heldout_rms_N)}};
+            {"pooled_stiffness_per_area_N_per_m3", number_or_null(law.fit.stiffness_per_area_N_per_m3)},
+            {"pooled_shape", number_or_null(law.fit.shape)},
+            {"rms_N", number_or_null(law.fit.rms_N)},
+            {"leave_one_trial_out_rms_N", number_or_null(law.cross_validation_N)},
+            {"held_out_rms_N", number_or_null(law.heldout_rms_N)}};
   for (const auto& force : law.predicted_N) json["predicted_from_each_trial_N"].push_back(mean_json(force));
   for (std::size_t i = 0; i < law.relative_error.size(); ++i)
     json["held_out_relative_error"][fmt::format("{:.0f}_mm", 1e3 * kPredictedDepths_m[i])] =
-        number(law.relative_error[i]);
+        number_or_null(law.relative_error[i]);
   return json;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDefaultFrictionAngle_deg = 30.0;
 constexpr double kRelieved_m = 5e-4;  // above the deepest point: relieved, or pressed again into its own hole
-constexpr std::size_t kMostSamples = 400;  // of one trial; a slow press has no more to say
+constexpr std::size_t kMostPressSamples = 400;  // of one trial; a slow press has no more to say
 
 struct Row {
   double t_s, depth_m, force_N;
@@ -50,7 +50,7 @@ bool is_fast(const std::vector<Row>& loading) {
 }
 
 void keep_thinned(TrialSeries& series, const std::string& name, const std::vector<Row>& rows) {
-  const std::size_t step = 1 + rows.size() / kMostSamples;
+  const std::size_t step = 1 + rows.size() / kMostPressSamples;
   for (std::size_t i = 0; i < rows.size(); i += step) {
     series[name + "_depth_m"].push_back(rows[i].depth_m);
     series[name + "_force_N"].push_back(rows[i].force_N);

@@ -6,6 +6,7 @@
 
 #include "tools/experiment/statistics.hpp"
 #include "tools/terrain/figure_text.hpp"
+#include "tools/terrain/mean_json.hpp"
 #include "tools/terrain/stroke_map.hpp"
 #include "tools/terrain/stroke_trials.hpp"
 
@@ -46,13 +47,6 @@ std::vector<Plate> plates_of(Results results) {
     same->inertia_known = same->inertia_known && facts->second.at(2) > 0.0;
   }
   return plates;
-}
-
-Json mean_json(const TrialMean& mean) {
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  return {{"value", number(mean.value)},
-          {"ci95", {number(mean.ci95_low), number(mean.ci95_high)}},
-          {"trials", mean.trials}};
 }
 
 std::string mean_text(const TrialMean& mean) {

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "terrain/none.hpp"
 #include "terrain/trial_statistics.hpp"
+#include "tools/terrain/mean_json.hpp"
 
 namespace sandhopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 double number_of(const Json& json) { return json.is_null() ? kNone : json.get<double>(); }
 
 template <NamedEnum E>
@@ -73,14 +73,14 @@ Finding finding_from_json(const Json& json) {
 
 Json to_json(const TrialResult& r) {
   Json setup = Json::object(), quantities = Json::object(), series = Json::object(), findings = Json::array();
-  for (const auto& [key, value] : r.setup) setup[key] = number(value);
+  for (const auto& [key, value] : r.setup) setup[key] = number_or_null(value);
   for (const auto& q : r.quantities) {
-    quantities[q.name] = {{"value", number(q.value)}, {"standard_error", number(q.standard_error)}};
+    quantities[q.name] = {{"value", number_or_null(q.value)}, {"standard_error", number_or_null(q.standard_error)}};
     if (!q.invalid.empty()) quantities[q.name]["invalid"] = q.invalid;
   }
   for (const auto& [name, values] : r.series) {
     auto& list = series[name] = Json::array();
-    for (const double value : values) list.push_back(number(value));
+    for (const double value : values) list.push_back(number_or_null(value));
   }
   for (const auto& finding : r.findings) findings.push_back(to_json(finding));
   return {{"index", r.index},     {"trial", r.trial},         {"kind", r.kind},

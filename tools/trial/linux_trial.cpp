@@ -8,6 +8,7 @@
 
 #include "config/dump.hpp"
 #include "config/files.hpp"
+#include "config/program.hpp"
 #include "tools/trial/child_process.hpp"
 #include "tools/trial/text_file.hpp"
 #include "tools/virtual_bench/control_client.hpp"
@@ -99,7 +100,7 @@ void reset_virtual_bench(const TrialSetup& trial) {
 }
 
 std::vector<std::string> daemon_command(const LinuxTrialSetup& setup) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "hopperd";
+  const auto program = find_program("hopperd");
   std::vector<std::string> command{program.string(),
                                    "--config",
                                    setup.config_directory.string(),

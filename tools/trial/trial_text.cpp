@@ -22,11 +22,6 @@ constexpr std::array<Named, 4> kTreatments{
      {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls},
      {"joint", "joint fit", &ReportStride::joint}}};
 
-std::string readable(std::string reason) {
-  std::replace(reason.begin(), reason.end(), '_', ' ');
-  return reason;
-}
-
 std::string stiffness_line(const char* name, const ReportStiffness& k) {
   if (!std::isfinite(k.value_N_per_m))
     return fmt::format("    {:<24} -                            not valid: {}", name, readable(k.reason));
@@ -36,6 +31,11 @@ std::string stiffness_line(const char* name, const ReportStiffness& k) {
 }
 
 }  // namespace
+
+std::string readable(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
 
 std::vector<std::string> stride_lines(const ReportData& data) {
   std::vector<std::string> lines;

@@ -8,6 +8,9 @@
 
 namespace sandhopper {
 
+// A name of an enumeration as words: "too_shallow" as "too shallow".
+std::string readable(std::string name);
+
 // What a trial gave, for people: a block of lines per stride.
 std::vector<std::string> stride_lines(const ReportData& data);
 

@@ -4,12 +4,12 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-Json coulomb(World& w, double size, Random&) {
+Json joint_coulomb(World& w, double size, Random&) {
   w.hidden.joint_coulomb_Nm = size * 0.04;
   return {{"joint_coulomb_change_Nm", w.hidden.joint_coulomb_Nm}};
 }
 
-Json viscous(World& w, double size, Random&) {
+Json joint_viscous(World& w, double size, Random&) {
   w.hidden.joint_viscous_Nm_s = size * 6e-3;
   return {{"joint_viscous_Nm_s_per_rad", w.hidden.joint_viscous_Nm_s}};
 }
@@ -46,7 +46,7 @@ Json geometry(World& w, double size, Random& random) {
 }  // namespace
 
 std::vector<Recipe<World>> joint_effects() {
-  return {{{"joint.coulomb", "", "joint"}, coulomb},   {{"joint.viscous", "", "joint"}, viscous},
+  return {{{"joint.coulomb", "", "joint"}, joint_coulomb},   {{"joint.viscous", "", "joint"}, joint_viscous},
           {{"joint.cogging", "", "cogging"}, cogging}, {{"joint.rotor_inertia", "", "inertia"}, rotor},
           {{"joint.backlash", "", "play"}, backlash},  {{"leg.series_elasticity", "", "play"}, elasticity},
           {{"leg.geometry", "", "geometry"}, geometry}};

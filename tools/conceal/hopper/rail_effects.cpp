@@ -3,12 +3,12 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-Json coulomb(World& w, double size, Random&) {
+Json rail_coulomb(World& w, double size, Random&) {
   w.hidden.rail_coulomb_N = size * 1.5;
   return {{"rail_coulomb_change_N", w.hidden.rail_coulomb_N}};
 }
 
-Json viscous(World& w, double size, Random&) {
+Json rail_viscous(World& w, double size, Random&) {
   w.hidden.rail_viscous_N_s_per_m = size * 1.2;
   return {{"viscous_N_s_per_m", w.hidden.rail_viscous_N_s_per_m}};
 }
@@ -38,7 +38,7 @@ Json cable(World& w, double size, Random& random) {
 }  // namespace
 
 std::vector<Recipe<World>> rail_effects() {
-  return {{{"rail.coulomb", "", "rail"}, coulomb},   {{"rail.viscous", "", "rail"}, viscous},
+  return {{{"rail.coulomb", "", "rail"}, rail_coulomb},   {{"rail.viscous", "", "rail"}, rail_viscous},
           {{"rail.stribeck", "", "rail"}, stribeck}, {{"rail.load_dependent", "", "rail"}, load_dependent},
           {{"rail.tilt", "", "rail"}, tilt},         {{"rail.cable", "", "rail"}, cable}};
 }

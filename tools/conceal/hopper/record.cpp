@@ -8,7 +8,6 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-constexpr double kCycle_s = 1e-3;
 
 // One recording in the making: channels go through their chains one after the other.
 class Recorder {

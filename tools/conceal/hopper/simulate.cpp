@@ -11,7 +11,6 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-constexpr double kCycle_s = 1e-3;
 constexpr int kPieces = 4;  // of a cycle
 constexpr double kPiece_s = kCycle_s / kPieces;
 constexpr double kFullCurrent_A = 32.0;

@@ -67,6 +67,8 @@ struct Hidden {
   double load_cell_kg = 0.0;
 };
 
+inline constexpr double kCycle_s = 1e-3;  // of the controller and of the recording
+
 struct World {
   double gravity_mps2 = 9.81;
   Robot robot;

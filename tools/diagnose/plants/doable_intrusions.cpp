@@ -12,7 +12,7 @@ constexpr double kStart_m = -0.01;  // above the surface
 constexpr double kRamp_m = 0.006;   // to get going and to stop
 constexpr double kWithdrawal_mps = 0.1;
 
-struct Motion {
+struct PlannedIntrusion {
   std::vector<double> depth_m, speed_mps, accel_mps2;  // downward
 
   void put(double speed) {
@@ -47,8 +47,8 @@ struct Motion {
   }
 };
 
-Motion motion_of(const std::string& profile, double speed, double depth) {
-  Motion m;
+PlannedIntrusion motion_of(const std::string& profile, double speed, double depth) {
+  PlannedIntrusion m;
   m.put(0.0);
   m.stay(0.05);
   if (profile == "cycles")
@@ -70,7 +70,7 @@ std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, c
     for (const double speed : {0.02, 0.1, 0.3, 0.6, 1.0})
       for (const double depth : {0.6 * depths.high, depths.high})
         for (const double plate : {1.0, 0.6, 1.5}) {
-          const Motion m = motion_of(profile, speed, depth);
+          const PlannedIntrusion m = motion_of(profile, speed, depth);
           const double duration_s = kStep_s * static_cast<double>(m.depth_m.size() - 1);
           DoableTrial one;
           one.belief = belief;

@@ -31,12 +31,12 @@ struct Axis {
   }
 };
 
-struct Motion {
+struct PlannedMotion {
   std::vector<double> angle_rad, speed_radps, torque_Nm;  // reported
 };
 
-Motion followed(const Axis& axis, double duration_s, const std::function<double(double)>& target_rad) {
-  Motion m;
+PlannedMotion followed(const Axis& axis, double duration_s, const std::function<double(double)>& target_rad) {
+  PlannedMotion m;
   constexpr double kPole = 2.0 * kPi * kSmoothing_Hz;
   double angle = target_rad(0.0), speed = 0.0, drive_Nm = 0.0;
   for (double t = 0.0; t <= duration_s; t += kStep_s) {
@@ -51,8 +51,8 @@ Motion followed(const Axis& axis, double duration_s, const std::function<double(
   return m;
 }
 
-Motion released(const Axis& axis, double duration_s, double from_rad) {
-  Motion m;
+PlannedMotion released(const Axis& axis, double duration_s, double from_rad) {
+  PlannedMotion m;
   double angle = from_rad, speed = 0.0;
   constexpr int kParts = 20;  // friction near rest is stiff
   for (double t = 0.0; t <= duration_s; t += kStep_s) {
@@ -112,7 +112,7 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   const Axis axis(belief, edits);
   const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
   for (const auto& wish : wishes(duration_s)) {
-    const Motion m = wish.target_rad ? followed(axis, duration_s, wish.target_rad)
+    const PlannedMotion m = wish.target_rad ? followed(axis, duration_s, wish.target_rad)
                                      : released(axis, duration_s, wish.setup.at("release_position_rad"));
     double strongest_Nm = 0.0;
     for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));

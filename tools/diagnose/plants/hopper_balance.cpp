@@ -14,7 +14,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kTick_s = 1e-3;
 constexpr std::size_t kSmoothing = 5;                  // samples to each side, of the leg's angle
 constexpr double kSettled_s = 0.02;                    // after a liftoff: the load cell has come to rest
 constexpr double kAloft_m = 1.0;                       // out of the bed's reach

@@ -11,6 +11,8 @@
 // starts.
 namespace sandhopper::diagnose {
 
+inline constexpr double kTick_s = 1e-3;  // of the hopper's controller
+
 struct HopStart {
   double from_s = 0.0;
   PlantState state{};

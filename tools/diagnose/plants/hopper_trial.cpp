@@ -17,7 +17,6 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr double kTick_s = 1e-3;
 constexpr std::size_t kRunsKept = 6;  // of each hop
 constexpr double kDeepest_m = 0.048;  // that the knots cover
 constexpr double kMargin = 1.5;       // of the depth that the belief says the foot reaches

@@ -7,7 +7,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kTick_s = 1e-3;
 constexpr std::size_t kSmoothing = 6;     // samples to each side
 constexpr double kLengthUnsure_m = 5e-4;  // of the leg, as the controller measured it
 constexpr double kMostLate_s = 0.02;      // a switch that is never made is later than this

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLeastSamples = 50;
 constexpr std::size_t kMostSamples = 800;  // of a trial
-constexpr double kSmoothing_s = 0.02;      // to each side
+constexpr double kBalanceSmoothing_s = 0.02;      // to each side
 constexpr double kMoves = 2.0;             // switch speeds; below, dry friction is what it must be
 
 // At the times of another channel, smoothed.
@@ -45,7 +45,7 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
   const std::size_t count = position.value.size();
   if (count < kLeastSamples || torque.value.size() < kLeastSamples) return {};
   const double step_s = median_step_s(position.time_s);
-  const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / step_s, 2.0, 12.0));
+  const auto half = static_cast<std::size_t>(std::clamp(kBalanceSmoothing_s / step_s, 2.0, 12.0));
   const Smoothed at = smooth(position, half);
   const Smoothed acting = smoothed_at(position.time_s, torque, step_s, half);
   const auto accel = accelerations(at, fluctuation_rms(position), samples_of(trial, "velocity_radps"),

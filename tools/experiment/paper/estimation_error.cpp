@@ -7,7 +7,6 @@ namespace sandhopper::paper {
 namespace {
 
 constexpr double kChiSquared95 = 3.841;  // one degree of freedom
-constexpr double kCycle_s = 1e-3;
 constexpr std::int64_t kCycle_ns = 1'000'000;
 
 double seconds(std::int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); }

@@ -6,12 +6,12 @@
 
 #include "estimation/momentum_observer.hpp"
 #include "tools/experiment/nominal_stride.hpp"
+#include "tools/experiment/paper/hop_trial.hpp"
 #include "tools/experiment/statistics.hpp"
 
 namespace sandhopper::paper {
 namespace {
 
-constexpr double kCycle_s = 1e-3;
 
 // p = M_f v_f and psi at one instant of a frictionless hop; the torque is the one held since then.
 struct MomentumTerms {

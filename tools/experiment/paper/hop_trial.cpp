@@ -5,7 +5,6 @@ namespace sandhopper::paper {
 namespace {
 
 constexpr int kCyclesAfterLiftoff = 30;
-constexpr double kCycle_s = 1e-3;
 
 }  // namespace
 

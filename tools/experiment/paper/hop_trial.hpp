@@ -7,6 +7,8 @@
 
 namespace sandhopper::paper {
 
+inline constexpr double kCycle_s = 1e-3;
+
 // One cycle from the release to shortly after the liftoff. The estimate's forces belong to the instant of the
 // motors' reply, which is the row before.
 struct HopRow {

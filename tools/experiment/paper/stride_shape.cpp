@@ -7,7 +7,7 @@
 namespace sandhopper::paper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEarly_s = 0.060;
 constexpr double kRestShare = 0.05;
 constexpr double kStill_mps = 0.02;
@@ -31,7 +31,7 @@ Stance stance_of(const HopTrial& trial) {
 }
 
 void find_early_peak(const Stance& s, StrideShape& shape) {
-  shape.early_peak_N = shape.early_peak_s = shape.early_drop = kNone;
+  shape.early_peak_N = shape.early_peak_s = shape.early_drop = kNoValue;
   std::size_t peak = 0;
   for (std::size_t i = s.at.contact + 1; s.since_contact_s(i) < kEarly_s; ++i) {
     const double force_N = s.rows[i].mean_force_N;
@@ -50,7 +50,7 @@ void find_early_peak(const Stance& s, StrideShape& shape) {
 
 // Longest stretch at less than 0.02 m/s that comes before the foot's second descent.
 double plateau_s(const Stance& s) {
-  double longest_s = kNone;
+  double longest_s = kNoValue;
   std::size_t from = 0;
   for (std::size_t i = s.at.contact; i < s.at.liftoff; ++i) {
     const bool still = std::abs(s.down_mps(i)) < kStill_mps;
@@ -88,7 +88,7 @@ double transient_mps2(const Stance& s, std::size_t event, double direction) {
 
 void find_extremes(const Stance& s, StrideShape& shape) {
   std::size_t strongest = s.at.contact, deepest = s.at.contact, shortest = s.at.contact;
-  shape.rest_s = kNone;
+  shape.rest_s = kNoValue;
   for (std::size_t i = s.at.contact; i < s.at.liftoff; ++i) {
     if (s.rows[i].mean_force_N > s.rows[strongest].mean_force_N) strongest = i;
     if (s.rows[i].truth.foot_z_m < s.rows[deepest].truth.foot_z_m) deepest = i;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "tools/trial/trial_text.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -41,11 +43,6 @@ LiveStatus status_of(const Json& json) {
     if (const auto found = json.find(std::string(key)); found != json.end()) read(*found, member);
   });
   return status;
-}
-
-std::string readable(std::string text) {
-  std::ranges::replace(text, '_', ' ');
-  return text;
 }
 
 LiveStride::Stiffness stiffness_of(const Json& json) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<const char*, kTreatments> kNames{"quasi-static, OLS", "observer, OLS",
                                                       "observer, weighted"};
-constexpr std::array<const char*, kTreatments> kColors{"orange", "purple", "blue"};
+constexpr std::array<const char*, kTreatments> kTreatmentColors{"orange", "purple", "blue"};
 
 // k/k_GT of one cell in each seed that has it.
 std::vector<double> ratios(const CaseResult& result, std::size_t treatment, std::size_t cell) {
@@ -33,7 +33,7 @@ struct Bars {
 std::vector<StudySeries> treatment_series(const Bars& bars, StudySeries::Mark mark) {
   std::vector<StudySeries> all;
   for (std::size_t t = 0; t < kTreatments; ++t) {
-    auto series = curve(kNames[t], kColors[t], Style::bars);
+    auto series = curve(kNames[t], kTreatmentColors[t], Style::bars);
     series.mark = mark;
     for (const std::size_t item : bars.items) {
       const auto found = bars.values(item, t);

@@ -11,7 +11,7 @@
 namespace sandhopper::paper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 using Value = std::function<double(const HopRow&)>;
 
 // A channel over time in ms; rows where it has nothing are left out.
@@ -56,7 +56,7 @@ StudyFigure leg_length(const HopTrial& t) {
 StudyFigure body_height(const HopTrial& t) {
   return panel(t, "Body height", "height, mm",
                {over_time(t, "time of flight", "grey", Style::points,
-                          [](const HopRow& r) { return r.tof.fresh ? mm(r.tof.height_m) : kNone; }),
+                          [](const HopRow& r) { return r.tof.fresh ? mm(r.tof.height_m) : kGap; }),
                 over_time(t, "motion capture", "text", Style::dashed,
                           [](const HopRow& r) { return mm(r.truth.mocap_body_z_m); }),
                 over_time(t, "estimate", "blue", Style::line,

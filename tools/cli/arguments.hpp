@@ -1,0 +1,65 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+// The command line of one verb. CLI11 does the work; its header takes seconds to compile, so only arguments.cpp and
+// command_line.cpp include it.
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace sandhopper::cli {
+
+// One option or positional argument. Each rule returns the option, so that rules can be chained.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  Option& required();
+  Option& show_default();  // in the help text
+  // Number: int, long, unsigned or double.
+  template <class Number>
+  Option& in_range(Number low, Number high);
+  Option& non_negative();
+  Option& one_of(std::vector<std::string> words);
+  Option& existing_file();
+  Option& existing_folder();
+  Option& separated_by(char delimiter);  // for a list
+  Option& type_name(const std::string& name);
+  Option& needs(const Option& other);
+  Option& excludes(const Option& other);
+
+  bool given() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+// The options and sub-verbs of a verb. The variables must live until the command line is read.
+class Arguments {
+ public:
+  explicit Arguments(CLI::App& app) : app_(&app) {}
+
+  // Value: int, long, unsigned, std::uint64_t, double, std::string, std::filesystem::path, an optional int or double, a
+  // list of double, std::string or path. Another type needs a line at the end of arguments.cpp.
+  template <class Value>
+  Option add_option(const std::string& name, Value& value, const std::string& help);
+  // "!--no-report" makes a flag that sets false.
+  Option add_flag(const std::string& name, bool& value, const std::string& help);
+
+  Arguments add_verb(const std::string& name, const std::string& summary);
+  void require_verb();
+  void allow_one_verb();
+  void leave_the_rest();  // reads no further than the options of every verb
+  bool parsed() const;  // this verb was named on the command line
+
+  void footer(const std::string& text);
+
+ private:
+  CLI::App* app_;
+};
+
+}  // namespace sandhopper::cli
