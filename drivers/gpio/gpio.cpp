@@ -1,149 +1,166 @@
 #include "drivers/gpio/gpio.hpp"
 
-#include <gpiod.h>
-
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <charconv>
+#include <filesystem>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
+#include "drivers/gpio/gpio_chip.hpp"
 
-// The C library: its C++ layer allocates for every level it reads, and the e-stop is read in the cycle.
 namespace sandhopper {
-
-struct CloseChip {
-  void operator()(gpiod_line* line) const noexcept { ::gpiod_line_close_chip(line); }
-};
-using FoundLine = std::unique_ptr<gpiod_line, CloseChip>;
 
 namespace {
 
-constexpr const char* kConsumer = "sandhopper";
+namespace fs = std::filesystem;
 
 std::string describe(std::string_view role, const LineConfig& config) {
   return std::string(role) + " (GPIO line \"" + config.line + "\" of chip \"" +
          (config.chip.empty() ? "any" : config.chip) + "\")";
 }
 
-bool is_number(const std::string& text) {
-  return std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+std::optional<unsigned> as_number(const std::string& text) {
+  unsigned number = 0;
+  const auto* const end = text.data() + text.size();
+  const auto [parsed_to, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || parsed_to != end) return std::nullopt;
+  return number;
 }
 
-int flags_of(const LineConfig& config) {
-  int flags = config.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
-  if (config.bias == Bias::none) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_DISABLE;
-  if (config.bias == Bias::pull_up) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP;
-  if (config.bias == Bias::pull_down) flags |= GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
-  return flags;
+DeviceError cannot_open(const std::string& device) {
+  return {device, errno_cause("cannot open the chip"),
+          "gpiodetect lists the chips; access needs root or the group that owns /dev/gpiochip*"};
 }
 
-timespec duration(std::int64_t ns) { return {ns / kNanosecondsPerSecond, ns % kNanosecondsPerSecond}; }
+// Sorted, so that two chips with a line of the same name always give the same one. Links are other names of a
+// chip.
+std::vector<std::string> chip_paths() {
+  std::vector<std::string> paths;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator("/dev", ignored))
+    if (entry.path().filename().string().starts_with("gpiochip") && !entry.is_symlink(ignored))
+      paths.push_back(entry.path().string());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+struct FoundLine {
+  std::unique_ptr<GpioChip> chip;
+  unsigned number;
+};
+
+// The first chip that `fits`. Null when there is none; errno is then 0, or says why a chip could not be
+// opened.
+template <class Fits>
+std::unique_ptr<GpioChip> find_chip(Fits&& fits) {
+  int error = 0;
+  for (const auto& path : chip_paths()) {
+    auto chip = GpioChip::open(path);
+    if (chip == nullptr)
+      error = errno;
+    else if (fits(*chip))
+      return chip;
+  }
+  errno = error;
+  return nullptr;
+}
+
+// `name` is a number, a path, a label or the device's name. A label goes before a device's name, as in
+// release 1.6.
+std::unique_ptr<GpioChip> open_chip(const std::string& name) {
+  if (const auto number = as_number(name)) return GpioChip::open("/dev/gpiochip" + std::to_string(*number));
+  if (name.starts_with('/')) return GpioChip::open(name);
+  auto chip = find_chip([&](GpioChip& candidate) { return candidate.label() == name; });
+  if (chip != nullptr) return chip;
+  const int unreadable = errno;
+  chip = GpioChip::open("/dev/" + name);
+  if (chip == nullptr && unreadable != 0) errno = unreadable;  // that chip may be the one with this label
+  return chip;
+}
 
 FoundLine find(const std::string& device, const LineConfig& config) {
   const auto& name = config.line;
-  if (name.empty() || (config.chip.empty() && is_number(name)))
+  const auto number = as_number(name);
+  if (name.empty() || (config.chip.empty() && number))
     throw DeviceError(device, "no line is named", "Give chip and line as gpiodetect and gpioinfo list them");
   if (config.chip.empty()) {
-    if (auto* line = ::gpiod_line_find(name.c_str())) return FoundLine(line);
+    std::optional<unsigned> found;
+    auto chip = find_chip([&](GpioChip& candidate) {
+      found = candidate.line_named(name);
+      return found.has_value();
+    });
+    if (chip != nullptr) return {std::move(chip), *found};
+    if (errno != 0) throw cannot_open(device);
   } else {
-    auto* chip = ::gpiod_chip_open_lookup(config.chip.c_str());
-    if (chip == nullptr)
-      throw DeviceError(
-          device, errno_cause("cannot open the chip"),
-          "gpiodetect lists the chips; access needs root or the group that owns /dev/gpiochip*");
-    auto* line = is_number(name) ? ::gpiod_chip_get_line(chip, static_cast<unsigned>(std::stoul(name)))
-                                 : ::gpiod_chip_find_line(chip, name.c_str());
-    if (line != nullptr) return FoundLine(line);
-    ::gpiod_chip_close(chip);
+    auto chip = open_chip(config.chip);
+    if (chip == nullptr) throw cannot_open(device);
+    const auto found = number ? number : chip->line_named(name);
+    if (found && *found < chip->line_count()) return {std::move(chip), *found};
   }
   throw DeviceError(device, "there is no such line", "gpioinfo lists the lines of every chip");
 }
 
+std::unique_ptr<GpioLine> take(std::string_view role, const LineConfig& config, LineUse use) {
+  const auto device = describe(role, config);
+  const auto found = find(device, config);
+  auto line = found.chip->request(found.number, config, use);
+  if (line == nullptr)
+    throw DeviceError(
+        device, errno_cause("cannot take the line"),
+        "gpioinfo shows who uses it; a bias the chip cannot do is refused too: set bias = \"as_is\"");
+  return line;
+}
+
 }  // namespace
 
-// One requested line and its chip, closed together.
-class GpioLine {
- public:
-  // `take` requests the found line with the given flags; below 0: refused.
-  template <class Take>
-  GpioLine(std::string_view role, const LineConfig& config, Take&& take) {
-    const auto device = describe(role, config);
-    line_ = find(device, config);
-    if (take(line_.get(), flags_of(config)) < 0)
-      throw DeviceError(
-          device, errno_cause("cannot take the line"),
-          "gpioinfo shows who uses it; a bias the chip cannot do is refused too: set bias = \"as_is\"");
-  }
-
-  gpiod_line* get() const noexcept { return line_.get(); }
-
- private:
-  FoundLine line_;
-};
-
 GpioInput::GpioInput(std::string_view role, const LineConfig& config)
-    : line_(std::make_unique<GpioLine>(role, config, [](gpiod_line* line, int flags) {
-        return ::gpiod_line_request_input_flags(line, kConsumer, flags);
-      })) {}
+    : line_(take(role, config, LineUse::input)) {}
 GpioInput::~GpioInput() = default;
 GpioInput::GpioInput(GpioInput&&) noexcept = default;
 
 // 0 is the only answer that means "not active": -1 is a line that cannot be read.
-bool GpioEdges::active() noexcept { return ::gpiod_line_get_value(line_->get()) != 0; }
+bool GpioInput::active() noexcept { return line_->value() != 0; }
 
-bool GpioInput::active() noexcept { return ::gpiod_line_get_value(line_->get()) != 0; }
+bool GpioEdges::active() noexcept { return line_->value() != 0; }
 
 GpioOutput::GpioOutput(std::string_view role, const LineConfig& config, bool initially_active)
-    : line_(std::make_unique<GpioLine>(role, config,
-                                       [&](gpiod_line* line, int flags) {
-                                         return ::gpiod_line_request_output_flags(line, kConsumer, flags,
-                                                                                  initially_active ? 1 : 0);
-                                       })),
+    : line_(take(role, config, initially_active ? LineUse::output_active : LineUse::output_inactive)),
       active_(initially_active) {}
 GpioOutput::~GpioOutput() = default;
 GpioOutput::GpioOutput(GpioOutput&&) noexcept = default;
 
 bool GpioOutput::set(bool active) noexcept {
   if (active == active_) return true;
-  if (::gpiod_line_set_value(line_->get(), active ? 1 : 0) != 0) return false;
+  if (!line_->set(active)) return false;
   active_ = active;
   return true;
 }
 
-// Active-low is applied by the kernel to edges too: rising is from inactive to active.
 GpioEdges::GpioEdges(std::string_view role, const LineConfig& config)
-    : line_(std::make_unique<GpioLine>(role, config, [](gpiod_line* line, int flags) {
-        return ::gpiod_line_request_rising_edge_events_flags(line, kConsumer, flags);
-      })) {}
+    : line_(take(role, config, LineUse::rising_edges)) {}
 GpioEdges::~GpioEdges() = default;
 GpioEdges::GpioEdges(GpioEdges&&) noexcept = default;
 
 std::optional<GpioEdges::Edge> GpioEdges::wait(std::int64_t timeout_ns) noexcept {
   std::optional<Edge> newest;
-  std::array<gpiod_line_event, 16> events{};
-  for (auto timeout = duration(timeout_ns);; timeout = duration(0)) {
-    const int ready = ::gpiod_line_event_wait(line_->get(), &timeout);
-    if (ready == 0) return newest;
-    const int count =
-        ready < 0 ? ready : ::gpiod_line_event_read_multiple(line_->get(), events.data(), events.size());
-    if (count <= 0) {
+  for (auto timeout = timeout_ns;; timeout = 0) {
+    std::int64_t time_ns = 0;
+    const int count = line_->take_edges(timeout, time_ns);
+    if (count == 0) return newest;
+    if (count < 0) {
       sleep_ns(timeout_ns);  // a line that has gone must not make its reader spin
       return newest;
     }
-    const auto before = newest ? newest->count : 0;
-    newest = Edge{to_ns(events[static_cast<std::size_t>(count) - 1].ts),
-                  before + static_cast<std::uint32_t>(count)};
+    newest = Edge{time_ns, (newest ? newest->count : 0) + static_cast<std::uint32_t>(count)};
   }
 }
 
 std::string user_of_gpio_line(std::string_view role, const LineConfig& config) {
-  const auto line = find(describe(role, config), config);
-  if (!::gpiod_line_is_used(line.get())) return "";
-  const char* user = ::gpiod_line_consumer(line.get());
-  return user == nullptr || *user == '\0' ? "the kernel" : user;
+  const auto found = find(describe(role, config), config);
+  return found.chip->user_of(found.number);
 }
 
 }  // namespace sandhopper

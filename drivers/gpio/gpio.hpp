@@ -7,8 +7,8 @@
 
 #include "drivers/gpio/line_config.hpp"
 
-// GPIO lines through libgpiod 1.6; only gpio.cpp knows the library. `role` names the line in messages.
-// Constructors throw DeviceError.
+// GPIO lines through libgpiod 1.x or 2.x; only libgpiod1.cpp and libgpiod2.cpp know the library. `role` names
+// the line in messages. Constructors throw DeviceError.
 namespace sandhopper {
 
 class GpioLine;
@@ -52,7 +52,8 @@ class GpioEdges {
   ~GpioEdges();
   GpioEdges(GpioEdges&&) noexcept;
 
-  // Waits for an edge, then empties the queue: the kernel keeps 16 and throws away the newest.
+  // Waits for an edge, then empties the queue. The kernel keeps 16; of more it drops the newest with
+  // libgpiod 1.x and the oldest with 2.x.
   std::optional<Edge> wait(std::int64_t timeout_ns) noexcept;
 
   // The level now; true when it cannot be read.

@@ -25,7 +25,12 @@ export class Browser {
 
   async connect({ width, height }) {
     this.url = await new Promise((resolve, reject) => {
-      this.driver.on('error', reject);
+      this.driver.on('error', error => {
+        if (error.code !== 'ENOENT') return reject(error);
+        console.log('skipped: no chromedriver here (Ubuntu has no Debian package of Chromium)');
+        rmSync(this.profile, { recursive: true, force: true });
+        process.exit(77);
+      });
       this.driver.stdout.on('data', text => {
         const port = /successfully on port (\d+)/.exec(text);
         if (port) resolve(`http://127.0.0.1:${port[1]}`);

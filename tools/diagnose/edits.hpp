@@ -56,15 +56,11 @@ struct Edits {
   // Edits with the same key hold the same laws at ports. 0: not known.
   std::uint64_t laws_key = 0;
 
-  void scale(std::string key, double factor) { belief.push_back({std::move(key), factor, 0.0}); }
-  void add(std::string key, double addend) { belief.push_back({std::move(key), 1.0, addend}); }
-  void law(std::string port, Law law) { laws.emplace_back(std::move(port), std::move(law)); }
-  void sensor(std::string channel, SensorEdit::Kind kind, double value) {
-    sensors.push_back({std::move(channel), kind, value, {}, 0});
-  }
-  void sensor_law(std::string channel, Law law) {
-    sensors.push_back({std::move(channel), SensorEdit::Kind::law, 0.0, std::move(law), 0});
-  }
+  void scale(std::string key, double factor);
+  void add(std::string key, double addend);
+  void law(std::string port, Law law);
+  void sensor(std::string channel, SensorEdit::Kind kind, double value);
+  void sensor_law(std::string channel, Law law);
 
   double edited(std::string_view key, double value) const {
     for (const auto& edit : belief)
