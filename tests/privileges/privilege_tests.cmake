@@ -10,3 +10,6 @@ if(NOT SANDHOPPER_SANITIZE)
   add_test(NAME privileges.hopperd COMMAND ${PROJECT_SOURCE_DIR}/tests/privileges/run ${CMAKE_BINARY_DIR})
   set_tests_properties(privileges.hopperd PROPERTIES LABELS privileges SKIP_RETURN_CODE 77 TIMEOUT 120 RUN_SERIAL ON)
 endif()
+# What the package sets on the robot's computer, on a folder that stands in for it.
+add_test(NAME privileges.real_time COMMAND ${PROJECT_SOURCE_DIR}/tests/privileges/real_time)
+set_tests_properties(privileges.real_time PROPERTIES LABELS privileges TIMEOUT 60)

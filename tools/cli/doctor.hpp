@@ -25,6 +25,9 @@ std::vector<Finding> examine_machine(const RobotConfig& robot);
 // CAN interface, device nodes and GPIO lines of the board's file: looked up, not opened for use.
 std::vector<Finding> examine_devices(const LinuxBoardConfig& board);
 
+// Priorities of the kernel's threads that serve the interrupts of the board's buses.
+std::vector<Finding> examine_interrupts(const RobotConfig& robot, const LinuxBoardConfig& board);
+
 // Bit rate, error state and queue of a CAN interface that is up; empty of one that is not.
 std::vector<Finding> examine_bus(const std::string& interface);
 

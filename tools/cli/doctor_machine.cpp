@@ -12,9 +12,9 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
+#include "firmware/machine_settings.hpp"
 #include "tools/cli/doctor.hpp"
 
 namespace sandhopper::cli {
@@ -51,12 +51,19 @@ Finding priority(int wanted) {
 }
 
 Finding throttling() {
-  const auto runtime = first_line("/proc/sys/kernel/sched_rt_runtime_us");
-  const auto period = first_line("/proc/sys/kernel/sched_rt_period_us");
-  const auto found = fmt::format("{} of {} us for real-time threads", runtime, period);
-  if (runtime.empty()) return {Health::ok, "throttling", "none in this kernel", ""};
-  if (runtime != "0") return {Health::ok, "throttling", found, ""};
-  return {Health::fail, "throttling", found, "sysctl kernel.sched_rt_runtime_us=950000"};
+  constexpr double kLeastShare = 0.9;  // below, a busy but healthy computer may stop the cycle
+  const std::string restore = "sysctl kernel.sched_rt_runtime_us=950000";
+  const auto limit = real_time_limit("/");
+  if (!limit) return {Health::ok, "throttling", "none in this kernel", ""};
+  const auto found = fmt::format("{} of {} us for real-time threads", limit->runtime_us, limit->period_us);
+  if (limit->runtime_us == 0) return {Health::fail, "throttling", found + ": none of them runs", restore};
+  if (limit->runtime_us < 0)
+    return {Health::warn, "throttling",
+            "no limit: before kernel 6.12 a real-time thread that never sleeps cannot be ended",
+            restore + "; see which file of /etc/sysctl.d or program sets -1"};
+  if (static_cast<double>(limit->runtime_us) < kLeastShare * static_cast<double>(limit->period_us))
+    return {Health::warn, "throttling", found + ": the kernel may stop the cycle", restore};
+  return {Health::ok, "throttling", found, ""};
 }
 
 Finding locked_memory() {
@@ -82,20 +89,10 @@ Finding governor() {
   }
   if (!scaled) return {Health::ok, "CPU governor", "no frequency scaling", ""};
   if (slow.empty()) return {Health::ok, "CPU governor", "performance", ""};
-  return {Health::warn, "CPU governor", slow + ": the clock rate follows the load, late",
-          "echo performance | tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"};
-}
-
-// "2-3,6" holds 3.
-bool holds(const std::string& list, int cpu) {
-  std::istringstream in(list);
-  for (std::string part; std::getline(in, part, ',');) {
-    const auto dash = part.find('-');
-    const int low = std::atoi(part.c_str());
-    const int high = dash == std::string::npos ? low : std::atoi(part.c_str() + dash + 1);
-    if (!part.empty() && cpu >= low && cpu <= high) return true;
-  }
-  return false;
+  return {
+      Health::warn, "CPU governor", slow + ": the clock rate follows the load, late",
+      "systemctl enable sandhopper-real-time; systemctl restart sandhopper-real-time; without the package: "
+      "echo performance | tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"};
 }
 
 Finding processor(int cpu) {
@@ -103,15 +100,21 @@ Finding processor(int cpu) {
   const auto isolated = first_line("/sys/devices/system/cpu/isolated");
   const auto found = fmt::format("online {}, isolated {}, cycle on {}", online,
                                  isolated.empty() ? "none" : isolated, cpu < 0 ? "any" : std::to_string(cpu));
-  if (cpu >= 0 && !holds(online, cpu))
+  if (cpu >= 0 && !cpu_list_holds(online, cpu))
     return {Health::fail, "processors", found, "set real_time.cpu to one that is online, or -1 for any"};
-  if (cpu >= 0 && !holds(isolated, cpu))
-    return {
-        Health::warn, "processors", found + ": other programs run on the cycle's",
-        fmt::format(
-            "add isolcpus={0} nohz_full={0} rcu_nocbs={0} to the kernel's command line and reboot, or set "
-            "real_time.cpu to -1",
-            cpu)};
+  if (cpu >= 0) {
+    const auto isolation = cpu_isolation("/", cpu);
+    std::string lacks;
+    if (!isolation.scheduler) lacks += " isolcpus (other programs run there)";
+    if (!isolation.tick) lacks += " nohz_full (the kernel's timer tick runs there)";
+    if (!isolation.callbacks) lacks += " rcu_nocbs (the kernel frees memory there)";
+    if (!lacks.empty())
+      return {
+          Health::warn, "processors", found + ", which lacks" + lacks,
+          fmt::format("add isolcpus={0} nohz_full={0} rcu_nocbs={0} to the kernel's command line and reboot, "
+                      "or set real_time.cpu to -1",
+                      cpu)};
+  }
   if (cpu < 0 && !isolated.empty())
     return {Health::warn, "processors", found + ": nothing runs on the isolated one",
             fmt::format("set real_time.cpu in robot.toml to {}", std::atoi(isolated.c_str()))};

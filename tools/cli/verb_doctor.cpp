@@ -48,6 +48,7 @@ void append(std::vector<Finding>& findings, const std::vector<Finding>& more) {
 
 std::vector<Finding> examine_board(const RobotConfig& robot, const LinuxBoardConfig& board) {
   auto findings = examine_devices(board);
+  append(findings, examine_interrupts(robot, board));
   append(findings, examine_bus(board.can.interface));
   append(findings, examine_identities(board, findings));
   append(findings, examine_calibrations(robot, board));
