@@ -9,6 +9,9 @@
 // measured: nanoseconds of CLOCK_MONOTONIC. `fresh` is true in the one cycle that first sees the sample.
 namespace sandhopper {
 
+// A difference of two times of samples, in seconds.
+inline double to_s(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
+
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 enum class Side : std::uint8_t { left, right };

@@ -16,8 +16,6 @@ bool hopping(State state) noexcept {
 // beyond the accelerometers' range leaves it wrong by half a metre a second.
 constexpr double kSupported_mps2 = 3.0;
 
-double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
-
 }  // namespace
 
 Controller::Controller(const CycleConfig& config)
@@ -35,7 +33,7 @@ const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   out_.cycle = frame.cycle;
 
   if (frame.wall_clock_step_ns != 0)
-    emit(EventKind::clock_stepped, Reason::date_changed, {seconds(frame.wall_clock_step_ns), 0.0, 0.0, 0.0});
+    emit(EventKind::clock_stepped, Reason::date_changed, {to_s(frame.wall_clock_step_ns), 0.0, 0.0, 0.0});
   serve_request(frame);
   if (estimating()) {
     estimator_.update(frame, out_.estimate);
@@ -55,7 +53,7 @@ bool Controller::estimating() const noexcept {
 }
 
 double Controller::time_in_state_s(const SensorFrame& frame) const noexcept {
-  return seconds(frame.time_ns - state_since_ns_);
+  return to_s(frame.time_ns - state_since_ns_);
 }
 
 // A soft stop takes as long as settling and the ramp do, besides.
@@ -202,7 +200,7 @@ void Controller::step_hop(const SensorFrame& frame) noexcept {
   }
   // Too little energy to lift off again: on the ground and at rest. Nothing is broken; the hop is over.
   if (out_.state == State::flight || !still()) still_since_ns_ = frame.time_ns;
-  if (seconds(frame.time_ns - still_since_ns_) <= config_.limits.settle_s) return;
+  if (to_s(frame.time_ns - still_since_ns_) <= config_.limits.settle_s) return;
   const auto& e = out_.estimate;
   emit(EventKind::stop_requested, Reason::settled,
        {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
@@ -236,7 +234,7 @@ void Controller::apply(const Transition& transition, const SensorFrame& frame) n
 
 void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
   const auto& e = out_.estimate;
-  const double still_s = seconds(frame.time_ns - still_since_ns_);
+  const double still_s = to_s(frame.time_ns - still_since_ns_);
   const bool ramping = still_s > config_.limits.settle_s;
   if (!still() && !ramping) still_since_ns_ = frame.time_ns;
   if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
@@ -264,7 +262,7 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
   auto law = spring_law(out_.state, config_.controller);
   if (out_.state == State::soft_stop) {
     // The spring fades while the damping stays: the robot sits down instead of dropping.
-    const double ramped_s = seconds(frame.time_ns - still_since_ns_) - config_.limits.settle_s;
+    const double ramped_s = to_s(frame.time_ns - still_since_ns_) - config_.limits.settle_s;
     law.stiffness_N_per_m *= std::clamp(1.0 - ramped_s / config_.limits.ramp_down_s, 0.0, 1.0);
   }
   const double force_N = spring_force_N(law, observation());

@@ -8,7 +8,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::uint64_t kReserve_bytes = 4096;
+constexpr std::uint64_t kCanReserve_bytes = 4096;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ CanLog::CanLog(const std::filesystem::path& file, std::int64_t realtime_offset_n
       slots_(slots) {}
 
 std::unique_ptr<CandumpWriter> CanLog::make_writer(const std::filesystem::path& file) const {
-  const CandumpDisk disk{.keep_going = true, .reserve_bytes = kReserve_bytes, .calls = calls_};
+  const CandumpDisk disk{.keep_going = true, .reserve_bytes = kCanReserve_bytes, .calls = calls_};
   return std::make_unique<CandumpWriter>(file, CandumpFormat{}, disk);
 }
 

@@ -15,8 +15,6 @@ constexpr double kForget_s = 0.3;     // of the other side's travel
 constexpr int kSettle_cycles = 15;    // after drives come on
 constexpr int kSamples = 3;           // current and voltage: as many in a row
 
-double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
-
 double followed(double value, double error, double dt_s) noexcept {
   const double share = std::clamp(dt_s / kErrorTime_s, 0.0, 1.0);
   return std::isfinite(error) ? value + share * (error - value) : value;
@@ -51,12 +49,12 @@ void MotorCheck::see_replies(const MotorSample& sample, const Context& context, 
   if (!sample.fresh) return;
   // A reply carries the instant of the command it answers, one cycle ago if it came in time.
   const double age_s =
-      seconds(context.time_ns - sample.time_ns) - static_cast<double>(context.cycles - 1) * kCycle_s;
+      to_s(context.time_ns - sample.time_ns) - static_cast<double>(context.cycles - 1) * kCycle_s;
   findings.add_if(late_.see(age_s > s.motor_reply_age_s) >= kLate, Fault::motor_reply_late, number(), age_s);
 }
 
 void MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings& findings) noexcept {
-  const double dt_s = seconds(sample.time_ns - last_.time_ns);
+  const double dt_s = to_s(sample.time_ns - last_.time_ns);
   if (!answered_ || dt_s <= 0.0) return;
   const double moved = sample.position_rad - last_.position_rad;
   const double allowed = config_.limits.motor_speed_radps * dt_s + config_.supervision.motor_jump_rad;
@@ -126,7 +124,7 @@ void MotorPairCheck::see(const std::array<MotorSample, kMotorCount>& motor, bool
     auto& anchor = anchor_[i];
     const double own = motor[i].position_rad;
     // By its velocity: a position that runs away alone is not a leg that moves.
-    const double dt_s = started_ ? seconds(motor[1 - i].time_ns - last_ns_[1 - i]) : 0.0;
+    const double dt_s = started_ ? to_s(motor[1 - i].time_ns - last_ns_[1 - i]) : 0.0;
     // It is forgotten again: a drive whose velocity cannot be zero (half a count of the MIT protocol) would
     // otherwise travel while it stands.
     anchor.other_travel_rad -= anchor.other_travel_rad * std::clamp(dt_s / kForget_s, 0.0, 1.0);

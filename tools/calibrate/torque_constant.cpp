@@ -120,12 +120,12 @@ Press measure(const Recording& r, const LinuxBoardConfig& board, const Leg& leg,
 }
 
 // k_left, k_right, o, f of one press.
-struct Fit {
+struct PressFit {
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   double residual_Nm = 0.0;
   std::vector<double> time_s, residual;
 };
-Fit fit(const Press& press, bool both) {
+PressFit fit_press(const Press& press, bool both) {
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < press.force_N.size(); ++i)
     if (press.direction[i] != 0.0 && std::isfinite(press.force_N[i]) && std::isfinite(total_at(press, i)))
@@ -138,7 +138,7 @@ Fit fit(const Press& press, bool both) {
     design.row(row) << press.pressing_A[0][i], both ? press.pressing_A[1][i] : 0.0, 1.0, -press.direction[i];
     torque[row] = press.lever_m_per_rad * press.force_N[i];
   }
-  Fit out;
+  PressFit out;
   if (n < 12) return out;
   out.value = design.colPivHouseholderQr().solve(torque);
   const Eigen::VectorXd residual = torque - design * out.value;
@@ -150,7 +150,7 @@ Fit fit(const Press& press, bool both) {
   return out;
 }
 
-StudySection section_of(const std::vector<Press>& presses, const std::vector<Fit>& fits) {
+StudySection section_of(const std::vector<Press>& presses, const std::vector<PressFit>& fits) {
   StudySection section{.title = "Presses"};
   StudyFigure loop{.title = "Force at the load cell as torque, against current",
                    .x_label = "both currents, A",
@@ -183,7 +183,7 @@ double span_Nm(const Press& press) {
   return press.lever_m_per_rad * (high - low);
 }
 
-void judge_fits(const std::vector<Press>& presses, const std::vector<Fit>& fits, double max_residual_of_span,
+void judge_fits(const std::vector<Press>& presses, const std::vector<PressFit>& fits, double max_residual_of_span,
                 std::vector<Refusal>& refusals) {
   for (std::size_t p = 0; p < fits.size(); ++p) {
     const double share = fits[p].residual_Nm / span_Nm(presses[p]);
@@ -224,8 +224,8 @@ Outcome calibrate_torque_constant(const std::vector<Recording>& presses, const L
   std::vector<Press> measured;
   for (const auto& recording : presses) measured.push_back(measure(recording, board, leg, out.refusals));
   if (!out.refusals.empty()) return out;
-  std::vector<Fit> fits;
-  for (const auto& press : measured) fits.push_back(fit(press, motors == 2));
+  std::vector<PressFit> fits;
+  for (const auto& press : measured) fits.push_back(fit_press(press, motors == 2));
   Outcome::Target target{ConfigFile::robot, "torque_constant", {}};
   for (std::size_t i = 0; i < motors; ++i) {
     std::vector<double> constants;

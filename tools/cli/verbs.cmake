@@ -14,7 +14,7 @@ target_precompile_headers(sandhopper_cli PRIVATE tools/cli/verb.hpp)
 function(sandhopper_verb name summary)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
   list(TRANSFORM arg_SOURCES PREPEND tools/cli/)
-  sandhopper_program(hop-${name} SOURCES tools/cli/verb_${name}.cpp tools/cli/verb_main.cpp ${arg_SOURCES}
+  sandhopper_program(hop-${name} SOURCES tools/cli/verb_${name}.cpp tools/cli/program_main.cpp ${arg_SOURCES}
                      LIBRARIES sandhopper_cli ${arg_LIBRARIES})
   target_precompile_headers(hop-${name} REUSE_FROM sandhopper_cli)
   set(SANDHOPPER_VERB_LINES "${SANDHOPPER_VERB_LINES}      {\"${name}\", \"${summary}\", {}},\n" PARENT_SCOPE)

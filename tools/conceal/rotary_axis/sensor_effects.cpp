@@ -12,7 +12,7 @@ Json bias(World& w, double size, Random& random) {
 }
 
 // The reported velocity stops growing: the earlier, the larger the size.
-Json saturation(World& w, double size, Random&) {
+Json velocity_saturation(World& w, double size, Random&) {
   const double limit_radps = 4.0 / (1.0 + size);
   w.faults["velocity_radps"].limit = limit_radps;
   return {{"channel", "velocity_radps"}, {"limit", limit_radps}};
@@ -33,7 +33,7 @@ std::vector<Recipe<World>> sensor_effects() {
       },
       0.004);
   append(all, {{{"sensor.bias", "", "offset"}, bias},
-               {{"sensor.saturation", "", "data"}, saturation},
+               {{"sensor.saturation", "", "data"}, velocity_saturation},
                {{"encoder.eccentricity", "", "offset"}, eccentricity}});
   return all;
 }
