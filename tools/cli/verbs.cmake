@@ -34,7 +34,8 @@ sandhopper_verb(config "check or show the configuration files"
 sandhopper_verb(diagnose "find the physics that a simulation lacks against recordings"
   LIBRARIES sandhopper_diagnose)
 sandhopper_verb(doctor "say whether this machine can run the robot, and what to do if not"
-  SOURCES doctor_bus.cpp doctor_config.cpp doctor_devices.cpp doctor_identity.cpp doctor_machine.cpp
+  SOURCES doctor_bus.cpp doctor_config.cpp doctor_devices.cpp doctor_identity.cpp doctor_interrupts.cpp
+          doctor_machine.cpp
   LIBRARIES sandhopper_firmware)
 sandhopper_verb(experiment "many simulated trials and what they say together"
   SOURCES experiment_paper.cpp experiment_strides.cpp LIBRARIES sandhopper_experiment)
