@@ -50,8 +50,10 @@ void RobotEstimator::update(const SensorFrame& frame, Estimate& estimate) noexce
   last_time_ns_ = frame.time_ns;
   estimate.innovation.fill(kNotMeasured);
   estimate.normalised_innovation_squared.fill(kNotMeasured);
-  estimate.body_accel_mps2 = frame.imu_body.accel_mps2[kVertical] - kGravity_mps2 - calibration_.body_bias_mps2;
-  estimate.foot_accel_mps2 = frame.imu_foot.accel_mps2[kVertical] - kGravity_mps2 - calibration_.foot_bias_mps2;
+  estimate.body_accel_mps2 =
+      frame.imu_body.accel_mps2[kVertical] - kGravity_mps2 - calibration_.body_bias_mps2;
+  estimate.foot_accel_mps2 =
+      frame.imu_foot.accel_mps2[kVertical] - kGravity_mps2 - calibration_.foot_bias_mps2;
 
   const double keep = std::exp(-2.0 * std::numbers::pi * config_.estimator.weighting_accel_cutoff_Hz * dt);
   weighting_accel_mps2_ = keep * weighting_accel_mps2_ + (1.0 - keep) * estimate.foot_accel_mps2;

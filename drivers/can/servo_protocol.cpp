@@ -30,8 +30,14 @@ MitPayload pack_v3_command(const MitRanges& ranges, const MitCommand& command) n
   const std::uint32_t kp = (b[3] & 0xFU) << 8U | b[4];
   const std::uint32_t kd = static_cast<std::uint32_t>(b[5]) << 4U | b[6] >> 4U;
   const std::uint32_t t = (b[6] & 0xFU) << 8U | b[7];
-  return {low_byte(kp >> 4U), low_byte((kp & 0xFU) << 4U | kd >> 8U), low_byte(kd), low_byte(p >> 8U), low_byte(p),
-          low_byte(v >> 4U),  low_byte((v & 0xFU) << 4U | t >> 8U),   low_byte(t)};
+  return {low_byte(kp >> 4U),
+          low_byte((kp & 0xFU) << 4U | kd >> 8U),
+          low_byte(kd),
+          low_byte(p >> 8U),
+          low_byte(p),
+          low_byte(v >> 4U),
+          low_byte((v & 0xFU) << 4U | t >> 8U),
+          low_byte(t)};
 }
 
 std::optional<ServoStatus> unpack_servo_status(std::span<const std::uint8_t> b) noexcept {

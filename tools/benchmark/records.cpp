@@ -14,7 +14,8 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   if (!in) throw std::runtime_error("cannot read " + file.string());
   try {
     return nlohmann::json::parse(in);
-  } catch (const nlohmann::json::exception& error) {  // a number too large for a double is out_of_range, no parse_error
+  } catch (const nlohmann::json::exception&
+               error) {  // a number too large for a double is out_of_range, no parse_error
     throw std::runtime_error(file.string() + " is not JSON: " + error.what());
   }
 }

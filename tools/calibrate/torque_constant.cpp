@@ -183,8 +183,8 @@ double span_Nm(const Press& press) {
   return press.lever_m_per_rad * (high - low);
 }
 
-void judge_fits(const std::vector<Press>& presses, const std::vector<PressFit>& fits, double max_residual_of_span,
-                std::vector<Refusal>& refusals) {
+void judge_fits(const std::vector<Press>& presses, const std::vector<PressFit>& fits,
+                double max_residual_of_span, std::vector<Refusal>& refusals) {
   for (std::size_t p = 0; p < fits.size(); ++p) {
     const double share = fits[p].residual_Nm / span_Nm(presses[p]);
     if (!fits[p].residual.empty() && share <= max_residual_of_span) continue;

@@ -101,6 +101,7 @@ template Option Arguments::add_option(const std::string&, std::optional<int>&, c
 template Option Arguments::add_option(const std::string&, std::optional<double>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::vector<double>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::vector<std::string>&, const std::string&);
-template Option Arguments::add_option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+template Option Arguments::add_option(const std::string&, std::vector<std::filesystem::path>&,
+                                      const std::string&);
 
 }  // namespace sandhopper::cli

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-// The command line of one verb. CLI11 does the work; its header takes seconds to compile, so only arguments.cpp and
-// command_line.cpp include it.
+// The command line of one verb. CLI11 does the work; its header takes seconds to compile, so only
+// arguments.cpp and command_line.cpp include it.
 namespace CLI {
 class App;
 class Option;
@@ -43,8 +43,8 @@ class Arguments {
  public:
   explicit Arguments(CLI::App& app) : app_(&app) {}
 
-  // Value: int, long, unsigned, std::uint64_t, double, std::string, std::filesystem::path, an optional int or double, a
-  // list of double, std::string or path. Another type needs a line at the end of arguments.cpp.
+  // Value: int, long, unsigned, std::uint64_t, double, std::string, std::filesystem::path, an optional int or
+  // double, a list of double, std::string or path. Another type needs a line at the end of arguments.cpp.
   template <class Value>
   Option add_option(const std::string& name, Value& value, const std::string& help);
   // "!--no-report" makes a flag that sets false.
@@ -54,7 +54,7 @@ class Arguments {
   void require_verb();
   void allow_one_verb();
   void leave_the_rest();  // reads no further than the options of every verb
-  bool parsed() const;  // this verb was named on the command line
+  bool parsed() const;    // this verb was named on the command line
 
   void footer(const std::string& text);
 

@@ -59,16 +59,18 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
 
 Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("--length-m", options->length_m,
-                 "hip axis to toe joint in the known pose; default arming.zero_pose_length_m")
+  arguments
+      .add_option("--length-m", options->length_m,
+                  "hip axis to toe joint in the known pose; default arming.zero_pose_length_m")
       .in_range(0.05, 2.0);
   arguments.add_option("--length-accuracy-m", options->length_accuracy_m, "how well that is known (95 %)")
       .in_range(0.0, 0.02)
       .show_default();
-  arguments.add_option(
-         "--repeats", options->repeats,
-         "pairs of recordings: known pose, then leg shortened by hand; and after them as many with the "
-         "leg moved to and fro")
+  arguments
+      .add_option(
+          "--repeats", options->repeats,
+          "pairs of recordings: known pose, then leg shortened by hand; and after them as many with the "
+          "leg moved to and fro")
       .in_range(3, 50)
       .show_default();
   add_seconds(arguments, options->seconds);

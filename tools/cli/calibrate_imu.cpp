@@ -52,9 +52,7 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
 
 Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("--imu", options->imu, "which one")
-      .one_of({"body", "foot"})
-      .show_default();
+  arguments.add_option("--imu", options->imu, "which one").one_of({"body", "foot"}).show_default();
   arguments.add_option("--poses", options->poses, "how many still poses; the six faces first, in turn")
       .in_range(9, 200)
       .show_default();

@@ -37,8 +37,9 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
 
 Calibration::Actions set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("--weights-kg", options->weights_kg,
-                 "weights in the order of the recordings; up and down again shows drift")
+  arguments
+      .add_option("--weights-kg", options->weights_kg,
+                  "weights in the order of the recordings; up and down again shows drift")
       .separated_by(',')
       .in_range(0.0, 50.0)
       .show_default();

@@ -112,9 +112,10 @@ Calibration::Actions set_up(Arguments& arguments) {
       .one_of(sensors)
       .show_default();
   arguments.add_option("--taps", options->taps, "how many").in_range(5, 200).show_default();
-  arguments.add_option(
-         "--foreign", options->foreign,
-         "table (.csv) of another computer with the same taps: its clock is found in place of latencies")
+  arguments
+      .add_option(
+          "--foreign", options->foreign,
+          "table (.csv) of another computer with the same taps: its clock is found in place of latencies")
       .existing_file();
   arguments.add_option("--foreign-column", options->foreign_column, "of that table, where the taps show");
   arguments.add_option("--aligned", options->aligned, "writes that table with times of the recording (t_s)");

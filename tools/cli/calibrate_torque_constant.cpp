@@ -48,7 +48,8 @@ Calibration::Actions set_up(Arguments& arguments) {
   arguments.add_option("--peak-torque-Nm", options->peak_torque_Nm, "of each motor")
       .in_range(0.1, 50.0)
       .show_default();
-  arguments.add_option("--repeats", options->repeats, "presses: left motor, right motor, both, up and down each")
+  arguments
+      .add_option("--repeats", options->repeats, "presses: left motor, right motor, both, up and down each")
       .in_range(3, 50)
       .show_default();
   return {.steps = [options](const CalibrationInput& input) { return steps(*options, input); },

@@ -8,7 +8,8 @@
 
 namespace sandhopper::cli {
 
-// The parser of `hop` and of its verbs' programs: each verb with its options, and messages that name the cure.
+// The parser of `hop` and of its verbs' programs: each verb with its options, and messages that name the
+// cure.
 class CommandLine {
  public:
   CommandLine(Session& session, const std::vector<Verb>& verbs);

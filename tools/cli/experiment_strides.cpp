@@ -126,9 +126,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--strides", o->strides, "how many, over the 15 cells of the hop set, five at a time")
       .in_range(1L, 100'000'000L)
       .show_default();
-  arguments.add_option("--seed", o->seed, "of the first stride")
-      .non_negative()
-      .show_default();
+  arguments.add_option("--seed", o->seed, "of the first stride").non_negative().show_default();
   arguments.add_option("--threads", o->threads, "default: one a core").in_range(1U, 1024U);
   arguments.add_option("--part", o->part, "only this part of the whole, I/N; merge the parts with --merge")
       .show_default();

@@ -10,8 +10,8 @@ namespace sandhopper::cli {
 
 using Run = std::function<ExitCode(Session&)>;
 
-// One thing `hop` can do. `set_up` adds the verb's options to its own command line and returns what to run once
-// they are read; --json and --config are there already. tools/cli/README.md shows a whole verb.
+// One thing `hop` can do. `set_up` adds the verb's options to its own command line and returns what to run
+// once they are read; --json and --config are there already. tools/cli/README.md shows a whole verb.
 struct Verb {
   std::string name;
   std::string summary;  // one line for `hop --help`

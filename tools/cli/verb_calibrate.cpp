@@ -213,19 +213,22 @@ ExitCode calibrate_one(Session& session, const Options& options, const std::stri
 }
 
 void add_options(Arguments& arguments, Options& options) {
-  arguments.add_option("--from", options.from, "recordings made before, one a step: logs (.mcap) or tables (.csv)");
-  arguments.add_option("--board", options.board,
-                 "whose devices are recorded: linux, this machine's; sim, simulated ones")
+  arguments.add_option("--from", options.from,
+                       "recordings made before, one a step: logs (.mcap) or tables (.csv)");
+  arguments
+      .add_option("--board", options.board,
+                  "whose devices are recorded: linux, this machine's; sim, simulated ones")
       .one_of({"linux", "sim"})
       .show_default();
-  arguments.add_option("--devices", options.devices,
-                 "device file that is read and written; default linux.toml, inside tools/bench bench.toml");
+  arguments.add_option(
+      "--devices", options.devices,
+      "device file that is read and written; default linux.toml, inside tools/bench bench.toml");
   arguments.add_option(
       "--sim-devices", options.sim_devices,
       "configuration directory that says what the simulated devices really are; default: as believed");
   arguments.add_option("--seed", options.seed, "of the simulated devices").show_default();
   arguments.add_option("--output", options.output,
-                 "folder for recordings and plots; default calibration/DATE_NAME");
+                       "folder for recordings and plots; default calibration/DATE_NAME");
   arguments.add_flag("--dry-run", options.dry_run, "fit and show, but write no configuration");
 }
 
@@ -256,9 +259,7 @@ CalibrationRegistration::CalibrationRegistration(Calibration calibration) {
 }
 
 void add_seconds(Arguments& arguments, double& seconds) {
-  arguments.add_option("--seconds", seconds, "of each recording")
-      .in_range(1.0, 60.0)
-      .show_default();
+  arguments.add_option("--seconds", seconds, "of each recording").in_range(1.0, 60.0).show_default();
 }
 
 void add_gravity(Arguments& arguments, double& gravity_mps2, const std::string& help) {

@@ -88,12 +88,10 @@ Run set_up(Arguments& arguments) {
       .one_of({"hopper", "intruder"})
       .show_default();
   making
-      .add_option("--trials", options->trials,
-                   "how many, over heights and stiffnesses, or speeds and plates")
+      .add_option("--trials", options->trials, "how many, over heights and stiffnesses, or speeds and plates")
       .in_range(1, 100000)
       .show_default();
-  making.add_option("--seed", options->seed, "of the first trial; the next ones count up")
-      .show_default();
+  making.add_option("--seed", options->seed, "of the first trial; the next ones count up").show_default();
   making.add_option("--output", options->output, "folder to write").required();
   return [options, checking](Session& session) {
     return checking.parsed() ? check(session, *options) : make(session, *options);

@@ -191,12 +191,7 @@ ExitCode run_and_score(Session& session, Options options) {
   run.follow_up = !options.no_follow_up;
   if (options.tool.empty()) {
     find_program("hop-diagnose");  // fail now, not once a campaign
-    run.tool = {find_program("hop").string(),
-                "diagnose",
-                "{campaign}",
-                "--json",
-                "--output",
-                "{output}"};
+    run.tool = {find_program("hop").string(), "diagnose", "{campaign}", "--json", "--output", "{output}"};
   } else {
     std::istringstream words(options.tool);
     for (std::string word; words >> word;) run.tool.push_back(word);
@@ -238,11 +233,8 @@ Run set_up(Arguments& arguments) {
   arguments.add_flag("--list", o.list, "name plants and effects, write nothing");
 
   auto following = arguments.add_verb("follow-up", "the campaign again with one trial more");
-  following.add_option("CAMPAIGN", o.campaign, "a campaign's folder")
-      .required()
-      .existing_folder();
-  following
-      .add_option("SETUP", o.setup, "JSON: the trial's set-up, or a diagnosis whose next_trial is meant")
+  following.add_option("CAMPAIGN", o.campaign, "a campaign's folder").required().existing_folder();
+  following.add_option("SETUP", o.setup, "JSON: the trial's set-up, or a diagnosis whose next_trial is meant")
       .required()
       .existing_file();
   following.add_option("--answers", o.answers, "folder of the answers; default: beside the campaigns");
@@ -256,18 +248,13 @@ Run set_up(Arguments& arguments) {
   scoring.add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
   scoring.add_option("--report", o.report, "page to write");
 
-  auto running =
-      arguments.add_verb("benchmark", "conceal, diagnose and score; goes on where it was stopped");
+  auto running = arguments.add_verb("benchmark", "conceal, diagnose and score; goes on where it was stopped");
   add_request_options(running, o);
-  running.add_option("--jobs", o.jobs, "diagnoses at a time")
-      .in_range(1, 64)
-      .show_default();
-  running.add_option("--limit-s", o.limit_s, "time for one diagnosis")
-      .in_range(0.1, 86400.0)
-      .show_default();
+  running.add_option("--jobs", o.jobs, "diagnoses at a time").in_range(1, 64).show_default();
+  running.add_option("--limit-s", o.limit_s, "time for one diagnosis").in_range(0.1, 86400.0).show_default();
   running.add_flag("--no-follow-up", o.no_follow_up, "do not add the trials the tool recommends");
   running.add_option("--tool", o.tool,
-                      "command that prints diagnosis.json; {campaign} and {output} stand for folders");
+                     "command that prints diagnosis.json; {campaign} and {output} stand for folders");
   running.add_option("--baseline", o.baselines, "NAME=FOLDER: another tool's diagnoses, beside it");
 
   return [=](Session& session) {

@@ -88,7 +88,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_flag("!--no-report", options->report, "write no page");
   arguments.add_flag("--search", options->search, "also print what was tried");
   arguments.add_flag("--residuals", options->residuals,
-               "also write residuals.csv: recorded minus simulated, before and after, of every row");
+                     "also write residuals.csv: recorded minus simulated, before and after, of every row");
   return [options](Session& session) { return diagnose(session, *options); };
 }
 

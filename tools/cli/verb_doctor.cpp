@@ -78,8 +78,9 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
 
 Run set_up(Arguments& arguments) {
   auto board = std::make_shared<std::string>("linux");
-  arguments.add_option("--board", *board,
-                 "linux: machine and device nodes; sim: only what the simulated robot needs")
+  arguments
+      .add_option("--board", *board,
+                  "linux: machine and device nodes; sim: only what the simulated robot needs")
       .one_of({"linux", "sim"})
       .show_default();
   return [board](Session& session) { return report(session, examine(session, *board)); };

@@ -100,7 +100,7 @@ Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.add_option("--only", options->only, "cells whose name or fault contains this text");
   arguments.add_option("--without", options->without,
-                 "with this fault's detector switched off: the matrix must fail");
+                       "with this fault's detector switched off: the matrix must fail");
   return [options](Session& session) { return run_matrix(session, *options); };
 }
 

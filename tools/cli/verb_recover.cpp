@@ -84,10 +84,9 @@ nlohmann::ordered_json as_json(const LogRecovery& found, const std::string& outp
 
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("LOG", options->log, "a trial's .mcap or .candump file")
-      .required()
-      .existing_file();
-  arguments.add_option("--output", options->output, "where to write what was saved; default: LOG with .recovered");
+  arguments.add_option("LOG", options->log, "a trial's .mcap or .candump file").required().existing_file();
+  arguments.add_option("--output", options->output,
+                       "where to write what was saved; default: LOG with .recovered");
   arguments.footer(
       "The log itself is not changed. A whole one is not copied. Exit status: 0 the log is whole or what can "
       "be\n"

@@ -107,13 +107,15 @@ ExitCode replay_trace(Session& session, const Options& options) {
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
-  auto trace =
-      arguments.add_option("--can", options->trace, "a candump -L trace instead of a log: decode its motor replies")
-          .existing_file()
-          .excludes(log);
-  arguments.add_option(
-         "--interface", options->interface,
-         "also play the trace's replies on this CAN interface (vcan0) into the robot's driver, and compare")
+  auto trace = arguments
+                   .add_option("--can", options->trace,
+                               "a candump -L trace instead of a log: decode its motor replies")
+                   .existing_file()
+                   .excludes(log);
+  arguments
+      .add_option(
+          "--interface", options->interface,
+          "also play the trace's replies on this CAN interface (vcan0) into the robot's driver, and compare")
       .needs(trace);
   arguments.add_option("--output", options->output, "write the decoded replies as CSV").needs(trace);
   arguments.footer(

@@ -39,7 +39,8 @@ ExitCode report(Session& session, const Options& options) {
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.add_option("LOG", options->log, "a trial's .mcap file").required().existing_file();
-  arguments.add_option("--output", options->output, "page to write; default: beside the log, ending in .html");
+  arguments.add_option("--output", options->output,
+                       "page to write; default: beside the log, ending in .html");
   return [options](Session& session) { return report(session, *options); };
 }
 

@@ -145,11 +145,13 @@ ExitCode terrain(Session& session, const Options& options) {
 
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file");
+  arguments.add_option("FOLDER", options->folder,
+                       "a campaign: the folder of its campaign.toml, or that file");
   arguments.add_option("--output", options->output,
-                 "folder for terrain.json and terrain.html; default FOLDER/terrain");
-  arguments.add_option("--part", options->part,
-                 "analyse one part of the trials, e.g. 2/4; writes terrain_part_2_of_4.json for --merge");
+                       "folder for terrain.json and terrain.html; default FOLDER/terrain");
+  arguments.add_option(
+      "--part", options->part,
+      "analyse one part of the trials, e.g. 2/4; writes terrain_part_2_of_4.json for --merge");
   arguments.add_option("--merge", options->merge, "put the JSON files of every part together")
       .existing_file();
   arguments.add_option("--threads", options->threads, "trials analysed at a time")

@@ -103,10 +103,11 @@ ExitCode trial(Session& session, TrialOptions options) {
 }
 
 void add_sheet_options(Arguments& arguments, TrialOptions& options, const Option& trials) {
-  arguments.add_option("--series", options.series,
-                 "so many trials with the operator: before each, what to do to the bed, its release height "
-                 "and notes; "
-                 "the folder becomes a campaign for hop terrain and hop diagnose")
+  arguments
+      .add_option("--series", options.series,
+                  "so many trials with the operator: before each, what to do to the bed, its release height "
+                  "and notes; "
+                  "the folder becomes a campaign for hop terrain and hop diagnose")
       .in_range(1, 1000)
       .excludes(trials);
   arguments.add_option(
@@ -116,30 +117,34 @@ void add_sheet_options(Arguments& arguments, TrialOptions& options, const Option
   arguments.add_option("--who", options.who, "trial sheet: who runs the trials");
   arguments.add_option("--bed", options.bed, "trial sheet: the bed's material");
   arguments.add_option("--bed-preparation", options.bed_preparation,
-                 "trial sheet: what is done to the bed before each trial");
-  arguments.add_option("--payload-kg", options.payload_kg, "trial sheet: mass on the body besides robot.toml's")
+                       "trial sheet: what is done to the bed before each trial");
+  arguments
+      .add_option("--payload-kg", options.payload_kg, "trial sheet: mass on the body besides robot.toml's")
       .in_range(0.0, 20.0);
   arguments.add_option("--notes", options.notes, "trial sheet: notes");
 }
 
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<TrialOptions>();
-  arguments.add_option("--board", options->board,
-                 "sim: simulated robot in the process; linux: hopperd on this machine's devices")
+  arguments
+      .add_option("--board", options->board,
+                  "sim: simulated robot in the process; linux: hopperd on this machine's devices")
       .one_of({"sim", "linux"})
       .show_default();
   const auto trials = arguments.add_option("--trials", options->trials, "how many, each with a fresh bed")
-      .in_range(1, 100000)
-      .show_default();
+                          .in_range(1, 100000)
+                          .show_default();
   arguments.add_option("--strides", options->strides, "strides per trial, then a soft stop")
       .in_range(1, 10000)
       .show_default();
-  auto height = arguments.add_option("--release-height-m", options->release_height_m,
+  auto height = arguments
+                    .add_option("--release-height-m", options->release_height_m,
                                 "height of the sole when released; 0.0618 gives 1 m/s")
-                     .in_range(0.0005, 1.0)
-                     .show_default();
-  arguments.add_option("--compression-stiffness-N-per-m", options->compression_stiffness_N_per_m,
-                 "instead of robot.toml's, e.g. 250, 375, 500")
+                    .in_range(0.0005, 1.0)
+                    .show_default();
+  arguments
+      .add_option("--compression-stiffness-N-per-m", options->compression_stiffness_N_per_m,
+                  "instead of robot.toml's, e.g. 250, 375, 500")
       .in_range(10.0, 5000.0);
   arguments.add_option("--seed", options->seed, "of the first simulated trial; the next ones count up")
       .show_default();
@@ -148,11 +153,12 @@ Run set_up(Arguments& arguments) {
       .show_default();
   arguments.add_option("--output", options->output, "folder for logs and reports; default trials/DATE_TIME");
   arguments.add_option("--devices", options->devices,
-                 "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
+                       "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
   add_sheet_options(arguments, *options, trials);
-  arguments.add_flag("--plain", options->plain,
-               "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
-               "where standard output is no terminal");
+  arguments.add_flag(
+      "--plain", options->plain,
+      "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
+      "where standard output is no terminal");
   arguments.add_option("--speed", options->speed, "of the simulated board in the live view; 1: real time")
       .in_range(0.05, 10.0)
       .show_default();

@@ -16,9 +16,10 @@ constexpr double kManyTrials = 0.5;
 // Files may lack rows. A fault are many of them, or several gaps of many rows each.
 constexpr double kShareLost = 0.12, kShareInLongGaps = 0.01, kLongGap = 6.0;
 constexpr std::size_t kEnough = 3;
-constexpr double kGauss = 2.5;       // greatest density of a normal distribution: 1 / (2.5 sd)
+constexpr double kGauss = 2.5;               // greatest density of a normal distribution: 1 / (2.5 sd)
 constexpr double kDropoutsByChance = 0.001;  // stretches in a whole campaign
-constexpr double kSeldomCode = 0.3;  // of the neighbours: a channel that shows the code more often rests there
+constexpr double kSeldomCode =
+    0.3;  // of the neighbours: a channel that shows the code more often rests there
 
 // Zero, and an end of the range that stands apart from all other values.
 std::vector<double> codes(const std::vector<SampledChannel>& channel) {

@@ -22,7 +22,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kSeeds = 14;
-constexpr std::size_t kManyTrials = 30, kSearchedTrials = 20;
+constexpr std::size_t kManyTrialsInAll = 30, kSearchedTrials = 20;
 constexpr double kManyRows = 20'000.0;  // of all trials: what an axis of a dozen trials has
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
@@ -114,7 +114,7 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
     search_options.fits_of_singles = search_options.fits_per_screen;
   }
   std::vector<Point> seeds = settled.starts;
-  if (problem.plant->is_costly() && problem.trials.size() > kManyTrials) {
+  if (problem.plant->is_costly() && problem.trials.size() > kManyTrialsInAll) {
     Prepared some = prepare(spread_over(clean, kSearchedTrials));
     const Settled of_some = settled_null(some.problem);
     Search search(some.problem, search_options);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kStretchesOfATrial = 4;  // of a trial with fewer one says little of the others
 constexpr std::size_t kStretches = 40;           // for each that may be an event
-constexpr double kFar = 9.0;  // mean square over the noise, which the event itself has made larger
+constexpr double kFarFromEvent = 9.0;  // mean square over the noise, which the event itself has made larger
 constexpr double kFartherThanAny = 25.0;  // times the next stretch's
 constexpr double kFewestRows = 10.0;
 
@@ -61,7 +61,7 @@ std::vector<Event> find_events(const Problem& problem, const Point& point) {
   std::ranges::sort(all, std::ranges::greater{}, &EventStretch::mean_square);
   for (std::size_t n = all.size() / kStretches; n > 0; --n) {
     const double others = all[n].mean_square;
-    if (all[n - 1].mean_square < std::max(kFar, kFartherThanAny * others)) continue;
+    if (all[n - 1].mean_square < std::max(kFarFromEvent, kFartherThanAny * others)) continue;
     std::vector<Event> events;
     for (std::size_t i = 0; i < n; ++i) {
       events.push_back(all[i].event);

@@ -10,7 +10,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr int kKnots = 9;
+constexpr int kLawKnots = 9;
 constexpr double kTails = 0.005;
 constexpr int kFineKnots = 41;  // of what may ripple, where a simulation costs little
 
@@ -155,7 +155,7 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
     auto all = visited(problem, point, port.port, port.sensor, variables);
     for (std::size_t v = 0; v < variables.size(); ++v) {
       if (all[v].values.empty()) continue;
-      const auto knots = knots_by_share(all[v], kKnots);
+      const auto knots = knots_by_share(all[v], kLawKnots);
       const double low = all[v].values.front().first, high = all[v].values.back().first;
       if (!(high > low)) continue;
       const bool quick = !problem.plant->is_costly();

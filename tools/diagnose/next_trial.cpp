@@ -21,7 +21,7 @@ constexpr double kNarrow = 0.5;          // a bound below this share of the typi
 constexpr double kWorthATrial = 0.2;     // doublings of the information
 constexpr double kPriceOfTrouble = 0.1;  // doublings for one unit of cost
 constexpr double kASession = 10.0;       // trials: what would take more of them is not recommended
-constexpr double kEnough = 10.0;         // times what tells two explanations apart: more brings nothing
+constexpr double kEnoughGain = 10.0;     // times what tells two explanations apart: more brings nothing
 constexpr std::size_t kMostPoints = 400;
 
 // One trial's worth in doublings, before its cost; the best wins, earlier ones in a tie.
@@ -119,7 +119,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     for (const auto& one : all) needed.push_back(apart(one));
     double sum = 0.0;
     for (const auto& p : pairs)
-      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / needed[p.group], kEnough));
+      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / needed[p.group], kEnoughGain));
     return sum / static_cast<double>(pairs.size());
   });
   const auto all = contests(choice.trial);

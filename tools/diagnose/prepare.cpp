@@ -24,7 +24,7 @@ constexpr double kRowTolerance =
 // A low pass that runs once a row is early or late by up to half of one, as it is written.
 constexpr double kFilterTolerance = 0.29;
 constexpr double kConversionTolerance = 0.29;  // of a conversion: its mean is half of it old
-constexpr double kOutlier = 8.0;               // standard deviations
+constexpr double kPreparedOutlier = 8.0;       // standard deviations
 constexpr std::size_t kRowsPerFreeTerm = 10;
 
 // What a converter's grid is.
@@ -91,7 +91,7 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
       const auto at = static_cast<Index>(k);
       const double sd =
           rows[k].relative_sd * problem.noise.channel(rows[k].channel).sd_of_phase[rows[k].phase];
-      const auto far = [&](Index i) { return std::abs(residuals[t][i]) > kOutlier * sd; };
+      const auto far = [&](Index i) { return std::abs(residuals[t][i]) > kPreparedOutlier * sd; };
       // A spike stands alone; a mismatch has neighbours.
       const bool alone = far(at) && std::abs(residuals[t][at - 1]) < 0.3 * std::abs(residuals[t][at]) &&
                          std::abs(residuals[t][at + 1]) < 0.3 * std::abs(residuals[t][at]);

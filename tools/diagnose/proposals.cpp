@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kProposalInformation = 0.01;  // of an amplitude in typicals; of a shape 1
-constexpr std::size_t kGrowing = 24;        // sets that the next larger ones are made of
+constexpr std::size_t kGrowing = 24;           // sets that the next larger ones are made of
 
 // One candidate at one choice of its shapes: the columns it brings.
 struct Option {

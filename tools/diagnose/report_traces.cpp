@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kMostTrials = 3;
-constexpr std::size_t kMostPoints = 500;  // of one channel of one trial
+constexpr std::size_t kMostTracePoints = 500;  // of one channel of one trial
 
 double excess(const Problem& problem, std::size_t trial, const Eigen::VectorXd& residual) {
   double sum = 0.0, count = 0.0;
@@ -53,7 +53,7 @@ void report_traces(const Problem& problem, const Recordings& recordings, const R
         if (model.rows[k].channel == c && problem.used[t][k]) rows.push_back(k);
       if (rows.empty()) continue;
       Trace trace{model.name, setup, problem.channels[c], problem.noise.channel(c).sd(), {}, {}, {}, {}};
-      const std::size_t step = (rows.size() + kMostPoints - 1) / kMostPoints;
+      const std::size_t step = (rows.size() + kMostTracePoints - 1) / kMostTracePoints;
       for (std::size_t i = 0; i < rows.size(); i += step) {
         const Row& row = model.rows[rows[i]];
         const auto k = static_cast<Index>(rows[i]);

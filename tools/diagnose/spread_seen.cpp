@@ -12,7 +12,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kFarLess = 0.3;  // of what is believed, or of what all trials share
-constexpr double kHeldUp = 2.0, kLeast = 0.05;
+constexpr double kHeldUp = 2.0, kLeastSpread = 0.05;
 constexpr double kMadOfNormal = 1.4826;  // standard deviations in the median distance from the middle
 
 }  // namespace
@@ -34,7 +34,7 @@ std::vector<Point> take_spread_as_seen(Problem& problem, Point& point) {
     const double seen = kMadOfNormal * median(apart);
     if (seen > kFarLess * std::max(first.sd, std::abs(shared))) continue;
     for (auto& trial : problem.trials) {
-      trial->trial_nuisances[i].sd = std::max(kHeldUp * seen, kLeast * first.sd);
+      trial->trial_nuisances[i].sd = std::max(kHeldUp * seen, kLeastSpread * first.sd);
       trial->trial_nuisances[i].may_lean = false;  // how far trials differ is not what was believed
     }
     for (auto& own : point.nuisances) own[i] = 0.0;

@@ -22,8 +22,8 @@ constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfi
 constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
 constexpr double kMisfitSignificance = 0.05;
 constexpr double kOutdone = 1.3;
-constexpr double kLeastPerRow = 0.75;  // of the deviance: what no law gets below is not worth asking for
-constexpr double kMostTrials = 0.75;   // that a law must be better for
+constexpr double kLeastPerRow = 0.75;     // of the deviance: what no law gets below is not worth asking for
+constexpr double kMostTrialsLeft = 0.75;  // that a law must be better for
 constexpr double kUnknownGain = 25.0;
 constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
 constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
@@ -45,7 +45,7 @@ std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings
   for (auto& gain : laws_of_balances(problem, balances))
     if (gain.family.variable != "torque_Nm" && gain.family.variable != "t_s" &&
         gain.held_out > kBalanceShare && gain.p_value < kBalanceSignificance &&
-        gain.trials_better >= kMostTrials)
+        gain.trials_better >= kMostTrialsLeft)
       return std::move(gain);
   return std::nullopt;
 }
@@ -78,7 +78,7 @@ std::optional<FreeGain> in_place_of_small_faults(const Problem& problem, const S
                               best_law->held_out));
   return first_of(gains, [&](const FreeGain& gain) {
     return !gain.family.sensor && gain.held_out > std::max(of_faults, kUnknownGain) &&
-           gain.p_value < kMisfitSignificance && gain.trials_better >= kMostTrials;
+           gain.p_value < kMisfitSignificance && gain.trials_better >= kMostTrialsLeft;
   });
 }
 
@@ -125,7 +125,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
       // Where few of the trials show it most, they show it the better for that.
       const bool much = gain.held_out > kUnknownPerRow * rows;
       return is_more(gain) && gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
-             gain.trials_better >= kMostTrials && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
+             gain.trials_better >= kMostTrialsLeft && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
     });
   const bool by_balance =
       (out.misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) && balance();
@@ -155,7 +155,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
     out.law = first_of(alone, [&](const FreeGain& gain) {
       return gain.held_out > kOutdone * explained + least_gain && gain.p_value < kMisfitSignificance &&
-             gain.trials_better >= kMostTrials;
+             gain.trials_better >= kMostTrialsLeft;
     });
     outdone = out.law.has_value();
   }

@@ -12,7 +12,6 @@
 namespace sandhopper {
 namespace {
 
-
 std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equations) {
   std::vector<const HopEquations*> out;
   out.reserve(equations.size());

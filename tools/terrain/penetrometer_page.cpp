@@ -16,7 +16,8 @@ constexpr std::array kColors{"blue", "orange", "green", "purple", "sand", "grey"
 const char* color_of(std::size_t i) { return kColors[i % kColors.size()]; }
 
 Json value_json(const TrialMean& mean) {
-  return {{"value", number_or_null(mean.value)}, {"ci95", {number_or_null(mean.ci95_low), number_or_null(mean.ci95_high)}}};
+  return {{"value", number_or_null(mean.value)},
+          {"ci95", {number_or_null(mean.ci95_low), number_or_null(mean.ci95_high)}}};
 }
 
 std::string title_of(ResistanceLaw law) {
@@ -227,7 +228,8 @@ Json json_of(const PenetrometerFit& fit, const std::vector<PenetrometerDrop>& dr
          {"alpha", number_or_null(drop.fluid.alpha)},
          {"kappa_per_m", number_or_null(drop.fluid.kappa_per_m)},
          {"moving_mass_kg", {number_or_null(low.moving_mass_kg), number_or_null(high.moving_mass_kg)}},
-         {"added_mass_factor", {number_or_null(low.added_mass_factor), number_or_null(high.added_mass_factor)}},
+         {"added_mass_factor",
+          {number_or_null(low.added_mass_factor), number_or_null(high.added_mass_factor)}},
          {"drag_coefficient", {number_or_null(low.drag_coefficient), number_or_null(high.drag_coefficient)}},
          {"greatest_resistance_N",
           {number_or_null(low.moving_mass_kg * greatest_resistance(drop)),

@@ -75,7 +75,8 @@ Json to_json(const TrialResult& r) {
   Json setup = Json::object(), quantities = Json::object(), series = Json::object(), findings = Json::array();
   for (const auto& [key, value] : r.setup) setup[key] = number_or_null(value);
   for (const auto& q : r.quantities) {
-    quantities[q.name] = {{"value", number_or_null(q.value)}, {"standard_error", number_or_null(q.standard_error)}};
+    quantities[q.name] = {{"value", number_or_null(q.value)},
+                          {"standard_error", number_or_null(q.standard_error)}};
     if (!q.invalid.empty()) quantities[q.name]["invalid"] = q.invalid;
   }
   for (const auto& [name, values] : r.series) {

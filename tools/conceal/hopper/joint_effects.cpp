@@ -46,10 +46,11 @@ Json geometry(World& w, double size, Random& random) {
 }  // namespace
 
 std::vector<Recipe<World>> joint_effects() {
-  return {{{"joint.coulomb", "", "joint"}, joint_coulomb},   {{"joint.viscous", "", "joint"}, joint_viscous},
-          {{"joint.cogging", "", "cogging"}, cogging}, {{"joint.rotor_inertia", "", "inertia"}, rotor},
-          {{"joint.backlash", "", "play"}, backlash},  {{"leg.series_elasticity", "", "play"}, elasticity},
-          {{"leg.geometry", "", "geometry"}, geometry}};
+  return {
+      {{"joint.coulomb", "", "joint"}, joint_coulomb}, {{"joint.viscous", "", "joint"}, joint_viscous},
+      {{"joint.cogging", "", "cogging"}, cogging},     {{"joint.rotor_inertia", "", "inertia"}, rotor},
+      {{"joint.backlash", "", "play"}, backlash},      {{"leg.series_elasticity", "", "play"}, elasticity},
+      {{"leg.geometry", "", "geometry"}, geometry}};
 }
 
 }  // namespace sandhopper::conceal::hopper

@@ -38,9 +38,12 @@ Json cable(World& w, double size, Random& random) {
 }  // namespace
 
 std::vector<Recipe<World>> rail_effects() {
-  return {{{"rail.coulomb", "", "rail"}, rail_coulomb},   {{"rail.viscous", "", "rail"}, rail_viscous},
-          {{"rail.stribeck", "", "rail"}, stribeck}, {{"rail.load_dependent", "", "rail"}, load_dependent},
-          {{"rail.tilt", "", "rail"}, tilt},         {{"rail.cable", "", "rail"}, cable}};
+  return {{{"rail.coulomb", "", "rail"}, rail_coulomb},
+          {{"rail.viscous", "", "rail"}, rail_viscous},
+          {{"rail.stribeck", "", "rail"}, stribeck},
+          {{"rail.load_dependent", "", "rail"}, load_dependent},
+          {{"rail.tilt", "", "rail"}, tilt},
+          {{"rail.cable", "", "rail"}, cable}};
 }
 
 }  // namespace sandhopper::conceal::hopper

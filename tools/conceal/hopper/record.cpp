@@ -8,7 +8,6 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-
 // One recording in the making: channels go through their chains one after the other.
 class Recorder {
  public:

@@ -9,7 +9,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kStep_s = 1e-3;
+constexpr double kMotionStep_s = 1e-3;
 constexpr double kSmoothing_Hz = 4.0;  // no drive follows a corner
 constexpr double kPi = std::numbers::pi;
 
@@ -39,14 +39,14 @@ PlannedMotion followed(const Axis& axis, double duration_s, const std::function<
   PlannedMotion m;
   constexpr double kPole = 2.0 * kPi * kSmoothing_Hz;
   double angle = target_rad(0.0), speed = 0.0, drive_Nm = 0.0;
-  for (double t = 0.0; t <= duration_s; t += kStep_s) {
+  for (double t = 0.0; t <= duration_s; t += kMotionStep_s) {
     const double accel = kPole * kPole * (target_rad(t) - angle) - 2.0 * kPole * speed;
     drive_Nm = axis.is.inertia_kg_m2 * accel - axis.passive_Nm(t, angle, speed, drive_Nm);
     m.angle_rad.push_back(angle);
     m.speed_radps.push_back(speed);
     m.torque_Nm.push_back(drive_Nm / axis.gain);
-    speed += accel * kStep_s;
-    angle += speed * kStep_s;
+    speed += accel * kMotionStep_s;
+    angle += speed * kMotionStep_s;
   }
   return m;
 }
@@ -55,13 +55,13 @@ PlannedMotion released(const Axis& axis, double duration_s, double from_rad) {
   PlannedMotion m;
   double angle = from_rad, speed = 0.0;
   constexpr int kParts = 20;  // friction near rest is stiff
-  for (double t = 0.0; t <= duration_s; t += kStep_s) {
+  for (double t = 0.0; t <= duration_s; t += kMotionStep_s) {
     m.angle_rad.push_back(angle);
     m.speed_radps.push_back(speed);
     m.torque_Nm.push_back(0.0);
     for (int i = 0; i < kParts; ++i) {
-      speed += kStep_s / kParts * axis.passive_Nm(t, angle, speed, 0.0) / axis.is.inertia_kg_m2;
-      angle += kStep_s / kParts * speed;
+      speed += kMotionStep_s / kParts * axis.passive_Nm(t, angle, speed, 0.0) / axis.is.inertia_kg_m2;
+      angle += kMotionStep_s / kParts * speed;
     }
   }
   return m;
@@ -112,13 +112,14 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   const Axis axis(belief, edits);
   const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
   for (const auto& wish : wishes(duration_s)) {
-    const PlannedMotion m = wish.target_rad ? followed(axis, duration_s, wish.target_rad)
-                                     : released(axis, duration_s, wish.setup.at("release_position_rad"));
+    const PlannedMotion m = wish.target_rad
+                                ? followed(axis, duration_s, wish.target_rad)
+                                : released(axis, duration_s, wish.setup.at("release_position_rad"));
     double strongest_Nm = 0.0;
     for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));
     if (!(strongest_Nm < 0.8 * range_Nm)) continue;
     const auto at = [&](const std::vector<double>& values, double t) {
-      return values[std::min(values.size() - 1, static_cast<std::size_t>(t / kStep_s + 0.5))];
+      return values[std::min(values.size() - 1, static_cast<std::size_t>(t / kMotionStep_s + 0.5))];
     };
     DoableTrial one;
     one.belief = belief;

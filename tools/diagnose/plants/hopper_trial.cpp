@@ -17,9 +17,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr std::size_t kRunsKept = 6;  // of each hop
-constexpr double kDeepest_m = 0.048;  // that the knots cover
-constexpr double kMargin = 1.5;       // of the depth that the belief says the foot reaches
+constexpr std::size_t kRunsKept = 6;    // of each hop
+constexpr double kDeepest_m = 0.048;    // that the knots cover
+constexpr double kMargin = 1.5;         // of the depth that the belief says the foot reaches
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;

@@ -7,9 +7,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kSmoothing = 6;     // samples to each side
-constexpr double kLengthUnsure_m = 5e-4;  // of the leg, as the controller measured it
-constexpr double kMostLate_s = 0.02;      // a switch that is never made is later than this
+constexpr std::size_t kSmoothingSamples = 6;  // samples to each side
+constexpr double kLengthUnsure_m = 5e-4;      // of the leg, as the controller measured it
+constexpr double kMostLate_s = 0.02;          // a switch that is never made is later than this
 
 // Where a quantity that is below zero at the first of two instants and not at the second comes to zero.
 double crossing(double before, double after) { return before < 0.0 ? before / (before - after) : 0.0; }
@@ -17,10 +17,10 @@ double crossing(double before, double after) { return before < 0.0 ? before / (b
 // Parabolas flatten what bends more, as a leg does that lets go of the ground: what they leave is smoothed
 // again.
 Smoothed smoothed_twice(const Samples& samples) {
-  Smoothed once = smooth(samples, kSmoothing);
+  Smoothed once = smooth(samples, kSmoothingSamples);
   Samples left = samples;
   for (std::size_t i = 0; i < left.value.size(); ++i) left.value[i] -= once.value[i];
-  const Smoothed again = smooth(left, kSmoothing);
+  const Smoothed again = smooth(left, kSmoothingSamples);
   for (std::size_t i = 0; i < once.value.size(); ++i) {
     once.value[i] += again.value[i];
     once.rate[i] += again.rate[i];

@@ -11,9 +11,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kLeastSamples = 50;
-constexpr std::size_t kMostSamples = 800;  // of a trial
-constexpr double kBalanceSmoothing_s = 0.02;      // to each side
-constexpr double kMoves = 2.0;             // switch speeds; below, dry friction is what it must be
+constexpr std::size_t kMostSamples = 800;     // of a trial
+constexpr double kBalanceSmoothing_s = 0.02;  // to each side
+constexpr double kMoves = 2.0;                // switch speeds; below, dry friction is what it must be
 
 // At the times of another channel, smoothed.
 Smoothed smoothed_at(const std::vector<double>& time_s, const Samples& samples, double step_s,

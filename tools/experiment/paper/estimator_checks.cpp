@@ -12,7 +12,6 @@
 namespace sandhopper::paper {
 namespace {
 
-
 // p = M_f v_f and psi at one instant of a frictionless hop; the torque is the one held since then.
 struct MomentumTerms {
   double momentum_kg_mps;
