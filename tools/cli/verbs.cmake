@@ -9,13 +9,15 @@ add_library(sandhopper_cli STATIC
   tools/cli/progress.cpp tools/cli/session.cpp tools/cli/verb.cpp ${PROJECT_BINARY_DIR}/generated/verbs.cpp)
 target_link_libraries(sandhopper_cli PUBLIC sandhopper_config nlohmann_json::nlohmann_json fmt::fmt
                                      PRIVATE CLI11::CLI11)
-target_precompile_headers(sandhopper_cli PRIVATE tools/cli/verb.hpp)
+sandhopper_precompile(sandhopper_cli tools/cli/verb.hpp)
 
 function(sandhopper_verb name summary)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
   list(TRANSFORM arg_SOURCES PREPEND tools/cli/)
   sandhopper_program(hop-${name} SOURCES tools/cli/verb_${name}.cpp tools/cli/program_main.cpp ${arg_SOURCES}
                      LIBRARIES sandhopper_cli ${arg_LIBRARIES})
+  get_target_property(options sandhopper_cli COMPILE_OPTIONS)
+  target_compile_options(hop-${name} PRIVATE ${options})
   target_precompile_headers(hop-${name} REUSE_FROM sandhopper_cli)
   set(SANDHOPPER_VERB_LINES "${SANDHOPPER_VERB_LINES}      {\"${name}\", \"${summary}\", {}},\n" PARENT_SCOPE)
   set(sandhopper_verb_programs ${sandhopper_verb_programs} hop-${name} PARENT_SCOPE)
