@@ -15,12 +15,12 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kSlowest_mps = 0.001;  // a foot slower than this does not penetrate
+constexpr double kSlowestFoot_mps = 0.001;  // a foot slower than this does not penetrate
 constexpr std::size_t kFewestSamples = 10;
-constexpr std::size_t kDrawnTrials = 6;
-constexpr std::size_t kDrawnPoints = 160;
-constexpr double kDepthResolution_m = 2e-4;
-constexpr double kUnloadedShare = 0.05;  // of the greatest force
+constexpr std::size_t kDrawnStrokes = 6;
+constexpr std::size_t kDrawnStrokePoints = 160;
+constexpr double kStrokeResolution_m = 2e-4;
+constexpr double kStrokeUnloadedShare = 0.05;  // of the greatest force
 
 struct Sample {
   double t_s, depth_m, speed_mps, accel_mps2, force_N;  // motion downward
@@ -103,7 +103,7 @@ class Stroke {
                force[row]};
       s.depth_m += -s.speed_mps * lag_s - yield_m_per_N * s.force_N;
       s.speed_mps -= s.accel_mps2 * lag_s;
-      if (s.depth_m > 0.0 && s.depth_m > deepest_m && s.speed_mps > kSlowest_mps) loading_.push_back(s);
+      if (s.depth_m > 0.0 && s.depth_m > deepest_m && s.speed_mps > kSlowestFoot_mps) loading_.push_back(s);
       deepest_m = std::max(deepest_m, s.depth_m);
       path_.push_back(s);
     }
@@ -175,8 +175,8 @@ class Stroke {
     const auto peak =
         std::max_element(path_.begin(), path_.end(), [](auto& a, auto& b) { return a.force_N < b.force_N; });
     auto first = std::find_if(path_.begin(), peak, [](auto& s) { return s.depth_m > 0.0; });
-    auto last =
-        std::find_if(peak, path_.end(), [&](auto& s) { return s.force_N < kUnloadedShare * peak->force_N; });
+    auto last = std::find_if(peak, path_.end(),
+                             [&](auto& s) { return s.force_N < kStrokeUnloadedShare * peak->force_N; });
     if (last != path_.end()) ++last;
     return {first, last};
   }
@@ -190,13 +190,13 @@ class Stroke {
       depth_m.push_back(s.depth_m);
       force_N.push_back(s.force_N);
     }
-    add("unloading_stiffness_N_per_m", unloading({depth_m, force_N}, kDepthResolution_m).stiffness_N_per_m);
+    add("unloading_stiffness_N_per_m", unloading({depth_m, force_N}, kStrokeResolution_m).stiffness_N_per_m);
   }
 
   void draw() {
-    if (out_.index >= kDrawnTrials) return;
+    if (out_.index >= kDrawnStrokes) return;
     const auto drawn = in_contact();
-    const std::size_t step = std::max<std::size_t>(1, drawn.size() / kDrawnPoints);
+    const std::size_t step = std::max<std::size_t>(1, drawn.size() / kDrawnStrokePoints);
     for (std::size_t i = 0; i < drawn.size(); i += step) {
       out_.series["stroke_depth_m"].push_back(drawn[i].depth_m);
       out_.series["stroke_force_N"].push_back(drawn[i].force_N);

@@ -70,8 +70,7 @@ class Actuator {
     loop_decay_ = decay(time_constant_s);
     // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
     // may be of either: between the two. Which, a tolerance finds out (plants/hopper).
-    const double ahead =
-        time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
+    const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
     loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / kHopperStep_s;
     history_.fill(0.0);
   }
