@@ -53,7 +53,8 @@ void step_each(benchmark::State& state) {
     Controller controller(CycleConfig{});
     for (const auto& frame : frames) {
       const auto before = Clock::now();
-      benchmark::DoNotOptimize(controller.step(frame).command);
+      auto command = controller.step(frame).command;
+      benchmark::DoNotOptimize(command);
       const auto after = Clock::now();
       step_ns.push_back(ns_between(before, after));
       clock_ns.push_back(ns_between(after, Clock::now()));
@@ -73,7 +74,10 @@ void step_stride(benchmark::State& state) {
   const auto frames = record_trial();
   for (auto _ : state) {
     Controller controller(CycleConfig{});
-    for (const auto& frame : frames) benchmark::DoNotOptimize(controller.step(frame).command);
+    for (const auto& frame : frames) {
+      auto command = controller.step(frame).command;
+      benchmark::DoNotOptimize(command);
+    }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(frames.size()));
 }
