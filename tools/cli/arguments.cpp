@@ -1,5 +1,7 @@
 #include "tools/cli/arguments.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -18,7 +20,14 @@ Option& Option::show_default() {
 
 template <class Number>
 Option& Option::in_range(Number low, Number high) {
-  option_->check(CLI::Range(low, high));
+  // CLI11 words this message differently from release to release.
+  CLI::Validator range = CLI::Range(low, high);
+  range.operation([low, high](std::string& text) {
+    Number value{};
+    const bool within = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
+    return within ? std::string() : fmt::format("Value {} not in range {} to {}", text, low, high);
+  });
+  option_->check(range);
   return *this;
 }
 template Option& Option::in_range(int, int);
