@@ -6,7 +6,7 @@
 #include <vector>
 
 // How this computer is set up for real time, read from /proc and /sys. `root` stands in for "/" in tests.
-// What cannot be read is left out; nothing throws.
+// These functions leave out files that they cannot read, and throw nothing.
 namespace sandhopper {
 
 struct KernelThread {
@@ -33,7 +33,7 @@ bool serves(const KernelThread& thread, const std::vector<std::string>& names);
 // "0-2,6" holds 1. An empty or unreadable list holds nothing.
 bool cpu_list_holds(std::string_view list, int cpu);
 
-// What the kernel keeps away from a processor.
+// Work that the kernel was told not to do on a processor, by its command line.
 struct CpuIsolation {
   bool scheduler = false;  // isolcpus: other programs
   bool tick = false;       // nohz_full: the periodic timer interrupt, while one thread runs

@@ -6,9 +6,9 @@
 
 #include "drivers/gpio/line_config.hpp"
 
-// What gpio.cpp needs of libgpiod. libgpiod1.cpp implements it with releases 1.x, libgpiod2.cpp with 2.x;
-// CMake compiles the one whose library is installed. Both use the C library: the C++ layers allocate for
-// every level they read, and the e-stop is read in the cycle.
+// The seam between gpio.cpp and libgpiod. libgpiod1.cpp implements it with releases 1.x, libgpiod2.cpp
+// with 2.x; CMake compiles the one whose library is installed. Both use the C library: the C++ layers
+// allocate for every level they read, and the e-stop is read in the cycle.
 namespace sandhopper {
 
 enum class LineUse : std::uint8_t { input, output_inactive, output_active, rising_edges };
