@@ -44,6 +44,23 @@ TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
               0.02 * static_cast<double>(lost) / recorded_s);
 }
 
+// An accelerometer that stops where its range is believed to end is no fault; one that stops sooner is.
+TEST(DiagnoseDataFaults, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
+  Belief belief;
+  belief.numbers["sensors.imu_range_mps2"] = 156.9;
+  for (const double limit : {156.9, 156.85, 150.0}) {
+    DataFault clipped;
+    clipped.channel = "imu_foot_accel_z_mps2";
+    clipped.id = "imu.clipping";
+    clipped.limit = limit;
+    clipped.limit_resolution = 0.002;
+    std::vector<DataFault> faults{clipped};
+    const auto known = take_known_limits(faults, belief);
+    EXPECT_EQ(known.size(), limit > 156.0 ? 1u : 0u) << limit;
+    EXPECT_EQ(faults.size(), limit > 156.0 ? 0u : 1u) << limit;
+  }
+}
+
 // A foot that goes in meanwhile: before such a stretch the force is small, after it large, and the next one
 // follows at once.
 TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {

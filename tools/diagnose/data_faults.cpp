@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -410,6 +411,18 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
     find_clipping(trials, channel, faults);
   }
   return faults;
+}
+
+std::vector<DataFault> take_known_limits(std::vector<DataFault>& faults, const Belief& belief) {
+  const double range = belief.value("sensors.imu_range_mps2");
+  const auto is_known = [&](const DataFault& fault) {
+    return fault.id == "imu.clipping" && range > 0.0 &&
+           std::abs(std::abs(fault.limit) - range) <= std::max(fault.limit_resolution, 1e-3 * range);
+  };
+  std::vector<DataFault> known;
+  std::ranges::copy_if(faults, std::back_inserter(known), is_known);
+  std::erase_if(faults, is_known);
+  return known;
 }
 
 }  // namespace sandhopper::diagnose

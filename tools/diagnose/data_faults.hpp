@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/context.hpp"
 #include "tools/diagnose/trial.hpp"
 
 namespace sandhopper::diagnose {
@@ -25,5 +26,9 @@ struct DataFault {
 // a stretch counts where its neighbourhood shows that repeats of that length do not come by chance. A gap
 // now and then is no fault.
 std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials);
+
+// Takes out of `faults` the accelerometers that stop where the belief says their range ends: nothing is
+// missing there, the samples only tell that there was more.
+std::vector<DataFault> take_known_limits(std::vector<DataFault>& faults, const Belief& belief);
 
 }  // namespace sandhopper::diagnose

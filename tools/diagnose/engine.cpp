@@ -9,6 +9,7 @@
 #include "tools/diagnose/corrected_model.hpp"
 #include "tools/diagnose/data_faults.hpp"
 #include "tools/diagnose/events.hpp"
+#include "tools/diagnose/evidence/beside.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/many_trials.hpp"
 #include "tools/diagnose/next_trial.hpp"
@@ -134,13 +135,15 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
   const NoiseModel noise = problem.noise;
   const auto used = problem.used;
+  const auto errors = problem.model_error;
   update_noise(problem, search.best().fit.point);
   const double change = noise_change(noise, problem.noise);
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own, changed by {:.3f}",
                                       noise_over_sensors(problem), change));
   if (change < kSameNoise) {
-    problem.noise = noise;
     problem.used = used;
+    problem.noise = noise;
+    take_model_error(problem, errors);
     return search;
   }
   keep_columns(problem, search.null().fit.point);
@@ -204,7 +207,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Diagnosis diagnosis;
   Recordings clean = recordings;
-  const auto faults = remove_data_faults(clean.trials);
+  auto faults = remove_data_faults(clean.trials);
+  for (const auto& limit : take_known_limits(faults, clean.belief))
+    diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
+                                          limit.channel, limit.stretches, limit.limit));
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();
@@ -254,6 +260,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (rest.law && (rest.unknown || !search.best().set.empty()))
     answer = with_law_fitted(problem, search.best().fit, *rest.law);
   const Posterior belief = posterior(problem, search, rest.remainder());
+  if (options.tell_evidence) tell_evidence(problem, search, diagnosis.log);
   report_verdict(problem, search, belief, rest, diagnosis);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);

@@ -78,7 +78,7 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
   const TrialModel& trial = *problem.trials[t];
   state.prediction = predicted(problem, trial, edits, state.nuisances);
   VectorXd r = residual_of(trial, state.prediction);
-  problem.noise.whiten(trial, problem.used[t], r);
+  whiten(problem, t, r);
   state.deviance = r.squaredNorm();
   const std::size_t q = trial.trial_nuisances.size(), nb = trial.block_nuisances.size();
   for (std::size_t i = 0; i < state.nuisances.size(); ++i) {

@@ -19,6 +19,7 @@ struct Variable {
   double (*value)(const PortState&);
   double (*weight)(const PortState&);  // multiplies the law
   bool ripples = false;
+  bool of_model_error = false;
 };
 
 double one(const PortState&) { return 1.0; }
@@ -38,31 +39,32 @@ double virgin_speed(const PortState& s) { return s.accel * s.velocity; }
 std::vector<Variable> variables_of(const std::string& port, bool sensor) {
   if (sensor) return {{"value", position_of, one}, {"rate", velocity_of, one}, {"t_s", time_of, one}};
   if (port == "ground.force")
-    return {{"depth_m", position_of, virgin, true},
-            {"speed_mps", velocity_of, virgin},
+    return {{"depth_m", position_of, virgin, true, true},
+            {"speed_mps", velocity_of, virgin, false, true},
             {"speed_mps, times the quasi-static force", velocity_of, virgin_load},
             {"depth_m, times speed", position_of, virgin_speed},
             {"time since touchdown, s, times the quasi-static force", since_touch_of, virgin_load},
-            {"depth_m, unloading", position_of, not_virgin},
+            {"depth_m, unloading", position_of, not_virgin, false, true},
             {"t_s", time_of, one, true}};
   if (port == "body")
-    return {{"velocity_mps", velocity_of, one},
-            {"height_m", position_of, one, true},
+    return {{"velocity_mps", velocity_of, one, false, true},
+            {"height_m", position_of, one, true, true},
             {"distance fallen, m", fallen_of, one, true},
             {"t_s", time_of, one, true}};
   if (port == "axis")
-    return {{"velocity_radps", velocity_of, one},
-            {"position_rad", position_of, one},
+    return {{"velocity_radps", velocity_of, one, false, true},
+            {"position_rad", position_of, one, false, true},
             {"position_rad, with the sign of velocity", position_of, direction_of},
             {"angle since the last turn, rad, with the sign of velocity", since_turn_of, direction_of},
             {"torque_Nm", load_of, one},
             {"t_s", time_of, one}};
   if (port == "joint")
-    return {
-        {"velocity_radps", velocity_of, one}, {"angle_rad", position_of, one}, {"torque_Nm", load_of, one}};
-  return {{"velocity_mps", velocity_of, one},
-          {"height_m", position_of, one},
-          {"height_m, with the sign of velocity", position_of, direction_of},
+    return {{"velocity_radps", velocity_of, one, false, true},
+            {"angle_rad", position_of, one, false, true},
+            {"torque_Nm", load_of, one}};
+  return {{"velocity_mps", velocity_of, one, false, true},
+          {"height_m", position_of, one, false, true},
+          {"height_m, with the sign of velocity", position_of, direction_of, false, true},
           {"t_s", time_of, one}};
 }
 
@@ -123,7 +125,8 @@ std::vector<double> knots_by_share(Visited& visited, int count) {
 }
 
 FreeFamily family_of(const FreePort& port, const Variable& variable, std::vector<double> knots) {
-  FreeFamily family{port.port, port.sensor, variable.name, port.scale, std::move(knots), {}};
+  FreeFamily family{port.port,        port.sensor, variable.name,          port.scale,
+                    std::move(knots), {},          variable.of_model_error};
   const auto count = family.knots.size();
   for (std::size_t k = 0; k < count; ++k) {
     const double knot = family.knots[k], scale = port.scale;
@@ -160,8 +163,10 @@ std::vector<FreeFamily> free_families(const Problem& problem, const Point& point
       if (!(high > low)) continue;
       const bool quick = !problem.plant->is_costly();
       families.push_back(family_of(port, variables[v], knots));
-      if (variables[v].ripples && quick)
+      if (variables[v].ripples && quick) {
         families.push_back(family_of(port, variables[v], uniform_knots(low, high, kFineKnots)));
+        families.back().of_model_error = false;
+      }
     }
   }
   return families;

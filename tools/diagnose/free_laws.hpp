@@ -15,6 +15,7 @@ struct FreeFamily {
   double scale = 1.0;
   std::vector<double> knots;    // ascending
   std::vector<FreeTerm> terms;  // one a knot
+  bool of_model_error = false;  // what the port is a law of first of all
 };
 
 inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of the port: prior sd 2

@@ -52,7 +52,7 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
       if (!problem.used[t][k]) continue;
       const Row& row = trial.rows[k];
       left[row.channel] += std::pow(residual[static_cast<Eigen::Index>(k)], 2);
-      noise[row.channel] += std::pow(problem.noise.sd(trial, row), 2);
+      noise[row.channel] += std::pow(row_sd(problem, t, k), 2);
     }
     for (std::size_t c = 0; c < ratios.size(); ++c)
       if (noise[c] > 0.0 && believed_noise(problem.context.belief, problem.channels[c]) > 0.0)

@@ -16,15 +16,14 @@ using Eigen::VectorXd;
 constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
 
 struct Centre {
-  const TrialModel& trial;
-  const std::vector<std::uint8_t>& used;
+  std::size_t index;
   const Edits& edits;
   const std::vector<double>& nuisances;
   const VectorXd& prediction;
 };
 
 KeptColumns columns_at(const Problem& problem, const Centre& at) {
-  const TrialModel& trial = at.trial;
+  const TrialModel& trial = *problem.trials[at.index];
   const auto rows = static_cast<Index>(trial.rows.size());
   const auto tolerances = static_cast<Index>(problem.tolerances.size());
   KeptColumns kept;
@@ -39,9 +38,11 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   const std::size_t q = trial.trial_nuisances.size(), width = trial.block_nuisances.size();
   for (std::size_t i = 0; i < q; ++i) {
     const double step = trial.trial_nuisances[i].step;
-    moved[i] += step;
+    moved[i] = at.nuisances[i] + step;
+    const VectorXd above = predicted(problem, trial, at.edits, moved);
+    moved[i] = at.nuisances[i] - step;
     kept.shared.col(tolerances + static_cast<Index>(i)) =
-        (predicted(problem, trial, at.edits, moved) - at.prediction) / step;
+        (above - predicted(problem, trial, at.edits, moved)) / (2.0 * step);
     moved[i] = at.nuisances[i];
   }
   for (std::size_t j = 0; j < width; ++j) {
@@ -54,8 +55,8 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   }
   kept.white_shared = kept.shared;
   kept.white_block = kept.block;
-  problem.noise.whiten(trial, at.used, kept.white_shared);
-  problem.noise.whiten(trial, at.used, kept.white_block);
+  whiten(problem, at.index, kept.white_shared);
+  whiten(problem, at.index, kept.white_block);
   kept.gram = kept.white_shared.transpose() * kept.white_shared;
   if (width > 0) {
     const auto nb = static_cast<Index>(width);
@@ -167,18 +168,48 @@ VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
   return out;
 }
 
+namespace {
+
+// Columns of FormOf: `plain` holds the directions' derivatives from column 1 on.
+MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
+                      const std::vector<VectorXd>& derivatives) {
+  const auto rows = static_cast<Index>(trial.rows.size());
+  double first_s = 1e300, last_s = -1e300;
+  for (const auto& row : trial.rows) {
+    first_s = std::min(first_s, row.time_s);
+    last_s = std::max(last_s, row.time_s);
+  }
+  const double apart_s = (last_s - first_s) / static_cast<double>(kFormKnots - 1);
+  MatrixXd out = MatrixXd::Zero(rows, kFormKnots * static_cast<Index>(forms.size()));
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    VectorXd signature = VectorXd::Zero(rows);
+    for (const auto& [direction, weight] : forms[f].directions) signature += weight * derivatives[direction];
+    for (Index k = 0; k < rows; ++k) {
+      const double at =
+          apart_s > 0.0 ? (trial.rows[static_cast<std::size_t>(k)].time_s - first_s) / apart_s : 0.0;
+      const Index knot = std::clamp<Index>(static_cast<Index>(at), 0, kFormKnots - 2);
+      const double share = at - static_cast<double>(knot);
+      const Index column = static_cast<Index>(f) * kFormKnots + knot;
+      out(k, column) = (1.0 - share) * signature[k];
+      out(k, column + 1) = share * signature[k];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options) {
   const TrialModel& trial = *problem.trials[index];
-  const auto& used = problem.used[index];
   const auto rows = static_cast<Index>(trial.rows.size());
   const VectorXd centre =
       options.prediction != nullptr ? *options.prediction : predicted(problem, trial, base, nuisances);
   KeptColumns own_columns;
   const auto& known = options.columns != nullptr ? *options.columns : problem.kept_columns;
   const bool fresh = options.fresh_columns || known.empty();
-  if (fresh) own_columns = columns_at(problem, {trial, used, base, nuisances, centre});
+  if (fresh) own_columns = columns_at(problem, {index, base, nuisances, centre});
   const KeptColumns& kept = fresh ? own_columns : known[index];
 
   // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
@@ -207,7 +238,29 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     for (std::size_t i = 0; i < wanted.size(); ++i)
       out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
-  problem.noise.whiten(trial, used, x);
+  if (options.forms != nullptr) {
+    std::vector<VectorXd> derivatives(directions.size());
+    Index at = 1;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
+    const MatrixXd forms = form_columns(trial, *options.forms, derivatives);
+    const Index own = x.cols();
+    x.conservativeResize(Eigen::NoChange, own + forms.cols());
+    x.rightCols(forms.cols()) = forms;
+    for (auto& place : order)
+      if (place >= own) place += forms.cols();
+    for (Index i = 0; i < forms.cols(); ++i) order.push_back(own + i);
+  }
+  whiten(problem, index, x);
+  if (options.with_repeatable_error && index < problem.repeatable_error.white.size()) {
+    const MatrixXd& white = problem.repeatable_error.white[index];
+    const Index own = x.cols();
+    x.conservativeResize(Eigen::NoChange, own + white.cols());
+    x.rightCols(white.cols()) = white;
+    for (auto& place : order)
+      if (place >= own) place += white.cols();
+    for (Index i = 0; i < white.cols(); ++i) order.push_back(own + i);
+  }
   eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.
@@ -243,7 +296,7 @@ double deviance_of(const Problem& problem, const Point& point, const std::vector
   parallel_for(of_trial.size(), [&](std::size_t t) {
     const TrialModel& trial = *problem.trials[t];
     VectorXd r = residual_of(trial, predicted(problem, trial, edits, point.nuisances[t]));
-    problem.noise.whiten(trial, problem.used[t], r);
+    whiten(problem, t, r);
     for (Index k = 0; k < r.size(); ++k) {
       const auto& channel = problem.channels[trial.rows[static_cast<std::size_t>(k)].channel];
       if (std::ranges::find(channels, channel) != channels.end()) of_trial[t] += r[k] * r[k];
@@ -257,7 +310,7 @@ std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) 
   std::vector<KeptColumns> columns(problem.trials.size());
   parallel_for(columns.size(), [&](std::size_t t) {
     const auto centre = predicted(problem, *problem.trials[t], base, point.nuisances[t]);
-    columns[t] = columns_at(problem, {*problem.trials[t], problem.used[t], base, point.nuisances[t], centre});
+    columns[t] = columns_at(problem, {t, base, point.nuisances[t], centre});
   });
   return columns;
 }

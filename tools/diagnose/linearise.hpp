@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/diagnose/problem.hpp"
@@ -26,7 +27,17 @@ struct TrialLinear {
   Eigen::MatrixXd plain;  // derivatives as they are, and what the nuisances then do; empty unless asked for
 };
 
+// The signature of something that acts, cut into overlapping stretches of time: hat functions that sum to one
+// times sum_i weight_i direction_i. What its law has another form by, or its size in one trial, lies along
+// these.
+struct FormOf {
+  std::vector<std::pair<std::size_t, double>> directions;  // index into them, weight
+};
+inline constexpr Eigen::Index kFormKnots = 8;
+
 struct LineariseOptions {
+  const std::vector<FormOf>* forms = nullptr;  // kFormKnots columns each, after the directions
+  bool with_repeatable_error = false;          // its columns last
   bool keep_plain = false;
   bool fresh_columns = false;                         // do not take the kept ones
   const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial

@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t kOrder = 3;
 constexpr double kTooFewSamples = 30.0;
 constexpr double kTooFewForCorrelation = 200.0;
-constexpr double kOutlier = 6.0;  // robust standard deviations
+constexpr double kOutlier = 6.0;    // robust standard deviations
+constexpr double kMostOfOne = 4.0;  // standard deviations that one sample counts for
 
 double median_magnitude(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -86,7 +87,8 @@ void NoiseModel::widen(double factor) {
 
 double NoiseModel::sd(const TrialModel& trial, const Row& row) const {
   const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[row.channel];
-  return factor * row.relative_sd * channels_[row.channel].sd_of_phase[row.phase];
+  return std::hypot(factor * row.relative_sd * channels_[row.channel].sd_of_phase[row.phase],
+                    row.numerical_sd);
 }
 
 void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
@@ -134,7 +136,8 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
       for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
         const Row& row = trials[t]->rows[k];
         if (row.channel != c || !used[t][k]) continue;
-        const double r = residuals[t][static_cast<Eigen::Index>(k)] / row.relative_sd;
+        const double r = residuals[t][static_cast<Eigen::Index>(k)] /
+                         std::hypot(row.relative_sd, row.numerical_sd / floor_sd[c]);
         of_phase[row.phase].push_back(r);
         all.push_back(r);
       }
@@ -170,8 +173,8 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
           chain.clear();
           continue;
         }
-        const double sd = row.relative_sd * noise.sd_of_phase[row.phase];
-        const double e = std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / sd, -4.0, 4.0);
+        const double sd = std::hypot(row.relative_sd * noise.sd_of_phase[row.phase], row.numerical_sd);
+        const double e = std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / sd, -kMostOfOne, kMostOfOne);
         chain.push_back(e);
         for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
           all_phases.add(lag, e * chain[chain.size() - 1 - lag]);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@ struct Row {
   // Against one sample's: less for a mean of several, more where what the prediction is made from is itself
   // uncertain.
   double relative_sd = 1.0;
+  double numerical_sd = 0.0;  // that two honest simulations differ by here, in the channel's unit
 };
 
 // Something that differs from trial to trial and is fitted along, with the spread that is believed.
@@ -43,6 +45,20 @@ struct Coordinate {
   std::vector<double> values;  // one per row
 };
 
+// Another honest simulation of the same physics: which number of the program is changed, and by how much.
+struct Variant {
+  enum class Kind : std::uint8_t { none, step, event };
+  Kind kind = Kind::none;
+  std::size_t event = 0;  // which of the recorded instants
+  double amount = 0.0;    // factor of the step; rows by which an instant is later
+
+  bool empty() const { return kind == Kind::none; }
+};
+// Two that differ from the simulation in opposite ways, or one alone.
+struct VariantPair {
+  Variant sooner{}, later{};
+};
+
 // One trial as a simulation: recorded inputs and set-up inside, effects and nuisances as arguments.
 class TrialModel {
  public:
@@ -51,6 +67,13 @@ class TrialModel {
   // Predictions for all rows. `nuisances`: those of the trial, then those of each block in turn.
   virtual void predict(const Edits& edits, std::span<const double> nuisances,
                        std::span<double> out) const = 0;
+
+  // Simulations that no recording can tell from this one, and what they predict.
+  virtual std::vector<VariantPair> variants() const { return {}; }
+  virtual void predict_variant(const Variant& /*variant*/, const Edits& edits,
+                               std::span<const double> nuisances, std::span<double> out) const {
+    predict(edits, nuisances, out);
+  }
 
   std::size_t nuisance_count() const {
     return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
@@ -115,6 +138,9 @@ class PlantModel {
   // if something acted at that port, or changed "readings" alone: integrators, current loops and instants of
   // sampling are nobody's physics.
   virtual double simulations_differ(const std::string& /*port*/) const { return 0.0; }
+  // Standard deviation of a force or torque at each port that differs from trial to trial though nothing is
+  // missing, in the port's scale. 0: not learned for this plant.
+  virtual double port_error() const { return 0.0; }
   // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
   // Whether a channel is low-passed by what records it, perhaps no more often than it is recorded.

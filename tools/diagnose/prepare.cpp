@@ -131,6 +131,7 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
+  take_model_error(problem, model_errors(problem, point));
   auto directions = parameter_directions(problem, point);
   const auto own = directions.size();
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
@@ -177,14 +178,22 @@ void update_noise(Problem& problem, const Point& point) {
   std::vector<VectorXd> residuals;
   residuals.reserve(linear.size());
   for (const auto& trial : linear) residuals.push_back(trial.plain.col(0) - trial.plain.rightCols(k) * size);
+  for (std::size_t t = 0; t < problem.model_error.size(); ++t) {
+    const ModelError& error = problem.model_error[t];
+    VectorXd white = residuals[t];
+    problem.noise.whiten(*problem.trials[t], problem.used[t], white);
+    residuals[t] -= error.columns * error.low_rank.amplitudes(error.white, white);
+    taken_up += error.low_rank.taken_up();
+  }
   find_noisy_trials(problem, residuals);
-  problem.noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
-                                 problem.floor_sd);
-  problem.noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
-  mark_outliers(problem, residuals);
+  NoiseModel noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
+                                    problem.floor_sd);
+  noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
   // A condition is met as closely as it says, whatever the recordings scatter.
   for (std::size_t c = 0; c < problem.channels.size(); ++c)
-    if (const double sd = problem.plant->least_sd(problem.channels[c]); sd > 0.0) problem.noise.fix(c, sd);
+    if (const double sd = problem.plant->least_sd(problem.channels[c]); sd > 0.0) noise.fix(c, sd);
+  take_noise(problem, std::move(noise));
+  mark_outliers(problem, residuals);
 }
 
 Prepared prepare(const Recordings& recordings) {
@@ -254,7 +263,7 @@ Prepared prepare(const Recordings& recordings) {
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));
-  problem.noise = white_noise(first_sd, problem.phases.size());
+  take_noise(problem, white_noise(first_sd, problem.phases.size()));
   return prepared;
 }
 

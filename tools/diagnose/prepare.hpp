@@ -25,7 +25,7 @@ struct Prepared {
 // pass for noise.
 Prepared prepare(const Recordings& recordings);
 
-// Estimates the noise again at a better point.
+// Estimates the model error and the noise again at a better point.
 void update_noise(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/discrepancy/model_error.hpp"
 #include "tools/diagnose/effect.hpp"
 #include "tools/diagnose/noise_model.hpp"
 #include "tools/diagnose/plant.hpp"
@@ -54,6 +55,8 @@ struct Problem {
   double row_s = 0.0;            // middling time between rows
   std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
   NoiseModel noise;
+  std::vector<ModelError> model_error;  // of every trial; empty: none yet
+  RepeatableError repeatable_error;     // empty: not asked for yet
   mutable std::uint64_t simulations = 0;
   std::vector<KeptColumns> kept_columns;  // one per trial; empty: made anew each time
 

@@ -39,17 +39,15 @@ struct Sums {
 }  // namespace
 
 // Held out: the effects' parameters come from the other trials, the trial's own nuisances are fitted. The
-// floor is what the noise alone would leave in the same rows: it may grow with the force, and differ between
-// trials.
+// floor is what noise and model error alone would leave in the same rows: it may grow with the force, and
+// differ between trials.
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis) {
   const auto sums_of = [&](const std::vector<VectorXd>& errors) {
     return Sums(problem, [&](std::size_t t, std::size_t k) { return errors[t][static_cast<Index>(k)]; });
   };
   const Sums before = sums_of(residuals.before), after = sums_of(residuals.after),
              held_out = sums_of(residuals.held_out);
-  const Sums floor(problem, [&](std::size_t t, std::size_t k) {
-    return problem.noise.sd(*problem.trials[t], problem.trials[t]->rows[k]);
-  });
+  const Sums floor(problem, [&](std::size_t t, std::size_t k) { return row_sd(problem, t, k); });
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     if (before.by_channel.count[c] == 0.0 || !problem.context.has(problem.channels[c])) continue;
     ChannelFit fit;

@@ -11,7 +11,7 @@ void report_residuals(const Problem& problem, const Residuals& residuals, Diagno
       if (problem.used[t][k])
         diagnosis.residuals.push_back({trial.name, problem.channels[row.channel], problem.phases[row.phase],
                                        row.time_s, residuals.before[t][at], residuals.held_out[t][at],
-                                       problem.noise.sd(trial, row)});
+                                       row_sd(problem, t, k)});
     }
   }
 }

@@ -11,8 +11,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kHopperStep_s = 2.5e-4;
-
 class PortLaws final : public PlantExtension {
  public:
   explicit PortLaws(const Edits& edits) : rail_(edits.at("rail")), joint_(edits.at("joint")) {}
@@ -41,7 +39,8 @@ class PortLaws final : public PlantExtension {
 class Actuator {
  public:
   Actuator(const Edits& edits, const HopperRun& run)
-      : factor_(run.torque_constant_factor),
+      : step_s_(run.step_s),
+        factor_(run.torque_constant_factor),
         temperature_C_(run.motor_temperature_C),
         limits_(edits.at("actuator.limit")) {
     const double time_constant_s = run.world.motor.current_loop_time_constant_s;
@@ -71,7 +70,7 @@ class Actuator {
     // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
     // may be of either: between the two. Which, a tolerance finds out (plants/hopper).
     const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
-    loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / kHopperStep_s;
+    loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / step_s_;
     history_.fill(0.0);
   }
 
@@ -85,7 +84,7 @@ class Actuator {
     newest_ = (newest_ + 1) % history_.size();
     history_[newest_] = command_Nm;
     // A little early is an overshoot of the next step that holds the same impulse.
-    const double steps = std::clamp(delay_s_ / kHopperStep_s, -1.0, static_cast<double>(history_.size() - 2));
+    const double steps = std::clamp(delay_s_ / step_s_, -1.0, static_cast<double>(history_.size() - 2));
     const auto whole = static_cast<std::size_t>(std::max(0.0, steps));
     const double part = steps - static_cast<double>(whole);
     const auto back = [&](std::size_t n) {
@@ -108,11 +107,12 @@ class Actuator {
   }
 
  private:
-  static double decay(double time_constant_s) {
-    return time_constant_s > 0.0 ? std::exp(-kHopperStep_s / time_constant_s) : 0.0;
+  double decay(double time_constant_s) const {
+    return time_constant_s > 0.0 ? std::exp(-step_s_ / time_constant_s) : 0.0;
   }
 
-  double factor_, offset_Nm_ = 0.0, delay_s_ = 0.0, lag_decay_ = 0.0, loop_decay_ = 0.0, loop_mean_ = 0.0;
+  double step_s_, factor_, offset_Nm_ = 0.0, delay_s_ = 0.0, lag_decay_ = 0.0, loop_decay_ = 0.0,
+                           loop_mean_ = 0.0;
   double lagged_ = 0.0, current_Nm_ = 0.0, temperature_C_;
   std::vector<const Law*> laws_, limits_;
   std::array<double, 256> history_{};
@@ -156,7 +156,7 @@ class MeasuredRate {
   explicit MeasuredRate(const HopperRun& run) : rate_radps_(run.start.angular_velocity_radps) {
     const double bandwidth_Hz = run.world.sensors.encoder_velocity_bandwidth_Hz;
     if (bandwidth_Hz <= 0.0) return;
-    const double ratio = 2.0 * std::numbers::pi * bandwidth_Hz * kHopperStep_s;
+    const double ratio = 2.0 * std::numbers::pi * bandwidth_Hz * run.step_s;
     decay_ = std::exp(-ratio);
     slope_gain_ = 1.0 - (1.0 - decay_) / ratio;
   }
@@ -201,13 +201,13 @@ class SpringLeg {
   MeasuredRate rate_;
 };
 
-HopperTraces empty_traces(double from_s, std::size_t count) {
+HopperTraces empty_traces(double from_s, double step_s, std::size_t count) {
   HopperTraces traces;
   for (Signal* signal : {&traces.angle_rad, &traces.rate_radps, &traces.current_torque_Nm,
                          &traces.command_torque_Nm, &traces.body_accel_mps2, &traces.foot_accel_mps2,
                          &traces.body_z_m, &traces.foot_z_m, &traces.foot_velocity_mps, &traces.force_N}) {
     signal->start_s = from_s;
-    signal->step_s = kHopperStep_s;
+    signal->step_s = step_s;
     signal->values.resize(count);
   }
   return traces;
@@ -264,26 +264,29 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   }
   plant.place_in_crater(start, run.crater_m);
 
-  const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / kHopperStep_s)) + 2;
+  const double step_s = run.step_s;
+  const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / step_s)) + 2;
   const double tick_s = 1.0 / run.world.controller.rate_Hz;
-  const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / kHopperStep_s)));
-  HopperTraces traces = empty_traces(run.from_s, count);
+  const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / step_s)));
+  HopperTraces traces = empty_traces(run.from_s, step_s, count);
   // Force and accelerations jump where the bed begins to yield again: their means over a step do not jump
   // from one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse,
   // which is no acceleration.
   const bool means = !run.world.terrain.rigid;
   if (means)
     for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
-      signal->start_s += 0.5 * kHopperStep_s;
+      signal->start_s += 0.5 * step_s;
   double command_Nm = 0.0, body_velocity_mps = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double t = run.from_s + kHopperStep_s * static_cast<double>(i);
+    const double t = run.from_s + step_s * static_cast<double>(i);
     ground.at_time(t);
     ports.at_time(t);
     const PlantState& state = plant.state();
     ground.touching(state.foot_z_m < 0.0);
     if (i > 0) spring.follow(state.rotor_radps());
-    if (i % per_tick == 0) command_Nm = spring.command_Nm(t, measured(state), state);
+    const bool switched = run.switch_between_cycles && i > 0 && run.phases != nullptr &&
+                          phase_at(*run.phases, t) != phase_at(*run.phases, t - step_s);
+    if (i % per_tick == 0 || switched) command_Nm = spring.command_Nm(t, measured(state), state);
     traces.current_torque_Nm.values[i] = actuator.current_Nm();  // read before the command acts
     const double torque_Nm = actuator.torque_Nm(actuator.step(command_Nm, state.rotor_radps()), t);
     traces.angle_rad.values[i] = state.rotor_rad();
@@ -292,15 +295,14 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
     traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
     const double foot_velocity_mps = state.foot_velocity_mps, impulse_Ns = plant.contact_impulse_Ns();
-    const PlantMotion motion = plant.advance(torque_Nm, kHopperStep_s);
+    const PlantMotion motion = plant.advance(torque_Nm, step_s);
     traces.body_z_m.values[i] = motion.body_z_m + surface_m;
     if (means) {
       if (i > 0)
-        traces.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps) / kHopperStep_s;
+        traces.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps) / step_s;
       body_velocity_mps = motion.body_velocity_mps;
-      traces.foot_accel_mps2.values[i] =
-          (plant.state().foot_velocity_mps - foot_velocity_mps) / kHopperStep_s;
-      traces.force_N.values[i] = (plant.contact_impulse_Ns() - impulse_Ns) / kHopperStep_s;
+      traces.foot_accel_mps2.values[i] = (plant.state().foot_velocity_mps - foot_velocity_mps) / step_s;
+      traces.force_N.values[i] = (plant.contact_impulse_Ns() - impulse_Ns) / step_s;
     } else {
       traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
       traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;

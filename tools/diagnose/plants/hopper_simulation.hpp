@@ -30,6 +30,8 @@ struct SpringState {
 double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m, const Leg& leg,
                         const SpringState& at);
 
+inline constexpr double kHopperStep_s = 2.5e-4;
+
 struct HopperRun {
   WorldConfig world{};
   double compression_stiffness_N_per_m = 375.0;
@@ -42,6 +44,8 @@ struct HopperRun {
   double crater_m = 0.0;  // deepest point of earlier strides
   BedHistory bed_history{};
   double from_s = 0.0, to_s = 1.0;
+  double step_s = kHopperStep_s;
+  bool switch_between_cycles = false;  // a phase changes at its instant, not with the next cycle
   const std::vector<PhaseChange>* phases = nullptr;
   // Both motors: what was commanded, less what the believed controller makes of the recorded leg. Added to
   // what it makes of the simulated leg: the noise that the controller really fed back acts here, too, and the

@@ -26,7 +26,10 @@ constexpr double kReleaseSpeedUnknown_mps = 1e-3;
 constexpr double kReleaseAngleUnknown_rad = 2e-4;
 constexpr double kNearEndStop_rad = 0.04;
 constexpr double kAloft_s = 0.02;  // a liftoff is over by then
-constexpr double kAtRest = 0.01;   // share of a later hop's uncertainty that a release at rest has
+// Of derivatives: what events jump by is small against what such a step brings, and is not at a quarter of
+// it.
+constexpr double kWideStep = 4.0;
+constexpr double kAtRest = 0.01;  // share of a later hop's uncertainty that a release at rest has
 
 enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
 
@@ -138,6 +141,32 @@ class HopperTrial final : public TrialModel {
     }
   }
 
+  std::vector<VariantPair> variants() const override {
+    constexpr double kFiner = 0.5, kHalfARow = 0.5;
+    std::vector<VariantPair> pairs{{{}, {Variant::Kind::step, 0, kFiner}}};
+    for (std::size_t i = 1; i < course_.phases.size(); ++i)
+      if (course_.phases[i].time_s < course_.end_s)
+        pairs.push_back({{Variant::Kind::event, i, -kHalfARow}, {Variant::Kind::event, i, kHalfARow}});
+    return pairs;
+  }
+
+  void predict_variant(const Variant& variant, const Edits& edits, std::span<const double> n,
+                       std::span<double> out) const override {
+    const WorldConfig world = world_of(belief_, edits);
+    auto phases = course_.phases;
+    if (variant.kind == Variant::Kind::event) phases[variant.event].time_s += variant.amount * kTick_s;
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      HopperRun run = run_of(world, b, n);
+      if (variant.kind == Variant::Kind::step) run.step_s *= variant.amount;
+      if (run.phases != nullptr) run.phases = &phases;
+      run.switch_between_cycles = variant.kind == Variant::Kind::event;
+      const auto traces = simulate_hopper(run, edits);
+      for (std::size_t c = 0; c < kSources.size(); ++c)
+        if (const auto& span = spans_[c][b]; span.count > 0)
+          read_channel(world, traces, edits, n, c, span, out.subspan(span.first, span.count));
+    }
+  }
+
  private:
   struct Span {
     std::size_t first = 0, count = 0;
@@ -154,7 +183,8 @@ class HopperTrial final : public TrialModel {
     // `least`: what nobody knows it better than.
     const auto add = [&](const std::string& what, double believed_sd, double least, double step,
                          const char* port = "") {
-      trial_nuisances.push_back({what, std::max(believed_sd, least), step, port, believed_sd > least});
+      trial_nuisances.push_back(
+          {what, std::max(believed_sd, least), kWideStep * step, port, believed_sd > least});
     };
     add("bed_stiffness_relative", s.bed_stiffness_relative, 1e-3, 1e-3, "ground");
     add("release_height_m", s.release_height_m, kReleaseUnknown_m, 1e-5);

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "tests/unit/diagnose_hops.hpp"
+#include "tools/diagnose/discrepancy/low_rank.hpp"
+#include "tools/diagnose/evidence/log_evidence.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/prepare.hpp"
+
+// What two honest simulations differ by, and what it is worth.
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::MatrixXd, Eigen::VectorXd;
+
+MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, std::uint64_t seed) {
+  Random random(seed, 0);
+  MatrixXd out(rows, cols);
+  for (double& value : out.reshaped()) value = random.normal();
+  return out;
+}
+
+TEST(DiagnoseModelError, LowRankWhiteningIsThatOfTheDenseCovariance) {
+  const MatrixXd columns =
+      random_matrix(40, 5, 1) * Eigen::Vector<double, 5>(3.0, 1.0, 0.2, 10.0, 1e-3).asDiagonal();
+  const MatrixXd covariance = MatrixXd::Identity(40, 40) + columns * columns.transpose();
+  const LowRank low_rank(columns);
+  const MatrixXd plain = random_matrix(40, 3, 2);
+  MatrixXd white = plain;
+  low_rank.whiten(white);
+  const MatrixXd dense = plain.transpose() * covariance.inverse() * plain;
+  EXPECT_LT((white.transpose() * white - dense).cwiseAbs().maxCoeff(), 1e-5 * dense.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(low_rank.log_determinant(), std::log(covariance.determinant()), 1e-4);
+  const VectorXd residual = plain.col(0);
+  const VectorXd expected = columns.transpose() * covariance.inverse() * residual;
+  EXPECT_LT((low_rank.amplitudes(columns, residual) - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_GT(low_rank.taken_up(), 2.9);
+  EXPECT_LT(low_rank.taken_up(), 5.0);
+}
+
+// Against the trapezoidal rule on a fine grid of the size itself.
+TEST(DiagnoseModelError, TheSizeOfAnEffectIsIntegratedUnderItsLogNormalPrior) {
+  const auto by_trapezoids = [](double best, double sd, bool either_sign) {
+    const double spread = kLimits.size_spread, step = 1e-4;
+    double sum = 0.0;
+    for (double b = step; b < 40.0; b += step) {
+      const double l = std::log(b) / spread;
+      const double prior = std::exp(-0.5 * l * l) / (b * spread * std::sqrt(2.0 * std::numbers::pi));
+      const auto likelihood = [&](double at) { return std::exp(-0.5 * std::pow((at - best) / sd, 2)); };
+      sum += prior * step * (either_sign ? 0.5 * (likelihood(b) + likelihood(-b)) : likelihood(b));
+    }
+    return std::log(sum);
+  };
+  for (const double best : {0.0, 0.05, 1.0, -1.0, 6.0})
+    for (const double sd : {0.02, 0.3, 5.0})
+      for (const bool either_sign : {false, true}) {
+        if (!either_sign && best < 0.0) continue;
+        const double expected = by_trapezoids(best, sd, either_sign);
+        if (expected < -500.0) continue;  // beyond what a double holds
+        EXPECT_NEAR(log_integral_over_size(best, sd, either_sign), expected, 2e-3)
+            << best << " +- " << sd << (either_sign ? ", either sign" : "");
+      }
+}
+
+Recordings hops_with_liftoff(double later_s, std::size_t count) {
+  Recordings r;
+  r.plant = PlantKind::hopper;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double late_s = i % 2 == 0 ? later_s : -later_s;
+    const std::vector<PhaseChange> phases{{0.0, HopperPhase::flight},
+                                          {0.09, HopperPhase::compression},
+                                          {0.25, HopperPhase::extension},
+                                          {0.36, HopperPhase::flight}};
+    auto really = phases;
+    really.back().time_s += late_s;
+    HopperRun run = hop_from(0.04 + 0.002 * static_cast<double>(i), 0.45);
+    run.phases = &really;
+    run.switch_between_cycles = true;
+    Trial trial = recorded(run, {}, i + 1);
+    for (std::size_t k = 0; k < trial.time_s.size(); ++k)
+      trial.channels["phase"][k] = static_cast<double>(phase_at(phases, trial.time_s[k]));
+    // A command is what a controller makes of its phase, exactly.
+    for (const char* side : {"left", "right"})
+      trial.channels.erase("command_" + std::string(side) + "_torque_Nm");
+    trial.name = std::to_string(i);
+    r.trials.push_back(std::move(trial));
+    r.beliefs.push_back(r.belief);
+  }
+  return r;
+}
+
+// Deviance of each trial over its rows, with the noise of the sensors and with model error beside it.
+struct PerRow {
+  double noise_alone = 0.0, with_model_error = 0.0;
+};
+PerRow per_row(const Recordings& recordings) {
+  Prepared prepared = prepare(recordings);
+  Problem& problem = prepared.problem;
+  const Point point = null_point(problem);
+  PerRow out;
+  take_model_error(problem, model_errors(problem, point));
+  const Edits base = edits_for(problem, {}, point.tolerances);
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const TrialModel& trial = *problem.trials[t];
+    const VectorXd plain = residual_of(trial, predicted(problem, trial, base, point.nuisances[t]));
+    MatrixXd white = plain;
+    whiten(problem, t, white);
+    const auto rows = static_cast<double>(trial.rows.size() * problem.trials.size());
+    out.with_model_error += white.squaredNorm() / rows;
+    white = plain;
+    problem.noise.whiten(trial, problem.used[t], white);
+    out.noise_alone += white.squaredNorm() / rows;
+  }
+  return out;
+}
+
+// The row in which a phase changed says so to within a row: the other half of it is nobody's physics.
+TEST(DiagnoseModelError, ALiftoffHalfARowOffTheRecordedOneIsNoMisfit) {
+  const auto as_recorded = per_row(hops_with_liftoff(0.0, 4)), off = per_row(hops_with_liftoff(4e-4, 4)),
+             far = per_row(hops_with_liftoff(4e-3, 4));
+  std::printf(
+      "deviance a row: as recorded %.2f, half a row off %.2f, with model error %.2f, four rows off %.2f\n",
+      as_recorded.with_model_error, off.noise_alone, off.with_model_error, far.with_model_error);
+  EXPECT_GT(off.noise_alone - as_recorded.noise_alone,
+            3.0 * (off.with_model_error - as_recorded.with_model_error));
+  EXPECT_LT(off.with_model_error, as_recorded.with_model_error + 0.1);
+  EXPECT_GT(far.with_model_error, as_recorded.with_model_error + 0.3);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose

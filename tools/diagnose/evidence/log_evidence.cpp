@@ -1,0 +1,294 @@
+#include "tools/diagnose/evidence/log_evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/evidence/log_determinant.hpp"
+#include "tools/diagnose/fit.hpp"
+#include "tools/diagnose/screen.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr double kKnotsAlike = 2.0;
+
+// Of the form and size of one effect in one trial, over the knots of FormOf.
+MatrixXd form_covariance() {
+  MatrixXd c(kFormKnots, kFormKnots);
+  for (Index i = 0; i < kFormKnots; ++i)
+    for (Index j = 0; j < kFormKnots; ++j)
+      c(i, j) = kLimits.size_of_trial * kLimits.size_of_trial +
+                kLimits.form * kLimits.form * std::exp(-std::abs(static_cast<double>(i - j)) / kKnotsAlike);
+  return c;
+}
+
+// One effect trial by trial: score and information of its size along its fitted amplitudes, with the effect
+// put back into the residual, everything else eliminated over all trials together.
+TrialEvidence of_trials(const Problem& problem, const Hypothesis& h, const AtFit& at, std::size_t effect,
+                        const VectorXd& prior) {
+  std::vector<Index> own, others;
+  VectorXd along;
+  Index column = 1;
+  std::vector<double> sizes;
+  for (std::size_t e = 0; e < h.candidates.size(); ++e) {
+    const auto& p = problem.candidates[h.candidates[e]].parameters;
+    for (std::size_t j = 0; j < p.size(); ++j, ++column)
+      if (e == effect && is_amplitude(p, j)) {
+        own.push_back(column);
+        sizes.push_back(h.values[e][j] / p[j].typical);
+      } else {
+        others.push_back(column);
+      }
+  }
+  for (; column <= prior.size(); ++column) others.push_back(column);
+  const auto n = static_cast<Index>(others.size());
+  // Columns: residual with the effect put back, the effect, all others.
+  std::vector<TrialLinear> trials;
+  VectorXd held(n);
+  for (Index i = 0; i < n; ++i) held[i] = std::max(prior[others[static_cast<std::size_t>(i)] - 1], 1e-4);
+  for (const auto& gram : at.grams) {
+    MatrixXd transform = MatrixXd::Zero(gram.rows(), 2 + n);
+    transform(0, 0) = 1.0;
+    for (std::size_t i = 0; i < own.size(); ++i) transform(own[i], 0) = transform(own[i], 1) = sizes[i];
+    for (Index i = 0; i < n; ++i) transform(others[static_cast<std::size_t>(i)], 2 + i) = 1.0;
+    trials.emplace_back();
+    trials.back().gram = transform.transpose() * gram * transform;
+  }
+  TrialEvidence evidence;
+  for (const auto& gram : eliminated(trials, 2, n, held)) {
+    evidence.score.push_back(gram(1, 0));
+    evidence.information.push_back(std::max(gram(1, 1), 0.0));
+  }
+  return evidence;
+}
+
+}  // namespace
+
+double log_integral_over_size(double best, double sd, bool either_sign) {
+  // On a grid of ln|b|, both signs where there are two: exact enough where sd is small against the grid's
+  // step only if the grid follows it, so that the peak is integrated on its own.
+  const double spread = kLimits.size_spread;
+  const auto density = [&](double b) {  // of the prior, per unit of b
+    const double l = std::log(std::abs(b)) / spread;
+    return std::exp(-0.5 * l * l) / (std::abs(b) * spread * std::sqrt(2.0 * std::numbers::pi)) *
+           (either_sign ? 0.5 : 1.0);
+  };
+  double sum = 0.0;
+  constexpr int kPoints = 400;
+  for (const double sign : {1.0, -1.0}) {
+    if (sign < 0.0 && !either_sign) continue;
+    // Where the likelihood is within eight standard deviations and the prior within six.
+    const double low = std::max(std::exp(-6.0 * spread), sign * best - 8.0 * sd);
+    const double high = std::min(std::exp(6.0 * spread), sign * best + 8.0 * sd);
+    if (!(high > low)) continue;
+    const double from = std::log(low), step = (std::log(high) - from) / kPoints;
+    for (int i = 0; i < kPoints; ++i) {
+      const double b = std::exp(from + (i + 0.5) * step);
+      const double z = (sign * b - best) / sd;
+      sum += density(b) * std::exp(-0.5 * z * z) * b * step;
+    }
+  }
+  return std::log(std::max(sum, 1e-300));
+}
+
+double log_prior(const Problem& problem, std::size_t effects) {
+  return static_cast<double>(effects) *
+         std::log(kLimits.effects_expected / static_cast<double>(problem.candidates.size()));
+}
+
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<KeptColumns>* columns,
+                    const std::vector<Direction>& more) {
+  auto directions = parameter_directions(problem, point);
+  std::vector<FormOf> forms;
+  std::size_t at = 0;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto& parameters = problem.candidates[point.hypothesis.candidates[e]].parameters;
+    FormOf form;
+    for (std::size_t j = 0; j < parameters.size(); ++j, ++at)
+      if (is_amplitude(parameters, j))
+        form.directions.emplace_back(at, point.hypothesis.values[e][j] / parameters[j].typical);
+    forms.push_back(std::move(form));
+  }
+  directions.insert(directions.end(), more.begin(), more.end());
+  const auto linear = linearise_all(problem, point, directions,
+                                    {.forms = &forms, .with_repeatable_error = true, .columns = columns});
+  // [residual, directions | forms | repeatable error]: the forms belong to one trial each.
+  const auto n = static_cast<Index>(forms.size()) * kFormKnots;
+  const auto before = static_cast<Index>(directions.size()) + 1;
+  std::vector<Index> shared, of_form;
+  for (Index i = 0; i < linear.front().gram.rows(); ++i)
+    (i >= before && i < before + n ? of_form : shared).push_back(i);
+  AtFit out;
+  for (const auto& trial : linear) out.plain.emplace_back(trial.gram(shared, shared));
+  if (n == 0) {
+    out.grams = out.plain;
+    return out;
+  }
+  MatrixXd prior = MatrixXd::Zero(n, n);
+  const MatrixXd one = form_covariance().inverse();
+  for (Index f = 0; f < static_cast<Index>(forms.size()); ++f)
+    prior.block(f * kFormKnots, f * kFormKnots, kFormKnots, kFormKnots) = one;
+  const double of_prior = log_determinant(prior);
+  for (const auto& trial : linear) {
+    const MatrixXd held = trial.gram(of_form, of_form) + prior;
+    const MatrixXd cross = trial.gram(shared, of_form);
+    out.grams.emplace_back(trial.gram(shared, shared) - cross * held.ldlt().solve(cross.transpose()));
+    out.log_determinant += log_determinant(held) - of_prior;
+  }
+  return out;
+}
+
+namespace {
+
+// Minus twice the logarithm of posterior density around a point, without the amplitudes' own priors:
+//   deviance - 2 score' x + x' information x,  x the change of effects' parameters and tolerances
+struct Quadratic {
+  MatrixXd information;
+  VectorXd score;
+  VectorXd prior;         // information that was there beforehand
+  double deviance = 0.0;  // of priors and trials at the point
+
+  double least() const { return deviance - score.dot(information.ldlt().solve(score)); }
+};
+
+// An amplitude that nothing shows keeps the solution finite by a little.
+constexpr double kBarely = 1e-4;
+constexpr double kNamed = 1e12;  // holds the error of an effect that is in the set at nothing
+
+// `times`: of each repeatable model error, its scale here over the learned one.
+Quadratic quadratic_at(const Problem& problem, const Point& point, const std::vector<MatrixXd>& grams,
+                       const std::vector<double>& times) {
+  const Hypothesis& h = point.hypothesis;
+  const auto parameters = static_cast<Index>(h.parameters());
+  const auto tolerances = static_cast<Index>(point.tolerances.size());
+  const auto errors = static_cast<Index>(problem.repeatable_error.size());
+  const Index k = parameters + tolerances + errors;
+  Quadratic q{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
+  for (const auto& gram : grams) {
+    q.information += gram.block(1, 1, k, k);
+    q.score += gram.col(0).segment(1, k);
+    q.deviance += gram(0, 0);
+  }
+  Index i = 0;
+  for (std::size_t e = 0; e < h.candidates.size(); ++e) {
+    const auto& p = problem.candidates[h.candidates[e]].parameters;
+    for (std::size_t j = 0; j < p.size(); ++j, ++i) {
+      if (j == 0) {
+        q.information(i, i) += kBarely;
+        continue;
+      }
+      const double centre = is_amplitude(p, j) ? 0.0 : p[j].typical;
+      const double offset = (h.values[e][j] - centre) / p[j].typical;
+      q.prior[i] = 1.0;
+      q.score[i] -= offset;
+      q.deviance += offset * offset;
+    }
+  }
+  const VectorXd held = prior_information(problem, point);
+  for (Index t = 0; t < tolerances; ++t) {
+    const double value = point.tolerances[static_cast<std::size_t>(t)];
+    q.prior[parameters + t] = held[parameters + t];
+    q.score[parameters + t] -= value;
+    q.deviance += value * value;
+  }
+  const auto& repeatable = problem.repeatable_error;
+  for (Index i = 0; i < errors; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool named =
+        repeatable.candidate[at] != RepeatableError::kNoCandidate && h.contains(repeatable.candidate[at]);
+    q.prior[parameters + tolerances + i] =
+        named ? kNamed : std::pow(times[static_cast<std::size_t>(repeatable.group[at])], -2);
+  }
+  q.information.diagonal() += q.prior;
+  return q;
+}
+
+}  // namespace
+
+namespace {
+
+// ln of the hyperprior: half-normal, one for each repeatable error.
+double log_hyperprior(const std::vector<double>& times) {
+  double sum = 0.0;
+  for (const double one : times) sum -= 0.5 * one * one;
+  return sum;
+}
+
+// Without the amplitudes' priors, which hardly know of it.
+double value_of(const Quadratic& q) {
+  double of_prior = 0.0;
+  for (Index i = 0; i < q.prior.size(); ++i)
+    if (q.prior[i] > 0.0) of_prior += std::log(q.prior[i]);
+  return -0.5 * q.least() + 0.5 * (of_prior - log_determinant(q.information));
+}
+
+std::size_t groups_of(const Problem& problem) {
+  int most = -1;
+  for (const int group : problem.repeatable_error.group) most = std::max(most, group);
+  return static_cast<std::size_t>(most + 1);
+}
+
+// One group of repeatable errors after the other, from what was learned.
+std::vector<double> likeliest_times(const Problem& problem, const Point& point,
+                                    const std::vector<MatrixXd>& grams) {
+  std::vector<double> times(groups_of(problem), 1.0);
+  const auto value = [&](const std::vector<double>& t) {
+    return value_of(quadratic_at(problem, point, grams, t)) + log_hyperprior(t);
+  };
+  double most = value(times);
+  for (double& one : times) {
+    const double before = one;
+    double best = before;
+    for (const double size : kLimits.repeatable_sizes) {
+      one = size;
+      if (const double v = value(times); v > most) {
+        most = v;
+        best = size;
+      }
+    }
+    one = best;
+  }
+  return times;
+}
+
+}  // namespace
+
+LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
+  const Hypothesis& h = fit.point.hypothesis;
+  const auto parameters = static_cast<Index>(h.parameters());
+  LogEvidence out;
+  out.times = likeliest_times(problem, fit.point, at.grams);
+  const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
+  const Quadratic plain =
+      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
+  // The fit is as close as the simulation lets it be; what errors of form, and larger ones of the ports,
+  // change is read off the linear approximation.
+  double off = 0.0;
+  for (std::size_t t = 0; t < at.plain.size(); ++t) off += fit.trial_deviance[t] - at.plain[t](0, 0);
+  off += plain.deviance - plain.least();
+  out.deviance = q.least() + off;
+  out.value = value_of(q) - 0.5 * off + log_hyperprior(out.times) - 0.5 * at.log_determinant;
+  const Index k = q.score.size();
+  const MatrixXd covariance = q.information.ldlt().solve(MatrixXd::Identity(k, k));
+  const VectorXd step = covariance * q.score;
+  Index first = 0;
+  for (std::size_t e = 0; e < h.candidates.size(); ++e) {
+    const auto& p = problem.candidates[h.candidates[e]].parameters;
+    const double sd = std::sqrt(std::max(covariance(first, first), 1e-300));
+    // In place of the integral sqrt(2 pi) sd of a flat prior, which the determinant stands for.
+    out.value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].either_sign) -
+                 std::log(sd);
+    first += static_cast<Index>(p.size());
+  }
+  out.covariance = covariance.topLeftCorner(parameters, parameters);
+  for (std::size_t e = 0; e < h.candidates.size(); ++e)
+    out.trials.push_back(of_trials(problem, h, at, e, q.prior));
+  return out;
+}
+
+}  // namespace sandhopper::diagnose

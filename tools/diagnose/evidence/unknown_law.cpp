@@ -1,0 +1,92 @@
+#include "tools/diagnose/evidence/unknown_law.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tools/diagnose/evidence/log_determinant.hpp"
+#include "tools/diagnose/screen.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kProbe = 0.2;  // of a port's scale, for the derivative by a knot
+
+// ln mean over s of exp(u' (H + R^-1 / s^2)^-1 u / 2) / |I + s^2 R H|^1/2.
+double log_factor_of(const MatrixXd& information, const VectorXd& score, const MatrixXd& precision) {
+  std::vector<double> terms;
+  for (const double s : kLimits.unknown_sizes) {
+    const MatrixXd prior = precision / (s * s);
+    const MatrixXd posterior = information + prior;
+    terms.push_back(0.5 * score.dot(posterior.ldlt().solve(score)) -
+                    0.5 * (log_determinant(posterior) - log_determinant(prior)));
+  }
+  const double most = *std::ranges::max_element(terms);
+  double sum = 0.0;
+  for (const double term : terms) sum += std::exp(term - most);
+  return most + std::log(sum / static_cast<double>(terms.size()));
+}
+
+}  // namespace
+
+std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
+                                     const std::vector<double>& times) {
+  const auto families = free_families(problem, point);
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<Direction> terms;
+  std::vector<std::vector<Index>> columns;
+  const auto own = static_cast<Index>(point.hypothesis.parameters() + point.tolerances.size());
+  for (const auto& family : families) {
+    columns.emplace_back();
+    for (const auto& term : family.terms) {
+      columns.back().push_back(own + 1 + static_cast<Index>(terms.size()));
+      terms.push_back({with_term(base, term, kProbe), kProbe});
+    }
+  }
+  const AtFit at = linearised_at(problem, point, nullptr, terms);
+  std::vector<TrialLinear> linear(at.grams.size());
+  for (std::size_t t = 0; t < linear.size(); ++t) linear[t].gram = at.grams[t];
+  // Repeatable error of the port's own law in this variable stays: an unknown one is larger.
+  const auto errors = static_cast<Index>(problem.repeatable_error.size());
+  const auto all = at.grams.front().rows();
+  std::vector<Index> order;
+  for (Index i = 0; i <= own; ++i) order.push_back(i);
+  for (Index i = all - errors; i < all; ++i) order.push_back(i);
+  for (Index i = own + 1; i < all - errors; ++i) order.push_back(i);
+  for (auto& trial : linear) trial.gram = MatrixXd(trial.gram(order, order));
+  for (auto& of_family : columns)
+    for (auto& column : of_family) column += errors;
+  VectorXd prior(own + errors);
+  prior.head(own) = prior_information(problem, point);
+  for (Index i = 0; i < errors; ++i)
+    prior[own + i] = std::pow(
+        times[static_cast<std::size_t>(problem.repeatable_error.group[static_cast<std::size_t>(i)])], -2);
+  const auto grams = eliminated(linear, 1, own + errors, prior);
+  std::vector<UnknownLaw> laws;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const auto k = static_cast<Index>(columns[f].size());
+    const MatrixXd precision = free_law_information(columns[f].size()) / kFreeLawInformation;  // R^-1
+    MatrixXd information = MatrixXd::Zero(k, k);
+    VectorXd score = VectorXd::Zero(k);
+    for (const auto& gram : grams)
+      for (Index i = 0; i < k; ++i) {
+        score[i] += gram(columns[f][static_cast<std::size_t>(i)], 0);
+        for (Index j = 0; j < k; ++j)
+          information(i, j) +=
+              gram(columns[f][static_cast<std::size_t>(i)], columns[f][static_cast<std::size_t>(j)]);
+      }
+    const MatrixXd held = information + free_law_information(columns[f].size());
+    UnknownLaw law{families[f], log_factor_of(information, score, precision),
+                   score.dot(held.ldlt().solve(score))};
+    laws.push_back(std::move(law));
+  }
+  std::ranges::sort(laws, std::greater<>{}, &UnknownLaw::log_factor);
+  return laws;
+}
+
+}  // namespace sandhopper::diagnose
