@@ -61,6 +61,20 @@ TEST(DiagnoseDataFaults, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
   }
 }
 
+// What happened once in twelve trials says nothing of the sensor.
+TEST(DiagnoseDataFaults, AStretchThatStoodStillOnceIsAnEvent) {
+  DataFault once, often;
+  once.id = often.id = "data.stuck";
+  once.stretches = 1;
+  often.stretches = 2;
+  std::vector<DataFault> faults{once, often};
+  EXPECT_EQ(take_single_events(faults, 12).size(), 1u);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().stretches, 2u);
+  faults = {once};
+  EXPECT_TRUE(take_single_events(faults, 2).empty());
+}
+
 // A foot that goes in meanwhile: before such a stretch the force is small, after it large, and the next one
 // follows at once.
 TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {

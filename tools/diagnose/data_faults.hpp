@@ -31,4 +31,7 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials);
 // missing there, the samples only tell that there was more.
 std::vector<DataFault> take_known_limits(std::vector<DataFault>& faults, const Belief& belief);
 
+// And those that happened once, in one trial of many: that is an event, no fault of the sensor.
+std::vector<DataFault> take_single_events(std::vector<DataFault>& faults, std::size_t trials);
+
 }  // namespace sandhopper::diagnose

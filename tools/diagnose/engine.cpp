@@ -211,6 +211,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   for (const auto& limit : take_known_limits(faults, clean.belief))
     diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
                                           limit.channel, limit.stretches, limit.limit));
+  for (const auto& event : take_single_events(faults, clean.trials.size()))
+    diagnosis.notes.push_back(fmt::format("{}: {} once, for {:.3g} s; left out", event.channel,
+                                          event.id == "data.stuck" ? "stood still" : "fell out",
+                                          event.duration_s));
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();

@@ -238,29 +238,25 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     for (std::size_t i = 0; i < wanted.size(); ++i)
       out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
+  // Columns behind those asked for, in the result behind the tolerances, too.
+  const auto append = [&](const MatrixXd& more) {
+    const Index own = x.cols();
+    x.conservativeResize(Eigen::NoChange, own + more.cols());
+    x.rightCols(more.cols()) = more;
+    for (auto& place : order)
+      if (place >= own) place += more.cols();
+    for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
+  };
   if (options.forms != nullptr) {
     std::vector<VectorXd> derivatives(directions.size());
     Index at = 1;
     for (std::size_t i = 0; i < directions.size(); ++i)
       if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
-    const MatrixXd forms = form_columns(trial, *options.forms, derivatives);
-    const Index own = x.cols();
-    x.conservativeResize(Eigen::NoChange, own + forms.cols());
-    x.rightCols(forms.cols()) = forms;
-    for (auto& place : order)
-      if (place >= own) place += forms.cols();
-    for (Index i = 0; i < forms.cols(); ++i) order.push_back(own + i);
+    append(form_columns(trial, *options.forms, derivatives));
   }
   whiten(problem, index, x);
-  if (options.with_repeatable_error && index < problem.repeatable_error.white.size()) {
-    const MatrixXd& white = problem.repeatable_error.white[index];
-    const Index own = x.cols();
-    x.conservativeResize(Eigen::NoChange, own + white.cols());
-    x.rightCols(white.cols()) = white;
-    for (auto& place : order)
-      if (place >= own) place += white.cols();
-    for (Index i = 0; i < white.cols(); ++i) order.push_back(own + i);
-  }
+  if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
+    append(problem.repeatable_error.white[index]);
   eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.

@@ -63,15 +63,8 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
     gain.p_value =
         std::min(1.0, p_of_gains(held_out.of_trial, kGainSpread) * static_cast<double>(families.size()));
     const auto k = static_cast<Index>(columns[f].size());
-    MatrixXd information = prior_of_law;
-    VectorXd score = VectorXd::Zero(k);
-    for (const auto& gram : grams)
-      for (Index i = 0; i < k; ++i) {
-        score[i] += gram(columns[f][static_cast<std::size_t>(i)], 0);
-        for (Index j = 0; j < k; ++j)
-          information(i, j) +=
-              gram(columns[f][static_cast<std::size_t>(i)], columns[f][static_cast<std::size_t>(j)]);
-      }
+    const auto [of_data, score] = pooled(grams, columns[f]);
+    const MatrixXd information = of_data + prior_of_law;
     const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(k, k));
     gain.size = covariance * score;
     gain.sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();

@@ -64,17 +64,21 @@ std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index f
   return grams;
 }
 
+Pooled pooled(const std::vector<MatrixXd>& grams, const std::vector<Index>& columns) {
+  const auto k = static_cast<Index>(columns.size());
+  Pooled out{MatrixXd::Zero(k, k), VectorXd::Zero(k)};
+  for (const auto& gram : grams) {
+    out.information += gram(columns, columns);
+    out.score += gram(columns, 0);
+  }
+  return out;
+}
+
 GroupGain group_gain(const std::vector<MatrixXd>& grams, const std::vector<Index>& columns,
                      double prior_information) {
   const auto k = static_cast<Index>(columns.size());
-  MatrixXd information = MatrixXd::Identity(k, k) * prior_information;
-  VectorXd score = VectorXd::Zero(k);
-  for (const auto& gram : grams)
-    for (Index i = 0; i < k; ++i) {
-      score[i] += gram(columns[static_cast<std::size_t>(i)], 0);
-      for (Index j = 0; j < k; ++j)
-        information(i, j) += gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
-    }
+  auto [information, score] = pooled(grams, columns);
+  information.diagonal().array() += prior_information;
   GroupGain out;
   out.size = information.ldlt().solve(score);
   out.gain = std::max(0.0, score.dot(out.size));

@@ -14,6 +14,13 @@ namespace sandhopper::diagnose {
 std::vector<Eigen::MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Eigen::Index first,
                                         Eigen::Index count, const Eigen::VectorXd& prior_information);
 
+// Information and score of some columns, over all trials.
+struct Pooled {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+};
+Pooled pooled(const std::vector<Eigen::MatrixXd>& grams, const std::vector<Eigen::Index>& columns);
+
 // What a group of columns explains together (ridge `prior_information` each), trial by trial.
 struct GroupGain {
   Eigen::VectorXd size;    // of each column

@@ -69,17 +69,8 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
   const auto grams = eliminated(linear, 1, own + errors, prior);
   std::vector<UnknownLaw> laws;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const auto k = static_cast<Index>(columns[f].size());
     const MatrixXd precision = free_law_information(columns[f].size()) / kFreeLawInformation;  // R^-1
-    MatrixXd information = MatrixXd::Zero(k, k);
-    VectorXd score = VectorXd::Zero(k);
-    for (const auto& gram : grams)
-      for (Index i = 0; i < k; ++i) {
-        score[i] += gram(columns[f][static_cast<std::size_t>(i)], 0);
-        for (Index j = 0; j < k; ++j)
-          information(i, j) +=
-              gram(columns[f][static_cast<std::size_t>(i)], columns[f][static_cast<std::size_t>(j)]);
-      }
+    const auto [information, score] = pooled(grams, columns[f]);
     const MatrixXd held = information + free_law_information(columns[f].size());
     UnknownLaw law{families[f], log_factor_of(information, score, precision),
                    score.dot(held.ldlt().solve(score))};
