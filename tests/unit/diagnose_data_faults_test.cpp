@@ -44,37 +44,6 @@ TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
               0.02 * static_cast<double>(lost) / recorded_s);
 }
 
-// An accelerometer that stops where its range is believed to end is no fault; one that stops sooner is.
-TEST(DiagnoseDataFaults, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
-  Belief belief;
-  belief.numbers["sensors.imu_range_mps2"] = 156.9;
-  for (const double limit : {156.9, 156.85, 150.0}) {
-    DataFault clipped;
-    clipped.channel = "imu_foot_accel_z_mps2";
-    clipped.id = "imu.clipping";
-    clipped.limit = limit;
-    clipped.limit_resolution = 0.002;
-    std::vector<DataFault> faults{clipped};
-    const auto known = take_known_limits(faults, belief);
-    EXPECT_EQ(known.size(), limit > 156.0 ? 1u : 0u) << limit;
-    EXPECT_EQ(faults.size(), limit > 156.0 ? 0u : 1u) << limit;
-  }
-}
-
-// What happened once in twelve trials says nothing of the sensor.
-TEST(DiagnoseDataFaults, AStretchThatStoodStillOnceIsAnEvent) {
-  DataFault once, often;
-  once.id = often.id = "data.stuck";
-  once.stretches = 1;
-  often.stretches = 2;
-  std::vector<DataFault> faults{once, often};
-  EXPECT_EQ(take_single_events(faults, 12).size(), 1u);
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults.front().stretches, 2u);
-  faults = {once};
-  EXPECT_TRUE(take_single_events(faults, 2).empty());
-}
-
 // A foot that goes in meanwhile: before such a stretch the force is small, after it large, and the next one
 // follows at once.
 TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {

@@ -11,7 +11,7 @@
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/prepare.hpp"
 
-// What two honest simulations differ by, and what it is worth.
+// Model error in the likelihood, and the evidence of a size.
 namespace sandhopper::diagnose {
 namespace {
 

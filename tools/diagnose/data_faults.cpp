@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -11,7 +10,6 @@
 #include <utility>
 
 #include "tools/diagnose/data_fault_parts.hpp"
-#include "tools/diagnose/misfit.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/statistics.hpp"
 
@@ -412,32 +410,6 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
     find_clipping(trials, channel, faults);
   }
   return faults;
-}
-
-namespace {
-
-template <class Predicate>
-std::vector<DataFault> taken(std::vector<DataFault>& faults, Predicate wanted) {
-  std::vector<DataFault> out;
-  std::ranges::copy_if(faults, std::back_inserter(out), wanted);
-  std::erase_if(faults, wanted);
-  return out;
-}
-
-}  // namespace
-
-std::vector<DataFault> take_known_limits(std::vector<DataFault>& faults, const Belief& belief) {
-  const double range = belief.value("sensors.imu_range_mps2");
-  return taken(faults, [&](const DataFault& fault) {
-    return fault.id == "imu.clipping" && range > 0.0 &&
-           std::abs(std::abs(fault.limit) - range) <= std::max(fault.limit_resolution, 1e-3 * range);
-  });
-}
-
-std::vector<DataFault> take_single_events(std::vector<DataFault>& faults, std::size_t trials) {
-  return taken(faults, [&](const DataFault& fault) {
-    return trials >= kTooFewTrials && fault.stretches == 1 && fault.limit == 0.0;
-  });
 }
 
 }  // namespace sandhopper::diagnose

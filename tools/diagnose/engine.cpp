@@ -16,6 +16,7 @@
 #include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/report_parts.hpp"
 #include "tools/diagnose/search.hpp"
+#include "tools/diagnose/search_parts.hpp"
 #include "tools/diagnose/spread_seen.hpp"
 #include "tools/diagnose/unexplained.hpp"
 
@@ -33,13 +34,6 @@ constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
 constexpr double kUnknownBesideNames = 0.7;
 constexpr double kDoubtBesideUnknown = 0.1;  // of 108 such names 9 were right: seeds 5600, 9042 to 9049
-
-std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
-  if (set.empty()) return "nothing";
-  std::string text;
-  for (const auto c : set) text += (text.empty() ? "" : " + ") + problem.candidates[c].label();
-  return text;
-}
 
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   const auto& screened = search.screened({});

@@ -190,14 +190,17 @@ std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vect
   return families;
 }
 
-Eigen::MatrixXd free_law_information(std::size_t knots) {
+Eigen::MatrixXd knot_correlation(Eigen::Index knots) {
   constexpr double kAlike = 2.0;  // knots
-  const auto n = static_cast<Eigen::Index>(knots);
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      covariance(i, j) = std::exp(-std::abs(static_cast<double>(i - j)) / kAlike) / kFreeLawInformation;
-  return covariance.inverse();
+  Eigen::MatrixXd correlation(knots, knots);
+  for (Eigen::Index i = 0; i < knots; ++i)
+    for (Eigen::Index j = 0; j < knots; ++j)
+      correlation(i, j) = std::exp(-std::abs(static_cast<double>(i - j)) / kAlike);
+  return correlation;
+}
+
+Eigen::MatrixXd free_law_information(std::size_t knots) {
+  return (knot_correlation(static_cast<Eigen::Index>(knots)) / kFreeLawInformation).inverse();
 }
 
 Edits with_term(Edits base, const FreeTerm& term, double amplitude) {

@@ -20,6 +20,9 @@ struct FreeFamily {
 
 inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of the port: prior sd 2
 
+// Of values at knots that are an Ornstein-Uhlenbeck process along them, unit variance.
+Eigen::MatrixXd knot_correlation(Eigen::Index knots);
+
 // Prior information of a law's knots in scales of the port: each with sd 2, neighbours alike (an
 // Ornstein-Uhlenbeck process along the knots).
 Eigen::MatrixXd free_law_information(std::size_t knots);

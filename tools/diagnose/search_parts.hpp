@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "tools/diagnose/problem.hpp"
@@ -13,6 +14,13 @@ inline constexpr double kSmallestOfTypical = 0.08;
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
   set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
   return set;
+}
+
+inline std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
+  if (set.empty()) return "nothing";
+  std::string text;
+  for (const auto c : set) text += (text.empty() ? "" : " + ") + problem.candidates[c].label();
+  return text;
 }
 
 // The largest amplitude of one effect, in typical sizes.

@@ -16,17 +16,10 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr double kProbe = 0.2;  // of a port's scale, for the derivative by a force there
-constexpr double kAlike = 2.0;  // knots over which an Ornstein-Uhlenbeck process forgets
 constexpr Index kMostKnots = 40;
 
-// L with L L' = covariance of an Ornstein-Uhlenbeck process at `count` knots, unit variance.
-MatrixXd process_factor(Index count) {
-  MatrixXd covariance(count, count);
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j)
-      covariance(i, j) = std::exp(-std::abs(static_cast<double>(i - j)) / kAlike);
-  return covariance.llt().matrixL();
-}
+// L with L L' = correlation of values at `count` knots.
+MatrixXd process_factor(Index count) { return knot_correlation(count).llt().matrixL(); }
 
 // Derivatives by a force at `port` that is a hat function of time around each knot, along the process.
 MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edits& base,
@@ -67,7 +60,8 @@ ModelError at(const Problem& problem, const TrialModel& trial, const Edits& base
       parts.emplace_back(s.numerical * (other - centre));
     } else {
       predict(sooner, one);
-      // What both differ by in opposite ways is a column; what they differ by in the same way has no sign.
+      // Half their difference is a column; their mean less the simulation has no sign and goes to the row's
+      // sd.
       parts.emplace_back(s.numerical * 0.5 * (other - one));
       rest.array() += (s.numerical * 0.5 * (other + one - 2.0 * centre)).array().square();
     }

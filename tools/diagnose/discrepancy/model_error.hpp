@@ -21,8 +21,8 @@ struct ModelErrorScales {
 };
 inline constexpr ModelErrorScales kModelErrorScales{};
 
-// What all trials may be off by alike though nothing is missing: laws of free form at the plant's ports, and
-// a little of every effect on the list. Columns times their prior standard deviation; it is small, so that
+// Model error that is the same in all trials: laws of free form at the plant's ports, and a little of every
+// effect on the list. Columns times their prior standard deviation; it is small, so that
 // they are taken everywhere as they are at one point.
 struct RepeatableError {
   std::vector<int> group;              // of each column: columns of a group share their scale
@@ -33,7 +33,7 @@ struct RepeatableError {
   std::size_t size() const { return group.size(); }
 };
 
-// What one trial may be off by though nothing is missing:
+// Model error of one trial, independent of that of the others:
 //   D = [numerical variants, port forces u_{p,t}], each column times its prior standard deviation
 // and, row by row, what two simulations differ by that no such column describes.
 struct ModelError {

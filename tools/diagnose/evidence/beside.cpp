@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/unknown_law.hpp"
+#include "tools/diagnose/search_parts.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -19,12 +20,6 @@ struct Weighed {
   std::string what;
   double log_mass = 0.0;
 };
-
-std::string name_of(const Problem& problem, const std::vector<std::size_t>& set) {
-  std::string text;
-  for (const auto c : set) text += (text.empty() ? "" : " + ") + problem.candidates[c].label();
-  return text.empty() ? "nothing" : text;
-}
 
 std::vector<const SetFit*> nearest(const Search& search) {
   std::vector<const SetFit*> order;
@@ -43,14 +38,14 @@ void tell_evidence(Problem& problem, const Search& search, std::vector<std::stri
   problem.repeatable_error = repeatable_error(problem, search.null().fit.point);
   std::vector<Weighed> all;
   for (const SetFit* fit : nearest(search)) {
-    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point, nullptr));
+    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     const double log_mass = evidence.value + log_prior(problem, fit->set.size());
-    all.push_back({name_of(problem, fit->set), log_mass});
+    all.push_back({set_text(problem, fit->set), log_mass});
     if (fit != &search.best() && !fit->set.empty()) continue;
     const auto laws = unknown_laws(problem, fit->fit.point, evidence.times);
     const double prior = std::log(kLimits.unknown_expected / static_cast<double>(laws.size()));
     for (std::size_t i = 0; i < laws.size() && i < kLawsWeighed; ++i)
-      all.push_back({fmt::format("{} and unknown at {} of {}", name_of(problem, fit->set),
+      all.push_back({fmt::format("{} and unknown at {} of {}", set_text(problem, fit->set),
                                  laws[i].family.port, laws[i].family.variable),
                      log_mass + laws[i].log_factor + prior});
   }

@@ -3,8 +3,8 @@
 
 namespace sandhopper::diagnose {
 
-// What the evidence believes beforehand. The evidence is computed beside the present answer and printed with
-// --search; it decides nothing yet.
+// Priors of the evidence, which is computed beside the present answer and printed with --search. It decides
+// nothing yet.
 struct Limits {
   double effects_expected = 1.0;  // how many of the list are missing, on average
   double unknown_expected = 0.2;  // and how many that are on no list

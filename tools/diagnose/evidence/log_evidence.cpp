@@ -8,70 +8,23 @@
 
 #include "tools/diagnose/evidence/log_determinant.hpp"
 #include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/free_laws.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kKnotsAlike = 2.0;
-
 // Of the form and size of one effect in one trial, over the knots of FormOf.
 MatrixXd form_covariance() {
-  MatrixXd c(kFormKnots, kFormKnots);
-  for (Index i = 0; i < kFormKnots; ++i)
-    for (Index j = 0; j < kFormKnots; ++j)
-      c(i, j) = kLimits.size_of_trial * kLimits.size_of_trial +
-                kLimits.form * kLimits.form * std::exp(-std::abs(static_cast<double>(i - j)) / kKnotsAlike);
-  return c;
-}
-
-// One effect trial by trial: score and information of its size along its fitted amplitudes, with the effect
-// put back into the residual, everything else eliminated over all trials together.
-TrialEvidence of_trials(const Problem& problem, const Hypothesis& h, const AtFit& at, std::size_t effect,
-                        const VectorXd& prior) {
-  std::vector<Index> own, others;
-  VectorXd along;
-  Index column = 1;
-  std::vector<double> sizes;
-  for (std::size_t e = 0; e < h.candidates.size(); ++e) {
-    const auto& p = problem.candidates[h.candidates[e]].parameters;
-    for (std::size_t j = 0; j < p.size(); ++j, ++column)
-      if (e == effect && is_amplitude(p, j)) {
-        own.push_back(column);
-        sizes.push_back(h.values[e][j] / p[j].typical);
-      } else {
-        others.push_back(column);
-      }
-  }
-  for (; column <= prior.size(); ++column) others.push_back(column);
-  const auto n = static_cast<Index>(others.size());
-  // Columns: residual with the effect put back, the effect, all others.
-  std::vector<TrialLinear> trials;
-  VectorXd held(n);
-  for (Index i = 0; i < n; ++i) held[i] = std::max(prior[others[static_cast<std::size_t>(i)] - 1], 1e-4);
-  for (const auto& gram : at.grams) {
-    MatrixXd transform = MatrixXd::Zero(gram.rows(), 2 + n);
-    transform(0, 0) = 1.0;
-    for (std::size_t i = 0; i < own.size(); ++i) transform(own[i], 0) = transform(own[i], 1) = sizes[i];
-    for (Index i = 0; i < n; ++i) transform(others[static_cast<std::size_t>(i)], 2 + i) = 1.0;
-    trials.emplace_back();
-    trials.back().gram = transform.transpose() * gram * transform;
-  }
-  TrialEvidence evidence;
-  for (const auto& gram : eliminated(trials, 2, n, held)) {
-    evidence.score.push_back(gram(1, 0));
-    evidence.information.push_back(std::max(gram(1, 1), 0.0));
-  }
-  return evidence;
+  return (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
+         kLimits.size_of_trial * kLimits.size_of_trial;
 }
 
 }  // namespace
 
 double log_integral_over_size(double best, double sd, bool either_sign) {
-  // On a grid of ln|b|, both signs where there are two: exact enough where sd is small against the grid's
-  // step only if the grid follows it, so that the peak is integrated on its own.
+  // By the midpoint rule in ln|b|, on a grid that spans the peak of the likelihood only.
   const double spread = kLimits.size_spread;
   const auto density = [&](double b) {  // of the prior, per unit of b
     const double l = std::log(std::abs(b)) / spread;
@@ -101,8 +54,7 @@ double log_prior(const Problem& problem, std::size_t effects) {
          std::log(kLimits.effects_expected / static_cast<double>(problem.candidates.size()));
 }
 
-AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<KeptColumns>* columns,
-                    const std::vector<Direction>& more) {
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {
   auto directions = parameter_directions(problem, point);
   std::vector<FormOf> forms;
   std::size_t at = 0;
@@ -115,8 +67,8 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
     forms.push_back(std::move(form));
   }
   directions.insert(directions.end(), more.begin(), more.end());
-  const auto linear = linearise_all(problem, point, directions,
-                                    {.forms = &forms, .with_repeatable_error = true, .columns = columns});
+  const auto linear =
+      linearise_all(problem, point, directions, {.forms = &forms, .with_repeatable_error = true});
   // [residual, directions | forms | repeatable error]: the forms belong to one trial each.
   const auto n = static_cast<Index>(forms.size()) * kFormKnots;
   const auto before = static_cast<Index>(directions.size()) + 1;
@@ -208,10 +160,6 @@ Quadratic quadratic_at(const Problem& problem, const Point& point, const std::ve
   return q;
 }
 
-}  // namespace
-
-namespace {
-
 // ln of the hyperprior: half-normal, one for each repeatable error.
 double log_hyperprior(const std::vector<double>& times) {
   double sum = 0.0;
@@ -260,7 +208,6 @@ std::vector<double> likeliest_times(const Problem& problem, const Point& point,
 
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
   const Hypothesis& h = fit.point.hypothesis;
-  const auto parameters = static_cast<Index>(h.parameters());
   LogEvidence out;
   out.times = likeliest_times(problem, fit.point, at.grams);
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
@@ -271,7 +218,6 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
   double off = 0.0;
   for (std::size_t t = 0; t < at.plain.size(); ++t) off += fit.trial_deviance[t] - at.plain[t](0, 0);
   off += plain.deviance - plain.least();
-  out.deviance = q.least() + off;
   out.value = value_of(q) - 0.5 * off + log_hyperprior(out.times) - 0.5 * at.log_determinant;
   const Index k = q.score.size();
   const MatrixXd covariance = q.information.ldlt().solve(MatrixXd::Identity(k, k));
@@ -285,9 +231,6 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
                  std::log(sd);
     first += static_cast<Index>(p.size());
   }
-  out.covariance = covariance.topLeftCorner(parameters, parameters);
-  for (std::size_t e = 0; e < h.candidates.size(); ++e)
-    out.trials.push_back(of_trials(problem, h, at, e, q.prior));
   return out;
 }
 

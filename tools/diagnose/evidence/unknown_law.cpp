@@ -1,6 +1,7 @@
 #include "tools/diagnose/evidence/unknown_law.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -48,7 +49,7 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
       terms.push_back({with_term(base, term, kProbe), kProbe});
     }
   }
-  const AtFit at = linearised_at(problem, point, nullptr, terms);
+  const AtFit at = linearised_at(problem, point, terms);
   std::vector<TrialLinear> linear(at.grams.size());
   for (std::size_t t = 0; t < linear.size(); ++t) linear[t].gram = at.grams[t];
   // Repeatable error of the port's own law in this variable stays: an unknown one is larger.
@@ -69,12 +70,9 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
   const auto grams = eliminated(linear, 1, own + errors, prior);
   std::vector<UnknownLaw> laws;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const MatrixXd precision = free_law_information(columns[f].size()) / kFreeLawInformation;  // R^-1
+    const MatrixXd precision = knot_correlation(static_cast<Index>(columns[f].size())).inverse();  // R^-1
     const auto [information, score] = pooled(grams, columns[f]);
-    const MatrixXd held = information + free_law_information(columns[f].size());
-    UnknownLaw law{families[f], log_factor_of(information, score, precision),
-                   score.dot(held.ldlt().solve(score))};
-    laws.push_back(std::move(law));
+    laws.push_back({families[f], log_factor_of(information, score, precision)});
   }
   std::ranges::sort(laws, std::greater<>{}, &UnknownLaw::log_factor);
   return laws;

@@ -13,7 +13,6 @@ struct UnknownLaw {
   // ln of what it makes of the evidence: the law's sizes integrated out under
   //   w ~ N(0, s^2 R),  R an Ornstein-Uhlenbeck process along the knots, s one of Limits::unknown_sizes
   double log_factor = 0.0;
-  double gain = 0.0;  // drop of the deviance
 };
 
 // Every law of free form beside what the point holds, the likeliest first.

@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tools/diagnose/data_faults.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// An accelerometer that stops where its range is believed to end is no fault; one that stops sooner is.
+TEST(DiagnoseDataNotes, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
+  Belief belief;
+  belief.numbers["sensors.imu_range_mps2"] = 156.9;
+  for (const double limit : {156.9, 156.85, 150.0}) {
+    DataFault clipped;
+    clipped.channel = "imu_foot_accel_z_mps2";
+    clipped.id = "imu.clipping";
+    clipped.limit = limit;
+    clipped.limit_resolution = 0.002;
+    std::vector<DataFault> faults{clipped};
+    const auto known = take_known_limits(faults, belief);
+    EXPECT_EQ(known.size(), limit > 156.0 ? 1u : 0u) << limit;
+    EXPECT_EQ(faults.size(), limit > 156.0 ? 0u : 1u) << limit;
+  }
+}
+
+// A stretch that stood still in one of twelve trials is no fault of the sensor.
+TEST(DiagnoseDataNotes, AStretchThatStoodStillOnceIsAnEvent) {
+  DataFault once, often;
+  once.id = often.id = "data.stuck";
+  once.stretches = 1;
+  often.stretches = 2;
+  std::vector<DataFault> faults{once, often};
+  EXPECT_EQ(take_single_events(faults, 12).size(), 1u);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().stretches, 2u);
+  faults = {once};
+  EXPECT_TRUE(take_single_events(faults, 2).empty());
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
