@@ -27,11 +27,10 @@ struct Fit {
 };
 
 struct FitOptions {
-  int max_iterations = 24;
+  int max_iterations = 14;
   double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
   bool refresh = true;     // once steps fall short, go on with derivatives by the nuisances made there
   const std::vector<KeptColumns>* columns = nullptr;  // until then; the problem's own where not given
-  bool columns_made_here = false;  // at `start`
   // Of what a trial is off beyond its rows: nuisances that would follow for less stay.
   double far_gain = 0.0;
   // Of the deviance: what could not come below it if each iteration left gained twice what the last one did

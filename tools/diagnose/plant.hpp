@@ -79,12 +79,6 @@ class TrialModel {
     return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
   }
 
-  double sd_of(std::size_t nuisance) const {
-    const std::size_t q = trial_nuisances.size();
-    return nuisance < q ? trial_nuisances[nuisance].sd
-                        : block_nuisances[(nuisance - q) % block_nuisances.size()].sd;
-  }
-
   std::string name;
   std::vector<Row> rows;  // channel by channel, in time within each channel
   std::uint32_t blocks = 1;

@@ -11,6 +11,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
+constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
 
 void found_without_a_fit(Diagnosis& diagnosis, const char* detail) {
   if (diagnosis.verdict != "consistent" && diagnosis.verdict != "insufficient_data") return;
@@ -68,8 +69,9 @@ void report_trial_to_trial(const Problem& problem, const Search& search, Diagnos
   }
 }
 
-void report_unknown(const UnknownLaw& gain, double probability, double share, Diagnosis& diagnosis) {
-  const std::string port = port_of(gain.family);
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
+  std::string port = gain.family.port;
+  if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
   const char* acts = port == "axis" || port == "joint" || port == "actuator" ? "torque_Nm" : "force_N";
   const std::string quantity = gain.family.sensor && port != "actuator" ? port : acts;
   UnknownForce unknown{port, quantity, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
@@ -88,11 +90,80 @@ void report_unknown(const UnknownLaw& gain, double probability, double share, Di
       fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
   effect.equation =
       fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
-  effect.probability = probability;
+  effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
   effect.heldout_gain = share;
   effect.p_value = gain.p_value;
   diagnosis.effects.push_back(std::move(effect));
   diagnosis.unknown.push_back(std::move(unknown));
+}
+
+void report_unknown_near(double share, Diagnosis& diagnosis) {
+  const auto near = std::ranges::find_if(diagnosis.effects, [](const FoundEffect& effect) {
+    return effect.channel.empty() && effect.port != "clock";
+  });
+  if (near == diagnosis.effects.end()) return;
+  FoundEffect effect;
+  effect.id = "unknown@" + near->port;
+  effect.port = near->port;
+  effect.statement = fmt::format(
+      "Something that is on no list acts, as far as these recordings tell, at {}: {} comes nearest and "
+      "explains {:.0f} % of it.",
+      near->port, near->id, 100.0 * share);
+  effect.equation = "not known";
+  effect.probability = kNearProbability;
+  effect.p_value = near->p_value;
+  effect.heldout_gain = share;
+  diagnosis.effects.push_back(std::move(effect));
+}
+
+void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + loud.port,
+       .port = loud.port,
+       .statement =
+           fmt::format("Something that is on no list acts at {}: {} scatters {:.1f} times as much as "
+                       "its sensor is believed to.",
+                       loud.port, loud.channel, loud.times),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
+  if (lean.port.empty()) return;
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + lean.port,
+       .port = lean.port,
+       .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
+                                "trial, is off by the same in all, by {:.1f} standard errors.",
+                                lean.port, lean.nuisance, std::abs(lean.z)),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
+  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (ports.size() != 1) return;
+  if (const auto quiet = problem.plant->quiet_phase())
+    for (std::size_t c = 0; c < problem.channels.size(); ++c)
+      if (problem.context.has(problem.channels[c]) &&
+          problem.noise.channel(c).sd_of_phase[*quiet] >
+              kQuiet *
+                  std::max(believed_noise(problem.context.belief, problem.channels[c]), problem.floor_sd[c]))
+        return;
+  const auto port = ports.front().port.substr(0, ports.front().port.find('.'));
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + port,
+       .port = port,
+       .statement =
+           fmt::format("Something that is on no list acts, as far as these recordings tell, at {}: what "
+                       "is left is more than noise and goes with nothing that was recorded.",
+                       port),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
 }
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/problem.hpp"
-#include "tools/diagnose/signatures.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -57,9 +56,8 @@ struct Screened {
 };
 
 // All candidates that the point does not hold, the largest gain first.
-// `columns`: derivatives by the nuisances; the problem's own where null. `signatures`: of this point or one near
-// it.
+// `columns`: derivatives by the nuisances; the problem's own where not given.
 std::vector<Screened> screen(const Problem& problem, const Point& point,
-                             const std::vector<KeptColumns>* columns, const Signatures& signatures);
+                             const std::vector<KeptColumns>* columns = nullptr);
 
 }  // namespace sandhopper::diagnose

@@ -3,9 +3,9 @@
 
 namespace sandhopper::diagnose {
 
-// Every number that decides a verdict. Priors are beliefs; scales of model error are learned (README).
+// Priors of the evidence, which is computed beside the present answer and printed with --search. It decides
+// nothing yet.
 struct Limits {
-  // Beforehand.
   double effects_expected = 1.0;  // how many of the list are missing, on average
   double unknown_expected = 0.2;  // and how many that are on no list
   double size_spread = 1.0;       // standard deviation of ln(size / typical)
@@ -17,13 +17,6 @@ struct Limits {
   std::array<double, 3> unknown_sizes{0.3, 1.0, 3.0};
   // Times the learned scale that repeatable model error may have in one campaign, half-normal.
   std::array<double, 5> repeatable_sizes{0.5, 1.0, 2.0, 3.0, 4.0};
-
-  // What the answer says.
-  double named = 0.5;            // a name with less is not told
-  double member = 0.05;          // of the likeliest's mass: who has less is no member of its class
-  double most_of_gap = 0.5;      // what is unknown and closes less of it stands beside a name
-  double flips = 0.05;           // that trials agree by chance
-  double flips_from_trials = 6;  // fewer cannot say
 };
 inline constexpr Limits kLimits{};
 

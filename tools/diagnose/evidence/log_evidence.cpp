@@ -9,7 +9,6 @@
 #include "tools/diagnose/evidence/log_determinant.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/free_laws.hpp"
-#include "tools/diagnose/screen.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -20,47 +19,6 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 MatrixXd form_covariance() {
   return (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
          kLimits.size_of_trial * kLimits.size_of_trial;
-}
-
-// One effect trial by trial: score and information of its size along its fitted amplitudes, with the effect
-// put back into the residual, everything else eliminated over all trials together.
-TrialEvidence of_trials(const Problem& problem, const Hypothesis& h, const AtFit& at, std::size_t effect,
-                        const VectorXd& prior) {
-  std::vector<Index> own, others;
-  VectorXd along;
-  Index column = 1;
-  std::vector<double> sizes;
-  for (std::size_t e = 0; e < h.candidates.size(); ++e) {
-    const auto& p = problem.candidates[h.candidates[e]].parameters;
-    for (std::size_t j = 0; j < p.size(); ++j, ++column)
-      if (e == effect && is_amplitude(p, j)) {
-        own.push_back(column);
-        sizes.push_back(h.values[e][j] / p[j].typical);
-      } else {
-        others.push_back(column);
-      }
-  }
-  for (; column <= prior.size(); ++column) others.push_back(column);
-  const auto n = static_cast<Index>(others.size());
-  // Columns: residual with the effect put back, the effect, all others.
-  std::vector<TrialLinear> trials;
-  VectorXd held(n);
-  for (Index i = 0; i < n; ++i)
-    held[i] = std::max(prior[others[static_cast<std::size_t>(i)] - 1], 1e-4);
-  for (const auto& gram : at.grams) {
-    MatrixXd transform = MatrixXd::Zero(gram.rows(), 2 + n);
-    transform(0, 0) = 1.0;
-    for (std::size_t i = 0; i < own.size(); ++i) transform(own[i], 0) = transform(own[i], 1) = sizes[i];
-    for (Index i = 0; i < n; ++i) transform(others[static_cast<std::size_t>(i)], 2 + i) = 1.0;
-    trials.emplace_back();
-    trials.back().gram = transform.transpose() * gram * transform;
-  }
-  TrialEvidence evidence;
-  for (const auto& gram : eliminated(trials, 2, n, held)) {
-    evidence.score.push_back(gram(1, 0));
-    evidence.information.push_back(std::max(gram(1, 1), 0.0));
-  }
-  return evidence;
 }
 
 }  // namespace
@@ -96,8 +54,7 @@ double log_prior(const Problem& problem, std::size_t effects) {
          std::log(kLimits.effects_expected / static_cast<double>(problem.candidates.size()));
 }
 
-AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<KeptColumns>* columns,
-                    const std::vector<MatrixXd>* more) {
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {
   auto directions = parameter_directions(problem, point);
   std::vector<FormOf> forms;
   std::size_t at = 0;
@@ -109,9 +66,9 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
         form.directions.emplace_back(at, point.hypothesis.values[e][j] / parameters[j].typical);
     forms.push_back(std::move(form));
   }
-  const auto linear = linearise_all(
-      problem, point, directions,
-      {.forms = &forms, .more = more, .with_repeatable_error = true, .columns = columns});
+  directions.insert(directions.end(), more.begin(), more.end());
+  const auto linear =
+      linearise_all(problem, point, directions, {.forms = &forms, .with_repeatable_error = true});
   // [residual, directions | forms | repeatable error]: the forms belong to one trial each.
   const auto n = static_cast<Index>(forms.size()) * kFormKnots;
   const auto before = static_cast<Index>(directions.size()) + 1;
@@ -194,8 +151,8 @@ Quadratic quadratic_at(const Problem& problem, const Point& point, const std::ve
   const auto& repeatable = problem.repeatable_error;
   for (Index i = 0; i < errors; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const bool named = repeatable.candidate[at] != RepeatableError::kNoCandidate &&
-                       h.contains(repeatable.candidate[at]);
+    const bool named =
+        repeatable.candidate[at] != RepeatableError::kNoCandidate && h.contains(repeatable.candidate[at]);
     q.prior[parameters + tolerances + i] =
         named ? kNamed : std::pow(times[static_cast<std::size_t>(repeatable.group[at])], -2);
   }
@@ -251,17 +208,16 @@ std::vector<double> likeliest_times(const Problem& problem, const Point& point,
 
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
   const Hypothesis& h = fit.point.hypothesis;
-  const auto parameters = static_cast<Index>(h.parameters());
   LogEvidence out;
   out.times = likeliest_times(problem, fit.point, at.grams);
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
-  const Quadratic plain = quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
+  const Quadratic plain =
+      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
   // The fit is as close as the simulation lets it be; what errors of form, and larger ones of the ports,
   // change is read off the linear approximation.
   double off = 0.0;
   for (std::size_t t = 0; t < at.plain.size(); ++t) off += fit.trial_deviance[t] - at.plain[t](0, 0);
   off += plain.deviance - plain.least();
-  out.deviance = q.least() + off;
   out.value = value_of(q) - 0.5 * off + log_hyperprior(out.times) - 0.5 * at.log_determinant;
   const Index k = q.score.size();
   const MatrixXd covariance = q.information.ldlt().solve(MatrixXd::Identity(k, k));
@@ -275,9 +231,6 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
                  std::log(sd);
     first += static_cast<Index>(p.size());
   }
-  out.covariance = covariance.topLeftCorner(parameters, parameters);
-  for (std::size_t e = 0; e < h.candidates.size(); ++e)
-    out.trials.push_back(of_trials(problem, h, at, e, q.prior));
   return out;
 }
 

@@ -1,12 +1,10 @@
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/linearise.hpp"
-#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -16,21 +14,17 @@ namespace sandhopper::diagnose {
 // F_t: information of trial t on the form of each effect, C its prior covariance (form, size_of_trial).
 struct LogEvidence {
   double value = 0.0;
-  std::vector<double> times{};       // the likeliest scale of each repeatable model error over the learned one
-  double deviance = 0.0;             // with model error of the effects' form taken up
-  Eigen::MatrixXd covariance;        // of the effects' parameters, in typical sizes
-  std::vector<TrialEvidence> trials;  // of each effect, one number a trial
+  std::vector<double> times{};  // the likeliest scale of each repeatable model error over the learned one
 };
 
 // Trials linearised at a fit, with the form of every effect eliminated: columns residual, effects'
-// parameters, tolerances, then `more`.
+// parameters, tolerances, `more`, repeatable error.
 struct AtFit {
   std::vector<Eigen::MatrixXd> grams;
   std::vector<Eigen::MatrixXd> plain;  // the same without any error of form
-  double log_determinant = 0.0;  // sum_t ln|I + C_t F_t|
+  double log_determinant = 0.0;        // sum_t ln|I + C_t F_t|
 };
-AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<KeptColumns>* columns,
-                    const std::vector<Eigen::MatrixXd>* more = nullptr);
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {});
 
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at);
 

@@ -156,7 +156,7 @@ class Hopper final : public PlantModel {
 
   std::vector<FreePort> free_ports(const Context& context) const override {
     return {{"rail", false, 0.05 * context.scale("weight_N")},
-            {"joint", false, 0.12 * context.scale("torque_Nm"), true},
+            {"joint", false, 0.05 * context.scale("torque_Nm"), true},
             {"ground.force", false, 0.1 * context.scale("force_N"), true},
             {"actuator", true, 0.1 * context.scale("torque_Nm")}};
   }
