@@ -85,7 +85,8 @@ TEST_P(EveryEffect, StandsFirstOnTheScreenWhenAlone) {
     // A skew that the tolerance of its channel's time says as well is asked without that.
     const bool skew = problem.candidates[c].effect->id == "clock.skew";
     const auto held = skew ? std::exchange(problem.tolerances, {}) : problem.tolerances;
-    const auto found = screen(problem, null_point(problem));
+    const auto found = screen(problem, null_point(problem), nullptr,
+                              signatures_at(problem, null_point(problem), {.laws = false}));
     problem.tolerances = held;
     const auto own =
         std::find_if(found.begin(), found.end(), [&](const Screened& s) { return s.candidate == c; });

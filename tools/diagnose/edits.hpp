@@ -34,10 +34,21 @@ using Law = std::function<double(const PortState&)>;
 // One change of the way from a true quantity to a recorded one. Torque and current that drive the plant pass
 // the same way from "recorded" to "acting": they are the channel "actuator".
 struct SensorEdit {
-  enum class Kind : std::uint8_t { gain, offset, lag_s, delay_s, time_scale, clip_high, clip_low, law };
+  enum class Kind : std::uint8_t {
+    gain,
+    offset,
+    lag_s,
+    delay_s,
+    time_scale,
+    clip_high,
+    clip_low,
+    mean_share,
+    law
+  };
   std::string channel;
   Kind kind{};
   double value = 0.0;
+  double window_s = 0.0;      // of mean_share: what is recorded is by this share the mean over it, centred
   Law law{};                  // added to the value
   std::uint64_t law_key = 0;  // tells laws apart, which cannot be compared; 0: not known
 };
@@ -59,7 +70,7 @@ struct Edits {
   void scale(std::string key, double factor);
   void add(std::string key, double addend);
   void law(std::string port, Law law);
-  void sensor(std::string channel, SensorEdit::Kind kind, double value);
+  void sensor(std::string channel, SensorEdit::Kind kind, double value, double window_s = 0.0);
   void sensor_law(std::string channel, Law law);
 
   double edited(std::string_view key, double value) const {

@@ -30,6 +30,7 @@ constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
+constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
 constexpr double kUnknownBesideNames = 0.7;
@@ -82,7 +83,7 @@ Settled settled_null(Problem& problem) {
   Point null = fit_from(problem, null_point(problem), kFirst).point;
   update_noise(problem, null);
   keep_columns(problem, null);
-  null = fit_from(problem, null).point;
+  null = fit_from(problem, null, kHere).point;
   auto starts = take_spread_as_seen(problem, null);
   if (!starts.empty()) null = fit_from(problem, null).point;
   keep_columns(problem, null);

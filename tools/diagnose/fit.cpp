@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include "tools/diagnose/free_laws.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -20,33 +19,13 @@ constexpr int kNuisanceSteps = 3;       // of a trial at each point that is trie
 constexpr double kNuisanceGain = 0.03;  // of the deviance: less is not worth a simulation
 constexpr double kSpeedsUp = 2.0;       // an iteration may gain so many times what the last one did
 constexpr int kAttempts = 3;
-constexpr double kWorse = 1.0;     // of a trial's deviance
-constexpr double kPromise = 10.0;  // of the deviance: worth derivatives of its own
-constexpr double kPriorTypicals = 10.0;
-constexpr double kDerivativeStep = 0.005;  // of a parameter's typical size
-constexpr double kLawStep = 0.01;          // of a free law's scale
-
-Eigen::Map<const VectorXd> law_sizes(const Hypothesis& hypothesis) {
-  return {hypothesis.law_sizes.data(), static_cast<Index>(hypothesis.law_sizes.size())};
-}
-
-double prior_deviance(const Problem& problem, const Point& point) {
-  double sum = 0.0;
-  if (const auto sizes = law_sizes(point.hypothesis); sizes.size() > 0)
-    sum += sizes.dot(free_law_information(point.hypothesis.law.size()) * sizes);
-  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-      // Only shapes need holding: an amplitude is what is asked for.
-      const bool amplitude = is_amplitude(parameters, j);
-      const double centre = amplitude ? 0.0 : parameters[j].typical;
-      const double sd = amplitude ? kPriorTypicals * parameters[j].typical : parameters[j].typical;
-      sum += std::pow((point.hypothesis.values[i][j] - centre) / sd, 2);
-    }
-  }
-  for (const double value : point.tolerances) sum += value * value;
-  return sum;
-}
+constexpr double kStale = 0.1;      // of a standard deviation: derivatives made further away are made anew
+constexpr double kGone = 0.5;       // of the deviance: less is not worth another round
+constexpr int kOwnRounds = 5;       // of one trial
+constexpr double kOwnGain = 0.1;    // of its deviance: less is not worth a step
+constexpr double kHeld = 0.25;      // of what a step promised
+constexpr double kExhausted = 0.3;  // of what they brought so far: a smaller step ends their use
+constexpr double kWorse = 1.0;      // of a trial's deviance
 
 // Moves by `step` (typical sizes, then tolerances), inside the bounds. True when a bound was met.
 bool move(const Problem& problem, Point& point, const VectorXd& step) {
@@ -80,11 +59,8 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
   VectorXd r = residual_of(trial, state.prediction);
   whiten(problem, t, r);
   state.deviance = r.squaredNorm();
-  const std::size_t q = trial.trial_nuisances.size(), nb = trial.block_nuisances.size();
-  for (std::size_t i = 0; i < state.nuisances.size(); ++i) {
-    const double sd = i < q ? trial.trial_nuisances[i].sd : trial.block_nuisances[(i - q) % nb].sd;
-    state.deviance += std::pow(state.nuisances[i] / sd, 2);
-  }
+  for (std::size_t i = 0; i < state.nuisances.size(); ++i)
+    state.deviance += std::pow(state.nuisances[i] / trial.sd_of(i), 2);
 }
 
 // The nuisances of one trial follow by themselves (Levenberg-Marquardt): each trial at its own pace.
@@ -113,8 +89,10 @@ class Fitter {
   Fitter(const Problem& problem, const Point& start, const FitOptions& options)
       : problem_(problem),
         given_(options.columns != nullptr ? options.columns : &problem.kept_columns),
+        start_(start),
         far_gain_(options.far_gain) {
     at_.point = start;
+    first_shared_ = shared();
     at_.trials.resize(problem.trials.size());
     const Edits edits = edits_for(problem, start.hypothesis, start.tolerances);
     each_trial([&](std::size_t t) {
@@ -186,9 +164,38 @@ class Fitter {
   // Derivatives by nuisances and tolerances as they are here.
   void refresh() {
     own_columns_ = columns_at(problem_, point());
+    made_for_.assign(at_.trials.size(), {});
+    for (std::size_t t = 0; t < at_.trials.size(); ++t) made_for_[t] = {at_.trials[t].nuisances, shared()};
     damping_ = 1e-3;
   }
-  bool refreshed() const { return !own_columns_.empty(); }
+
+  // The nuisances of every trial by themselves, as far as they go, with derivatives made anew wherever they
+  // have moved. The drop of the deviance. `given_here`: the given derivatives were made at the start.
+  double settle_each(bool given_here) {
+    if (own_columns_.empty()) {
+      own_columns_ = *given_;
+      made_for_.assign(at_.trials.size(), {});
+      for (std::size_t t = 0; t < at_.trials.size() && given_here; ++t)
+        made_for_[t] = {start_.nuisances[t], first_shared_};
+    }
+    const Edits edits = edits_for(problem_, at_.point.hypothesis, at_.point.tolerances);
+    const auto here = shared();
+    At next = at_;
+    each_trial([&](std::size_t t) {
+      TrialState& trial = next.trials[t];
+      for (int round = 0; round < kOwnRounds; ++round) {
+        if (is_stale(t, trial.nuisances, here)) {
+          own_columns_[t] = columns_of(problem_, t, edits, trial.nuisances);
+          made_for_[t] = {trial.nuisances, here};
+        }
+        if (!moves(t, edits, trial)) return;
+      }
+    });
+    finish(next);
+    const double drop = at_.deviance - next.deviance;
+    at_ = std::move(next);
+    return drop;
+  }
 
   Point point() const {
     Point point = at_.point;
@@ -222,94 +229,105 @@ class Fitter {
     for (const auto& trial : at.trials) at.deviance += trial.deviance;
   }
 
+  // Values of what all trials share, in typical sizes, scales of ports and of tolerances.
+  std::vector<double> shared() const {
+    std::vector<double> out;
+    for (std::size_t e = 0; e < at_.point.hypothesis.candidates.size(); ++e) {
+      const auto& parameters = problem_.candidates[at_.point.hypothesis.candidates[e]].parameters;
+      for (std::size_t j = 0; j < parameters.size(); ++j)
+        out.push_back(at_.point.hypothesis.values[e][j] / parameters[j].typical);
+    }
+    out.insert(out.end(), at_.point.hypothesis.law_sizes.begin(), at_.point.hypothesis.law_sizes.end());
+    out.insert(out.end(), at_.point.tolerances.begin(), at_.point.tolerances.end());
+    return out;
+  }
+
+  bool is_stale(std::size_t t, const std::vector<double>& nuisances,
+                const std::vector<double>& shared) const {
+    const auto& made = made_for_[t];
+    if (made.nuisances.empty() && !nuisances.empty()) return true;
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      if (i >= made.shared.size() || std::abs(shared[i] - made.shared[i]) > kStale) return true;
+    for (std::size_t i = 0; i < nuisances.size(); ++i)
+      if (std::abs(nuisances[i] - made.nuisances[i]) > kStale * problem_.trials[t]->sd_of(i)) return true;
+    return false;
+  }
+
+  // One step of a trial's nuisances, as long as it holds what its derivatives promise; where none does (an
+  // event that moves past a row), from where the whole step leads, with derivatives made there.
+  bool moves(std::size_t t, const Edits& edits, TrialState& trial) {
+    const auto linear = linearise(problem_, t, edits, trial.nuisances, {},
+                                  {.columns = &own_columns_, .prediction = &trial.prediction});
+    const double promised = trial.deviance - linear.gram(0, 0);
+    if (promised < kOwnGain) return false;
+    const auto stepped = [&](double share) {
+      TrialState next = trial;
+      for (std::size_t i = 0; i < next.nuisances.size(); ++i)
+        next.nuisances[i] += share * linear.solution(static_cast<Index>(i), 0);
+      evaluate(problem_, t, edits, next);
+      return next;
+    };
+    for (const double share : {1.0, 0.3, 0.1}) {
+      TrialState next = stepped(share);
+      if (trial.deviance - next.deviance < kHeld * share * (2.0 - share) * promised) continue;
+      trial = std::move(next);
+      return true;
+    }
+    TrialState next = stepped(1.0);
+    std::vector<KeptColumns> there(t + 1);
+    there[t] = columns_of(problem_, t, edits, next.nuisances);
+    const auto made = next.nuisances;
+    settle(problem_, t, edits, there, far_gain_, next);
+    if (trial.deviance - next.deviance < kOwnGain) return false;
+    trial = std::move(next);
+    own_columns_[t] = std::move(there[t]);
+    made_for_[t] = {made, shared()};
+    return true;
+  }
+
+  struct MadeFor {
+    std::vector<double> nuisances, shared;
+  };
+
   const Problem& problem_;
   const std::vector<KeptColumns>* given_;
+  const Point& start_;
   double far_gain_;
   At at_;
   std::vector<KeptColumns> own_columns_;
+  std::vector<MadeFor> made_for_;  // where each trial's were made
+  std::vector<double> first_shared_;
   double damping_ = 1e-3;
 };
 
 }  // namespace
 
-void add_priors(const Problem& problem, const Point& point, MatrixXd& information, VectorXd& score) {
-  Index at = 0;
-  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
-      const bool amplitude = is_amplitude(parameters, j);
-      const double centre = amplitude ? 0.0 : parameters[j].typical;
-      const double weight = amplitude ? 1.0 / (kPriorTypicals * kPriorTypicals) : 1.0;
-      information(at, at) += weight;
-      score[at] -= weight * (point.hypothesis.values[i][j] - centre) / parameters[j].typical;
-    }
-  }
-  if (const auto sizes = law_sizes(point.hypothesis); sizes.size() > 0) {
-    const MatrixXd of_law = free_law_information(point.hypothesis.law.size());
-    information.block(at, at, sizes.size(), sizes.size()) += of_law;
-    score.segment(at, sizes.size()) -= of_law * sizes;
-    at += sizes.size();
-  }
-  for (const double value : point.tolerances) {
-    information(at, at) += 1.0;
-    score[at++] -= value;
-  }
-}
-
-std::vector<Direction> parameter_directions(const Problem& problem, const Point& point) {
-  std::vector<Direction> directions;
-  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j) {
-      Hypothesis moved = point.hypothesis;
-      double step = kDerivativeStep;
-      if (moved.values[i][j] + step * parameters[j].typical > parameters[j].high) step = -step;
-      moved.values[i][j] += step * parameters[j].typical;
-      directions.push_back({edits_for(problem, moved, point.tolerances), step});
-    }
-  }
-  for (std::size_t k = 0; k < point.hypothesis.law.size(); ++k) {
-    Hypothesis moved = point.hypothesis;
-    moved.law_sizes[k] += kLawStep;
-    directions.push_back({edits_for(problem, moved, point.tolerances), kLawStep});
-  }
-  for (std::size_t i = 0; i < point.tolerances.size(); ++i) {
-    directions.push_back({{}, 1.0, static_cast<int>(i)});
-  }
-  return directions;
-}
-
-VectorXd prior_information(const Problem& problem, const Point& point) {
-  constexpr double kHeld = 1e12;
-  const auto own = static_cast<Index>(point.hypothesis.parameters());
-  const auto tolerances = static_cast<Index>(problem.tolerances.size());
-  VectorXd prior = VectorXd::Constant(own + tolerances, 1.0 / (kPriorTypicals * kPriorTypicals));
-  for (Index i = 0; i < tolerances; ++i)
-    prior[own + i] = std::abs(point.tolerances[static_cast<std::size_t>(i)]) < kMostTolerance ? 1.0 : kHeld;
-  return prior;
-}
-
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
   Fitter fitter(problem, start, options);
   Fit fit;
   const bool far = problem.kept_columns.empty();  // from where anything was known
-  const auto may_refresh = [&] { return options.refresh && !far && !fitter.refreshed(); };
   bool done = false, given_up = false;
   double last_drop = 0.0;  // of the deviance, relative
+  double gained = 0.0;     // with derivatives by the nuisances as they are
   for (fit.iterations = 0; fit.iterations < options.max_iterations && !done && !given_up; ++fit.iterations) {
     const double drop = fitter.step(0.5 * options.tolerance);
     fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
-    if (drop > options.tolerance + 1e-7 * fitter.deviance()) {
-      const bool short_of = fitter.promised > kPromise && drop < 0.5 * fitter.promised;
-      if (far || (short_of && may_refresh())) fitter.refresh();
-      given_up = fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
-                 options.of_use_below;
+    gained += drop;
+    const bool settled = drop <= options.tolerance + 1e-7 * fitter.deviance();
+    given_up =
+        !settled && fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
+                        options.of_use_below;
+    if (far || !options.refresh) {
+      done = settled;
+      if (far && !done) fitter.refresh();
       continue;
     }
-    // Perhaps only the kept derivatives are stale.
-    done = !may_refresh();
-    if (!done) fitter.refresh();
+    if (!settled && drop > kExhausted * gained) continue;
+    // These derivatives have brought what they can.
+    const double freed = fitter.settle_each(options.columns_made_here);
+    done = settled && freed < kGone;
+    gained = 0.0;
   }
   fit.point = fitter.point();
   fit.deviance = fitter.deviance();

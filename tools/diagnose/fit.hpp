@@ -27,10 +27,11 @@ struct Fit {
 };
 
 struct FitOptions {
-  int max_iterations = 14;
+  int max_iterations = 24;
   double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
   bool refresh = true;     // once steps fall short, go on with derivatives by the nuisances made there
   const std::vector<KeptColumns>* columns = nullptr;  // until then; the problem's own where not given
+  bool columns_made_here = false;                     // at `start`
   // Of what a trial is off beyond its rows: nuisances that would follow for less stay.
   double far_gain = 0.0;
   // Of the deviance: what could not come below it if each iteration left gained twice what the last one did
@@ -47,6 +48,8 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
 // What is believed of them beforehand, added to a fit's information and to its score.
 void add_priors(const Problem& problem, const Point& point, Eigen::MatrixXd& information,
                 Eigen::VectorXd& score);
+// 2 Phi of these priors.
+double prior_deviance(const Problem& problem, const Point& point);
 // Their information beforehand, without a law. A tolerance that has gone as far as it may is none any more:
 // it is held.
 Eigen::VectorXd prior_information(const Problem& problem, const Point& point);

@@ -14,6 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
+constexpr double kNuisanceStep = 0.5;   // at most, of a nuisance's standard deviation
+
+// A derivative is taken over no more than the nuisance may plausibly move by.
+double step_of(const Nuisance& nuisance) { return std::min(nuisance.step, kNuisanceStep * nuisance.sd); }
 
 struct Centre {
   std::size_t index;
@@ -21,6 +25,26 @@ struct Centre {
   const std::vector<double>& nuisances;
   const VectorXd& prediction;
 };
+
+void whiten(const Problem& problem, std::size_t index, KeptColumns& kept) {
+  const TrialModel& trial = *problem.trials[index];
+  kept.white_shared = kept.shared;
+  kept.white_block = kept.block;
+  whiten(problem, index, kept.white_shared);
+  whiten(problem, index, kept.white_block);
+  kept.gram = kept.white_shared.transpose() * kept.white_shared;
+  if (!trial.block_nuisances.empty()) {
+    const auto nb = static_cast<Index>(trial.block_nuisances.size());
+    kept.block_gram.assign(trial.blocks, MatrixXd::Zero(nb, nb));
+    kept.block_by_shared.assign(trial.blocks, MatrixXd::Zero(nb, kept.shared.cols()));
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      const auto b = trial.rows[k].block;
+      const auto row = static_cast<Index>(k);
+      kept.block_gram[b].noalias() += kept.white_block.row(row).transpose() * kept.white_block.row(row);
+      kept.block_by_shared[b].noalias() += kept.white_block.row(row).transpose() * kept.white_shared.row(row);
+    }
+  }
+}
 
 KeptColumns columns_at(const Problem& problem, const Centre& at) {
   const TrialModel& trial = *problem.trials[at.index];
@@ -37,7 +61,7 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   auto moved = at.nuisances;
   const std::size_t q = trial.trial_nuisances.size(), width = trial.block_nuisances.size();
   for (std::size_t i = 0; i < q; ++i) {
-    const double step = trial.trial_nuisances[i].step;
+    const double step = step_of(trial.trial_nuisances[i]);
     moved[i] = at.nuisances[i] + step;
     const VectorXd above = predicted(problem, trial, at.edits, moved);
     moved[i] = at.nuisances[i] - step;
@@ -46,29 +70,14 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
     moved[i] = at.nuisances[i];
   }
   for (std::size_t j = 0; j < width; ++j) {
-    const double step = trial.block_nuisances[j].step;
+    const double step = step_of(trial.block_nuisances[j]);
     for (std::uint32_t b = 0; b < trial.blocks; ++b) moved[q + b * width + j] += step;
     kept.block.col(static_cast<Index>(j)) =
         (predicted(problem, trial, at.edits, moved) - at.prediction) / step;
     for (std::uint32_t b = 0; b < trial.blocks; ++b)
       moved[q + b * width + j] = at.nuisances[q + b * width + j];
   }
-  kept.white_shared = kept.shared;
-  kept.white_block = kept.block;
-  whiten(problem, at.index, kept.white_shared);
-  whiten(problem, at.index, kept.white_block);
-  kept.gram = kept.white_shared.transpose() * kept.white_shared;
-  if (width > 0) {
-    const auto nb = static_cast<Index>(width);
-    kept.block_gram.assign(trial.blocks, MatrixXd::Zero(nb, nb));
-    kept.block_by_shared.assign(trial.blocks, MatrixXd::Zero(nb, kept.shared.cols()));
-    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-      const auto b = trial.rows[k].block;
-      const auto row = static_cast<Index>(k);
-      kept.block_gram[b].noalias() += kept.white_block.row(row).transpose() * kept.white_block.row(row);
-      kept.block_by_shared[b].noalias() += kept.white_block.row(row).transpose() * kept.white_shared.row(row);
-    }
-  }
+  whiten(problem, at.index, kept);
   return kept;
 }
 
@@ -232,12 +241,6 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   for (std::size_t i = 0; i < simulated.size(); ++i)
     x.col(static_cast<Index>(i) + 1) =
         (predicted(problem, trial, simulated[i]->edits, nuisances) - centre) / simulated[i]->step;
-  if (options.keep_plain) {
-    out.plain.resize(rows, 1 + static_cast<Index>(directions.size()));
-    out.plain.leftCols(x.cols()) = x;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
-  }
   // Columns behind those asked for, in the result behind the tolerances, too.
   const auto append = [&](const MatrixXd& more) {
     const Index own = x.cols();
@@ -253,6 +256,13 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     for (std::size_t i = 0; i < directions.size(); ++i)
       if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
     append(form_columns(trial, *options.forms, derivatives));
+  }
+  if (options.more != nullptr) append((*options.more)[index]);
+  if (options.keep_plain) {
+    out.plain.resize(rows, x.cols() + static_cast<Index>(wanted.size()));
+    out.plain.leftCols(x.cols()) = x;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
   whiten(problem, index, x);
   if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
@@ -301,14 +311,23 @@ double deviance_of(const Problem& problem, const Point& point, const std::vector
   return std::accumulate(of_trial.begin(), of_trial.end(), 0.0);
 }
 
+KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& base,
+                       const std::vector<double>& nuisances) {
+  const auto centre = predicted(problem, *problem.trials[trial], base, nuisances);
+  return columns_at(problem, {trial, base, nuisances, centre});
+}
+
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   std::vector<KeptColumns> columns(problem.trials.size());
-  parallel_for(columns.size(), [&](std::size_t t) {
-    const auto centre = predicted(problem, *problem.trials[t], base, point.nuisances[t]);
-    columns[t] = columns_at(problem, {t, base, point.nuisances[t], centre});
-  });
+  parallel_for(columns.size(),
+               [&](std::size_t t) { columns[t] = columns_of(problem, t, base, point.nuisances[t]); });
   return columns;
+}
+
+void whiten_kept_columns(Problem& problem) {
+  parallel_for(problem.kept_columns.size(),
+               [&](std::size_t t) { whiten(problem, t, problem.kept_columns[t]); });
 }
 
 void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }

@@ -36,8 +36,9 @@ struct FormOf {
 inline constexpr Eigen::Index kFormKnots = 8;
 
 struct LineariseOptions {
-  const std::vector<FormOf>* forms = nullptr;  // kFormKnots columns each, after the directions
-  bool with_repeatable_error = false;          // its columns last
+  const std::vector<FormOf>* forms = nullptr;          // kFormKnots columns each, after the directions
+  const std::vector<Eigen::MatrixXd>* more = nullptr;  // of every trial: plain derivatives, after the forms
+  bool with_repeatable_error = false;                  // its columns last
   bool keep_plain = false;
   bool fresh_columns = false;                         // do not take the kept ones
   const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial
@@ -68,7 +69,13 @@ double deviance_of(const Problem& problem, const Point& point, const std::vector
 // The derivatives by nuisances and tolerances at this point, whitened with the noise model as it is now.
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point);
 
+// The same of one trial.
+KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& base,
+                       const std::vector<double>& nuisances);
+
 // Keeps them for what follows.
 void keep_columns(Problem& problem, const Point& point);
+// Whitens the kept ones with the noise model as it is now.
+void whiten_kept_columns(Problem& problem);
 
 }  // namespace sandhopper::diagnose

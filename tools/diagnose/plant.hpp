@@ -79,6 +79,12 @@ class TrialModel {
     return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
   }
 
+  double sd_of(std::size_t nuisance) const {
+    const std::size_t q = trial_nuisances.size();
+    return nuisance < q ? trial_nuisances[nuisance].sd
+                        : block_nuisances[(nuisance - q) % block_nuisances.size()].sd;
+  }
+
   std::string name;
   std::vector<Row> rows;  // channel by channel, in time within each channel
   std::uint32_t blocks = 1;
@@ -141,6 +147,8 @@ class PlantModel {
   // Standard deviation of a force or torque at each port that differs from trial to trial though nothing is
   // missing, in the port's scale. 0: not learned for this plant.
   virtual double port_error() const { return 0.0; }
+  // Whether forces change so fast that the value at an instant and the mean over a row differ.
+  virtual bool changes_within_rows() const { return false; }
   // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
   // Whether a channel is low-passed by what records it, perhaps no more often than it is recorded.

@@ -131,38 +131,36 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
-  take_model_error(problem, model_errors(problem, point));
-  auto directions = parameter_directions(problem, point);
-  const auto own = directions.size();
-  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
-    if (point.hypothesis.contains(c)) continue;
-    const auto& parameters = problem.candidates[c].parameters;
-    std::vector<double> values;
-    for (std::size_t i = 0; i < parameters.size(); ++i)
-      values.push_back(
-          i == 0 ? std::min(problem.candidates[c].probe() * parameters[i].typical, parameters[i].high)
-          : parameters[i].amplitude ? 0.0
-                                    : parameters[i].typical);
-    Hypothesis with = point.hypothesis;
-    with.candidates.push_back(c);
-    with.values.push_back(values);
-    directions.push_back({edits_for(problem, with, point.tolerances), values[0] / parameters[0].typical});
-  }
-  const double rows = problem.rows();
-  auto families = free_families(problem, point);
-  for (const auto& port : problem.plant->free_ports(problem.context))
-    if (port.takes_up_noise)
-      std::erase_if(families, [&](const FreeFamily& f) { return f.port == port.port; });
-  std::size_t terms = 0;
-  for (const auto& family : families) terms += family.terms.size();
-  // A short recording gives its noise away to so many columns.
-  if (rows > kRowsPerFreeTerm * static_cast<double>(terms))
-    for (const auto& family : families)
-      for (const auto& term : family.terms) directions.push_back({with_term(base, term, 0.3), 0.3});
+  update_noise(problem, point, signatures_at(problem, point));
+}
 
-  const auto linear = linearise_all(problem, point, directions, {.keep_plain = true});
-  const auto k = static_cast<Index>(directions.size());
+void update_noise(Problem& problem, const Point& point, const Signatures& signatures, bool same_model_error) {
+  if (!same_model_error) take_model_error(problem, model_errors(problem, point));
+  const auto directions = parameter_directions(problem, point);
+  const auto own = static_cast<Index>(directions.size());
+  const double rows = problem.rows();
+  const auto ports = problem.plant->free_ports(problem.context);
+  const auto takes_up_noise = [&](const FreeFamily& family) {
+    return std::ranges::any_of(
+        ports, [&](const FreePort& port) { return port.takes_up_noise && port.port == family.port; });
+  };
+  std::vector<Index> taken;
+  for (std::size_t i = 0; i < signatures.alternatives.size(); ++i)
+    if (i == 0 || signatures.alternatives[i].candidate != signatures.alternatives[i - 1].candidate)
+      taken.push_back(signatures.alternatives[i].first);
+  double terms = 0.0;
+  for (const auto& law : signatures.laws)
+    if (!takes_up_noise(law.family)) terms += static_cast<double>(law.family.terms.size());
+  // A short recording gives its noise away to so many columns.
+  if (rows > kRowsPerFreeTerm * terms)
+    for (const auto& law : signatures.laws)
+      for (Index i = 0; i < static_cast<Index>(law.family.terms.size()) && !takes_up_noise(law.family); ++i)
+        taken.push_back(law.first + i);
+  std::vector<MatrixXd> more;
+  for (const auto& columns : signatures.columns) more.emplace_back(columns(Eigen::all, taken));
+
+  const auto linear = linearise_all(problem, point, directions, {.more = &more, .keep_plain = true});
+  const Index k = own + static_cast<Index>(taken.size());
   MatrixXd information = MatrixXd::Zero(k, k);
   VectorXd score = VectorXd::Zero(k);
   for (const auto& trial : linear) {
@@ -170,7 +168,7 @@ void update_noise(Problem& problem, const Point& point) {
     score += trial.gram.col(0).tail(k);
   }
   MatrixXd held = information;
-  for (Index i = 0; i < k; ++i) held(i, i) += i < static_cast<Index>(own) ? 0.01 : 0.04;
+  for (Index i = 0; i < k; ++i) held(i, i) += i < own ? 0.01 : 0.04;
   const auto solver = held.ldlt();
   const VectorXd size = solver.solve(score);
   double taken_up = solver.solve(information).trace();
@@ -255,6 +253,11 @@ Prepared prepare(const Recordings& recordings) {
     const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
     problem.tolerances.push_back(
         {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
+    // Nor whether what is written is the value at an instant or the mean over the row, or over the
+    // conversion.
+    if (problem.plant->changes_within_rows())
+      problem.tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
+                                    std::hypot(row_s, conversion_s(problem.context.belief, channel))});
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});

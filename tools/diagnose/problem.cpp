@@ -45,7 +45,9 @@ std::vector<std::string> put_in_place(Problem& problem) {
 }
 
 void Tolerance::put(Edits& edits, double in_scales) const {
-  if (belief_key.empty())
+  if (window_s > 0.0)
+    edits.sensor(channel, SensorEdit::Kind::mean_share, in_scales * scale, window_s);
+  else if (belief_key.empty())
     edits.sensor(channel, SensorEdit::Kind::delay_s, in_scales * scale);
   else
     edits.add(belief_key, in_scales * scale);

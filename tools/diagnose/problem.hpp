@@ -21,6 +21,7 @@ struct Tolerance {
   std::string channel;       // which is late; empty: of a key
   double of_sampling = 1.0;  // as much of it as instants of sampling leave unsure, s
   std::string belief_key{};
+  double window_s = 0.0;  // of a channel that may record the mean over it: the tolerance is that share
 
   void put(Edits& edits, double in_scales) const;
 };

@@ -16,13 +16,6 @@ using Eigen::VectorXd;
 
 constexpr double kPriorInformation = 0.01;  // of a size in typicals: sd 10
 
-struct Alternative {
-  std::size_t candidate;
-  std::vector<double> values;  // shapes; amplitudes are set per column
-  std::vector<Index> columns;
-  std::vector<std::size_t> amplitudes;
-};
-
 }  // namespace
 
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
@@ -129,37 +122,19 @@ HeldOut held_out_gain(const std::vector<MatrixXd>& grams, const std::vector<Inde
 }
 
 std::vector<Screened> screen(const Problem& problem, const Point& point,
-                             const std::vector<KeptColumns>* columns) {
-  auto directions = parameter_directions(problem, point);
+                             const std::vector<KeptColumns>* columns, const Signatures& signatures) {
+  const auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
-  std::vector<Alternative> alternatives;
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
-    if (point.hypothesis.contains(c)) continue;
-    const Candidate& candidate = problem.candidates[c];
-    for (const auto& choice : shape_choices(candidate)) {
-      Alternative alternative{c, choice, {}, {}};
-      for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-        const auto& parameter = candidate.parameters[i];
-        if (!is_amplitude(candidate.parameters, i)) continue;
-        Hypothesis with = point.hypothesis;
-        auto values = choice;
-        const double step = signature_step(candidate, choice, i);
-        values[i] = step * parameter.typical;
-        with.candidates.push_back(c);
-        with.values.push_back(values);
-        alternative.columns.push_back(static_cast<Index>(directions.size()) + 1);
-        alternative.amplitudes.push_back(i);
-        directions.push_back({edits_for(problem, with, point.tolerances), step});
-      }
-      alternatives.push_back(std::move(alternative));
-    }
-  }
-  const auto linear = linearise_all(problem, point, directions, {.columns = columns});
+  const auto linear =
+      linearise_all(problem, point, directions, {.more = &signatures.columns, .columns = columns});
   const auto grams = eliminated(linear, 1, own, prior_information(problem, point));
 
   std::vector<Screened> found;
-  for (const auto& alternative : alternatives) {
-    auto group = group_gain(grams, alternative.columns, kPriorInformation);
+  for (const auto& alternative : signatures.alternatives) {
+    std::vector<Index> group_columns;
+    for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
+      group_columns.push_back(own + 1 + alternative.first + static_cast<Index>(i));
+    auto group = group_gain(grams, group_columns, kPriorInformation);
     const auto& parameters = problem.candidates[alternative.candidate].parameters;
     Screened s{alternative.candidate, alternative.values, group.gain, group.evidence, group.size[0]};
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i) {
@@ -167,12 +142,12 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
       double& value = s.values[alternative.amplitudes[i]];
       const double wanted = group.size[static_cast<Index>(i)] * p.typical;
       value = std::clamp(wanted, p.low, p.high);
-      if (alternative.columns.size() == 1 && value != wanted) {
+      if (group_columns.size() == 1 && value != wanted) {
         // Held at a bound the drop is that of the bounded size.
         double score = 0.0, information = 0.0;
         for (const auto& gram : grams) {
-          score += gram(alternative.columns[0], 0);
-          information += gram(alternative.columns[0], alternative.columns[0]);
+          score += gram(group_columns[0], 0);
+          information += gram(group_columns[0], group_columns[0]);
         }
         const double b = value / p.typical;
         s.gain = std::max(0.0, 2.0 * b * score - b * b * information);

@@ -4,6 +4,7 @@
 
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/problem.hpp"
+#include "tools/diagnose/signatures.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -56,8 +57,9 @@ struct Screened {
 };
 
 // All candidates that the point does not hold, the largest gain first.
-// `columns`: derivatives by the nuisances; the problem's own where not given.
+// `columns`: derivatives by the nuisances; the problem's own where null. `signatures`: of this point or one
+// near it.
 std::vector<Screened> screen(const Problem& problem, const Point& point,
-                             const std::vector<KeptColumns>* columns = nullptr);
+                             const std::vector<KeptColumns>* columns, const Signatures& signatures);
 
 }  // namespace sandhopper::diagnose

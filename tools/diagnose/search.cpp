@@ -88,7 +88,9 @@ double Search::criterion(const SetFit& fit, double dispersion) const {
 const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {
   const auto it = screens_.find(set);
   if (it != screens_.end()) return it->second;
-  return screens_[set] = screen(*problem_, sets_.at(set).fit.point, columns_for(set));
+  const Point& at = sets_.at(set).fit.point;
+  return screens_[set] =
+             screen(*problem_, at, columns_for(set), signatures_at(*problem_, at, {.laws = false}));
 }
 
 void Search::evaluate(const SetFit& from, const Screened& added) {
@@ -159,7 +161,9 @@ void Search::evaluate_straight(const SetFit& from) {
     if (known == nearest.end() || one.deviance < known->second.deviance)
       nearest.insert_or_assign(candidate, std::move(one));
   };
-  for (const auto& added : screen(*problem_, straight, &columns)) hold(added.candidate, added.values);
+  for (const auto& added :
+       screen(*problem_, straight, &columns, signatures_at(*problem_, straight, {.laws = false})))
+    hold(added.candidate, added.values);
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
     if (straight.hypothesis.contains(c)) continue;
     const auto& p = problem_->candidates[c].parameters[0];
@@ -237,6 +241,27 @@ void Search::finish(SetFit& fit) const {
   if (!fit.rough) return;
   fit.fit = fit_at(Point(fit.fit.point));
   fit.rough = fit.judged = false;
+  borrow(fit);
+}
+
+// A trial may have two valleys: where another set's fit brought one much lower, this set starts there, too.
+void Search::borrow(SetFit& fit) const {
+  Point start = fit.fit.point;
+  bool lower = false;
+  for (std::size_t t = 0; t < start.nuisances.size(); ++t) {
+    double least = fit.fit.trial_deviance[t] - kWorthAFit * dispersion_;
+    for (const auto& [set, other] : sets_)
+      if (other.fit.trial_deviance[t] < least) {
+        least = other.fit.trial_deviance[t];
+        start.nuisances[t] = other.fit.point.nuisances[t];
+        lower = true;
+      }
+  }
+  if (!lower) return;
+  Fit again = fit_at(start);
+  if (again.deviance >= fit.fit.deviance) return;
+  fit.fit = std::move(again);
+  fit.judged = false;
 }
 
 // What competes with the best must not lose only because it was fitted roughly and stopped short of what it
@@ -295,6 +320,7 @@ void Search::settle_best() {
   columns_ = columns_at(*problem_, fit.fit.point);
   Fit again = fit_at(Point(fit.fit.point));
   if (again.deviance < fit.fit.deviance) fit.fit = std::move(again);
+  borrow(fit);
 }
 
 namespace {
@@ -516,7 +542,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   screens_.clear();
   straight_.clear();
   SetFit null;
-  null.fit = fit_at(start);
+  null.fit = fit_at(start, {.columns_made_here = true});
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
@@ -558,6 +584,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
         front.push_back(fit->set);
     if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
   }
+  borrow(sets_.at({}));
   exchange();
   const auto before = best_;
   prune();

@@ -96,6 +96,7 @@ class Search {
   const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
   Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;
+  void borrow(SetFit& fit) const;
   void finish_rivals();
   void grow_best();
   void settle_best();

@@ -35,11 +35,23 @@ void Signal::low_pass(double time_constant_s) {
   }
 }
 
+namespace {
+
+// Of the signal over a window around an instant, by Simpson's rule.
+double mean_around(const Signal& signal, double at_s, double window_s) {
+  const double q = 0.25 * window_s;
+  return (signal.at(at_s - 2.0 * q) + 4.0 * (signal.at(at_s - q) + signal.at(at_s + q)) +
+          2.0 * signal.at(at_s) + signal.at(at_s + 2.0 * q)) /
+         12.0;
+}
+
+}  // namespace
+
 void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std::string_view channel,
              std::span<const double> times_s, std::span<double> out) {
   if (sensor.bandwidth_Hz > 0.0) signal.low_pass(1.0 / (2.0 * std::numbers::pi * sensor.bandwidth_Hz));
   const SensorClock clock(edits, channel, sensor.latency_s);
-  double gain = 1.0, offset = 0.0;
+  double gain = 1.0, offset = 0.0, mean_share = 0.0, window_s = 0.0;
   double low = sensor.range_low, high = sensor.range_high;
   std::vector<const Law*> laws;
   for (const auto& edit : edits.sensors) {
@@ -63,6 +75,10 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
       case SensorEdit::Kind::clip_low:
         low = std::max(low, edit.value);
         break;
+      case SensorEdit::Kind::mean_share:
+        mean_share += edit.value;
+        window_s = edit.window_s;
+        break;
       case SensorEdit::Kind::law:
         laws.push_back(&edit.law);
         break;
@@ -71,7 +87,9 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
   const double half_s = 0.5 * signal.step_s;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     const double at_s = clock.taken_s(times_s[i]);
-    double value = gain * signal.at(at_s) + offset;
+    double value = signal.at(at_s);
+    if (mean_share != 0.0) value += mean_share * (mean_around(signal, at_s, window_s) - value);
+    value = gain * value + offset;
     if (!laws.empty())
       value +=
           sum_of(laws, {.time_s = at_s,

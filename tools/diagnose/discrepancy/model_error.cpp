@@ -7,7 +7,7 @@
 #include "tools/diagnose/free_laws.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/problem.hpp"
-#include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/signatures.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -110,58 +110,39 @@ void split_by_block(const TrialModel& trial, ModelError& error) {
 
 }  // namespace
 
-RepeatableError repeatable_error(const Problem& problem, const Point& point) {
+RepeatableError repeatable_error(const Problem& problem, const Signatures& signatures) {
   const ModelErrorScales& s = kModelErrorScales;
   RepeatableError out;
-  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-  std::vector<Edits> probes;
-  std::vector<double> weights;  // sd over the probe
-  struct Family {
-    Index first, count;
-  };
-  std::vector<Family> families;
+  std::vector<Index> taken;
+  std::vector<double> weights;
   int groups = 0;
-  for (const auto& family : free_families(problem, point)) {
+  const auto take = [&](Index column, std::size_t candidate, double sd) {
+    taken.push_back(column);
+    weights.push_back(sd);
+    out.group.push_back(groups);
+    out.candidate.push_back(candidate);
+  };
+  std::vector<std::pair<Index, Index>> families;  // first column, count
+  for (const auto& [family, first] : signatures.laws) {
     if (family.sensor || !family.of_model_error) continue;
-    families.push_back({static_cast<Index>(probes.size()), static_cast<Index>(family.terms.size())});
-    for (const auto& term : family.terms) {
-      probes.push_back(with_term(base, term, kProbe));
-      weights.push_back(s.repeatable / kProbe);
-      out.group.push_back(groups);
-      out.candidate.push_back(RepeatableError::kNoCandidate);
-    }
+    const auto count = static_cast<Index>(family.terms.size());
+    families.emplace_back(static_cast<Index>(taken.size()), count);
+    for (Index i = 0; i < count; ++i) take(first + i, RepeatableError::kNoCandidate, s.repeatable);
     ++groups;
   }
-  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
-    if (point.hypothesis.contains(c)) continue;
-    const auto& candidate = problem.candidates[c];
-    const auto choice = shape_choices(candidate).front();
-    for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-      if (!is_amplitude(candidate.parameters, i)) continue;
-      Hypothesis with = point.hypothesis;
-      auto values = choice;
-      const double step = signature_step(candidate, choice, i);
-      values[i] = step * candidate.parameters[i].typical;
-      with.candidates.push_back(c);
-      with.values.push_back(values);
-      probes.push_back(edits_for(problem, with, point.tolerances));
-      const auto& port = candidate.effect->port;
-      weights.push_back((port == "sensor" || port == "clock" ? s.reading : s.typical) / step);
-      out.group.push_back(groups);
-      out.candidate.push_back(c);
-    }
+  for (const auto& alternative : signatures.alternatives) {
+    if (!out.candidate.empty() && out.candidate.back() == alternative.candidate) continue;
+    const auto& port = problem.candidates[alternative.candidate].effect->port;
+    for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
+      take(alternative.first + static_cast<Index>(i), alternative.candidate,
+           port == "sensor" || port == "clock" ? s.reading : s.typical);
   }
   out.white.resize(problem.trials.size());
   parallel_for(problem.trials.size(), [&](std::size_t t) {
-    const TrialModel& trial = *problem.trials[t];
-    const VectorXd centre = predicted(problem, trial, base, point.nuisances[t]);
     MatrixXd& columns = out.white[t];
-    columns.resize(centre.size(), static_cast<Index>(probes.size()));
-    for (std::size_t i = 0; i < probes.size(); ++i)
-      columns.col(static_cast<Index>(i)) =
-          weights[i] * (predicted(problem, trial, probes[i], point.nuisances[t]) - centre);
-    for (const auto& family : families)
-      columns.middleCols(family.first, family.count) *= process_factor(family.count);
+    columns = signatures.columns[t](Eigen::all, taken);
+    for (std::size_t i = 0; i < weights.size(); ++i) columns.col(static_cast<Index>(i)) *= weights[i];
+    for (const auto& [first, count] : families) columns.middleCols(first, count) *= process_factor(count);
     whiten(problem, t, columns);
   });
   return out;

@@ -9,6 +9,7 @@ namespace sandhopper::diagnose {
 
 struct Problem;
 struct Point;
+struct Signatures;
 class NoiseModel;
 
 // How large model error is, standard deviations; see README.
@@ -43,8 +44,8 @@ struct ModelError {
   LowRank low_rank;         // of `white`
 };
 
-// At a point, whitened as the problem is now.
-RepeatableError repeatable_error(const Problem& problem, const Point& point);
+// At the point of the signatures, whitened as the problem is now.
+RepeatableError repeatable_error(const Problem& problem, const Signatures& signatures);
 
 // At a point, for every trial, with the problem's noise model.
 std::vector<ModelError> model_errors(const Problem& problem, const Point& point);

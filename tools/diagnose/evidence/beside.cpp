@@ -35,7 +35,7 @@ std::vector<const SetFit*> nearest(const Search& search) {
 }  // namespace
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
-  problem.repeatable_error = repeatable_error(problem, search.null().fit.point);
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<Weighed> all;
   for (const SetFit* fit : nearest(search)) {
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));

@@ -60,6 +60,7 @@ class Hopper final : public PlantModel {
   }
   // Learned from 13 campaigns of another program with nothing missing (README, model error).
   double port_error() const override { return 0.035; }
+  bool changes_within_rows() const override { return true; }
   // A current loop at 1 kHz, 10 kHz or 40 kHz, or a continuous one.
   double drive_unsure_s() const override { return 5e-5; }
 
