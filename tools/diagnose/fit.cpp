@@ -23,6 +23,7 @@ constexpr double kStale = 0.1;      // of a standard deviation: derivatives made
 constexpr double kGone = 0.5;       // of the deviance: less is not worth another round
 constexpr int kOwnRounds = 5;       // of one trial
 constexpr double kOwnGain = 0.1;    // of its deviance: less is not worth a step
+constexpr double kFar = 0.01;       // of what lies beyond the rows: as closely it is fitted
 constexpr double kHeld = 0.25;      // of what a step promised
 constexpr double kExhausted = 0.3;  // of what they brought so far: a smaller step ends their use
 constexpr double kWorse = 1.0;      // of a trial's deviance
@@ -259,7 +260,9 @@ class Fitter {
     const auto linear = linearise(problem_, t, edits, trial.nuisances, {},
                                   {.columns = &own_columns_, .prediction = &trial.prediction});
     const double promised = trial.deviance - linear.gram(0, 0);
-    if (promised < kOwnGain) return false;
+    const double far = trial.deviance - static_cast<double>(problem_.trials[t]->rows.size());
+    const double least = std::max(kOwnGain, kFar * far);
+    if (promised < least) return false;
     const auto stepped = [&](double share) {
       TrialState next = trial;
       for (std::size_t i = 0; i < next.nuisances.size(); ++i)
@@ -278,7 +281,7 @@ class Fitter {
     there[t] = columns_of(problem_, t, edits, next.nuisances);
     const auto made = next.nuisances;
     settle(problem_, t, edits, there, far_gain_, next);
-    if (trial.deviance - next.deviance < kOwnGain) return false;
+    if (trial.deviance - next.deviance < least) return false;
     trial = std::move(next);
     own_columns_[t] = std::move(there[t]);
     made_for_[t] = {made, shared()};
@@ -314,7 +317,9 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
     fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     gained += drop;
-    const bool settled = drop <= options.tolerance + 1e-7 * fitter.deviance();
+    // What is far off beyond its rows need not be known as closely.
+    const double near_enough = kFar * (fitter.deviance() - problem.rows());
+    const bool settled = drop <= std::max(options.tolerance + 1e-7 * fitter.deviance(), near_enough);
     given_up =
         !settled && fitter.deviance() - kSpeedsUp * drop * (options.max_iterations - fit.iterations - 1) >
                         options.of_use_below;
@@ -326,7 +331,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
     if (!settled && drop > kExhausted * gained) continue;
     // These derivatives have brought what they can.
     const double freed = fitter.settle_each(options.columns_made_here);
-    done = settled && freed < kGone;
+    done = settled && freed < std::max(kGone, near_enough);
     gained = 0.0;
   }
   fit.point = fitter.point();
