@@ -317,7 +317,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
     fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     gained += drop;
-    // What is far off beyond its rows need not be known as closely.
+    // A fit that leaves far more than its rows is no answer: it stops earlier.
     const double near_enough = kFar * (fitter.deviance() - problem.rows());
     const bool settled = drop <= std::max(options.tolerance + 1e-7 * fitter.deviance(), near_enough);
     given_up =

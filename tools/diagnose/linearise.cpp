@@ -325,11 +325,6 @@ std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) 
   return columns;
 }
 
-void whiten_kept_columns(Problem& problem) {
-  parallel_for(problem.kept_columns.size(),
-               [&](std::size_t t) { whiten(problem, t, problem.kept_columns[t]); });
-}
-
 void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }
 
 }  // namespace sandhopper::diagnose

@@ -75,7 +75,5 @@ KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& b
 
 // Keeps them for what follows.
 void keep_columns(Problem& problem, const Point& point);
-// Whitens the kept ones with the noise model as it is now.
-void whiten_kept_columns(Problem& problem);
 
 }  // namespace sandhopper::diagnose

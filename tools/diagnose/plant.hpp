@@ -147,7 +147,7 @@ class PlantModel {
   // Standard deviation of a force or torque at each port that differs from trial to trial though nothing is
   // missing, in the port's scale. 0: not learned for this plant.
   virtual double port_error() const { return 0.0; }
-  // Whether forces change so fast that the value at an instant and the mean over a row differ.
+  // True for a plant whose forces change within a row: then a channel may record the mean over the row.
   virtual bool changes_within_rows() const { return false; }
   // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }

@@ -9,6 +9,7 @@
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/signatures.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -131,11 +132,8 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
-  update_noise(problem, point, signatures_at(problem, point));
-}
-
-void update_noise(Problem& problem, const Point& point, const Signatures& signatures, bool same_model_error) {
-  if (!same_model_error) take_model_error(problem, model_errors(problem, point));
+  take_model_error(problem, model_errors(problem, point));
+  const Signatures signatures = signatures_at(problem, point);
   const auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
   const double rows = problem.rows();

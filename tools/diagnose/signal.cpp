@@ -37,7 +37,7 @@ void Signal::low_pass(double time_constant_s) {
 
 namespace {
 
-// Of the signal over a window around an instant, by Simpson's rule.
+// The mean of the signal over a window centred on an instant, by Simpson's rule.
 double mean_around(const Signal& signal, double at_s, double window_s) {
   const double q = 0.25 * window_s;
   return (signal.at(at_s - 2.0 * q) + 4.0 * (signal.at(at_s - q) + signal.at(at_s + q)) +

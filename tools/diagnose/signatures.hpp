@@ -30,7 +30,7 @@ struct Signatures {
 };
 
 struct SignatureOptions {
-  bool effects = true, laws = true;
+  bool laws = true;  // of free form, too
 };
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options = {});
 
