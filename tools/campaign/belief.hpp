@@ -83,6 +83,7 @@ struct IntruderBelief {
 // (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h'  (+ k (surface - h) on a bed while
 // going down). Everything but mass and gravity is absent unless given.
 struct FallingBodyBelief {
+  static constexpr double kEverywhere_m = 1e5;
   struct Bed {
     double surface_height_m = 0.0;
     double stiffness_N_per_m = 0.0;  // 0: no bed
@@ -111,6 +112,7 @@ struct FallingBodyBelief {
     double linear_drag_N_s_per_m = 0.0;
     double buoyancy_factor = 0.0;
     double added_mass_factor = 0.0;
+    double surface_height_m = kEverywhere_m;  // the medium is below it
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -119,6 +121,7 @@ struct FallingBodyBelief {
       visit("linear_drag_N_s_per_m", self.linear_drag_N_s_per_m, Range{0.0, 1e6});
       visit("buoyancy_factor", self.buoyancy_factor, Range{0.0, 10.0});
       visit("added_mass_factor", self.added_mass_factor, Range{0.0, 10.0});
+      visit("surface_height_m", self.surface_height_m, Range{-1e5, 1e5});
     }
   };
   double gravity_mps2 = kGravity_mps2;

@@ -131,6 +131,7 @@ struct Diagnosis {
   std::map<std::string, double> noise_floor;
   std::vector<Where> where;
   std::vector<FoundEffect> effects;
+  double gap_closed = 1.0;  // by the effects on the list, of what can be explained
   std::vector<ChannelFit> fits;  // the channel that shows most first
   std::vector<Bound> absent;
   std::vector<UnknownForce> unknown;

@@ -36,6 +36,7 @@ Json to_json(const Diagnosis& d) {
     if (!e.channel.empty()) effect["channel"] = e.channel;
     json["effects"].push_back(std::move(effect));
   }
+  json["gap_closed"] = d.effects.empty() ? Json(nullptr) : Json(d.gap_closed);
   if (!d.fits.empty()) {
     const auto one = [](const ChannelFit& f) {
       return Json{

@@ -19,6 +19,9 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// Never "100 %" where something is left.
+std::string percent(double share) { return fmt::format("{:.0f} %", std::min(99.0, 100.0 * share)); }
+
 std::string effect_text(const FoundEffect& e) {
   std::string text = fmt::format("what   {} (probability {:.2f}): {}\n       {}\n", e.id, e.probability,
                                  e.statement, e.equation);
@@ -65,12 +68,15 @@ std::string headline(const Diagnosis& d) {
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
   if (d.verdict == "insufficient_data") return fmt::format("{} trials are too little to say.", d.trials);
   if (d.verdict == "unknown_physics") return "Something is missing that is on no list.";
+  std::vector<std::string> names;
+  for (const auto& e : d.effects)
+    if (!e.id.starts_with("unknown@")) names.push_back(e.id);
   if (d.detail == "data_fault") return "The physics agrees; the recording has faults.";
   if (d.detail == "one_of_class")
     return "Something is missing; these recordings leave more than one explanation.";
-  if (d.detail == "known_and_rest") return "Something is missing; what was found does not explain all of it.";
-  std::vector<std::string> names;
-  for (const auto& e : d.effects) names.push_back(e.id);
+  if (d.detail == "known_and_rest")
+    return fmt::format("Something is missing: {}; that closes {} of the gap, and what is left is on no list.",
+                       joined(names), percent(d.gap_closed));
   return "Something is missing: " + joined(names) + ".";
 }
 

@@ -32,9 +32,11 @@ constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
-constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
-constexpr double kUnknownBesideNames = 0.7;
-constexpr double kDoubtBesideUnknown = 0.1;  // of 108 such names 9 were right: seeds 5600, 9042 to 9049
+constexpr double kNoiseHidesAll = 4.0;    // times the sensors' own
+constexpr double kMostOfTheGap = 0.5;     // DIAGNOSIS 2.5: less, and what is missing is on no list
+constexpr double kBesideEachOther = 0.7;  // names and an unknown that may be the form of one of their laws
+
+bool is_unknown(const FoundEffect& effect) { return effect.id.starts_with("unknown@"); }
 
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   const auto& screened = search.screened({});
@@ -154,46 +156,48 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   return second;
 }
 
-// The verdict and the effects that go with it.
+// What the best set leaves, told beside it or, where it says little, in its place.
+void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagnosis& diagnosis) {
+  if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
+  if (!rest.unknown) return;
+  if (!rest.law) report_unknown_near(rest.gap_closed, diagnosis);
+  if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
+  if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
+  if (std::ranges::none_of(diagnosis.effects, is_unknown)) report_unknown_of_plant(problem, diagnosis);
+}
+
+// The verdict and the effects that go with it. Names that close most of the gap are told as such, whatever is
+// left; none is believed by more than the share that they close together.
 void report_verdict(const Problem& problem, const Search& search, const Posterior& belief,
                     const Unexplained& rest, Diagnosis& diagnosis) {
-  const bool too_few = problem.trials.size() < kTooFewTrials;
-  if (rest.unknown) {
-    diagnosis.verdict = "unknown_physics";
-    diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
-    if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
-    if (rest.stands_alone) return;
-    // What is on the list and explains most may be there beside it, or be what the unknown looks like.
-    report_effects(problem, search, belief, diagnosis);
-    for (auto& effect : diagnosis.effects)
-      if (!effect.id.starts_with("unknown@"))
-        effect.probability = std::min(effect.probability, kDoubtBesideUnknown);
-    const double unexplained =
-        std::max({rest.misfit.unexplained, (rest.left * rest.left - 1.0) * problem.rows(),
-                  rest.leans ? rest.lean.z * rest.lean.z : 0.0,
-                  rest.loud ? (rest.loud->times * rest.loud->times - 1.0) * problem.rows() : 0.0});
-    if (!rest.law)
-      report_unknown_near(rest.misfit.explained / (rest.misfit.explained + unexplained), diagnosis);
-    if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
-    if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
-    const auto is_unknown = [](const auto& effect) { return effect.id.starts_with("unknown@"); };
-    if (std::ranges::none_of(diagnosis.effects, is_unknown)) report_unknown_of_plant(problem, diagnosis);
-  } else if (search.best().set.empty()) {
+  const bool too_few = problem.trials.size() < kTooFewTrials, named = !search.best().set.empty();
+  if (!named && !rest.unknown) {
     diagnosis.verdict = too_few ? "insufficient_data" : "consistent";
     diagnosis.detail = too_few ? "too_little_data" : "null";
-  } else {
-    diagnosis.verdict = "missing_physics";
-    report_effects(problem, search, belief, diagnosis);
-    const bool classes = std::ranges::any_of(
-        diagnosis.effects, [](const auto& effect) { return !effect.indistinguishable_from.empty(); });
-    diagnosis.detail = classes ? "one_of_class" : rest.law ? "known_and_rest" : "known";
-    if (rest.law) {
-      report_unknown(*rest.law, rest.share, diagnosis);
-      // It may be what a law on the list has another form by.
-      auto& unknown = diagnosis.effects.back();
-      unknown.probability = std::min(unknown.probability, kUnknownBesideNames);
-    }
+    return;
   }
+  if (named) report_effects(problem, search, belief, diagnosis);
+  report_what_is_left(problem, rest, diagnosis);
+  diagnosis.gap_closed = rest.gap_closed;
+  const bool by_names = rest.gap_closed > kMostOfTheGap;
+  if (rest.unknown || rest.law)
+    for (auto& effect : diagnosis.effects) {
+      if (!is_unknown(effect)) effect.probability *= rest.gap_closed;
+      if (by_names && (rest.unknown || is_unknown(effect)))
+        effect.probability = std::min(effect.probability, kBesideEachOther);
+    }
+  if (!by_names) {
+    diagnosis.verdict = "unknown_physics";
+    diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
+    std::ranges::stable_partition(diagnosis.effects, is_unknown);
+    return;
+  }
+  const bool classes = std::ranges::any_of(
+      diagnosis.effects, [](const auto& effect) { return !effect.indistinguishable_from.empty(); });
+  diagnosis.verdict = "missing_physics";
+  diagnosis.detail = rest.unknown || (rest.law && !classes) ? "known_and_rest"
+                     : classes                              ? "one_of_class"
+                                                            : "known";
 }
 
 }  // namespace

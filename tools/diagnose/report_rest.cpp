@@ -87,7 +87,8 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   effect.id = "unknown@" + port;
   effect.port = port;
   effect.statement =
-      fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
+      fmt::format("Something that is on no list acts at {}: it goes with {}, {:.0f} % of the gap.", port,
+                  gain.family.variable, 100.0 * share);
   effect.equation =
       fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
   effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
@@ -97,7 +98,7 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   diagnosis.unknown.push_back(std::move(unknown));
 }
 
-void report_unknown_near(double share, Diagnosis& diagnosis) {
+void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
   const auto near = std::ranges::find_if(diagnosis.effects, [](const FoundEffect& effect) {
     return effect.channel.empty() && effect.port != "clock";
   });
@@ -106,13 +107,13 @@ void report_unknown_near(double share, Diagnosis& diagnosis) {
   effect.id = "unknown@" + near->port;
   effect.port = near->port;
   effect.statement = fmt::format(
-      "Something that is on no list acts, as far as these recordings tell, at {}: {} comes nearest and "
-      "explains {:.0f} % of it.",
-      near->port, near->id, 100.0 * share);
+      "Something that is on no list acts, as far as these recordings tell, at {}: {:.0f} % of the gap; {} "
+      "comes nearest.",
+      near->port, 100.0 * (1.0 - gap_closed), near->id);
   effect.equation = "not known";
   effect.probability = kNearProbability;
   effect.p_value = near->p_value;
-  effect.heldout_gain = share;
+  effect.heldout_gain = 1.0 - gap_closed;
   diagnosis.effects.push_back(std::move(effect));
 }
 

@@ -194,7 +194,14 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   out.share = share();
   out.unknown = out.misfit.large || more_than_noise || by_balance || form_outdoes ||
                 (out.law && (out.share > most_share || out.remainder() > kUnknownPerRow * rows));
-  out.stands_alone = out.unknown && (by_balance || out.share > kUnknownShare);
+  double left = out.remainder();
+  if (out.unknown)
+    left = std::max({left, out.misfit.unexplained, (out.left * out.left - 1.0) * rows,
+                     out.leans ? out.lean.z * out.lean.z : 0.0,
+                     out.loud ? (out.loud->times * out.loud->times - 1.0) * rows : 0.0});
+  out.gap_closed = best.set.empty()  ? 0.0
+                   : explained > 0.0 ? explained / (explained + std::max(0.0, left))
+                                     : 0.0;
   log.push_back(fmt::format("explained {:.1f}, left {:.1f} beyond the noise, rest {:.1f} ({:.1f} %), {} rows",
                             explained, out.misfit.unexplained, out.remainder(), 100.0 * out.share, rows));
   return out;

@@ -34,8 +34,8 @@ struct Unexplained {
   Lean lean;
   bool leans = false;
   std::optional<LoudChannel> loud;
-  bool unknown = false;       // it is physics that is not on the list
-  bool stands_alone = false;  // then names on the list are not told beside it
+  bool unknown = false;     // it is physics that is not on the list
+  double gap_closed = 1.0;  // by the names: explained / (explained + left), deviances
 
   double remainder() const { return law ? law->held_out : 0.0; }
 };

@@ -1,4 +1,5 @@
 #include "tools/diagnose/effects/common.hpp"
+#include "tools/diagnose/plants/falling_simulation.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -42,8 +43,12 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   if (medium_known(c)) return edits.add("medium.drag_coefficient", v[0]);
   const double factor = v[0];
-  edits.law(c.plant == PlantKind::rotary_axis ? "axis" : "body",
-            [factor](const PortState& s) { return -factor * std::abs(s.velocity) * s.velocity; });
+  if (c.plant == PlantKind::rotary_axis)
+    return edits.law("axis", [=](const PortState& s) { return -factor * std::abs(s.velocity) * s.velocity; });
+  const double length = front_m(c.scale("wetted_over_m", 0.0));
+  edits.law("body", [=](const PortState& s) {
+    return -factor * wetted_share(s.load, length) * std::abs(s.velocity) * s.velocity;
+  });
 }
 
 const EffectRegistration kEffect(

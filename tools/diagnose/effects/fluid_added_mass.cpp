@@ -7,7 +7,19 @@ bool displaced_known(const Context& c) {
   return c.belief.value("medium.density_kg_per_m3") > 0.0 && c.belief.value("body.volume_m3") > 0.0;
 }
 
+// On its way into a liquid the body takes fluid along little by little.
+bool enters(const Context& c) { return c.scale("wetted_over_m", 0.0) > 0.0; }
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (enters(c)) {
+    const double mass = c.belief.value("body.mass_kg", 1.0), length = c.scale("wetted_over_m");
+    return {{.name = "added_mass_kg", .typical = 0.02 * mass, .low = 0.0, .high = 2.0 * mass},
+            {.name = "taken_up_over_m",
+             .typical = 0.2 * length,
+             .low = 0.01 * length,
+             .high = 2.0 * length,
+             .shapes = {0.05 * length}}};
+  }
   if (!displaced_known(c)) return {};  // without a medium that has mass there is nothing to carry along
   const double believed = c.belief.value("medium.added_mass_factor");
   const double displaced_kg = c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.volume_m3");
@@ -19,15 +31,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  if (!enters(c)) return edits.add("medium.added_mass_factor", v[0]);
+  const double mass_kg = v[0], over_m = v[1];
+  edits.law("body.added_mass", [=](const PortState& s) { return mass_kg * come_in(s.load, over_m); });
+}
+
 const EffectRegistration kEffect(
     {.id = "fluid.added_mass",
      .port = "body",
      .statement = "The body sets fluid around it in motion, which adds to its inertia but not to its weight.",
-     .equation = "(m + C_m rho V) h'' = F",
+     .equation = "(m + C_m rho V) h'' = F; into a liquid (m + m_a(d)) h'' = F + m_a'(d) h'^2",
      .plants = {PlantKind::falling_body},
      .parameters = parameters,
-     .apply = [](const Context&, const std::string&, std::span<const double> v,
-                 Edits& edits) { edits.add("medium.added_mass_factor", v[0]); },
+     .apply = apply,
      .belief_key = "medium.added_mass_factor"});
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "tools/diagnose/effects/common.hpp"
+#include "tools/diagnose/plants/falling_simulation.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -25,8 +26,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   if (displaced_known(c)) return edits.add("medium.buoyancy_factor", v[0]);
-  const double force = v[0];
-  edits.law("body", [force](const PortState&) { return force; });
+  const double force = v[0], length = c.scale("wetted_over_m", 0.0);
+  edits.law("body", [=](const PortState& s) { return force * wetted_share(s.load, length); });
 }
 
 const EffectRegistration kEffect({.id = "fluid.buoyancy",

@@ -139,8 +139,8 @@ StudyAnswer how_sure(const Diagnosis& d) {
   if (!d.unknown.empty())
     box.lines.emplace_back(
         Style::text,
-        fmt::format("A free law of {} at {} predicts trials it was not fitted to ({}); no effect "
-                    "on the list does as well. It takes {:.0f} % of what can be explained.",
+        fmt::format("A free law of {} at {}, which no effect on the list stands for, predicts trials it was "
+                    "not fitted to ({}). It takes {:.0f} % of what can be explained.",
                     d.unknown.front().curve.variable, d.unknown.front().port,
                     p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
   else if (!classes && d.detail == "known")

@@ -144,6 +144,27 @@ std::optional<double> hardest_deceleration_s(const Samples& accels, double g) {
   return std::nullopt;
 }
 
+std::optional<double> liquid_entry_s(const Samples& accels, double g) {
+  constexpr std::size_t kBefore = 20, kAfter = 5;  // samples
+  constexpr double kFree = 0.25, kBlow = 0.1;      // of g
+  const auto& a = accels.value;
+  const double blow = std::max(8.0 * fluctuation_rms(accels), kBlow * g);
+  double before = 0.0;  // sum of the last kBefore
+  for (std::size_t i = 0; i + kAfter < a.size(); ++i) {
+    if (i >= kBefore && std::abs(before) < kFree * g * kBefore) {
+      const double level = before / kBefore;
+      const auto is_up = [&](double value) { return value - level > blow; };
+      if (std::all_of(a.begin() + static_cast<std::ptrdiff_t>(i),
+                      a.begin() + static_cast<std::ptrdiff_t>(i + kAfter), is_up)) {
+        while (i > 0 && a[i - 1] - level > 0.3 * blow) --i;
+        return accels.time_s[i > 0 ? i - 1 : 0];
+      }
+    }
+    before += a[i] - (i >= kBefore ? a[i - kBefore] : 0.0);
+  }
+  return std::nullopt;
+}
+
 std::optional<Impact> find_impact(const Samples& accels, double peak_s, double release_s, double g) {
   constexpr double kPlateau_s = 0.4, kBegins = 0.03, kSoftRelease_s = 0.15;
   std::size_t at = 0;

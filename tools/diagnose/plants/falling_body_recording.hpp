@@ -38,6 +38,10 @@ double fastest_mps(const Samples& heights);
 // Shortly before the peak of a deceleration of more than 3 g.
 std::optional<double> hardest_deceleration_s(const Samples& accels, double gravity_mps2);
 
+// The last sample before the first blow after an accelerometer has read next to nothing: a falling body meets
+// a liquid. None where it was not seen to fall freely.
+std::optional<double> liquid_entry_s(const Samples& accels, double gravity_mps2);
+
 // Neither height nor release written down: how far the body fell is not known well enough to say when it
 // meets the bed. The stop starts where the recorded deceleration begins, with the speed that the
 // accelerometer has summed up; the fall starts with a state of its own once the release is over.

@@ -427,6 +427,30 @@ class RotaryTrial final : public TrialModel {
   std::vector<double> times_;
 };
 
+// Root mean square of the torque on the axis: of the drive; where that is silent, of gravity; where nobody
+// believes in that either, of what accelerates the inertia.
+double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belief) {
+  constexpr double kLeast_Nm = 1e-6;
+  const RotaryFigures f(belief, {});
+  double driven = 0.0, hanging = 0.0, accelerating = 0.0, rows = 0.0, moving = 0.0;
+  for (const auto& trial : trials) {
+    auto torque = samples_of(trial, "torque_Nm");
+    without_noise_alone(torque);
+    for (const double v : torque.value) driven += v * v;
+    rows += static_cast<double>(torque.value.size());
+    const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
+    if (positions.value.size() < 20) continue;
+    moving += static_cast<double>(positions.value.size());
+    for (const double p : positions.value)
+      hanging += std::pow(f.gravity_torque_Nm * std::sin(p - f.bottom_rad), 2);
+    for (const double a : smooth(positions, 8).curvature) accelerating += std::pow(f.inertia_kg_m2 * a, 2);
+  }
+  const auto rms = [](double squares, double n) { return n > 0.0 ? std::sqrt(squares / n) : 0.0; };
+  for (const double torque : {rms(driven, rows), rms(hanging, moving), rms(accelerating, moving)})
+    if (torque > kLeast_Nm) return torque;
+  return rows > 0.0 ? kLeast_Nm : 1.0;
+}
+
 // Orders of the ripple over the angle that the balance of torques shows, friction and drive taken out.
 std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr int kFirst = 3, kLast = 250;
@@ -465,13 +489,8 @@ class RotaryAxis final : public PlantModel {
   }
 
   void describe(const std::vector<Trial>& trials, Context& context) const override {
-    double torque = 0.0, speed = 0.0, angle = 0.0, duration = 0.0;
-    double samples = 0.0;
+    double speed = 0.0, angle = 0.0, duration = 0.0;
     for (const auto& trial : trials) {
-      for (const double v : samples_of(trial, "torque_Nm").value) {
-        torque += v * v;
-        ++samples;
-      }
       const auto positions = samples_of(trial, "position_rad");
       for (const double p : positions.value) angle = std::max(angle, std::abs(p));
       const auto velocities = samples_of(trial, "velocity_radps");
@@ -480,7 +499,7 @@ class RotaryAxis final : public PlantModel {
         for (const double v : smooth(positions, 5).rate) speed = std::max(speed, std::abs(v));
       if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back());
     }
-    context.scales["torque_Nm"] = samples > 0.0 ? std::max(std::sqrt(torque / samples), 1e-6) : 1.0;
+    context.scales["torque_Nm"] = torque_that_acts_Nm(trials, context.belief);
     context.scales["speed_radps"] = std::max(speed, 0.1);
     context.scales["angle_rad"] = std::max(angle, 0.1);
     context.scales["duration_s"] = duration;

@@ -1,0 +1,17 @@
+#pragma once
+#include <memory>
+
+#include "tools/diagnose/plant.hpp"
+
+namespace sandhopper::diagnose {
+
+// Phases of a fall, by their index in the plant's phases().
+enum FallPhase : std::uint32_t { kHeld, kSlow, kFast, kBed, kEntry, kImmersed };
+
+// Whether the body meets a liquid in this trial: the belief has its surface, or the recording shows the blow.
+bool meets_a_liquid(const Trial& trial, const Belief& belief);
+
+// One drop or throw: release, fall, and stop on a bed or entry into a liquid, as recorded.
+std::unique_ptr<TrialModel> make_falling_trial(const Trial& trial, const Belief& belief);
+
+}  // namespace sandhopper::diagnose
