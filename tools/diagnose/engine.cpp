@@ -32,9 +32,10 @@ constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
-constexpr double kNoiseHidesAll = 4.0;    // times the sensors' own
-constexpr double kMostOfTheGap = 0.5;     // DIAGNOSIS 2.5: less, and what is missing is on no list
-constexpr double kBesideEachOther = 0.7;  // names and an unknown that may be the form of one of their laws
+constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
+constexpr double kMostOfTheGap = 0.5;   // DIAGNOSIS 2.5: less, and what is missing is on no list
+// Names that close most of the gap, and what is left: it may be the form of one of their laws.
+constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 bool is_unknown(const FoundEffect& effect) { return effect.id.starts_with("unknown@"); }
 
@@ -183,8 +184,9 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   if (rest.unknown || rest.law)
     for (auto& effect : diagnosis.effects) {
       if (!is_unknown(effect)) effect.probability *= rest.gap_closed;
-      if (by_names && (rest.unknown || is_unknown(effect)))
-        effect.probability = std::min(effect.probability, kBesideEachOther);
+      if (by_names && is_unknown(effect))
+        effect.probability = std::min(effect.probability, kUnknownBesideNames);
+      if (by_names && rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
     }
   if (!by_names) {
     diagnosis.verdict = "unknown_physics";

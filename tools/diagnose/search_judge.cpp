@@ -281,6 +281,9 @@ void Search::judge(SetFit& result) {
         evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
         (fitted == sets_.end() || hidden ||
          fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
+    // At the fit itself all candidates count as tried (Bonferroni).
+    evidence.flip_p_value = std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
+                                                                sign_flip_p_value({evidence.evidence}, 0, 1));
     const bool flips_decide = enough && !beyond_doubt;
     const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
     evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
