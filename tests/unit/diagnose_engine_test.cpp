@@ -7,6 +7,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/diagnosis_json.hpp"
+#include "tools/diagnose/diagnosis_text.hpp"
 #include "tools/diagnose/residuals_csv.hpp"
 
 namespace sandhopper::diagnose {
@@ -166,7 +167,7 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   // A tether that tightens below 3.5 m.
   const auto d = diagnose(
       drops([](double, double h, double) { return 0.4 * std::max(0.0, 3.5 - h) * (h < 3.0 ? 1.0 : 0.0); }));
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@body"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
@@ -176,7 +177,7 @@ TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
   // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
   const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
                                   [](double since_s) { return -0.5 * std::exp(-since_s / 0.05); }));
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@ground"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "time since touchdown, s, times the quasi-static force");

@@ -67,7 +67,7 @@ TEST(DiagnoseMisfit, TheUnknownIsPlacedAtThePortOfTheNearestPhysicsNotOfASensor)
   ASSERT_EQ(d.effects.size(), 4u);
   EXPECT_EQ(d.effects.back().id, "unknown@ground");
   EXPECT_LE(d.effects.back().probability, 0.5);
-  EXPECT_NE(d.effects.back().statement.find("terrain.crust comes nearest and explains 13 %"),
+  EXPECT_NE(d.effects.back().statement.find("at ground: 87 % of the gap; terrain.crust comes nearest"),
             std::string::npos);
   d.effects.resize(1);
   report_unknown_near(0.13, d);

@@ -33,7 +33,8 @@ constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only 
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
-constexpr double kMostOfTheGap = 0.5;   // DIAGNOSIS 2.5: less, and what is missing is on no list
+constexpr double kLikelierThanNot = 0.5;
+constexpr double kMostOfTheGap = 0.5;  // DIAGNOSIS 2.5: less, and what is missing is on no list
 // Names that close most of the gap, and what is left: it may be the form of one of their laws.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
@@ -180,15 +181,19 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   if (named) report_effects(problem, search, belief, diagnosis);
   report_what_is_left(problem, rest, diagnosis);
   diagnosis.gap_closed = rest.gap_closed;
-  const bool by_names = rest.gap_closed > kMostOfTheGap;
   if (rest.unknown || rest.law)
-    for (auto& effect : diagnosis.effects) {
+    for (auto& effect : diagnosis.effects)
       if (!is_unknown(effect)) effect.probability *= rest.gap_closed;
-      if (by_names && is_unknown(effect))
-        effect.probability = std::min(effect.probability, kUnknownBesideNames);
-      if (by_names && rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
+  const bool by_names = rest.gap_closed > kMostOfTheGap &&
+                        std::ranges::any_of(diagnosis.effects, [](const FoundEffect& effect) {
+                          return !is_unknown(effect) && effect.probability > kLikelierThanNot;
+                        });
+  if (by_names)
+    for (auto& effect : diagnosis.effects) {
+      if (is_unknown(effect)) effect.probability = std::min(effect.probability, kUnknownBesideNames);
+      if (rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
     }
-  if (!by_names) {
+  if (!by_names && rest.unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
     std::ranges::stable_partition(diagnosis.effects, is_unknown);

@@ -257,15 +257,22 @@ void Search::judge(SetFit& result) {
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
-    // Signs are flipped at the set without this effect, against all candidates there.
+    // Signs are flipped at the set without this effect, against all candidates there; where its derivative
+    // there promises less than half of what it brings, at the fit itself, as if all had been tried
+    // (Bonferroni).
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
       std::size_t chosen = 0;
+      double promised = 0.0;
       for (const auto& s : screened(parent)) {
-        if (s.candidate == evidence.candidate) chosen = rivals.size();
+        if (s.candidate == evidence.candidate) chosen = rivals.size(), promised = s.gain;
         rivals.push_back(s.evidence);
       }
       if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
+      if (promised < 0.5 * drop && drop > kMostlyTrue * evidence.gain)
+        evidence.flip_p_value =
+            std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
+                                                sign_flip_p_value({evidence.evidence}, 0, 1));
     } else {
       evidence.flip_p_value = 0.0;
     }
@@ -276,11 +283,9 @@ void Search::judge(SetFit& result) {
     // near. Nor can they say much where a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
     const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
-    const bool beyond_doubt =
-        (far || !flips_can_tell || hidden) &&
-        evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
-        (fitted == sets_.end() || hidden ||
-         fitted->second.fit.deviance - result.fit.deviance > kMostlyTrue * evidence.gain);
+    const bool beyond_doubt = (far || !flips_can_tell || hidden) &&
+                              evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
+                              (hidden || drop > kMostlyTrue * evidence.gain);
     // At the fit itself all candidates count as tried (Bonferroni).
     evidence.flip_p_value = std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
                                                                 sign_flip_p_value({evidence.evidence}, 0, 1));
@@ -288,9 +293,7 @@ void Search::judge(SetFit& result) {
     const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
     evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
-    const double lost = fitted == sets_.end()
-                            ? evidence.gain
-                            : std::min(evidence.gain, fitted->second.fit.deviance - result.fit.deviance);
+    const double lost = std::min(evidence.gain, drop);
     evidence.too_small = evidence.typicals < smallest;
     evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
                                                      channels_read(*problem_, point.hypothesis, e));

@@ -199,11 +199,22 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     left = std::max({left, out.misfit.unexplained, (out.left * out.left - 1.0) * rows,
                      out.leans ? out.lean.z * out.lean.z : 0.0,
                      out.loud ? (out.loud->times * out.loud->times - 1.0) * rows : 0.0});
-  out.gap_closed = best.set.empty()  ? 0.0
-                   : explained > 0.0 ? explained / (explained + std::max(0.0, left))
-                                     : 0.0;
-  log.push_back(fmt::format("explained {:.1f}, left {:.1f} beyond the noise, rest {:.1f} ({:.1f} %), {} rows",
-                            explained, out.misfit.unexplained, out.remainder(), 100.0 * out.share, rows));
+  out.gap_closed = best.set.empty() || explained <= 0.0 ? 0.0 : explained / (explained + std::max(0.0, left));
+  // A law of free form that alone says more of trials it has not seen than the names and a law beside them:
+  // the names are not it.
+  if (out.unknown && out.law && !best.set.empty()) {
+    if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
+    const double together = explained + out.law->held_out;
+    if (auto instead = first_of(
+            alone, [&](const FreeGain& gain) { return !gain.family.sensor && gain.held_out > together; })) {
+      out.law = std::move(instead);
+      out.share = 1.0;
+      out.gap_closed = 0.0;
+    }
+  }
+  log.push_back(fmt::format(
+      "explained {:.1f}, left {:.1f} beyond the noise, rest {:.1f} ({:.1f} %), {} rows, gap closed {:.3f}",
+      explained, out.misfit.unexplained, out.remainder(), 100.0 * out.share, rows, out.gap_closed));
   return out;
 }
 
