@@ -257,9 +257,11 @@ void Search::judge(SetFit& result) {
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
-    // Signs are flipped at the set without this effect, against all candidates there; where its derivative
-    // there promises less than half of what it brings, at the fit itself, as if all had been tried
-    // (Bonferroni).
+    const double drop =
+        fitted == sets_.end() ? evidence.gain : fitted->second.fit.deviance - result.fit.deviance;
+    // Signs are flipped at the set without this effect, against all candidates there. Where its derivative
+    // there promises less than half of what it brings, and that at the fit is true, they are flipped at the
+    // fit, too, as if all had been tried (Bonferroni).
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
       std::size_t chosen = 0;
