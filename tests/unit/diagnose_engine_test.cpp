@@ -173,6 +173,23 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
 }
 
+TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
+  // Drag, and a spring far weaker that begins at 3 m and is on no list.
+  const auto d = diagnose(drops(
+      [](double, double h, double v) { return -0.03 * std::abs(v) * v + 0.1 * std::max(0.0, 3.0 - h); }));
+  EXPECT_EQ(d.verdict, "missing_physics") << to_text(d);
+  const auto* drag = effect(d, "air.quadratic_drag");
+  ASSERT_NE(drag, nullptr) << to_text(d);
+  EXPECT_GT(drag->probability, 0.5);
+  EXPECT_GT(d.gap_closed, 0.5);
+  EXPECT_LT(d.gap_closed, 1.0);
+  for (const auto& found : d.effects) {
+    if (found.id.starts_with("unknown@")) {
+      EXPECT_LE(found.probability, 0.5);
+    }
+  }
+}
+
 TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
   // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
   const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
