@@ -335,6 +335,24 @@ std::vector<std::size_t> named_part(const SetFit& fit) {
 
 }  // namespace
 
+std::vector<double> Search::deviances_without_one(const SetFit& fit) const {
+  std::vector<double> deviances;
+  for (const auto candidate : fit.set) {
+    const auto parent = sets_.find(without(fit.set, candidate));
+    deviances.push_back(parent == sets_.end() ? -1e300 : parent->second.fit.deviance);
+  }
+  return deviances;
+}
+
+// Also where a set without one of its effects came lower since.
+bool Search::is_to_be_judged(const SetFit& fit) const {
+  if (!fit.judged) return true;
+  const auto now = deviances_without_one(fit);
+  for (std::size_t i = 0; i < fit.beside.size(); ++i)
+    if (now[i] > -1e299 && now[i] < fit.beside[i] - kWorthAFit) return true;
+  return false;
+}
+
 void Search::choose_best() {
   // The closest fit first; only sets that can still win are judged.
   std::vector<SetFit*> order;
@@ -343,7 +361,7 @@ void Search::choose_best() {
   std::sort(order.begin(), order.end(),
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
   const auto needed = [&](SetFit& fit) {
-    if (!fit.judged) judge(fit);
+    if (is_to_be_judged(fit)) judge(fit);
     // A rough fit that is far from needing its effects is not worth a better one.
     if (fit.rough && !fit.hopeless) {
       finish(fit);

@@ -31,6 +31,7 @@ struct SetFit {
   double dispersion = 1.0;  // the mean of the effects'
   bool rough = false;       // only tried: finished before it can be the answer
   bool judged = false;
+  std::vector<double> beside;  // deviances of the sets without one effect each, when it was judged
   bool needed = false;    // every effect stands on its own; known once judged
   bool sound = false;     // would be needed if none were too small
   bool hopeless = false;  // an effect is far from that
@@ -87,6 +88,8 @@ class Search {
   bool is_bent(const Fit& fit) const;
   bool unbends(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);
+  std::vector<double> deviances_without_one(const SetFit& fit) const;
+  bool is_to_be_judged(const SetFit& fit) const;
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void restart_null();
   void exchange();

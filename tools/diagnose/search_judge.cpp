@@ -148,6 +148,7 @@ void Search::judge(SetFit& result) {
   Index first = 1;
   result.evidence.clear();
   result.judged = true;
+  result.beside = deviances_without_one(result);
   result.needed = result.sound = true;
   result.hopeless = false;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
@@ -259,19 +260,17 @@ void Search::judge(SetFit& result) {
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
     const double drop =
         fitted == sets_.end() ? evidence.gain : fitted->second.fit.deviance - result.fit.deviance;
-    // Signs are flipped at the set without this effect, against all candidates there. Where its derivative
-    // there promises less than half of what it brings, and that at the fit is true, they are flipped at the
-    // fit, too, as if all had been tried (Bonferroni).
+    // Signs are flipped at the set without this effect, against all candidates there; and where what its
+    // derivative at the fit promises is true, at the fit, as if all had been tried (Bonferroni).
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
       std::size_t chosen = 0;
-      double promised = 0.0;
       for (const auto& s : screened(parent)) {
-        if (s.candidate == evidence.candidate) chosen = rivals.size(), promised = s.gain;
+        if (s.candidate == evidence.candidate) chosen = rivals.size();
         rivals.push_back(s.evidence);
       }
       if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
-      if (promised < 0.5 * drop && drop > kMostlyTrue * evidence.gain)
+      if (drop > kMostlyTrue * evidence.gain)
         evidence.flip_p_value =
             std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
                                                 sign_flip_p_value({evidence.evidence}, 0, 1));
@@ -288,9 +287,6 @@ void Search::judge(SetFit& result) {
     const bool beyond_doubt = (far || !flips_can_tell || hidden) &&
                               evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
                               (hidden || drop > kMostlyTrue * evidence.gain);
-    // At the fit itself all candidates count as tried (Bonferroni).
-    evidence.flip_p_value = std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
-                                                                sign_flip_p_value({evidence.evidence}, 0, 1));
     const bool flips_decide = enough && !beyond_doubt;
     const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
     evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
