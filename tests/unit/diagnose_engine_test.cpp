@@ -268,7 +268,7 @@ TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
   for (const char* key :
        {"id", "statement", "equation", "parameters", "probability", "heldout_gain", "indistinguishable_from"})
     EXPECT_TRUE(effect.contains(key)) << key;
-  const auto& parameter = effect["parameters"].begin().value();
+  const auto parameter = effect["parameters"].begin().value();
   EXPECT_LE(parameter["ci95"][0].get<double>(), parameter["value"].get<double>());
   EXPECT_GE(parameter["ci95"][1].get<double>(), parameter["value"].get<double>());
   ASSERT_FALSE(json["where"].empty());

@@ -58,14 +58,30 @@ std::string change_of(const std::string& name) {
   return name + "_change";
 }
 
-// Deviance that an effect of the best set takes away, as a fit without it has it: of two that nearly cancel
-// each seems to explain much, while without it the other shrinks, too.
-double lost_without(const Search& search, const EffectEvidence& evidence) {
+// Deviance that an effect takes away from trials that it was not fitted to, its size from the others:
+//   sum_t b_t (2 u_t - b_t I_t),   b_t = sum_{s != t} u_s / sum_{s != t} I_s
+double held_out_drop(const TrialEvidence& evidence) {
+  double score = 0.0, information = 0.0, drop = 0.0;
+  for (const double u : evidence.score) score += u;
+  for (const double one : evidence.information) information += one;
+  for (std::size_t t = 0; t < evidence.score.size(); ++t) {
+    const double others = information - evidence.information[t];
+    if (others <= 0.0) continue;
+    const double size = (score - evidence.score[t]) / others;
+    drop += size * (2.0 * evidence.score[t] - size * evidence.information[t]);
+  }
+  return std::max(0.0, drop);
+}
+
+// No more than a fit without the effect loses: of two that nearly cancel each seems to explain much, while
+// without it the other shrinks, too.
+double held_out_loss(const Search& search, const EffectEvidence& evidence) {
+  const double drop = held_out_drop(evidence.evidence);
   auto rest = search.best().set;
   std::erase(rest, evidence.candidate);
   const auto it = search.sets().find(rest);
-  if (it == search.sets().end()) return evidence.gain;
-  return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, evidence.gain);
+  if (it == search.sets().end()) return drop;
+  return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, drop);
 }
 
 bool is_fault(const FoundEffect& effect) { return !effect.channel.empty(); }
@@ -122,7 +138,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       }
     for (const auto& evidence : best.evidence)
       if (evidence.candidate == c) {
-        found.heldout_gain = std::min(1.0, lost_without(search, evidence) / explained);
+        found.heldout_gain = std::min(1.0, held_out_loss(search, evidence) / explained);
         found.p_value = std::max(evidence.p_value, 1e-300);
         found.typicals = evidence.typicals;
         if (evidence.weak) found.probability = std::min(found.probability, kMostOfWeak);
