@@ -7,6 +7,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/diagnosis_json.hpp"
+#include "tools/diagnose/diagnosis_text.hpp"
 #include "tools/diagnose/residuals_csv.hpp"
 
 namespace sandhopper::diagnose {
@@ -166,17 +167,34 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   // A tether that tightens below 3.5 m.
   const auto d = diagnose(
       drops([](double, double h, double) { return 0.4 * std::max(0.0, 3.5 - h) * (h < 3.0 ? 1.0 : 0.0); }));
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@body"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
+}
+
+TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
+  // Drag, and a spring far weaker that begins at 3 m and is on no list.
+  const auto d = diagnose(drops(
+      [](double, double h, double v) { return -0.03 * std::abs(v) * v + 0.1 * std::max(0.0, 3.0 - h); }));
+  EXPECT_EQ(d.verdict, "missing_physics") << to_text(d);
+  const auto* drag = effect(d, "air.quadratic_drag");
+  ASSERT_NE(drag, nullptr) << to_text(d);
+  EXPECT_GT(drag->probability, 0.5);
+  EXPECT_GT(d.gap_closed, 0.5);
+  EXPECT_LT(d.gap_closed, 1.0);
+  for (const auto& found : d.effects) {
+    if (found.id.starts_with("unknown@")) {
+      EXPECT_LE(found.probability, 0.5);
+    }
+  }
 }
 
 TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
   // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
   const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
                                   [](double since_s) { return -0.5 * std::exp(-since_s / 0.05); }));
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@ground"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "time since touchdown, s, times the quasi-static force");
@@ -250,7 +268,7 @@ TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
   for (const char* key :
        {"id", "statement", "equation", "parameters", "probability", "heldout_gain", "indistinguishable_from"})
     EXPECT_TRUE(effect.contains(key)) << key;
-  const auto& parameter = effect["parameters"].begin().value();
+  const auto parameter = effect["parameters"].begin().value();
   EXPECT_LE(parameter["ci95"][0].get<double>(), parameter["value"].get<double>());
   EXPECT_GE(parameter["ci95"][1].get<double>(), parameter["value"].get<double>());
   ASSERT_FALSE(json["where"].empty());

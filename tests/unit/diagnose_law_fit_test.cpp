@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/evidence/unknown_law.hpp"
+#include "tools/diagnose/open_world.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -16,7 +16,7 @@ TEST(DiagnoseLawFit, ALawOfFreeFormIsFittedThroughTheSimulation) {
       prepare(swings([](double angle, double, double) { return kTorque_Nm * std::sin(2.0 * angle); }, 1, 6))
           .problem;
   const Fit null = fit_from(problem, null_point(problem));
-  UnknownLaw law;
+  FreeGain law;
   law.family.terms = {
       {"axis", false, [](const PortState& s) { return kScale_Nm * std::sin(2.0 * s.position); }, kScale_Nm}};
   law.size = law.sd = Eigen::VectorXd::Zero(1);

@@ -52,6 +52,28 @@ TEST(DiagnoseMisfit, OneTrialThatWentAstrayIsNoMisfitOfAll) {
   EXPECT_FALSE(misfit_of(trials_with({9.0, 9.0}), 18000.0, false).large);
 }
 
+TEST(DiagnoseMisfit, TheUnknownIsPlacedAtThePortOfTheNearestPhysicsNotOfASensor) {
+  const auto found = [](const std::string& id, const std::string& port, const std::string& channel = "") {
+    FoundEffect effect;
+    effect.id = id;
+    effect.port = port;
+    effect.channel = channel;
+    return effect;
+  };
+  Diagnosis d;
+  d.effects = {found("load_cell.lag", "load_cell_force_N", "load_cell_force_N"),
+               found("terrain.crust", "ground"), found("rail.viscous", "rail")};
+  report_unknown_near(0.13, d);
+  ASSERT_EQ(d.effects.size(), 4u);
+  EXPECT_EQ(d.effects.back().id, "unknown@ground");
+  EXPECT_LE(d.effects.back().probability, 0.5);
+  EXPECT_NE(d.effects.back().statement.find("at ground: 87 % of the gap; terrain.crust comes nearest"),
+            std::string::npos);
+  d.effects.resize(1);
+  report_unknown_near(0.13, d);
+  EXPECT_EQ(d.effects.size(), 1u);
+}
+
 // A tether that tightens below 3 m.
 double tether(double, double height_m, double) { return 0.4 * std::max(0.0, 3.0 - height_m); }
 double nothing(double, double, double) { return 0.0; }
@@ -134,6 +156,17 @@ TEST(DiagnoseMisfit, TrialsLeanByWhatTheyHaveInCommon) {
   const auto lean = largest_lean(problem, point);
   EXPECT_EQ(lean.nuisance, first[0].name);
   EXPECT_NEAR(lean.z, -1.5 * std::sqrt(trials), 1e-12);
+}
+
+TEST(DiagnoseMisfit, WhatLeansIsUnknownWhereItActs) {
+  Diagnosis d;
+  report_unknown_leaning({"release_height_m", "", 9.0}, d);
+  EXPECT_TRUE(d.effects.empty());
+  report_unknown_leaning({"bed_fluctuation", "ground", -9.0}, d);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "unknown@ground");
+  EXPECT_NE(d.effects.front().statement.find("bed_fluctuation"), std::string::npos);
+  EXPECT_NE(d.effects.front().statement.find("9.0 standard errors"), std::string::npos);
 }
 
 TEST(DiagnoseMisfit, TheChangeOfANoiseIsThatOfItsLogarithm) {

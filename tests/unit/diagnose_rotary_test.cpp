@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/diagnosis_text.hpp"
 #include "tools/diagnose/plants/nearby_sine.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/signal.hpp"
@@ -244,6 +245,32 @@ TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
     else
       EXPECT_NEAR(found.parameters.front().value, 2.0 / 2.6 - 1.0, 0.02) << found.id;
   }
+}
+
+// A drive that is off says nothing of what is large: gravity does.
+TEST(DiagnoseRotary, APendulumThatSwingsFreeHasFrictionOfItsOwnSize) {
+  constexpr double kInertia_kg_m2 = 0.1, kGravityTorque_Nm = 2.0, kViscous_Nm_s = 0.03, kStep_s = 2e-5;
+  Recordings r = swings([](double, double, double) { return 0.0; });
+  for (std::size_t i = 0; i < r.trials.size(); ++i) {
+    Random random(3, i);
+    Trial& trial = r.trials[i];
+    double angle = 0.5 + 0.15 * static_cast<double>(i), speed = 0.0;
+    std::size_t row = 0;
+    for (long step = 0; row < trial.time_s.size(); ++step) {
+      if (step % 200 == 0) {
+        trial.channels["position_rad"][row] = angle + 5e-4 * random.normal();
+        trial.channels["velocity_radps"][row] = speed + 0.02 * random.normal();
+        trial.channels["torque_Nm"][row++] = 0.0;
+      }
+      speed -= kStep_s / kInertia_kg_m2 * (kGravityTorque_Nm * std::sin(angle) + kViscous_Nm_s * speed);
+      angle += kStep_s * speed;
+    }
+  }
+  const auto d = diagnose(r);
+  const auto viscous = std::ranges::find(d.effects, "axis.viscous", &FoundEffect::id);
+  ASSERT_NE(viscous, d.effects.end()) << to_text(d);
+  EXPECT_GT(viscous->probability, 0.5);
+  EXPECT_NEAR(viscous->parameters.front().value, kViscous_Nm_s, 0.1 * kViscous_Nm_s);
 }
 
 }  // namespace

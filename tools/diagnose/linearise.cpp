@@ -179,22 +179,8 @@ VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
 
 namespace {
 
-// Columns of FormOf along a coordinate of the rows: signature times hat functions over the knots.
-void hats(const VectorXd& signature, const std::function<double(std::size_t)>& coordinate,
-          const std::vector<double>& knots, Eigen::Ref<MatrixXd> out) {
-  for (Index k = 0; k < signature.size(); ++k) {
-    const double at = std::clamp(coordinate(static_cast<std::size_t>(k)), knots.front(), knots.back());
-    const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, at);
-    const auto i = static_cast<Index>(next - knots.begin()) - 1;
-    const double width = *next - *(next - 1);
-    const double share = width > 0.0 ? (at - *(next - 1)) / width : 0.0;
-    out(k, i) = (1.0 - share) * signature[k];
-    out(k, i + 1) = share * signature[k];
-  }
-}
-
-// `derivatives`: of the directions. Columns over time, then those that all trials share.
-MatrixXd form_columns(const Problem& problem, const TrialModel& trial, const std::vector<FormOf>& forms,
+// Columns of FormOf: `plain` holds the directions' derivatives from column 1 on.
+MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
                       const std::vector<VectorXd>& derivatives) {
   const auto rows = static_cast<Index>(trial.rows.size());
   double first_s = 1e300, last_s = -1e300;
@@ -202,28 +188,21 @@ MatrixXd form_columns(const Problem& problem, const TrialModel& trial, const std
     first_s = std::min(first_s, row.time_s);
     last_s = std::max(last_s, row.time_s);
   }
-  std::vector<double> times(kFormKnots);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    times[i] = first_s + (last_s - first_s) * static_cast<double>(i) / static_cast<double>(kFormKnots - 1);
-  const auto count = static_cast<Index>(forms.size()), axes = static_cast<Index>(problem.form_knots.size());
-  MatrixXd out = MatrixXd::Zero(rows, count * (kFormKnots + axes * kSharedFormKnots));
-  Index next = 0;
-  const auto signature_of = [&](const FormOf& form) {
+  const double apart_s = (last_s - first_s) / static_cast<double>(kFormKnots - 1);
+  MatrixXd out = MatrixXd::Zero(rows, kFormKnots * static_cast<Index>(forms.size()));
+  for (std::size_t f = 0; f < forms.size(); ++f) {
     VectorXd signature = VectorXd::Zero(rows);
-    for (const auto& [direction, weight] : form.directions) signature += weight * derivatives[direction];
-    return signature;
-  };
-  for (const auto& form : forms) {
-    hats(signature_of(form), [&](std::size_t k) { return trial.rows[k].time_s; }, times,
-         out.middleCols(next, kFormKnots));
-    next += kFormKnots;
-  }
-  for (const auto& form : forms)
-    for (std::size_t a = 0; a < problem.form_knots.size(); ++a) {
-      hats(signature_of(form), [&](std::size_t k) { return trial.coordinates[a].values[k]; },
-           problem.form_knots[a], out.middleCols(next, kSharedFormKnots));
-      next += kSharedFormKnots;
+    for (const auto& [direction, weight] : forms[f].directions) signature += weight * derivatives[direction];
+    for (Index k = 0; k < rows; ++k) {
+      const double at =
+          apart_s > 0.0 ? (trial.rows[static_cast<std::size_t>(k)].time_s - first_s) / apart_s : 0.0;
+      const Index knot = std::clamp<Index>(static_cast<Index>(at), 0, kFormKnots - 2);
+      const double share = at - static_cast<double>(knot);
+      const Index column = static_cast<Index>(f) * kFormKnots + knot;
+      out(k, column) = (1.0 - share) * signature[k];
+      out(k, column + 1) = share * signature[k];
     }
+  }
   return out;
 }
 
@@ -266,7 +245,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   const auto append = [&](const MatrixXd& more) {
     const Index own = x.cols();
     x.conservativeResize(Eigen::NoChange, own + more.cols());
-    if (more.cols() > 0) x.rightCols(more.cols()) = more;
+    x.rightCols(more.cols()) = more;
     for (auto& place : order)
       if (place >= own) place += more.cols();
     for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
@@ -276,7 +255,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     Index at = 1;
     for (std::size_t i = 0; i < directions.size(); ++i)
       if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
-    append(form_columns(problem, trial, *options.forms, derivatives));
+    append(form_columns(trial, *options.forms, derivatives));
   }
   if (options.more != nullptr) append((*options.more)[index]);
   if (options.keep_plain) {
@@ -286,10 +265,8 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
       out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
   whiten(problem, index, x);
-  if (options.with_repeatable_error && index < problem.repeatable_error.white.size()) {
+  if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
     append(problem.repeatable_error.white[index]);
-    if (options.with_own_error) append(problem.repeatable_error.own[index]);
-  }
   eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.
@@ -346,11 +323,6 @@ std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) 
   parallel_for(columns.size(),
                [&](std::size_t t) { columns[t] = columns_of(problem, t, base, point.nuisances[t]); });
   return columns;
-}
-
-void whiten_kept_columns(Problem& problem) {
-  parallel_for(problem.kept_columns.size(),
-               [&](std::size_t t) { whiten(problem, t, problem.kept_columns[t]); });
 }
 
 void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }

@@ -34,15 +34,11 @@ struct FormOf {
   std::vector<std::pair<std::size_t, double>> directions;  // index into them, weight
 };
 inline constexpr Eigen::Index kFormKnots = 8;
-// The same along each of the problem's `form_knots`, of a coordinate: what all trials share.
-inline constexpr Eigen::Index kSharedFormKnots = 6;
 
 struct LineariseOptions {
-  // kFormKnots columns each, after the directions, then those that trials share.
-  const std::vector<FormOf>* forms = nullptr;
+  const std::vector<FormOf>* forms = nullptr;          // kFormKnots columns each, after the directions
   const std::vector<Eigen::MatrixXd>* more = nullptr;  // of every trial: plain derivatives, after the forms
   bool with_repeatable_error = false;                  // its columns last
-  bool with_own_error = false;                         // and after them those of this trial alone
   bool keep_plain = false;
   bool fresh_columns = false;                         // do not take the kept ones
   const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial
@@ -79,7 +75,5 @@ KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& b
 
 // Keeps them for what follows.
 void keep_columns(Problem& problem, const Point& point);
-// Whitens the kept ones with the noise model as it is now.
-void whiten_kept_columns(Problem& problem);
 
 }  // namespace sandhopper::diagnose

@@ -123,32 +123,6 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
   }
 }
 
-void NoiseModel::fit_innovations(const std::vector<const TrialModel*>& trials,
-                                 const std::vector<std::vector<std::uint8_t>>& used,
-                                 const std::vector<Eigen::VectorXd>& residuals) {
-  using OfPhases = std::vector<std::vector<double>>;
-  std::vector<OfPhases> whitened;
-  for (const auto& channel : channels_) whitened.push_back(OfPhases(channel.sd_of_phase.size()));
-  for (std::size_t t = 0; t < trials.size(); ++t) {
-    Eigen::MatrixXd white = residuals[t];
-    whiten(*trials[t], used[t], white);
-    for (std::size_t k = 0; k < trials[t]->rows.size(); ++k)
-      if (used[t][k]) {
-        const Row& row = trials[t]->rows[k];
-        whitened[row.channel][row.phase].push_back(white(static_cast<Eigen::Index>(k), 0));
-      }
-  }
-  for (std::size_t c = 0; c < channels_.size(); ++c)
-    for (std::size_t p = 0; p < whitened[c].size(); ++p) {
-      const auto& values = whitened[c][p];
-      if (static_cast<double>(values.size()) < kTooFewSamples) continue;
-      double sum = 0.0;
-      for (const double v : values) sum += std::min(v * v, kMostOfOne * kMostOfOne);
-      const double rms = std::sqrt(sum / static_cast<double>(values.size()));
-      if (rms > 0.0 && rms < 1.0) channels_[c].correlation_of_phase[p].innovation_sd *= rms;
-    }
-}
-
 NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,

@@ -37,10 +37,6 @@ class NoiseModel {
   // Standard deviation of one row, as whitening takes it.
   double sd(const TrialModel& trial, const Row& row) const;
   void fix(std::size_t channel, double sd);  // white, the same in all phases
-  // Innovations as small as whitened residuals say, channel by channel and phase by phase.
-  void fit_innovations(const std::vector<const TrialModel*>& trials,
-                       const std::vector<std::vector<std::uint8_t>>& used,
-                       const std::vector<Eigen::VectorXd>& residuals);
   // All standard deviations times this: what a fit took up belongs to the noise, too.
   void widen(double factor);
   std::size_t channels() const { return channels_.size(); }

@@ -9,6 +9,7 @@
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/signatures.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -131,11 +132,8 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
-  update_noise(problem, point, signatures_at(problem, point));
-}
-
-void update_noise(Problem& problem, const Point& point, const Signatures& signatures, bool same_model_error) {
-  if (!same_model_error) take_model_error(problem, model_errors(problem, point));
+  take_model_error(problem, model_errors(problem, point));
+  const Signatures signatures = signatures_at(problem, point);
   const auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
   const double rows = problem.rows();
@@ -186,7 +184,6 @@ void update_noise(Problem& problem, const Point& point, const Signatures& signat
   find_noisy_trials(problem, residuals);
   NoiseModel noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
                                     problem.floor_sd);
-  noise.fit_innovations(problem.trial_pointers(), problem.used, residuals);
   noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
   // A condition is met as closely as it says, whatever the recordings scatter.
   for (std::size_t c = 0; c < problem.channels.size(); ++c)
@@ -194,27 +191,6 @@ void update_noise(Problem& problem, const Point& point, const Signatures& signat
   take_noise(problem, std::move(noise));
   mark_outliers(problem, residuals);
 }
-
-namespace {
-
-std::vector<std::vector<double>> form_knots(const Problem& problem) {
-  constexpr std::size_t kCoordinates = 2;
-  std::vector<std::vector<double>> knots;
-  if (problem.trials.empty()) return knots;
-  for (std::size_t a = 0; a < std::min(kCoordinates, problem.trials.front()->coordinates.size()); ++a) {
-    std::vector<double> values;
-    for (const auto& trial : problem.trials)
-      values.insert(values.end(), trial->coordinates[a].values.begin(), trial->coordinates[a].values.end());
-    std::ranges::sort(values);
-    knots.emplace_back();
-    for (Index i = 0; i < kSharedFormKnots; ++i)
-      knots.back().push_back(values[static_cast<std::size_t>(i) * (values.size() - 1) /
-                                    static_cast<std::size_t>(kSharedFormKnots - 1)]);
-  }
-  return knots;
-}
-
-}  // namespace
 
 Prepared prepare(const Recordings& recordings) {
   Prepared prepared;
@@ -245,7 +221,6 @@ Prepared prepare(const Recordings& recordings) {
     problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
     problem.trials.push_back(std::move(model));
   }
-  problem.form_knots = form_knots(problem);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto& channel = problem.channels[c];
     if (const double sd = problem.plant->least_sd(channel); sd > 0.0) {
@@ -276,10 +251,11 @@ Prepared prepare(const Recordings& recordings) {
     const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
     problem.tolerances.push_back(
         {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
-    // Nor whether what is written is the value at an instant or the mean over the row, or over the conversion.
+    // Nor whether what is written is the value at an instant or the mean over the row, or over the
+    // conversion.
     if (problem.plant->changes_within_rows())
       problem.tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
-                                  std::hypot(row_s, conversion_s(problem.context.belief, channel))});
+                                    std::hypot(row_s, conversion_s(problem.context.belief, channel))});
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});

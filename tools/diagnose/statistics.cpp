@@ -66,13 +66,6 @@ double TrialEvidence::size() const {
   return information_sum > 0.0 ? sum(score) / information_sum : 0.0;
 }
 
-double TrialEvidence::gain() const {
-  double sum = 0.0, total = 1e-300;
-  for (const double u : score) sum += u;
-  for (const double one : information) total += one;
-  return sum * sum / total;
-}
-
 double TrialEvidence::degrees_of_freedom() const {
   return kModelTrials + static_cast<double>(score.size()) - 1.0;
 }

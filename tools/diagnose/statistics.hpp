@@ -20,7 +20,6 @@ struct TrialEvidence {
   std::vector<double> information;
 
   double size() const;
-  double gain() const;  // (sum u)^2 / sum I
   double t() const;  // of size / its error
   double degrees_of_freedom() const;
   double p_value() const;           // one candidate alone

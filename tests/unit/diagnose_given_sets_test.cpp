@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "tools/diagnose/campaign_input.hpp"
+#include "tools/diagnose/diagnosis_text.hpp"
+#include "tools/diagnose/engine.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// Recordings of other laboratories with a physicist's answer beside them (given_real_sets.md): what must be
+// named, within his bounds, and how much nearer the model comes to trials it was not fitted to.
+class DiagnoseGivenSets : public ::testing::Test {
+ protected:
+  // False, said loudly, where the recordings are not there.
+  bool run(const std::string& name) {
+    const auto folder = std::filesystem::path(SANDHOPPER_SOURCE_DIR).parent_path() / "shared/data" / name;
+    if (!std::filesystem::exists(folder / "campaign.toml")) {
+      std::printf("*** SKIPPED: %s is not there; put the recordings beside this repository ***\n",
+                  folder.c_str());
+      return false;
+    }
+    answer_ = diagnose(read_campaign(load_campaign(folder)).recordings);
+    return true;
+  }
+  bool names(const std::string& id) const {
+    return std::ranges::any_of(answer_.effects,
+                               [&](const auto& e) { return e.id == id && e.probability > 0.5; });
+  }
+  double value(const std::string& id) const {
+    const auto it = std::ranges::find(answer_.effects, id, &FoundEffect::id);
+    return it == answer_.effects.end() ? std::nan("") : it->parameters.front().value;
+  }
+  double surest_unknown() const {
+    double most = 0.0;
+    for (const auto& e : answer_.effects)
+      if (e.id.starts_with("unknown@")) most = std::max(most, e.probability);
+    return most;
+  }
+  double share_of_error_left() const {
+    const auto& error = answer_.fits.front().heldout;
+    return error.after / error.before;
+  }
+  Diagnosis answer_;
+};
+
+TEST_F(DiagnoseGivenSets, AThrownPhoneIsSlowedByTheSquareOfItsSpeed) {
+  if (!run("phone_throws")) GTEST_SKIP();
+  EXPECT_EQ(answer_.verdict, "missing_physics");
+  ASSERT_TRUE(names("air.quadratic_drag")) << to_text(answer_);
+  EXPECT_GT(value("air.quadratic_drag"), 0.045);
+  EXPECT_LT(value("air.quadratic_drag"), 0.054);
+  EXPECT_FALSE(names("air.linear_drag"));
+  EXPECT_LE(surest_unknown(), 0.5);
+  EXPECT_GT(answer_.gap_closed, 0.9);
+  EXPECT_LT(share_of_error_left(), 0.35);
+}
+
+TEST_F(DiagnoseGivenSets, ASphereThatEntersWaterTakesWaterAlong) {
+  if (!run("water_entry_sphere")) GTEST_SKIP();
+  constexpr double kDragPerCoefficient = 0.5 * 998.0 * 0.00155179;  // of 1 kg, 1/m
+  ASSERT_TRUE(names("air.quadratic_drag")) << to_text(answer_);
+  EXPECT_GT(kDragPerCoefficient * value("air.quadratic_drag"), 0.13);
+  EXPECT_LT(kDragPerCoefficient * value("air.quadratic_drag"), 0.42);
+  ASSERT_TRUE(names("fluid.added_mass")) << to_text(answer_);
+  EXPECT_GT(value("fluid.added_mass"), 0.007);
+  EXPECT_LT(value("fluid.added_mass"), 0.015);
+  EXPECT_LE(surest_unknown(), 0.5);
+  EXPECT_LT(share_of_error_left(), 0.35);
+}
+
+// The drive is off and its torque zero: what is typical comes from gravity. Four trials, three effects at
+// once and a speed that is late besides: friction of some kind, and inertia or gravity.
+TEST_F(DiagnoseGivenSets, AServoThatSwingsFreeHasFriction) {
+  if (!run("servo_passive")) GTEST_SKIP();
+  EXPECT_TRUE(names("axis.inertia") || names("axis.gravity")) << to_text(answer_);
+  EXPECT_TRUE(names("axis.viscous") || names("axis.coulomb") || names("axis.load_dependent"))
+      << to_text(answer_);
+  EXPECT_FALSE(names("air.quadratic_drag"));
+  EXPECT_FALSE(names("axis.torque_scale"));
+  EXPECT_LE(surest_unknown(), 0.5);
+  EXPECT_LT(share_of_error_left(), 0.5);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
