@@ -102,7 +102,7 @@ TEST(SoundHops, ComeToRestWithoutAFault) {
   for (const double bed : {600.0, 1200.0, 2400.0, 3600.0, 0.0})
     for (const double spring : {250.0, 375.0, 500.0})
       for (const double drop : {0.02, 0.05, 0.10, 0.15, 0.22})
-        for (const std::uint64_t seed : {0, 1, 2, 3, 4, 5}) {
+        for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u}) {
           const Hop hop{bed, spring, drop, seed != 0, seed};
           const auto out = run(hop, robot);
           ++hops;

@@ -55,7 +55,7 @@ TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {
       trials[t].time_s.push_back(0.001 * i);
       force.push_back(1e-3 * std::round(1e3 * (0.5 * std::max(0, i - 100) + 0.1 * random.normal())));
     }
-    for (const std::size_t first : {110, 122, 250, 330}) std::fill_n(force.begin() + first, 10, 0.0);
+    for (const std::ptrdiff_t first : {110, 122, 250, 330}) std::fill_n(force.begin() + first, 10, 0.0);
   }
   const auto faults = remove_data_faults(trials);
   ASSERT_EQ(faults.size(), 1u);
