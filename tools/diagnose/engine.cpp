@@ -158,7 +158,7 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   return second;
 }
 
-// What the best set leaves, told beside it or, where it says little, in its place.
+// Tells the rest that the best set leaves.
 void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagnosis& diagnosis) {
   if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
   if (!rest.unknown) return;

@@ -7,7 +7,7 @@
 
 namespace sandhopper::diagnose {
 
-// What is believed of a falling body and of what it falls through and onto.
+// Beliefs about a falling body and about the medium and bed that it meets.
 struct FallingFigures {
   double gravity_mps2, mass_kg, area_m2, volume_m3, density_kg_per_m3, drag_coefficient,
       linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, surface_height_m, bed_stiffness_N_per_m;
@@ -23,13 +23,14 @@ double body_length_m(const Belief& belief);
 // 1 where L is 0: the medium is all around.
 double wetted_share(double depth_m, double length_m);
 
-// Behind the front, where the flow leaves the body, is a cavity: what resists acts on that much of it.
+// Where the flow leaves the body; behind it is a cavity, and the force that resists acts on the front alone.
 inline double front_m(double length_m) { return 0.25 * length_m; }
 
 // Body in a medium, perhaps onto a bed or into a liquid:
-//   (m + C_m rho V w + m_a) h'' = -m g + w (B rho V g - 1/2 rho A C_d |h'| h' - b h') + m_a'(d) h'^2 + F_bed
-//   + laws
-// w: wetted_share, d the depth below the surface, m_a(d) the law of "body.added_mass".
+//   (m + C_m rho V w + m_a) h'' = -m g + w B rho V g - w_f (1/2 rho A C_d |h'| + b) h' + m_a'(d) h'^2
+//                                 + F_bed + laws
+// w: wetted_share of the body, w_f: of its front, d the depth, m_a(d) the law of "body.added_mass"; the term
+// with m_a' only on the way down.
 struct FallingMotion {
   Signal height, velocity, accel;
   double touchdown_s = 0.0;  // when the fall reaches the surface
