@@ -17,8 +17,8 @@ void report_events(const Problem& problem, const std::vector<Event>& events, Dia
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis);
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
-// Where no law of free form stands out: at the port of what explains most of those on the list, which
-// together close `gap_closed` of the gap. After report_effects.
+// Adds an unknown without a law of free form, at the port of the effect that explains most; the effects
+// together close `gap_closed` of the gap. Call it after report_effects.
 void report_unknown_near(double gap_closed, Diagnosis& diagnosis);
 // Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of
 // that.

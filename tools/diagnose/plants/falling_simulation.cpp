@@ -81,13 +81,11 @@ FallingMotion Fall::simulate(const Edits& edits, std::span<const double> nuisanc
     double force_N =
         wetted_share(depth_m, length_m) * buoyancy_N - weight_N -
         wetted_share(depth_m, front_m(length_m)) * (quadratic * std::abs(v) + f.linear_drag_N_s_per_m) * v;
-    double inertia_kg = f.mass_kg + f.added_mass_factor * displaced_kg;
-    if (length_m > 0.0) {
+    const double inertia_kg = f.mass_kg + carried_kg(depth_m);
+    if (length_m > 0.0 && v < 0.0) {
       constexpr double kApart_m = 1e-5;
-      inertia_kg = f.mass_kg + carried_kg(depth_m);
-      if (v < 0.0)
-        force_N +=
-            (carried_kg(depth_m + kApart_m) - carried_kg(depth_m - kApart_m)) / (2.0 * kApart_m) * v * v;
+      const double taken_up_kg = carried_kg(depth_m + kApart_m) - carried_kg(depth_m - kApart_m);
+      force_N += taken_up_kg / (2.0 * kApart_m) * v * v;
     }
     if (bed && v < 0.0 && (on_bed || !told)) force_N += bed_force_N(f, ground, depth_m, -v);
     if (!laws.empty())
@@ -120,7 +118,7 @@ FallingMotion Fall::simulate(const Edits& edits, std::span<const double> nuisanc
     s.v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
     s.t += dt;
     if (!reached && before_m > 0.0 && s.h <= f.surface_height_m) {
-      // Where a parabola through both ends crosses the surface.
+      // The time at which a parabola through both ends crosses the surface.
       const double a = (s.v - before_mps) / dt;
       const double root = std::sqrt(std::max(0.0, before_mps * before_mps - 2.0 * a * before_m));
       const double part_s = std::clamp(2.0 * before_m / (root - before_mps), 0.0, dt);

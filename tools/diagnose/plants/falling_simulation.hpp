@@ -23,7 +23,7 @@ double body_length_m(const Belief& belief);
 // 1 where L is 0: the medium is all around.
 double wetted_share(double depth_m, double length_m);
 
-// Where the flow leaves the body; behind it is a cavity, and the force that resists acts on the front alone.
+// Length of the front, from which the flow separates: drag acts on it alone, a cavity lies behind.
 inline double front_m(double length_m) { return 0.25 * length_m; }
 
 // Body in a medium, perhaps onto a bed or into a liquid:
@@ -42,7 +42,7 @@ struct Fall {
   double payload_kg = 0.0;  // as the experimenter weighed it
   bool bed = false, held = false;
   double length_m = 0.0;    // of a body that meets a liquid, else 0
-  double surface_m = 0.0;   // of bed or liquid
+  double surface_m = 0.0;   // height of that liquid's surface
   double to_entry_s = 0.0;  // from the release on, where the instant of the entry is what is known
   double start_height_m = 0.0, start_speed_mps = 0.0;
   double end_s = 0.0, step_s = 1e-3;

@@ -30,7 +30,7 @@ constexpr double kLetGo_s = 0.05;    // after a release that only the fall's gro
 
 constexpr double kLiquid_kg_per_m3 = 100.0;  // gases are lighter, liquids heavier
 
-// Where the belief has the surface of a liquid; none where the medium is all around.
+// Height of the liquid's surface in the belief; none if the medium is all around.
 std::optional<double> believed_surface_m(const Belief& belief) {
   const double surface_m = belief.value("medium.surface_height_m", FallingBodyBelief::kEverywhere_m);
   return surface_m < FallingBodyBelief::kEverywhere_m ? std::optional(surface_m) : std::nullopt;
@@ -218,7 +218,7 @@ class FallingTrial final : public TrialModel {
     if (fall_.impact_s >= 0.0) fall_.start_speed_mps = fall_speed_mps_;
     const double noise = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
     double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
-    // What is written down refers to another zero, or nothing is written down: the recording decides.
+    // Take the height from the recording if none was written down, or one over another zero.
     if (!told || (!heights.empty() && std::abs(seen - fall_.start_height_m) > 0.2 + 8.0 * height_sd)) {
       if (!heights.empty()) fall_.start_height_m = seen;
       height_sd = 1.0;
