@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -92,6 +93,44 @@ TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   EXPECT_EQ(forces_in({limited, limited, limited}), 3);
   EXPECT_EQ(forces_in({stuck, stuck, stuck}), 3);
   EXPECT_EQ(forces_in({live, stuck, live}), 2);
+}
+
+// Nobody records the torque of an axis that runs free: it is 0 there, and that is said. Where a trial is driven its
+// torque must be recorded.
+TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
+  const auto torques = [](const char* second, bool with_torque) {
+    CampaignFolder folder;
+    folder.write("campaign.toml",
+                 fmt::format("name = \"x\"\nplant = \"rotary_axis\"\n[[trial]]\nfile = \"1.csv\"\n"
+                             "motor_enabled = false\n[[trial]]\nfile = \"2.csv\"\n{}",
+                             second));
+    std::string text = "t_s,position_rad\n", with = "t_s,position_rad,torque_Nm\n";
+    for (int i = 0; i < 30; ++i) {
+      text += fmt::format("{:.2f},{:.4f}\n", 0.01 * i, 0.5 - 0.001 * i * i);
+      with += fmt::format("{:.2f},{:.4f},{:.2f}\n", 0.01 * i, 0.5 - 0.001 * i * i, 0.1 + 0.01 * i);
+    }
+    folder.write("1.csv", text);
+    folder.write("2.csv", with_torque ? with : text);
+    const auto input = read_campaign(load_campaign(folder.path()));
+    std::vector<double> first;  // of each trial; not a number: none
+    for (const auto& trial : input.recordings.trials) {
+      const auto* torque = trial.find("torque_Nm");
+      first.push_back(torque == nullptr ? std::nan("") : torque->front());
+    }
+    const bool said = std::ranges::any_of(
+        input.findings, [](const Finding& f) { return f.channel == "torque_Nm" && f.what.find("0 N m") != std::string::npos; });
+    return std::pair(first, said);
+  };
+  const auto [free, free_said] = torques("", false);
+  EXPECT_EQ(free, (std::vector{0.0, 0.0}));
+  EXPECT_TRUE(free_said);
+  const auto [driven, driven_said] = torques("motor_enabled = true\n", false);
+  EXPECT_EQ(driven[0], 0.0);
+  EXPECT_TRUE(std::isnan(driven[1]));
+  EXPECT_TRUE(driven_said);
+  const auto [mixed, mixed_said] = torques("", true);
+  EXPECT_EQ(mixed, (std::vector{0.0, 0.1}));
+  EXPECT_TRUE(mixed_said);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <type_traits>
+#include <variant>
 
 #include "tools/campaign/setup_keys.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -107,6 +108,39 @@ void begin_at_zero(Recordings& recordings) {
   }
 }
 
+// Whether the experimenter wrote down that the motor was on; empty where he did not say.
+std::optional<bool> motor_enabled(const CampaignTrial& described) {
+  for (const auto& entry : described.setup)
+    if (const auto* on = std::get_if<bool>(&entry.value); on != nullptr && entry.key == "motor_enabled")
+      return *on;
+  return std::nullopt;
+}
+
+// A pendulum, wheel or cart that runs free has no torque to record: where no trial has any, or the motor was off,
+// nothing drives the axis, and the answer says so. `motor_on`: of each usable trial, as written down.
+void take_axes_that_run_free(const Campaign& campaign, const std::vector<std::optional<bool>>& motor_on,
+                             CampaignInput& input) {
+  if (input.recordings.plant != PlantKind::rotary_axis) return;
+  auto& trials = input.recordings.trials;
+  const auto is_recorded = [](const Trial& trial) { return trial.channels.contains("torque_Nm"); };
+  const bool anywhere = std::ranges::any_of(trials, is_recorded);
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (is_recorded(trials[i]) || motor_on[i].value_or(anywhere)) continue;
+    trials[i].channels["torque_Nm"].assign(trials[i].time_s.size(), 0.0);
+    ++taken;
+  }
+  if (taken == 0) return;
+  input.findings.push_back(
+      {.kind = FindingKind::set_up,
+       .severity = FindingSeverity::note,
+       .file = campaign.file.string(),
+       .channel = "torque_Nm",
+       .what = fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
+                           taken, trials.size()),
+       .cure = "record it, or write motor_enabled = true for a trial that is driven, which is then left out"});
+}
+
 }  // namespace
 
 Belief flattened(const sandhopper::Belief& belief) {
@@ -126,6 +160,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.recordings.belief = flattened(campaign.belief);
   input.findings = campaign.findings;
   std::vector<std::vector<TrialRecording::Channel>> at_one_value;
+  std::vector<std::optional<bool>> motor_on;
   for (const auto& described : campaign.trials) {
     const TrialRecording recording = read_trial(campaign, described);
     for (const auto& finding : recording.findings)  // a file that several trials share has each once
@@ -144,9 +179,11 @@ CampaignInput read_campaign(const Campaign& campaign) {
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));
     at_one_value.push_back(recording.at_one_value);
+    motor_on.push_back(motor_enabled(described));
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
   take_what_is_at_one_value(at_one_value, input.recordings.trials);
+  take_axes_that_run_free(campaign, motor_on, input);
   begin_at_zero(input.recordings);
   translate_setups(campaign, input);
   return input;

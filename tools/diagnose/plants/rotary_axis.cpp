@@ -484,7 +484,7 @@ class RotaryAxis final : public PlantModel {
     }
     auto model = std::make_unique<RotaryTrial>(trial, belief);
     if (model->rows.size() >= 20) return model;
-    why = "needs torque_Nm, and position_rad or velocity_radps";
+    why = "needs position_rad or velocity_radps, and torque_Nm where the axis is driven";
     return nullptr;
   }
 
