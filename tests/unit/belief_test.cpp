@@ -123,6 +123,17 @@ TEST(Belief, TheReleaseHeightOfATrialIsNotTheSpreadOfReleaseHeights) {
   EXPECT_EQ(belief.spread.robot.release_height_m, 0.0);
 }
 
+// What is thrown by hand starts less surely than a robot that is let go.
+TEST(Belief, AThrowMayStartAnywhere) {
+  const auto body = std::get<FallingBodyBelief>(
+      believed("falling_body", "[spread]\nrelease_height_m = 0.5\nrelease_speed_mps = 2.0\n", ""));
+  EXPECT_EQ(body.spread.robot.release_height_m, 0.5);
+  EXPECT_EQ(body.spread.robot.release_speed_mps, 2.0);
+  CampaignFolder folder;
+  folder.write("nominal.toml", "[spread]\nrelease_speed_mps = -1.0\n");
+  EXPECT_THAT(refusal(folder, CampaignPlant::falling_body), HasSubstr("spread.release_speed_mps"));
+}
+
 TEST(Belief, AnImpossibleSetUpValueRulesOutThatTrialOnly) {
   CampaignFolder folder;
   folder.write(

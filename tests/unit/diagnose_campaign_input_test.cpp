@@ -10,6 +10,7 @@
 
 #include "tests/unit/campaign_folder.hpp"
 #include "tools/diagnose/campaign_input.hpp"
+#include "tools/diagnose/plants/free_axis.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -95,8 +96,8 @@ TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   EXPECT_EQ(forces_in({live, stuck, live}), 2);
 }
 
-// Nobody records the torque of an axis that runs free: it is 0 there, and that is said. Where a trial is driven its
-// torque must be recorded.
+// Nobody records the torque of an axis that runs free: it is 0 there, and that is said. Where a trial is
+// driven its torque must be recorded.
 TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
   const auto torques = [](const char* second, bool with_torque) {
     CampaignFolder folder;
@@ -117,8 +118,9 @@ TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
       const auto* torque = trial.find("torque_Nm");
       first.push_back(torque == nullptr ? std::nan("") : torque->front());
     }
-    const bool said = std::ranges::any_of(
-        input.findings, [](const Finding& f) { return f.channel == "torque_Nm" && f.what.find("0 N m") != std::string::npos; });
+    const bool said = std::ranges::any_of(input.findings, [](const Finding& f) {
+      return f.channel == "torque_Nm" && f.what.find("0 N m") != std::string::npos;
+    });
     return std::pair(first, said);
   };
   const auto [free, free_said] = torques("", false);
@@ -131,6 +133,36 @@ TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
   const auto [mixed, mixed_said] = torques("", true);
   EXPECT_EQ(mixed, (std::vector{0.0, 0.1}));
   EXPECT_TRUE(mixed_said);
+}
+
+// A pendulum that is held at 2 rad for `held_s` and let go, or pushed off at `speed_radps`; 1 s of it, at 200
+// Hz.
+Trial pendulum(double held_s, double speed_radps) {
+  Trial trial;
+  double angle = 2.0, speed = speed_radps;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.005 * i;
+    trial.time_s.push_back(t);
+    trial.channels["position_rad"].push_back(angle + 1e-4 * ((i * 7) % 5 - 2));
+    if (t < held_s) continue;
+    speed += 0.005 * -20.0 * std::sin(angle);
+    angle += 0.005 * speed;
+  }
+  return trial;
+}
+
+TEST(DiagnoseCampaignInput, APendulumInTheHandIsNotFreeYet) {
+  std::vector<Trial> trials{pendulum(0.3, 0.0), pendulum(0.0, 0.0), pendulum(0.0, -3.0)};
+  const auto free = take_free_axes(trials, {false, false, false});
+  EXPECT_EQ(free.without_torque, 3u);
+  EXPECT_EQ(free.held, 1u);
+  const auto& torque = *trials[0].find("torque_Nm");
+  const auto known = std::ranges::find_if(torque, [](double v) { return !std::isnan(v); });
+  const double free_s = trials[0].time_s[static_cast<std::size_t>(known - torque.begin())];
+  EXPECT_GE(free_s, 0.3);
+  EXPECT_LT(free_s, 0.4);
+  for (const std::size_t i : {1u, 2u})
+    EXPECT_TRUE(std::ranges::all_of(*trials[i].find("torque_Nm"), [](double v) { return v == 0.0; })) << i;
 }
 
 }  // namespace

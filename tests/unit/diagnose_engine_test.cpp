@@ -184,7 +184,7 @@ TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
   EXPECT_GT(d.gap_closed, 0.5);
   EXPECT_LT(d.gap_closed, 1.0);
   for (const auto& found : d.effects) {
-    if (found.id.starts_with("unknown@")) {
+    if (found.is_unknown()) {
       EXPECT_LE(found.probability, 0.5);
     }
   }

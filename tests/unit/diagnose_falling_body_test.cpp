@@ -150,7 +150,7 @@ TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
   const auto d = diagnose(recordings);
   EXPECT_NE(d.verdict, "consistent");
   for (const auto& effect : d.effects) {
-    const bool named = !effect.id.starts_with("unknown@");
+    const bool named = !effect.is_unknown();
     EXPECT_TRUE(!named || effect.probability < 0.8) << effect.id;
   }
 }

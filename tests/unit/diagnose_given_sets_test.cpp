@@ -38,7 +38,7 @@ class DiagnoseGivenSets : public ::testing::Test {
   double surest_unknown() const {
     double most = 0.0;
     for (const auto& e : answer_.effects)
-      if (e.id.starts_with("unknown@")) most = std::max(most, e.probability);
+      if (e.is_unknown()) most = std::max(most, e.probability);
     return most;
   }
   double share_of_error_left() const {

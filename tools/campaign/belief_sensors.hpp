@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string_view>
 
 #include "config/fields.hpp"
 #include "tools/plant/world_config.hpp"
@@ -150,7 +151,11 @@ struct BeliefSpread {
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
-    SpreadConfig::fields(self.robot, visit);
+    // A ball that is thrown by hand starts less surely than a robot that is let go.
+    constexpr Range kByHand{0.0, 100.0};
+    SpreadConfig::fields(self.robot, [&](std::string_view key, auto& member, Range range) {
+      visit(key, member, key == "release_height_m" || key == "release_speed_mps" ? kByHand : range);
+    });
     OtherSpread::fields(self.other, visit);
   }
 };

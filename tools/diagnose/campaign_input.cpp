@@ -8,9 +8,11 @@
 #include <map>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "tools/campaign/setup_keys.hpp"
+#include "tools/diagnose/plants/free_axis.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
@@ -116,29 +118,26 @@ std::optional<bool> motor_enabled(const CampaignTrial& described) {
   return std::nullopt;
 }
 
-// A pendulum, wheel or cart that runs free has no torque to record: where no trial has any, or the motor was off,
-// nothing drives the axis, and the answer says so. `motor_on`: of each usable trial, as written down.
-void take_axes_that_run_free(const Campaign& campaign, const std::vector<std::optional<bool>>& motor_on,
-                             CampaignInput& input) {
-  if (input.recordings.plant != PlantKind::rotary_axis) return;
-  auto& trials = input.recordings.trials;
-  const auto is_recorded = [](const Trial& trial) { return trial.channels.contains("torque_Nm"); };
-  const bool anywhere = std::ranges::any_of(trials, is_recorded);
-  std::size_t taken = 0;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (is_recorded(trials[i]) || motor_on[i].value_or(anywhere)) continue;
-    trials[i].channels["torque_Nm"].assign(trials[i].time_s.size(), 0.0);
-    ++taken;
-  }
-  if (taken == 0) return;
-  input.findings.push_back(
-      {.kind = FindingKind::set_up,
-       .severity = FindingSeverity::note,
-       .file = campaign.file.string(),
-       .channel = "torque_Nm",
-       .what = fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
-                           taken, trials.size()),
-       .cure = "record it, or write motor_enabled = true for a trial that is driven, which is then left out"});
+void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInput& input) {
+  const auto tell = [&](std::string what, std::string cure) {
+    input.findings.push_back({.kind = FindingKind::set_up,
+                              .severity = FindingSeverity::note,
+                              .file = campaign.file.string(),
+                              .channel = "torque_Nm",
+                              .what = std::move(what),
+                              .cure = std::move(cure)});
+  };
+  const std::size_t all = input.recordings.trials.size();
+  if (free.without_torque > 0)
+    tell(fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
+                     free.without_torque, all),
+         "record it, or write motor_enabled = true for a trial that is driven, which is then left out");
+  if (free.held > 0)
+    tell(fmt::format("is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} "
+                     "s at most; "
+                     "these rows are not used",
+                     free.held, all, free.longest_held_s),
+         "cut the recording where the axis is let go");
 }
 
 }  // namespace
@@ -183,7 +182,10 @@ CampaignInput read_campaign(const Campaign& campaign) {
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
   take_what_is_at_one_value(at_one_value, input.recordings.trials);
-  take_axes_that_run_free(campaign, motor_on, input);
+  if (input.recordings.plant == PlantKind::rotary_axis) {
+    const FreeAxes free = take_free_axes(input.recordings.trials, motor_on);
+    tell_free_axes(campaign, free, input);
+  }
   begin_at_zero(input.recordings);
   translate_setups(campaign, input);
   return input;

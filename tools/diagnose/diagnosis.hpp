@@ -28,6 +28,8 @@ struct FoundEffect {
   double p_value = 1.0;
   double typicals = 0.0;
   std::vector<std::string> indistinguishable_from{};
+
+  bool is_unknown() const { return id.starts_with("unknown@"); }  // on no list
 };
 
 struct Where {
@@ -131,7 +133,7 @@ struct Diagnosis {
   std::map<std::string, double> noise_floor;
   std::vector<Where> where;
   std::vector<FoundEffect> effects;
-  double gap_closed = 1.0;  // by the effects on the list, of what can be explained
+  double gap_closed = 1.0;       // by the effects on the list, of what can be explained
   std::vector<ChannelFit> fits;  // the channel that shows most first
   std::vector<Bound> absent;
   std::vector<UnknownForce> unknown;

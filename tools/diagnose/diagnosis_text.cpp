@@ -70,7 +70,7 @@ std::string headline(const Diagnosis& d) {
   if (d.verdict == "unknown_physics") return "Something is missing that is on no list.";
   std::vector<std::string> names;
   for (const auto& e : d.effects)
-    if (!e.id.starts_with("unknown@")) names.push_back(e.id);
+    if (!e.is_unknown()) names.push_back(e.id);
   if (d.detail == "data_fault") return "The physics agrees; the recording has faults.";
   if (d.detail == "one_of_class")
     return "Something is missing; these recordings leave more than one explanation.";

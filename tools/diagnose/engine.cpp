@@ -38,8 +38,6 @@ constexpr double kMostOfTheGap = 0.5;  // DIAGNOSIS 2.5: less, and what is missi
 // Names that close most of the gap, and what is left: it may be the form of one of their laws.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
-bool is_unknown(const FoundEffect& effect) { return effect.id.starts_with("unknown@"); }
-
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   const auto& screened = search.screened({});
   for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
@@ -165,7 +163,8 @@ void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagno
   if (!rest.law) report_unknown_near(rest.gap_closed, diagnosis);
   if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
   if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
-  if (std::ranges::none_of(diagnosis.effects, is_unknown)) report_unknown_of_plant(problem, diagnosis);
+  if (std::ranges::none_of(diagnosis.effects, &FoundEffect::is_unknown))
+    report_unknown_of_plant(problem, diagnosis);
 }
 
 // The verdict and the effects that go with it. Names that close most of the gap are told as such, whatever is
@@ -183,20 +182,20 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   diagnosis.gap_closed = rest.gap_closed;
   if (rest.unknown || rest.law)
     for (auto& effect : diagnosis.effects)
-      if (!is_unknown(effect)) effect.probability *= rest.gap_closed;
+      if (!effect.is_unknown()) effect.probability *= rest.gap_closed;
   const bool by_names = rest.gap_closed > kMostOfTheGap &&
                         std::ranges::any_of(diagnosis.effects, [](const FoundEffect& effect) {
-                          return !is_unknown(effect) && effect.probability > kLikelierThanNot;
+                          return !effect.is_unknown() && effect.probability > kLikelierThanNot;
                         });
   if (by_names)
     for (auto& effect : diagnosis.effects) {
-      if (is_unknown(effect)) effect.probability = std::min(effect.probability, kUnknownBesideNames);
+      if (effect.is_unknown()) effect.probability = std::min(effect.probability, kUnknownBesideNames);
       if (rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
     }
   if (!by_names && rest.unknown) {
     diagnosis.verdict = "unknown_physics";
     diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
-    std::ranges::stable_partition(diagnosis.effects, is_unknown);
+    std::ranges::stable_partition(diagnosis.effects, &FoundEffect::is_unknown);
     return;
   }
   const bool classes = std::ranges::any_of(

@@ -58,25 +58,10 @@ std::string change_of(const std::string& name) {
   return name + "_change";
 }
 
-// Deviance that an effect takes away from trials that it was not fitted to, its size from the others:
-//   sum_t b_t (2 u_t - b_t I_t),   b_t = sum_{s != t} u_s / sum_{s != t} I_s
-double held_out_drop(const TrialEvidence& evidence) {
-  double score = 0.0, information = 0.0, drop = 0.0;
-  for (const double u : evidence.score) score += u;
-  for (const double one : evidence.information) information += one;
-  for (std::size_t t = 0; t < evidence.score.size(); ++t) {
-    const double others = information - evidence.information[t];
-    if (others <= 0.0) continue;
-    const double size = (score - evidence.score[t]) / others;
-    drop += size * (2.0 * evidence.score[t] - size * evidence.information[t]);
-  }
-  return std::max(0.0, drop);
-}
-
 // No more than a fit without the effect loses: of two that nearly cancel each seems to explain much, while
 // without it the other shrinks, too.
 double held_out_loss(const Search& search, const EffectEvidence& evidence) {
-  const double drop = held_out_drop(evidence.evidence);
+  const double drop = evidence.evidence.held_out_drop();
   auto rest = search.best().set;
   std::erase(rest, evidence.candidate);
   const auto it = search.sets().find(rest);
@@ -149,7 +134,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   bool form_in_doubt = false;
   for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
     auto& beside = diagnosis.effects[i];
-    if (beside.id.starts_with("unknown@")) continue;
+    if (beside.is_unknown()) continue;
     beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
     form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
   }

@@ -234,7 +234,7 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
     const auto& candidate = problem.candidates[s.candidate];
     // Something unknown may hide whatever acts in the plant, or what the same sensor does.
     if (std::ranges::any_of(diagnosis.effects, [&](const FoundEffect& found) {
-          if (!found.id.starts_with("unknown@")) return false;
+          if (!found.is_unknown()) return false;
           return problem.context.has(found.port) ? candidate.channel == found.port
                                                  : candidate.channel.empty();
         }))

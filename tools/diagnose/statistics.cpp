@@ -87,6 +87,18 @@ double TrialEvidence::effective_trials() const {
   return squares > 0.0 ? std::pow(sum(information), 2) / squares : 0.0;
 }
 
+double TrialEvidence::held_out_drop() const {
+  const double score_sum = sum(score), information_sum = sum(information);
+  double drop = 0.0;
+  for (std::size_t t = 0; t < score.size(); ++t) {
+    const double others = information_sum - information[t];
+    if (others <= 0.0) continue;
+    const double size = (score_sum - score[t]) / others;
+    drop += size * (2.0 * score[t] - size * information[t]);
+  }
+  return std::max(0.0, drop);
+}
+
 double TrialEvidence::t() const { return size() / standard_error(); }
 double TrialEvidence::p_value() const { return student_t_two_sided(t(), degrees_of_freedom()); }
 

@@ -25,6 +25,9 @@ struct TrialEvidence {
   double p_value() const;           // one candidate alone
   double standard_error() const;    // of size
   double effective_trials() const;  // (sum I)^2 / sum I^2
+  // Drop of the deviance of trials that the size was not fitted to, each taking it from the others:
+  //   sum_t b_t (2 u_t - b_t I_t),   b_t = sum_{s != t} u_s / sum_{s != t} I_s
+  double held_out_drop() const;
 };
 
 // Largest |sum s_t u_t| / sqrt(sum I_t) over candidates, for every choice of signs s_t (all of them up to

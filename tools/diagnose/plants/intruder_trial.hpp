@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+
+#include "tools/diagnose/plant.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+
+// Phases of an intrusion, by their index in the plant's phases().
+enum IntrusionPhase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
+
+// Of what a trial's bed is stiffer by: whether it lets go of the foot along a stiffer line, too, is its
+// affair.
+inline constexpr const char* kLineFollows = "spread.unloading_follows";
+
+// How often the foot goes below the surface, from above by a tenth of how deep it gets.
+double pushes_of(const Samples& z);
+
+// One intrusion: the foot moves as recorded, the force is predicted.
+std::unique_ptr<TrialModel> make_intruder_trial(const Trial& trial, const Belief& belief);
+
+}  // namespace sandhopper::diagnose
