@@ -173,6 +173,25 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
 }
 
+TEST(Diagnose, ANameThatClosesTheGapStaysWhereAnAccelerometerIsFarNoisierThanItsSensor) {
+  // The body tumbles: what it adds to the accelerometer comes and goes, and is twenty times the sensor's
+  // noise.
+  constexpr double kTumbles_mps2 = 1.0, kStays = 0.998;
+  auto recordings = drops([](double, double, double v) { return -0.01 * std::abs(v) * v; });
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    Random random(5, i);
+    double tumbling = 0.0;
+    for (double& accel : recordings.trials[i].channels["accel_mps2"]) {
+      tumbling = kStays * tumbling + std::sqrt(1.0 - kStays * kStays) * random.normal();
+      accel += kTumbles_mps2 * tumbling;
+    }
+  }
+  const auto d = diagnose(recordings);
+  EXPECT_EQ(d.verdict, "missing_physics") << to_text(d) << ::testing::PrintToString(d.log);
+  EXPECT_NE(effect(d, "air.quadratic_drag"), nullptr) << to_text(d);
+  EXPECT_GT(d.gap_closed, 0.9);
+}
+
 TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
   // Drag, and a spring far weaker that begins at 3 m and is on no list.
   const auto d = diagnose(drops(

@@ -198,7 +198,8 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   if (out.unknown)
     left = std::max({left, out.misfit.unexplained, (out.left * out.left - 1.0) * rows,
                      out.leans ? out.lean.z * out.lean.z : 0.0,
-                     out.loud ? (out.loud->times * out.loud->times - 1.0) * rows : 0.0});
+                     // Of the noise as estimated, in which the deviance is counted, what no sensor makes.
+                     out.loud ? (1.0 - std::pow(out.loud->times, -2)) * rows : 0.0});
   out.gap_closed = best.set.empty() || explained <= 0.0 ? 0.0 : explained / (explained + std::max(0.0, left));
   // A law of free form that alone says more of trials it has not seen than the names and a law beside them:
   // the names are not it.
