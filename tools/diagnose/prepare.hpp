@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tools/diagnose/problem.hpp"
+#include "tools/diagnose/signatures.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -25,7 +26,10 @@ struct Prepared {
 // pass for noise.
 Prepared prepare(const Recordings& recordings);
 
-// Estimates the model error and the noise again at a better point.
+// Estimates the noise again at a better point, and unless `same_model_error` the model error. `signatures`:
+// of that point or one near it.
+void update_noise(Problem& problem, const Point& point, const Signatures& signatures,
+                  bool same_model_error = false, bool nothing_else = false);
 void update_noise(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose
