@@ -46,6 +46,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   const auto input = sandhopper::diagnose::read_campaign(campaign);
   for (const auto& finding : input.findings) session.say_line(to_string(finding));
   sandhopper::diagnose::EngineOptions engine;
+  engine.tell_evidence = options.search;
   Progress progress("diagnosing", 1.0);
   engine.progress = [&](double share, const std::string& text) {
     progress.at(share);

@@ -59,7 +59,7 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
   state.prediction = predicted(problem, trial, edits, state.nuisances);
   VectorXd r = residual_of(trial, state.prediction);
   whiten(problem, t, r);
-  state.deviance = grouped_deviance(problem, t, r).rho;
+  state.deviance = r.squaredNorm();
   for (std::size_t i = 0; i < state.nuisances.size(); ++i)
     state.deviance += std::pow(state.nuisances[i] / trial.sd_of(i), 2);
 }

@@ -26,8 +26,12 @@ struct Centre {
   const VectorXd& prediction;
 };
 
-// Of the whitened columns with each other.
-void products(const TrialModel& trial, KeptColumns& kept) {
+void whiten(const Problem& problem, std::size_t index, KeptColumns& kept) {
+  const TrialModel& trial = *problem.trials[index];
+  kept.white_shared = kept.shared;
+  kept.white_block = kept.block;
+  whiten(problem, index, kept.white_shared);
+  whiten(problem, index, kept.white_block);
   kept.gram = kept.white_shared.transpose() * kept.white_shared;
   if (!trial.block_nuisances.empty()) {
     const auto nb = static_cast<Index>(trial.block_nuisances.size());
@@ -40,14 +44,6 @@ void products(const TrialModel& trial, KeptColumns& kept) {
       kept.block_by_shared[b].noalias() += kept.white_block.row(row).transpose() * kept.white_shared.row(row);
     }
   }
-}
-
-void whiten(const Problem& problem, std::size_t index, KeptColumns& kept) {
-  kept.white_shared = kept.shared;
-  kept.white_block = kept.block;
-  whiten(problem, index, kept.white_shared);
-  whiten(problem, index, kept.white_block);
-  products(*problem.trials[index], kept);
 }
 
 KeptColumns columns_at(const Problem& problem, const Centre& at) {
@@ -89,7 +85,6 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
 // its columns come the tolerances `wanted` of the kept ones.
 void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
                const std::vector<Index>& wanted, const KeptColumns& kept, double damping, TrialLinear& out) {
-  out.log_determinant = 0.0;
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
   const Index nb = kept.block.cols(), own = x.cols();
   const Index width = own + static_cast<Index>(wanted.size());
@@ -137,21 +132,13 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
         cb(j, 0) -= weight * value;
         gram(0, 0) += weight * value * value;
       }
-      const Eigen::LDLT<MatrixXd> solver(hb);
-      for (Index j = 0; j < nb; ++j)
-        out.log_determinant += std::log(std::max(solver.vectorD()[j], 1e-300)) +
-                               2.0 * std::log(trial.block_nuisances[static_cast<std::size_t>(j)].sd);
-      block_solution.push_back(solver.solve(cb));
+      block_solution.push_back(hb.ldlt().solve(cb));
       gram.noalias() -= cb.transpose() * block_solution.back();
     }
   }
   out.solution = MatrixXd::Zero(count, width);
   if (q > 0) {
-    const Eigen::LDLT<MatrixXd> solver(gram.bottomRightCorner(q, q));
-    for (Index i = 0; i < q; ++i)
-      out.log_determinant += std::log(std::max(solver.vectorD()[i], 1e-300)) +
-                             2.0 * std::log(trial.trial_nuisances[static_cast<std::size_t>(i)].sd);
-    const MatrixXd inner = solver.solve(gram.bottomLeftCorner(q, width));
+    const MatrixXd inner = gram.bottomRightCorner(q, q).ldlt().solve(gram.bottomLeftCorner(q, width));
     out.gram = gram.topLeftCorner(width, width) - gram.topRightCorner(width, q) * inner;
     out.solution.topRows(q) = inner;
   } else {
@@ -162,16 +149,6 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
     out.solution.middleRows(q + static_cast<Index>(b) * nb, nb) =
         s.leftCols(width) - s.rightCols(q) * out.solution.topRows(q);
   }
-}
-
-KeptColumns weighted(const TrialModel& trial, const KeptColumns& kept, const VectorXd& root_weight) {
-  KeptColumns out;
-  out.white_shared = root_weight.asDiagonal() * kept.white_shared;
-  out.white_block = root_weight.asDiagonal() * kept.white_block;
-  out.shared.resize(0, kept.shared.cols());
-  out.block.resize(0, kept.block.cols());
-  products(trial, out);
-  return out;
 }
 
 // Columns of `m` in another order.
@@ -193,39 +170,6 @@ VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits&
   return out;
 }
 
-GroupedDeviance grouped_deviance(const Problem& problem, std::size_t index, const VectorXd& whitened) {
-  const TrialModel& trial = *problem.trials[index];
-  const std::size_t phases = problem.phases.size();
-  std::vector<double> squares(problem.channels.size() * phases, 0.0), count(squares.size(), 0.0);
-  const auto group = [&](Index k) {
-    const Row& row = trial.rows[static_cast<std::size_t>(k)];
-    return row.channel * phases + row.phase;
-  };
-  for (Index k = 0; k < whitened.size(); ++k) {
-    squares[group(k)] += whitened[k] * whitened[k];
-    count[group(k)] += problem.used[index][static_cast<std::size_t>(k)];
-  }
-  GroupedDeviance out;
-  std::vector<double> root(squares.size(), 1.0);
-  for (std::size_t g = 0; g < squares.size(); ++g) {
-    const std::size_t c = g / phases;
-    const double share = 1.0 / problem.noise.channel(c).correlation_time[g % phases];
-    const bool free = problem.noise_is_free && problem.plant->least_sd(problem.channels[c]) == 0.0;
-    double weight = share;
-    if (free && squares[g] > count[g]) {
-      weight *= count[g] / squares[g];
-      out.rho += share * count[g] * (1.0 + std::log(squares[g] / count[g]));
-    } else {
-      out.rho += share * squares[g];
-    }
-    out.weighted += weight * squares[g];
-    root[g] = std::sqrt(weight);
-  }
-  out.root_weight.resize(whitened.size());
-  for (Index k = 0; k < whitened.size(); ++k) out.root_weight[k] = root[group(k)];
-  return out;
-}
-
 VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
   VectorXd out(prediction.size());
   for (Index k = 0; k < out.size(); ++k)
@@ -235,22 +179,8 @@ VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
 
 namespace {
 
-// Columns of FormOf along a coordinate of the rows: signature times hat functions over the knots.
-void hats(const VectorXd& signature, const std::function<double(std::size_t)>& coordinate,
-          const std::vector<double>& knots, Eigen::Ref<MatrixXd> out) {
-  for (Index k = 0; k < signature.size(); ++k) {
-    const double at = std::clamp(coordinate(static_cast<std::size_t>(k)), knots.front(), knots.back());
-    const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, at);
-    const auto i = static_cast<Index>(next - knots.begin()) - 1;
-    const double width = *next - *(next - 1);
-    const double share = width > 0.0 ? (at - *(next - 1)) / width : 0.0;
-    out(k, i) = (1.0 - share) * signature[k];
-    out(k, i + 1) = share * signature[k];
-  }
-}
-
-// `derivatives`: of the directions. Columns over time, then those that all trials share.
-MatrixXd form_columns(const Problem& problem, const TrialModel& trial, const std::vector<FormOf>& forms,
+// Columns of FormOf: `plain` holds the directions' derivatives from column 1 on.
+MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
                       const std::vector<VectorXd>& derivatives) {
   const auto rows = static_cast<Index>(trial.rows.size());
   double first_s = 1e300, last_s = -1e300;
@@ -258,28 +188,21 @@ MatrixXd form_columns(const Problem& problem, const TrialModel& trial, const std
     first_s = std::min(first_s, row.time_s);
     last_s = std::max(last_s, row.time_s);
   }
-  std::vector<double> times(kFormKnots);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    times[i] = first_s + (last_s - first_s) * static_cast<double>(i) / static_cast<double>(kFormKnots - 1);
-  const auto count = static_cast<Index>(forms.size()), axes = static_cast<Index>(problem.form_knots.size());
-  MatrixXd out = MatrixXd::Zero(rows, count * (kFormKnots + axes * kSharedFormKnots));
-  Index next = 0;
-  const auto signature_of = [&](const FormOf& form) {
+  const double apart_s = (last_s - first_s) / static_cast<double>(kFormKnots - 1);
+  MatrixXd out = MatrixXd::Zero(rows, kFormKnots * static_cast<Index>(forms.size()));
+  for (std::size_t f = 0; f < forms.size(); ++f) {
     VectorXd signature = VectorXd::Zero(rows);
-    for (const auto& [direction, weight] : form.directions) signature += weight * derivatives[direction];
-    return signature;
-  };
-  for (const auto& form : forms) {
-    hats(signature_of(form), [&](std::size_t k) { return trial.rows[k].time_s; }, times,
-         out.middleCols(next, kFormKnots));
-    next += kFormKnots;
-  }
-  for (const auto& form : forms)
-    for (std::size_t a = 0; a < problem.form_knots.size(); ++a) {
-      hats(signature_of(form), [&](std::size_t k) { return trial.coordinates[a].values[k]; },
-           problem.form_knots[a], out.middleCols(next, kSharedFormKnots));
-      next += kSharedFormKnots;
+    for (const auto& [direction, weight] : forms[f].directions) signature += weight * derivatives[direction];
+    for (Index k = 0; k < rows; ++k) {
+      const double at =
+          apart_s > 0.0 ? (trial.rows[static_cast<std::size_t>(k)].time_s - first_s) / apart_s : 0.0;
+      const Index knot = std::clamp<Index>(static_cast<Index>(at), 0, kFormKnots - 2);
+      const double share = at - static_cast<double>(knot);
+      const Index column = static_cast<Index>(f) * kFormKnots + knot;
+      out(k, column) = (1.0 - share) * signature[k];
+      out(k, column + 1) = share * signature[k];
     }
+  }
   return out;
 }
 
@@ -322,7 +245,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   const auto append = [&](const MatrixXd& more) {
     const Index own = x.cols();
     x.conservativeResize(Eigen::NoChange, own + more.cols());
-    if (more.cols() > 0) x.rightCols(more.cols()) = more;
+    x.rightCols(more.cols()) = more;
     for (auto& place : order)
       if (place >= own) place += more.cols();
     for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
@@ -332,7 +255,7 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
     Index at = 1;
     for (std::size_t i = 0; i < directions.size(); ++i)
       if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
-    append(form_columns(problem, trial, *options.forms, derivatives));
+    append(form_columns(trial, *options.forms, derivatives));
   }
   if (options.more != nullptr) append((*options.more)[index]);
   if (options.keep_plain) {
@@ -342,14 +265,9 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
       out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
   }
   whiten(problem, index, x);
-  const GroupedDeviance grouped = grouped_deviance(problem, index, x.col(0));
-  if (options.with_repeatable_error && index < problem.repeatable_error.white.size()) {
+  if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
     append(problem.repeatable_error.white[index]);
-    if (options.with_own_error) append(problem.repeatable_error.own[index]);
-  }
-  x = grouped.root_weight.asDiagonal() * x;
-  eliminate(trial, nuisances, x, wanted, weighted(trial, kept, grouped.root_weight), options.damping, out);
-  out.gram(0, 0) += grouped.rho - grouped.weighted;
+  eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
   if (options.keep_plain) {
     // With the nuisances free to follow: column minus what they take up.
     const auto q = static_cast<Index>(trial.trial_nuisances.size());
@@ -405,11 +323,6 @@ std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) 
   parallel_for(columns.size(),
                [&](std::size_t t) { columns[t] = columns_of(problem, t, base, point.nuisances[t]); });
   return columns;
-}
-
-void whiten_kept_columns(Problem& problem) {
-  parallel_for(problem.kept_columns.size(),
-               [&](std::size_t t) { whiten(problem, t, problem.kept_columns[t]); });
 }
 
 void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }

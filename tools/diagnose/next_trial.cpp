@@ -101,20 +101,25 @@ std::vector<Pair> pairs_of(const std::vector<Rivals>& groups) {
   return pairs;
 }
 
-void split(const Problem& problem, const PlannedTrials& planned, const std::vector<Rivals>& groups,
-           NextTrial& next) {
+void split(const Problem& problem, const PlannedTrials& planned, const Search& search,
+           const Posterior& belief, const std::vector<Rivals>& groups, NextTrial& next) {
   const auto pairs = pairs_of(groups);
   const auto contests = [&](std::size_t trial) {
     std::vector<Contest> all;
-    for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, 1.0);
+    for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, search.dispersion());
     return all;
   };
-  const double apart = -2.0 * std::log(kLimits.member);
+  // The more there is to explain, the more the simulation's own errors count.
+  const auto apart = [&](const Contest& one) {
+    return belief.apart + belief.apart_per_explained * one.explained();
+  };
   const auto choice = best_of(planned, [&](std::size_t trial) {
     const auto all = contests(trial);
+    std::vector<double> needed;
+    for (const auto& one : all) needed.push_back(apart(one));
     double sum = 0.0;
     for (const auto& p : pairs)
-      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / apart, kEnoughGain));
+      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / needed[p.group], kEnoughGain));
     return sum / static_cast<double>(pairs.size());
   });
   const auto all = contests(choice.trial);
@@ -124,7 +129,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const std::vect
   double most = -1.0;
   next.settles = 1.0;
   for (const auto& p : pairs) {
-    const double chance = all[p.group].settles(p.i, p.j, apart);
+    const double chance = all[p.group].settles(p.i, p.j, apart(all[p.group]));
     const double lambda = all[p.group].lambda(p.i, p.j);
     next.settles = std::min(next.settles, chance);
     next.splits = std::max(next.splits, chance);
@@ -142,7 +147,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const std::vect
        next);
   next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
   if (next.splits >= 0.5) return;
-  const double repeats = std::ceil(1.5 * apart / std::max(most, 1e-3));
+  const double repeats = std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3));
   if (repeats <= kASession) {
     next.why += fmt::format(" About {:.0f} of them would.", repeats);
     return;
@@ -198,7 +203,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
 }
 
 void map_further(const Problem& problem, const PlannedTrials& planned, const Search& search,
-                 const UnknownLaw& rest, NextTrial& next) {
+                 const FreeGain& rest, NextTrial& next) {
   const Point& point = search.best().fit.point;
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   constexpr double kProbe = 0.2;
@@ -294,7 +299,7 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
 }  // namespace
 
 void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
-                        const Posterior& belief, const UnknownLaw* rest, Diagnosis& diagnosis) {
+                        const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
   NextTrial& next = diagnosis.next;
   if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
   const Point& point = search.best().fit.point;
@@ -310,7 +315,7 @@ void propose_next_trial(Problem& problem, const Recordings& recordings, Search& 
   else if (search.best().set.empty())
     bound_closer(problem, planned, search, diagnosis.verdict == "insufficient_data", next);
   else if (!rivals.empty())
-    split(problem, planned, rivals, next);
+    split(problem, planned, search, belief, rivals, next);
   else
     sharpen(problem, planned, search, diagnosis, next);
 }

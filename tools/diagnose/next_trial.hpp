@@ -1,7 +1,7 @@
 #pragma once
 #include "tools/diagnose/diagnosis.hpp"
-#include "tools/diagnose/evidence/unknown_law.hpp"
-#include "tools/diagnose/evidence/posterior.hpp"
+#include "tools/diagnose/open_world.hpp"
+#include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/prepare.hpp"
 #include "tools/diagnose/search.hpp"
 
@@ -21,6 +21,6 @@ namespace sandhopper::diagnose {
 // in units of the dispersion between trials. The mean, for with the least a pair that no trial splits would
 // decide. Fills diagnosis.next. The problem is as it was afterwards.
 void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
-                        const Posterior& belief, const UnknownLaw* rest, Diagnosis& diagnosis);
+                        const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

@@ -123,32 +123,6 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
   }
 }
 
-void NoiseModel::fit_innovations(const std::vector<const TrialModel*>& trials,
-                                 const std::vector<std::vector<std::uint8_t>>& used,
-                                 const std::vector<Eigen::VectorXd>& residuals) {
-  using OfPhases = std::vector<std::vector<double>>;
-  std::vector<OfPhases> whitened;
-  for (const auto& channel : channels_) whitened.push_back(OfPhases(channel.sd_of_phase.size()));
-  for (std::size_t t = 0; t < trials.size(); ++t) {
-    Eigen::MatrixXd white = residuals[t];
-    whiten(*trials[t], used[t], white);
-    for (std::size_t k = 0; k < trials[t]->rows.size(); ++k)
-      if (used[t][k]) {
-        const Row& row = trials[t]->rows[k];
-        whitened[row.channel][row.phase].push_back(white(static_cast<Eigen::Index>(k), 0));
-      }
-  }
-  for (std::size_t c = 0; c < channels_.size(); ++c)
-    for (std::size_t p = 0; p < whitened[c].size(); ++p) {
-      const auto& values = whitened[c][p];
-      if (static_cast<double>(values.size()) < kTooFewSamples) continue;
-      double sum = 0.0;
-      for (const double v : values) sum += std::min(v * v, kMostOfOne * kMostOfOne);
-      const double rms = std::sqrt(sum / static_cast<double>(values.size()));
-      if (rms > 0.0 && rms < 1.0) channels_[c].correlation_of_phase[p].innovation_sd *= rms;
-    }
-}
-
 NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
@@ -221,76 +195,12 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
   return NoiseModel(std::move(channels));
 }
 
-namespace {
-
-// Stretches of one channel in one phase, each scaled to a mean square of one.
-std::vector<std::vector<double>> stretches(const TrialModel& trial, const std::vector<std::uint8_t>& used,
-                                           const Eigen::VectorXd& whitened, std::size_t channel, std::size_t phase) {
-  std::vector<std::vector<double>> chains;
-  std::vector<double> chain;
-  std::uint32_t block = 0;
-  const auto end = [&] {
-    double squares = 0.0;
-    for (const double v : chain) squares += v * v;
-    if (chain.size() > 1 && squares > 0.0) {
-      for (double& v : chain) v *= std::sqrt(static_cast<double>(chain.size()) / squares);
-      chains.push_back(chain);
-    }
-    chain.clear();
-  };
-  for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-    const Row& row = trial.rows[k];
-    if (row.channel != channel) continue;
-    if (row.phase != phase || row.block != block) end();
-    block = row.block;
-    if (row.phase == phase && used[k]) chain.push_back(whitened[static_cast<Eigen::Index>(k)]);
-  }
-  end();
-  return chains;
-}
-
-double correlation_time(const std::vector<std::vector<double>>& chains) {
-  constexpr double kWindow = 5.0;
-  double variance = 0.0, longest = 0.0;
-  for (const auto& chain : chains) {
-    for (const double v : chain) variance += v * v;
-    longest = std::max(longest, static_cast<double>(chain.size()));
-  }
-  double sum = 1.0;
-  for (std::size_t lag = 1; variance > 0.0 && static_cast<double>(lag) < std::min(kWindow * sum, longest); ++lag) {
-    double product = 0.0;
-    for (const auto& chain : chains)
-      for (std::size_t k = lag; k < chain.size(); ++k) product += chain[k] * chain[k - lag];
-    sum += 2.0 * product / variance;
-    if (sum < 1.0) break;
-  }
-  return std::max(1.0, sum);
-}
-
-}  // namespace
-
-std::vector<std::vector<double>> correlation_times(const std::vector<const TrialModel*>& trials,
-                                                   const std::vector<std::vector<std::uint8_t>>& used,
-                                                   const std::vector<Eigen::VectorXd>& whitened,
-                                                   std::size_t channels, std::size_t phases) {
-  std::vector<std::vector<double>> times(channels, std::vector<double>(phases, 1.0));
-  for (std::size_t c = 0; c < channels; ++c)
-    for (std::size_t p = 0; p < phases; ++p) {
-      std::vector<std::vector<double>> chains;
-      for (std::size_t t = 0; t < trials.size(); ++t)
-        for (auto& chain : stretches(*trials[t], used[t], whitened[t], c, p)) chains.push_back(std::move(chain));
-      times[c][p] = correlation_time(chains);
-    }
-  return times;
-}
-
 NoiseModel white_noise(std::span<const double> sd, std::size_t phases) {
   std::vector<ChannelNoise> channels(sd.size());
   for (std::size_t c = 0; c < sd.size(); ++c) {
     channels[c].sd_of_phase.assign(phases, sd[c]);
     channels[c].samples_of_phase.assign(phases, 1.0);
     channels[c].correlation_of_phase.assign(phases, {});
-    channels[c].correlation_time.assign(phases, 1.0);
   }
   return NoiseModel(std::move(channels));
 }

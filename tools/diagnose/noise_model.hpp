@@ -19,8 +19,6 @@ struct Autoregression {
 struct ChannelNoise {
   std::vector<double> sd_of_phase;
   std::vector<Autoregression> correlation_of_phase;
-  // So many samples say no more than one independent one: 1 + 2 sum_k rho_k of what is left, phase by phase.
-  std::vector<double> correlation_time;
 
   double sd() const;  // of all phases together
   std::vector<double> samples_of_phase;
@@ -39,13 +37,6 @@ class NoiseModel {
   // Standard deviation of one row, as whitening takes it.
   double sd(const TrialModel& trial, const Row& row) const;
   void fix(std::size_t channel, double sd);  // white, the same in all phases
-  void set_correlation_times(std::size_t channel, std::vector<double> samples) {
-    channels_[channel].correlation_time = std::move(samples);
-  }
-  // Innovations as small as whitened residuals say, channel by channel and phase by phase.
-  void fit_innovations(const std::vector<const TrialModel*>& trials,
-                       const std::vector<std::vector<std::uint8_t>>& used,
-                       const std::vector<Eigen::VectorXd>& residuals);
   // All standard deviations times this: what a fit took up belongs to the noise, too.
   void widen(double factor);
   std::size_t channels() const { return channels_.size(); }
@@ -61,13 +52,6 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
                           std::span<const double> floor_sd);
-
-// 1 + 2 sum_k rho_k of each channel's residuals in each phase, samples (Sokal's window: the sum ends at five times itself). Every
-// trial and phase has the same weight, whatever it is off by.
-std::vector<std::vector<double>> correlation_times(const std::vector<const TrialModel*>& trials,
-                                                   const std::vector<std::vector<std::uint8_t>>& used,
-                                                   const std::vector<Eigen::VectorXd>& whitened,
-                                                   std::size_t channels, std::size_t phases);
 
 // White noise of these levels in every phase.
 NoiseModel white_noise(std::span<const double> sd, std::size_t phases);

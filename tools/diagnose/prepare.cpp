@@ -9,6 +9,7 @@
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/signatures.hpp"
 #include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -100,15 +101,39 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
   }
 }
 
+// A trial in which something rattles is noisier than the others, and must not set their level nor be weighed
+// like them. `residuals` become those of a trial like the others.
+void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
+  constexpr double kNoisy = 2.0;
+  const std::size_t channels = problem.channels.size();
+  for (auto& trial : problem.trials) trial->noise_factor.assign(channels, 1.0);
+  for (std::size_t c = 0; c < channels; ++c) {
+    std::vector<double> level(problem.trials.size(), 0.0), recorded;
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+      std::vector<double> sizes;
+      const auto& rows = problem.trials[t]->rows;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k].channel == c && problem.used[t][k])
+          sizes.push_back(std::abs(residuals[t][static_cast<Index>(k)]) / rows[k].relative_sd);
+      if (sizes.size() < 30) continue;
+      recorded.push_back(level[t] = std::max(median(std::move(sizes)), 0.5 * problem.floor_sd[c]));
+    }
+    if (recorded.size() < 3) continue;
+    const double usual = median(recorded);
+    for (std::size_t t = 0; t < problem.trials.size(); ++t)
+      if (level[t] > kNoisy * usual) problem.trials[t]->noise_factor[c] = level[t] / usual;
+  }
+  for (std::size_t t = 0; t < problem.trials.size(); ++t)
+    for (std::size_t k = 0; k < problem.trials[t]->rows.size(); ++k)
+      residuals[t][static_cast<Index>(k)] /=
+          problem.trials[t]->noise_factor[problem.trials[t]->rows[k].channel];
+}
+
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
-  update_noise(problem, point, signatures_at(problem, point));
-}
-
-void update_noise(Problem& problem, const Point& point, const Signatures& signatures, bool same_model_error,
-                  bool nothing_else) {
-  if (!same_model_error) take_model_error(problem, model_errors(problem, point));
+  take_model_error(problem, model_errors(problem, point));
+  const Signatures signatures = signatures_at(problem, point);
   const auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
   const double rows = problem.rows();
@@ -118,14 +143,14 @@ void update_noise(Problem& problem, const Point& point, const Signatures& signat
         ports, [&](const FreePort& port) { return port.takes_up_noise && port.port == family.port; });
   };
   std::vector<Index> taken;
-  for (std::size_t i = 0; i < signatures.alternatives.size() && !nothing_else; ++i)
+  for (std::size_t i = 0; i < signatures.alternatives.size(); ++i)
     if (i == 0 || signatures.alternatives[i].candidate != signatures.alternatives[i - 1].candidate)
       taken.push_back(signatures.alternatives[i].first);
   double terms = 0.0;
   for (const auto& law : signatures.laws)
     if (!takes_up_noise(law.family)) terms += static_cast<double>(law.family.terms.size());
   // A short recording gives its noise away to so many columns.
-  if (!nothing_else && rows > kRowsPerFreeTerm * terms)
+  if (rows > kRowsPerFreeTerm * terms)
     for (const auto& law : signatures.laws)
       for (Index i = 0; i < static_cast<Index>(law.family.terms.size()) && !takes_up_noise(law.family); ++i)
         taken.push_back(law.first + i);
@@ -144,6 +169,8 @@ void update_noise(Problem& problem, const Point& point, const Signatures& signat
   for (Index i = 0; i < k; ++i) held(i, i) += i < own ? 0.01 : 0.04;
   const auto solver = held.ldlt();
   const VectorXd size = solver.solve(score);
+  double taken_up = solver.solve(information).trace();
+  for (const auto& trial : problem.trials) taken_up += static_cast<double>(trial->nuisance_count());
   std::vector<VectorXd> residuals;
   residuals.reserve(linear.size());
   for (const auto& trial : linear) residuals.push_back(trial.plain.col(0) - trial.plain.rightCols(k) * size);
@@ -152,37 +179,18 @@ void update_noise(Problem& problem, const Point& point, const Signatures& signat
     VectorXd white = residuals[t];
     problem.noise.whiten(*problem.trials[t], problem.used[t], white);
     residuals[t] -= error.columns * error.low_rank.amplitudes(error.white, white);
+    taken_up += error.low_rank.taken_up();
   }
-  NoiseModel noise = white_noise(problem.first_sd, problem.phases.size());
-  std::vector<VectorXd> whitened = residuals;
-  for (std::size_t t = 0; t < whitened.size(); ++t) noise.whiten(*problem.trials[t], problem.used[t], whitened[t]);
-  const auto times = correlation_times(problem.trial_pointers(), problem.used, whitened, problem.channels.size(),
-                                       problem.phases.size());
-  for (std::size_t c = 0; c < times.size(); ++c) noise.set_correlation_times(c, times[c]);
+  find_noisy_trials(problem, residuals);
+  NoiseModel noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
+                                    problem.floor_sd);
+  noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
+  // A condition is met as closely as it says, whatever the recordings scatter.
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (const double sd = problem.plant->least_sd(problem.channels[c]); sd > 0.0) noise.fix(c, sd);
   take_noise(problem, std::move(noise));
   mark_outliers(problem, residuals);
 }
-
-namespace {
-
-std::vector<std::vector<double>> form_knots(const Problem& problem) {
-  constexpr std::size_t kCoordinates = 2;
-  std::vector<std::vector<double>> knots;
-  if (problem.trials.empty()) return knots;
-  for (std::size_t a = 0; a < std::min(kCoordinates, problem.trials.front()->coordinates.size()); ++a) {
-    std::vector<double> values;
-    for (const auto& trial : problem.trials)
-      values.insert(values.end(), trial->coordinates[a].values.begin(), trial->coordinates[a].values.end());
-    std::ranges::sort(values);
-    knots.emplace_back();
-    for (Index i = 0; i < kSharedFormKnots; ++i)
-      knots.back().push_back(values[static_cast<std::size_t>(i) * (values.size() - 1) /
-                                    static_cast<std::size_t>(kSharedFormKnots - 1)]);
-  }
-  return knots;
-}
-
-}  // namespace
 
 Prepared prepare(const Recordings& recordings) {
   Prepared prepared;
@@ -213,7 +221,6 @@ Prepared prepare(const Recordings& recordings) {
     problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
     problem.trials.push_back(std::move(model));
   }
-  problem.form_knots = form_knots(problem);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto& channel = problem.channels[c];
     if (const double sd = problem.plant->least_sd(channel); sd > 0.0) {
@@ -244,10 +251,11 @@ Prepared prepare(const Recordings& recordings) {
     const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
     problem.tolerances.push_back(
         {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
-    // Nor whether what is written is the value at an instant or the mean over the row, or over the conversion.
+    // Nor whether what is written is the value at an instant or the mean over the row, or over the
+    // conversion.
     if (problem.plant->changes_within_rows())
       problem.tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
-                                  std::hypot(row_s, conversion_s(problem.context.belief, channel))});
+                                    std::hypot(row_s, conversion_s(problem.context.belief, channel))});
   }
   if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
     problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});
@@ -256,7 +264,6 @@ Prepared prepare(const Recordings& recordings) {
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));
-  problem.first_sd = first_sd;
   take_noise(problem, white_noise(first_sd, problem.phases.size()));
   return prepared;
 }

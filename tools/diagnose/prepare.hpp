@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "tools/diagnose/problem.hpp"
-#include "tools/diagnose/signatures.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -26,10 +25,7 @@ struct Prepared {
 // pass for noise.
 Prepared prepare(const Recordings& recordings);
 
-// Estimates the noise again at a better point, and unless `same_model_error` the model error. `signatures`:
-// of that point or one near it.
-void update_noise(Problem& problem, const Point& point, const Signatures& signatures,
-                  bool same_model_error = false, bool nothing_else = false);
+// Estimates the model error and the noise again at a better point.
 void update_noise(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -55,12 +55,7 @@ struct Problem {
   std::vector<Tolerance> tolerances;
   double row_s = 0.0;            // middling time between rows
   std::vector<double> floor_sd;  // per channel, from the recordings' own fast fluctuation
-  // Of the plant's first coordinates, an equal share of all rows between two: along these the form of an
-  // effect's law may be another one.
-  std::vector<std::vector<double>> form_knots;
-  std::vector<double> first_sd;  // per channel: that, or what the belief states
   NoiseModel noise;
-  bool noise_is_free = true;  // of each trial's channels, upwards (GroupedDeviance)
   std::vector<ModelError> model_error;  // of every trial; empty: none yet
   RepeatableError repeatable_error;     // empty: not asked for yet
   mutable std::uint64_t simulations = 0;

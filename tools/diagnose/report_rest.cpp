@@ -6,11 +6,13 @@
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/quantity.hpp"
 #include "tools/diagnose/report_parts.hpp"
+#include "tools/diagnose/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
+constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
 
 void found_without_a_fit(Diagnosis& diagnosis, const char* detail) {
   if (diagnosis.verdict != "consistent" && diagnosis.verdict != "insufficient_data") return;
@@ -68,8 +70,9 @@ void report_trial_to_trial(const Problem& problem, const Search& search, Diagnos
   }
 }
 
-void report_unknown(const UnknownLaw& gain, double probability, double share, Diagnosis& diagnosis) {
-  const std::string port = port_of(gain.family.port, gain.family.sensor);
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
+  std::string port = gain.family.port;
+  if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
   const char* acts = port == "axis" || port == "joint" || port == "actuator" ? "torque_Nm" : "force_N";
   const std::string quantity = gain.family.sensor && port != "actuator" ? port : acts;
   UnknownForce unknown{port, quantity, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
@@ -85,14 +88,84 @@ void report_unknown(const UnknownLaw& gain, double probability, double share, Di
   effect.id = "unknown@" + port;
   effect.port = port;
   effect.statement =
-      fmt::format("Something that is on no list acts at {}: it goes with {}.", port, gain.family.variable);
+      fmt::format("Something that is on no list acts at {}: it goes with {}, {:.0f} % of the gap.", port,
+                  gain.family.variable, 100.0 * share);
   effect.equation =
       fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
-  effect.probability = probability;
+  effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
   effect.heldout_gain = share;
   effect.p_value = gain.p_value;
   diagnosis.effects.push_back(std::move(effect));
   diagnosis.unknown.push_back(std::move(unknown));
+}
+
+void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
+  const auto near = std::ranges::find_if(diagnosis.effects, [](const FoundEffect& effect) {
+    return effect.channel.empty() && effect.port != "clock";
+  });
+  if (near == diagnosis.effects.end()) return;
+  FoundEffect effect;
+  effect.id = "unknown@" + near->port;
+  effect.port = near->port;
+  effect.statement = fmt::format(
+      "Something that is on no list acts, as far as these recordings tell, at {}: {:.0f} % of the gap; {} "
+      "comes nearest.",
+      near->port, 100.0 * (1.0 - gap_closed), near->id);
+  effect.equation = "not known";
+  effect.probability = kNearProbability;
+  effect.p_value = near->p_value;
+  effect.heldout_gain = 1.0 - gap_closed;
+  diagnosis.effects.push_back(std::move(effect));
+}
+
+void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + loud.port,
+       .port = loud.port,
+       .statement =
+           fmt::format("Something that is on no list acts at {}: {} scatters {:.1f} times as much as "
+                       "its sensor is believed to.",
+                       loud.port, loud.channel, loud.times),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
+  if (lean.port.empty()) return;
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + lean.port,
+       .port = lean.port,
+       .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
+                                "trial, is off by the same in all, by {:.1f} standard errors.",
+                                lean.port, lean.nuisance, std::abs(lean.z)),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
+  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (ports.size() != 1) return;
+  if (const auto quiet = problem.plant->quiet_phase())
+    for (std::size_t c = 0; c < problem.channels.size(); ++c)
+      if (problem.context.has(problem.channels[c]) &&
+          problem.noise.channel(c).sd_of_phase[*quiet] >
+              kQuiet *
+                  std::max(believed_noise(problem.context.belief, problem.channels[c]), problem.floor_sd[c]))
+        return;
+  const auto port = ports.front().port.substr(0, ports.front().port.find('.'));
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + port,
+       .port = port,
+       .statement =
+           fmt::format("Something that is on no list acts, as far as these recordings tell, at {}: what "
+                       "is left is more than noise and goes with nothing that was recorded.",
+                       port),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
 }
 
 namespace {
@@ -156,8 +229,16 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
 }
 
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
+  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
   for (const auto& s : search.screened(search.best().set)) {
     const auto& candidate = problem.candidates[s.candidate];
+    // Something unknown may hide whatever acts in the plant, or what the same sensor does.
+    if (std::ranges::any_of(diagnosis.effects, [&](const FoundEffect& found) {
+          if (!found.is_unknown()) return false;
+          return problem.context.has(found.port) ? candidate.channel == found.port
+                                                 : candidate.channel.empty();
+        }))
+      continue;
     // What may stand in place of something found is not absent.
     bool alternative = false;
     for (const auto& found : diagnosis.effects)
@@ -167,10 +248,10 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
     const auto& p = candidate.parameters[0];
     const double error = s.evidence.standard_error();
     if (!(error < 1e6)) continue;
-    const double bound =
-        (std::abs(s.evidence.size()) + 2.0 * error) * p.typical * std::max(std::abs(p.scale), 1e-300);
-    diagnosis.absent.push_back({candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power),
-                                std::abs(s.evidence.size()) + 2.0 * error});
+    const double typicals = std::abs(s.evidence.size()) + quantile * error;
+    const double bound = typicals * p.typical * std::max(std::abs(p.scale), 1e-300);
+    diagnosis.absent.push_back(
+        {candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power), typicals});
   }
   std::sort(diagnosis.absent.begin(), diagnosis.absent.end(),
             [](const Bound& a, const Bound& b) { return a.typicals > b.typicals; });

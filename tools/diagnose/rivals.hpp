@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/diagnose/planned_trials.hpp"
-#include "tools/diagnose/evidence/posterior.hpp"
+#include "tools/diagnose/posterior.hpp"
 #include "tools/diagnose/search.hpp"
 
 namespace sandhopper::diagnose {

@@ -125,26 +125,15 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
                              const std::vector<KeptColumns>* columns, const Signatures& signatures) {
   const auto directions = parameter_directions(problem, point);
   const auto own = static_cast<Index>(directions.size());
-  auto linear = linearise_all(
-      problem, point, directions,
-      {.more = &signatures.columns, .with_repeatable_error = true, .columns = columns});
-  // Columns: residual, what the point holds, repeatable error, signatures.
-  const Index given = own + 1 + signatures.columns.front().cols();
-  const Index errors = linear.front().gram.rows() - given;
-  std::vector<Index> order;
-  for (Index i = 0; i <= own; ++i) order.push_back(i);
-  for (Index i = given; i < given + errors; ++i) order.push_back(i);
-  for (Index i = own + 1; i < given; ++i) order.push_back(i);
-  for (auto& trial : linear) trial.gram = MatrixXd(trial.gram(order, order));
-  VectorXd prior = VectorXd::Ones(own + errors);
-  prior.head(own) = prior_information(problem, point);
-  const auto grams = eliminated(linear, 1, own + errors, prior);
+  const auto linear =
+      linearise_all(problem, point, directions, {.more = &signatures.columns, .columns = columns});
+  const auto grams = eliminated(linear, 1, own, prior_information(problem, point));
 
   std::vector<Screened> found;
   for (const auto& alternative : signatures.alternatives) {
     std::vector<Index> group_columns;
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
-      group_columns.push_back(own + 1 + errors + alternative.first + static_cast<Index>(i));
+      group_columns.push_back(own + 1 + alternative.first + static_cast<Index>(i));
     auto group = group_gain(grams, group_columns, kPriorInformation);
     const auto& parameters = problem.candidates[alternative.candidate].parameters;
     Screened s{alternative.candidate, alternative.values, group.gain, group.evidence, group.size[0]};

@@ -57,8 +57,8 @@ struct Screened {
 };
 
 // All candidates that the point does not hold, the largest gain first.
-// `columns`: derivatives by the nuisances; the problem's own where null. `signatures`: of this point or one near
-// it.
+// `columns`: derivatives by the nuisances; the problem's own where null. `signatures`: of this point or one
+// near it.
 std::vector<Screened> screen(const Problem& problem, const Point& point,
                              const std::vector<KeptColumns>* columns, const Signatures& signatures);
 

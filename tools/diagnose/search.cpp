@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/left_over.hpp"
 #include "tools/diagnose/linearise.hpp"
 #include "tools/diagnose/proposals.hpp"
@@ -15,10 +13,15 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kWorthAStep = 0.5;
 constexpr double kWorthAFit = 6.0;  // drop of the deviance
+constexpr double kPriorOfAnEffect = 1.0 / 40.0;
+constexpr double kLikelierThanOneMore = 2.0;  // that anything is missing
 constexpr double kLinearError =
     0.05;  // of what is explained: a proposal's estimate may be worse than its fit
+// Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
+// nearly cancel, both are many times their typical size.
+constexpr double kSpreadBelow = 1.8;
+constexpr double kSpreadAbove = 1.0;
 constexpr double kCaught = 3.0;         // of the deviance over the dispersion, above what a proposal promises
 constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what more may start from
 
@@ -27,7 +30,9 @@ constexpr FitOptions kRough{
 constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
 constexpr double kRival = 20.0;                                // of the criterion
 // Of what is explained: a rough fit may be short by so much, a single one of few by far more.
-constexpr std::size_t kJudged = 6;          // of the sets that come nearest
+constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
+constexpr std::size_t kNearestRivals = 3;
+constexpr double kSurely = 1e-8;
 constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
@@ -36,6 +41,7 @@ constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not wh
 constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 2.9
 constexpr double kUnbent = 0.6;      // of a lean that is left
 constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
+constexpr double kNearlyAll = 0.9;                        // of what a law of free form gains
 constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
@@ -49,35 +55,42 @@ double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
     const double size = std::log(std::max(typicals_of(problem, hypothesis, e), 1e-3));
-    sum += std::pow(size / kLimits.size_spread, 2);
+    sum += std::pow(size / (size < 0.0 ? kSpreadBelow : kSpreadAbove), 2);
   }
   return sum;
 }
 
+// Whether every effect is large enough to be worth another beside it.
+bool worth_growing(const Problem& problem, const Hypothesis& hypothesis) {
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
+    if (typicals_of(problem, hypothesis, e) < 0.5 * kSmallestOfTypical) return false;
+  return true;
+}
+
 }  // namespace
 
-double Search::cost_of_an_effect() const {
-  return -2.0 * log_prior(*problem_, 1) + cost_of_a_parameter();
-}
+double Search::cost_of_an_effect() const { return -2.0 * std::log(kPriorOfAnEffect) + cost_of_a_parameter(); }
 
 double Search::cost_of_a_parameter() const {
   return std::log(std::max<double>(3.0, static_cast<double>(problem_->trials.size())));
 }
 
-double Search::criterion(const SetFit& fit) const {
+double Search::criterion(const SetFit& fit) const { return criterion(fit, dispersion_); }
+
+double Search::criterion(const SetFit& fit, double dispersion) const {
   const auto effects = static_cast<double>(fit.set.size());
   const auto parameters = static_cast<double>(fit.fit.point.hypothesis.parameters());
-  return fit.fit.deviance + size_deviance(*problem_, fit.fit.point.hypothesis) +
-         effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter();
+  return fit.fit.deviance / dispersion + size_deviance(*problem_, fit.fit.point.hypothesis) +
+         effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter() -
+         (fit.set.empty() ? 0.0 : 2.0 * std::log(kLikelierThanOneMore));
 }
 
 const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& set) {
   const auto it = screens_.find(set);
   if (it != screens_.end()) return it->second;
   const Point& at = sets_.at(set).fit.point;
-  if (set.empty() && options_.of_null != nullptr)
-    return screens_[set] = screen(*problem_, at, columns_for(set), *options_.of_null);
-  return screens_[set] = screen(*problem_, at, columns_for(set), signatures_at(*problem_, at, {.laws = false}));
+  return screens_[set] =
+             screen(*problem_, at, columns_for(set), signatures_at(*problem_, at, {.laws = false}));
 }
 
 void Search::evaluate(const SetFit& from, const Screened& added) {
@@ -96,7 +109,7 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
   // A second start where the first got nowhere near what its linear approximation promised, if that would
   // pay.
   if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain &&
-      added.gain > cost_of_an_effect()) {
+      added.gain > cost_of_an_effect() * dispersion_) {
     const auto& parameters = problem_->candidates[added.candidate].parameters;
     for (const double factor : {0.3, 1.0, -1.0}) {
       if (factor < 0.0 && !parameters[0].either_sign) continue;
@@ -148,8 +161,9 @@ void Search::evaluate_straight(const SetFit& from) {
     if (known == nearest.end() || one.deviance < known->second.deviance)
       nearest.insert_or_assign(candidate, std::move(one));
   };
-  for (const auto& added : screen(*problem_, straight, &columns,
-                                  signatures_at(*problem_, straight, {.laws = false}))) hold(added.candidate, added.values);
+  for (const auto& added :
+       screen(*problem_, straight, &columns, signatures_at(*problem_, straight, {.laws = false})))
+    hold(added.candidate, added.values);
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
     if (straight.hypothesis.contains(c)) continue;
     const auto& p = problem_->candidates[c].parameters[0];
@@ -200,7 +214,7 @@ bool Search::unbends(const Fit& without, const Fit& with) const {
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   const SetFit parent = sets_.at(from);
-  const auto& candidates = screened(from);
+  const auto candidates = screened(from);
   std::size_t done = 0;
   for (const auto& s : candidates) {
     if (done >= fits || s.gain < kWorthAFit ||
@@ -219,10 +233,11 @@ const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_
 Fit Search::fit_at(const Point& start, FitOptions options) const {
   if (options.columns == nullptr) options.columns = columns_for(start.hypothesis.candidates);
   options.far_gain = kFarGain;
+  options.tolerance *= dispersion_;  // a gain counts by what it is between trials
   return fit_from(*problem_, start, options);
 }
 
-void Search::finish(SetFit& fit) {
+void Search::finish(SetFit& fit) const {
   if (!fit.rough) return;
   fit.fit = fit_at(Point(fit.fit.point));
   fit.rough = fit.judged = false;
@@ -230,11 +245,11 @@ void Search::finish(SetFit& fit) {
 }
 
 // A trial may have two valleys: where another set's fit brought one much lower, this set starts there, too.
-bool Search::borrow(SetFit& fit) const {
+void Search::borrow(SetFit& fit) const {
   Point start = fit.fit.point;
   bool lower = false;
   for (std::size_t t = 0; t < start.nuisances.size(); ++t) {
-    double least = fit.fit.trial_deviance[t] - kWorthAFit;
+    double least = fit.fit.trial_deviance[t] - kWorthAFit * dispersion_;
     for (const auto& [set, other] : sets_)
       if (other.fit.trial_deviance[t] < least) {
         least = other.fit.trial_deviance[t];
@@ -242,27 +257,59 @@ bool Search::borrow(SetFit& fit) const {
         lower = true;
       }
   }
-  if (!lower) return false;
+  if (!lower) return;
   Fit again = fit_at(start);
-  if (again.deviance >= fit.fit.deviance) return false;
+  if (again.deviance >= fit.fit.deviance) return;
   fit.fit = std::move(again);
   fit.judged = false;
-  return true;
 }
 
 // What competes with the best must not lose only because it was fitted roughly and stopped short of what it
-// might explain.
+// might explain: one that comes out ahead is the best, or without what it does not need.
 void Search::finish_rivals() {
-  for (int round = 0; round < 3; ++round) {
-    const auto before = best_;
-    const double least = best().mass_of_both() + std::log(kLimits.member);
+  const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
+  const double best_so_far = criterion(best()),
+               limit = best_so_far + std::max(kRival, kUnsettled * explained),
+               far = best_so_far + std::max(kRival, kFarUnsettled * explained);
+  std::vector<SetFit*> order;
+  for (auto& [set, fit] : sets_)
+    if (set.size() <= best_.size()) order.push_back(&fit);
+  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
+  bool ahead = false;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    SetFit& fit = *order[i];
+    const bool near = i <= kNearestRivals && criterion(fit) < far;
+    if (!fit.rough || (!near && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit))
+      continue;
+    finish(fit);
+    ahead = ahead || criterion(fit) < best_so_far;
+  }
+  if (!ahead) return;
+  choose_best();
+  prune();
+}
+
+// Trials may differ by far more in one effect than in another beside it, and the mean of both would hide the
+// other: what is beyond doubt by its own dispersion, and pays by that, is added.
+void Search::grow_best() {
+  const auto pays = [&](SetFit& fit) {
+    if (!fit.judged) judge(fit);
+    if (!fit.needed) return false;
+    const auto added = std::ranges::find_if(
+        fit.evidence, [&](const auto& e) { return !std::ranges::binary_search(best_, e.candidate); });
+    return added->p_value < kSurely &&
+           criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
+  };
+  for (bool grown = true; grown && best_.size() < options_.most_effects;) {
     std::vector<SetFit*> order;
     for (auto& [set, fit] : sets_)
-      if (fit.rough && fit.judged && fit.mass_of_both() + 0.5 * kPromiseShort * fit.fit.promised > least)
+      if (!best_.empty() && set.size() == best_.size() + 1 && std::ranges::includes(set, best_) &&
+          !fit.rough && fit.fit.status != FitStatus::failed)
         order.push_back(&fit);
-    for (SetFit* fit : order) finish(*fit);
-    choose_best();
-    if (best_ == before) return;
+    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
+    const auto found = std::ranges::find_if(order, [&](SetFit* fit) { return pays(*fit); });
+    grown = found != order.end();
+    if (grown) best_ = (*found)->set;
   }
 }
 
@@ -274,48 +321,77 @@ void Search::settle_best() {
   Fit again = fit_at(Point(fit.fit.point));
   if (again.deviance < fit.fit.deviance) fit.fit = std::move(again);
   borrow(fit);
-  judge(fit);
 }
 
-void Search::judge(SetFit& fit) {
-  const AtFit at = linearised_at(*problem_, fit.fit.point, columns_for(fit.set));
-  fit.evidence = log_evidence(*problem_, fit.fit, at);
-  fit.log_mass = fit.evidence.value + log_prior(*problem_, fit.set.size());
-  fit.unknown_log_mass = fit.evidence.with_unknown + log_prior(*problem_, fit.set.size());
-  fit.judged = true;
+namespace {
+
+std::vector<std::size_t> named_part(const SetFit& fit) {
+  std::vector<std::size_t> part;
+  for (const auto& evidence : fit.evidence)
+    if (!evidence.too_small && !evidence.unnoticed) part.push_back(evidence.candidate);
+  std::ranges::sort(part);
+  return part;
 }
 
-// Every effect brings the trials nearer than the set without it does.
-bool Search::trials_agree(const SetFit& fit) const {
-  if (fit.fit.status == FitStatus::at_bound) return false;
-  return std::ranges::all_of(fit.set, [&](std::size_t candidate) {
-    const auto part = sets_.find(without(fit.set, candidate));
-    return part == sets_.end() ||
-           p_of_drops(part->second.fit.trial_deviance, fit.fit.trial_deviance) <= kLimits.trials_agree;
-  });
+}  // namespace
+
+std::vector<double> Search::deviances_without_one(const SetFit& fit) const {
+  std::vector<double> deviances;
+  for (const auto candidate : fit.set) {
+    const auto parent = sets_.find(without(fit.set, candidate));
+    deviances.push_back(parent == sets_.end() ? -1e300 : parent->second.fit.deviance);
+  }
+  return deviances;
 }
 
-bool Search::may_be_answer(SetFit& fit) {
-  if (!fit.judged) judge(fit);
-  return trials_agree(fit) && (fit.fit.status != FitStatus::failed || fit.rough || fit.set.empty());
+// Also where a set without one of its effects came lower since.
+bool Search::is_to_be_judged(const SetFit& fit) const {
+  if (!fit.judged) return true;
+  const auto now = deviances_without_one(fit);
+  for (std::size_t i = 0; i < fit.beside.size(); ++i)
+    if (now[i] > -1e299 && now[i] < fit.beside[i] - kWorthAFit) return true;
+  return false;
 }
 
 void Search::choose_best() {
+  // The closest fit first; only sets that can still win are judged.
   std::vector<SetFit*> order;
   for (auto& [set, fit] : sets_)
     if (fit.fit.status != FitStatus::failed || fit.rough || set.empty()) order.push_back(&fit);
-  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (i < kJudged || order[i]->set.empty()) may_be_answer(*order[i]);
+  std::sort(order.begin(), order.end(),
+            [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
+  const auto needed = [&](SetFit& fit) {
+    if (is_to_be_judged(fit)) judge(fit);
+    // A rough fit that is far from needing its effects is not worth a better one.
+    if (fit.rough && !fit.hopeless) {
+      finish(fit);
+      judge(fit);
+    }
+    return fit.needed && (fit.fit.status != FitStatus::failed || fit.set.empty());
+  };
+  for (auto* fit : order)
+    if (needed(*fit)) {
+      dispersion_ = fit->dispersion;
+      break;
+    }
+  std::sort(order.begin(), order.end(),
+            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
   const auto before = best_;
-  for (;;) {
-    SetFit* most = &sets_.at({});
-    for (SetFit* fit : order)
-      if (fit->judged && may_be_answer(*fit) && fit->mass_of_both() > most->mass_of_both()) most = fit;
-    best_ = most->set;
-    if (!most->rough) break;
-    finish(*most);
-    may_be_answer(*most);
+  std::vector<const SetFit*> trivial;  // better sets, something in which is too small to be named
+  for (auto* fit : order) {
+    if (needed(*fit)) {
+      best_ = fit->set;
+      break;
+    }
+    const bool differs = std::ranges::any_of(fit->evidence, &EffectEvidence::unnoticed);
+    if (fit->judged && fit->sound && !differs) trivial.push_back(fit);
+  }
+  // What an effect too small to be named explains clearly better is no finding.
+  for (const auto* fit : trivial) {
+    const auto part = named_part(*fit);
+    if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&
+        criterion(*fit) + kWorthAFit < criterion(best()) && needed(sets_.at(part)))
+      best_ = part;
   }
   if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
@@ -325,11 +401,9 @@ void Search::choose_best() {
 bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
   const auto known = sets_.find(part);
   if (known != sets_.end()) {
-    double others = kWorthAFit;
-    const auto& candidates = whole.fit.point.hypothesis.candidates;
-    for (std::size_t e = 0; e < candidates.size() && whole.judged; ++e)
-      if (!std::ranges::binary_search(part, candidates[e]))
-        others += kPromiseShort * whole.evidence.trials[e].gain();
+    double others = kWorthAFit * dispersion_;
+    for (const auto& evidence : whole.evidence)
+      if (!std::ranges::binary_search(part, evidence.candidate)) others += kPromiseShort * evidence.gain;
     if (!whole.judged || known->second.fit.deviance <= whole.fit.deviance + others) return false;
   }
   SetFit fit;
@@ -346,6 +420,30 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
   if (known != sets_.end() && known->second.fit.deviance <= fit.fit.deviance) return false;
   sets_[part] = std::move(fit);
   return true;
+}
+
+// Sets that fit better than the best but hold an effect they do not need: what is left without it may be the
+// answer, although no forward step led there.
+void Search::prune() {
+  for (int round = 0; round < 3; ++round) {
+    std::vector<const SetFit*> order;
+    for (const auto& [set, fit] : sets_)
+      if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
+    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
+    std::map<std::vector<std::size_t>, SetFit> wholes;  // the closest that holds each part
+    for (const auto* fit : order) {
+      std::vector<std::size_t> part;
+      for (const auto& evidence : fit->evidence)
+        if (evidence.p_value < kSignificance && !evidence.too_small && !evidence.unnoticed)
+          part.push_back(evidence.candidate);
+      std::sort(part.begin(), part.end());
+      if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
+    }
+    bool tried = false;
+    for (const auto& [part, whole] : wholes) tried = fit_part(whole, part) || tried;
+    if (!tried) return;
+    choose_best();
+  }
 }
 
 // Each effect of the best set against all others in its place.
@@ -391,23 +489,23 @@ bool Search::try_proposals() {
   const Point from = best().fit.point;
   const double cost = cost_of_an_effect();
   const double explained = null().fit.deviance - best().fit.deviance;
-  const double limit = best().fit.deviance + cost * static_cast<double>(best_.size()) +
+  const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
                        kWorthAFit + kLinearError * explained;
   bool tried = false;
   for (const auto& proposal :
-       propose(*problem_, from, options_.most_effects, options_.proposals, cost)) {
+       propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
     auto set = proposal.start.candidates;
     std::sort(set.begin(), set.end());
     if (proposal.deviance > limit) continue;
     const auto before = sets_.find(set);
-    const double promised = proposal.deviance - cost * static_cast<double>(set.size());
+    const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
     // A fit that was tried may have been caught short of what it can explain.
-    if (before != sets_.end() && before->second.fit.deviance < promised + kCaught) continue;
+    if (before != sets_.end() && before->second.fit.deviance < promised + kCaught * dispersion_) continue;
     SetFit fit;
     fit.set = set;
     Point start = from;
     start.hypothesis = proposal.start;
-    fit.fit = fit_at(start, {.of_use_below = limit + kRival});
+    fit.fit = fit_at(start, {.of_use_below = limit + kRival * dispersion_});
     if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
     sets_[set] = std::move(fit);
     tried = true;
@@ -416,76 +514,23 @@ bool Search::try_proposals() {
   return tried;
 }
 
-std::optional<std::vector<std::size_t>> Search::likeliest_of_size(std::size_t size) const {
-  const SetFit* most = nullptr;
-  for (const auto& [set, fit] : sets_)
-    if (set.size() == size && fit.judged && (most == nullptr || fit.log_mass > most->log_mass)) most = &fit;
-  if (most == nullptr) return std::nullopt;
-  return most->set;
-}
-
-// Sets without one effect of a set, from where that stands: what only gets a fit out of a valley, or brings a few
-// trials nearer, is no effect.
-void Search::refit_parts(const std::vector<std::size_t>& set) {
-  const SetFit whole = sets_.at(set);
-  for (const auto candidate : whole.set) {
-    const auto part = without(whole.set, candidate);
-    Point start = whole.fit.point;
-    Hypothesis h;
-    for (std::size_t i = 0; i < start.hypothesis.candidates.size(); ++i)
-      if (start.hypothesis.candidates[i] != candidate) {
-        h.candidates.push_back(start.hypothesis.candidates[i]);
-        h.values.push_back(start.hypothesis.values[i]);
-      }
-    start.hypothesis = h;
-    SetFit fit;
-    fit.set = part;
-    fit.fit = fit_at(start);
-    const auto known = sets_.find(part);
-    if (known != sets_.end() && known->second.fit.deviance <= fit.fit.deviance + kWorthAStep) continue;
-    judge(fit);
-    sets_[part] = std::move(fit);
+bool Search::name_small(double gain) {
+  if (gain <= 0.0) return false;
+  const double limit = best().fit.deviance - kNearlyAll * gain;
+  std::vector<SetFit*> order;
+  for (auto& [set, fit] : sets_)
+    if (set.size() > best_.size() && std::ranges::includes(set, best_) && fit.fit.deviance < limit)
+      order.push_back(&fit);
+  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
+  for (auto* fit : order) {
+    finish(*fit);
+    if (!fit->judged) judge(*fit);
+    if (!fit->sound || fit->fit.status == FitStatus::failed) continue;
+    best_ = fit->set;
+    columns_ = columns_at(*problem_, best().fit.point);
+    return true;
   }
-}
-
-// The likeliest sets with all their parts, until none is likelier that its trials agree on.
-void Search::settle_parts() {
-  std::set<std::vector<std::size_t>> done;
-  for (;;) {
-    choose_best();
-    const SetFit* likeliest = nullptr;
-    for (const auto& [set, fit] : sets_)
-      if (fit.judged && !set.empty() && !done.contains(set) && fit.log_mass >= best().log_mass &&
-          (likeliest == nullptr || fit.log_mass > likeliest->log_mass))
-        likeliest = &fit;
-    if (likeliest == nullptr) return;
-    done.insert(likeliest->set);
-    refit_parts(std::vector(likeliest->set));
-  }
-}
-
-const SetFit& Search::revise(const Point& null, const std::vector<Point>& seeds, const Signatures& at_best) {
-  columns_ = columns_at(*problem_, seeds.front());
-  SetFit nothing;
-  nothing.fit = fit_at(null, kRough);
-  sets_[{}] = std::move(nothing);
-  for (const auto& seed : seeds) {
-    SetFit fit;
-    fit.set = seed.hypothesis.candidates;
-    std::sort(fit.set.begin(), fit.set.end());
-    fit.rough = true;
-    fit.fit = fit_at(seed, kRough);
-    sets_[fit.set] = std::move(fit);
-  }
-  choose_best();
-  if (best().set.size() == seeds.front().hypothesis.candidates.size())
-    screens_[best_] = screen(*problem_, best().fit.point, columns_for(best_), at_best);
-  if (best().set.size() < options_.most_effects) expand(std::vector(best_), options_.fits_per_screen);
-  choose_best();
-  finish_rivals();
-  settle_best();
-  settle_parts();
-  return best();
+  return false;
 }
 
 std::vector<Point> Search::best_points(std::size_t count) const {
@@ -499,7 +544,6 @@ std::vector<Point> Search::best_points(std::size_t count) const {
   // Not those that only add to a better one.
   std::vector<const SetFit*> chosen;
   std::vector<Point> points;
-  if (!best_.empty()) order.insert(order.begin(), &best());
   for (const auto* fit : order) {
     if (points.size() == count) break;
     if (std::ranges::any_of(chosen,
@@ -517,6 +561,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   straight_.clear();
   SetFit null;
   null.fit = fit_at(start, {.columns_made_here = true});
+  null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
   if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
@@ -552,20 +597,24 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     front.clear();
     const double explained = this->null().fit.deviance - grown.front()->fit.deviance;
     for (const auto* fit : grown)
-      if (front.size() < options_.beam &&
+      if (front.size() < options_.beam && worth_growing(*problem_, fit->fit.point.hypothesis) &&
           fit->fit.deviance - grown.front()->fit.deviance <= kNearlyAsGood * explained)
         front.push_back(fit->set);
     if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
   }
   borrow(sets_.at({}));
   exchange();
+  const auto before = best_;
+  prune();
+  if (best_ != before) exchange();
   for (int round = 0; round < 3 && options_.proposals > 0; ++round) {
     const auto so_far = best_;
     if (!try_proposals() || best_ == so_far) break;
+    prune();
   }
   finish_rivals();
+  grow_best();
   settle_best();
-  settle_parts();
   return best();
 }
 

@@ -1,32 +1,40 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/fit.hpp"
 #include "tools/diagnose/screen.hpp"
 
 namespace sandhopper::diagnose {
 
-// A set of effects, fitted.
+// Evidence for one effect of a fitted set, the others and the tolerances free to take its place.
+struct EffectEvidence {
+  std::size_t candidate = 0;
+  TrialEvidence evidence;
+  double gain = 0.0;     // what the deviance would rise by without it, linearly
+  double p_value = 1.0;  // trials as units, for all candidates together
+  double flip_p_value = 1.0;
+  double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
+  double typicals = 0.0;    // |size| of the first amplitude
+  bool at_bound = false;
+  bool too_small = false;  // to be named, though it may be there
+  bool unnoticed = false;  // explains no more than two simulations differ by
+  bool weak = false;       // enough to be named alone, not beside others
+};
+
 struct SetFit {
   std::vector<std::size_t> set;  // sorted
   Fit fit;
-  bool rough = false;  // only tried: finished before it can be the answer
+  std::vector<EffectEvidence> evidence;
+  double dispersion = 1.0;  // the mean of the effects'
+  bool rough = false;       // only tried: finished before it can be the answer
   bool judged = false;
-  LogEvidence evidence{};                  // once judged
-  double log_mass = -std::numeric_limits<double>::infinity();  // with the prior of the set
-  double unknown_log_mass = -std::numeric_limits<double>::infinity();  // the same with an unknown law beside it
-  double mass_of_both() const {
-    const double most = std::max(log_mass, unknown_log_mass);
-    return most + std::log(std::exp(log_mass - most) + std::exp(unknown_log_mass - most));
-  }
+  std::vector<double> beside;  // deviances of the sets without one effect each, when it was judged
+  bool needed = false;    // every effect stands on its own; known once judged
+  bool sound = false;     // would be needed if none were too small
+  bool hopeless = false;  // an effect is far from that
 };
 
 struct SearchOptions {
@@ -37,7 +45,6 @@ struct SearchOptions {
   std::size_t fits_of_singles = 20;  // of the first screen: what it says of hoppers is often far off
   bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
   bool straight = false;      // start from the believed nuisances, too
-  const Signatures* of_null = nullptr;  // at the start, or near it; made there where null
   double hopeless = 0.03;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
@@ -47,29 +54,33 @@ class Search {
  public:
   Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
 
-  // From what is already known at `start` (nuisances): the set with the largest posterior mass.
+  // From what is already known at `start` (nuisances): the set that explains most with every effect needed.
   // `seeds`: sets to begin with, where their fits may start.
   const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
 
-  // With another noise model than before: sets that came near are fitted again from where they stood, the
-  // first one is the best so far; `at_best`: signatures there.
-  const SetFit& revise(const Point& null, const std::vector<Point>& seeds, const Signatures& at_best);
+  // Where a law of free form beside the best set gains this much: the set that holds the best one and
+  // explains as much, each of its effects certain though too small to be named otherwise, becomes the best.
+  // False when there is none.
+  bool name_small(double gain);
+
+  // Nothing is named after all.
+  void name_nothing() { best_.clear(); }
 
   // Where the fits of the sets with the smallest criterion stand, of those that come near.
   std::vector<Point> best_points(std::size_t count) const;
-
-  std::optional<std::vector<std::size_t>> likeliest_of_size(std::size_t size) const;
-  void take(const std::vector<std::size_t>& set) { best_ = set; }  // as the best
 
   const SetFit& best() const { return sets_.at(best_); }
   const SetFit& null() const { return sets_.at({}); }
   const std::map<std::vector<std::size_t>, SetFit>& sets() const { return sets_; }
   const std::vector<Screened>& screened(const std::vector<std::size_t>& set);
 
-  // What a fit may be worth before it is judged, as a deviance: smaller is better.
+  // Penalised deviance: smaller is better. All sets share one dispersion, that of the set that fits best, or
+  // a set that fits badly would be forgiven for it.
   double criterion(const SetFit& fit) const;
+  double dispersion() const { return dispersion_; }
 
  private:
+  double criterion(const SetFit& fit, double dispersion) const;
   double cost_of_an_effect() const;  // of the criterion, with one parameter
   double cost_of_a_parameter() const;
   void evaluate(const SetFit& from, const Screened& added);
@@ -77,23 +88,21 @@ class Search {
   bool is_bent(const Fit& fit) const;
   bool unbends(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);
+  std::vector<double> deviances_without_one(const SetFit& fit) const;
+  bool is_to_be_judged(const SetFit& fit) const;
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void restart_null();
   void exchange();
+  void prune();
   bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
   const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
   Fit fit_at(const Point& start, FitOptions options = {}) const;
-  void finish(SetFit& fit);
-  bool borrow(SetFit& fit) const;
-  bool may_be_answer(SetFit& fit);
+  void finish(SetFit& fit) const;
+  void borrow(SetFit& fit) const;
   void finish_rivals();
+  void grow_best();
   void settle_best();
-  void refit_parts(const std::vector<std::size_t>& set);
-  void settle_parts();
- public:
-  bool trials_agree(const SetFit& fit) const;
- private:
   void choose_best();
 
   const Problem* problem_;
@@ -104,6 +113,7 @@ class Search {
   std::map<std::vector<std::size_t>, double> straight_;
   std::vector<std::size_t> best_;
   std::vector<KeptColumns> columns_;  // at the best set; empty: it is the null
+  double dispersion_ = 1.0;
 };
 
 }  // namespace sandhopper::diagnose

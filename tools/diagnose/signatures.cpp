@@ -18,7 +18,7 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
   Signatures out;
   std::vector<Edits> moved;
   std::vector<double> steps;
-  for (std::size_t c = 0; c < problem.candidates.size() && options.effects; ++c) {
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (point.hypothesis.contains(c)) continue;
     const Candidate& candidate = problem.candidates[c];
     for (const auto& choice : shape_choices(candidate)) {

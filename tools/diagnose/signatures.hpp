@@ -8,8 +8,8 @@
 namespace sandhopper::diagnose {
 
 // How the simulation changes with a little of everything that may be missing at one point: the derivative of
-// every row by each amplitude of each candidate, and by each knot of the laws of free form. Made once there, for
-// the noise model, the screen, repeatable model error and unknown laws.
+// every row by each amplitude of each candidate, and by each knot of the laws of free form. Made once there,
+// for the noise model, the screen, repeatable model error and unknown laws.
 struct Signatures {
   // One candidate with one choice of its shapes (`shape_choices`).
   struct Alternative {
@@ -30,7 +30,7 @@ struct Signatures {
 };
 
 struct SignatureOptions {
-  bool effects = true, laws = true;
+  bool laws = true;  // of free form, too
 };
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options = {});
 

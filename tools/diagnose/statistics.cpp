@@ -66,13 +66,6 @@ double TrialEvidence::size() const {
   return information_sum > 0.0 ? sum(score) / information_sum : 0.0;
 }
 
-double TrialEvidence::gain() const {
-  double sum = 0.0, total = 1e-300;
-  for (const double u : score) sum += u;
-  for (const double one : information) total += one;
-  return sum * sum / total;
-}
-
 double TrialEvidence::degrees_of_freedom() const {
   return kModelTrials + static_cast<double>(score.size()) - 1.0;
 }
@@ -159,21 +152,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-double p_of_drops(const std::vector<double>& before, const std::vector<double>& after) {
-  constexpr double kOfNoise = 1.0;  // spread of a signed root where nothing is there
-  const auto n = static_cast<double>(before.size());
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t t = 0; t < before.size(); ++t) {
-    const double drop = before[t] - after[t], root = std::copysign(std::sqrt(std::abs(drop)), drop);
-    sum += root;
-    squares += root * root;
-  }
-  const double mean = sum / n;
-  const double variance = (3.0 * kOfNoise * kOfNoise + squares - n * mean * mean) / (n + 2.0);
-  const double t = mean / std::sqrt(variance / n);
-  return t <= 0.0 ? 1.0 : 0.5 * student_t_two_sided(t, n + 2.0);
 }
 
 }  // namespace sandhopper::diagnose

@@ -20,7 +20,6 @@ struct TrialEvidence {
   std::vector<double> information;
 
   double size() const;
-  double gain() const;  // (sum u)^2 / sum I
   double t() const;  // of size / its error
   double degrees_of_freedom() const;
   double p_value() const;           // one candidate alone
@@ -42,9 +41,5 @@ double signed_rank_p_value(const std::vector<double>& values);
 
 // The upper of two in the middle; 0 of none.
 double median(std::vector<double> values);
-
-// One-sided p that trials come nearer by chance: Student's t of the signed roots of each trial's drop of the deviance,
-// with three more degrees of freedom for a drop of `kOfNoise` squared, which noise makes.
-double p_of_drops(const std::vector<double>& before, const std::vector<double>& after);
 
 }  // namespace sandhopper::diagnose

@@ -17,7 +17,6 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr double kProbe = 0.2;  // of a port's scale, for the derivative by a force there
 constexpr Index kMostKnots = 40;
-constexpr Index kOwnKnots = 12;
 
 // L with L L' = correlation of values at `count` knots.
 MatrixXd process_factor(Index count) { return knot_correlation(count).llt().matrixL(); }
@@ -25,10 +24,10 @@ MatrixXd process_factor(Index count) { return knot_correlation(count).llt().matr
 // Derivatives by a force at `port` that is a hat function of time around each knot, along the process.
 MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edits& base,
                       const std::vector<double>& nuisances, const VectorXd& centre, const FreePort& port,
-                      double knot_s, Index most_knots = kMostKnots) {
+                      double knot_s) {
   double first = 1e300, last = -1e300;
   for (const auto& row : trial.rows) first = std::min(first, row.time_s), last = std::max(last, row.time_s);
-  const Index count = std::clamp<Index>(static_cast<Index>((last - first) / knot_s) + 1, 2, most_knots);
+  const Index count = std::clamp<Index>(static_cast<Index>((last - first) / knot_s) + 1, 2, kMostKnots);
   const double apart = (last - first) / static_cast<double>(count - 1);
   MatrixXd columns(centre.size(), count);
   for (Index k = 0; k < count; ++k) {
@@ -111,74 +110,40 @@ void split_by_block(const TrialModel& trial, ModelError& error) {
 
 }  // namespace
 
-namespace {
-
-MatrixXd own_columns(const Problem& problem, std::size_t t, const Edits& base,
-                     const std::vector<double>& nuisances) {
-  const TrialModel& trial = *problem.trials[t];
-  ModelError error;
-  error.columns.resize(static_cast<Index>(trial.rows.size()), 0);
-  const VectorXd centre = predicted(problem, trial, base, nuisances);
-  for (const auto& port : problem.plant->free_ports(problem.context)) {
-    if (port.sensor) continue;
-    const MatrixXd of_port =
-        port_columns(problem, trial, base, nuisances, centre, port, kModelErrorScales.port_knot_s, kOwnKnots);
-    error.columns.conservativeResize(Eigen::NoChange, error.columns.cols() + of_port.cols());
-    error.columns.rightCols(of_port.cols()) = kModelErrorScales.own * of_port;
-  }
-  if (!error.columns.allFinite()) error.columns.setZero();
-  split_by_block(trial, error);
-  return std::move(error.columns);
-}
-
-}  // namespace
-
-RepeatableError repeatable_error(const Problem& problem, const Point& point, const Signatures& signatures) {
-  constexpr std::size_t kMostKnots = 12;  // of a law; finer ones repeat it
+RepeatableError repeatable_error(const Problem& problem, const Signatures& signatures) {
   const ModelErrorScales& s = kModelErrorScales;
   RepeatableError out;
   std::vector<Index> taken;
   std::vector<double> weights;
+  int groups = 0;
   const auto take = [&](Index column, std::size_t candidate, double sd) {
-    out.groups.back().columns.push_back(static_cast<Index>(taken.size()));
     taken.push_back(column);
     weights.push_back(sd);
+    out.group.push_back(groups);
     out.candidate.push_back(candidate);
   };
+  std::vector<std::pair<Index, Index>> families;  // first column, count
   for (const auto& [family, first] : signatures.laws) {
-    if (family.terms.size() > kMostKnots) continue;
-    const bool expected = !family.sensor && family.of_model_error;
-    if (!expected && problem.plant->is_costly()) continue;
-    out.groups.push_back({family.port, family.variable, family.sensor, expected, 1.0 / s.repeatable, {}});
-    for (Index i = 0; i < static_cast<Index>(family.terms.size()); ++i)
-      take(first + i, RepeatableError::kNoCandidate, s.repeatable);
+    if (family.sensor || !family.of_model_error) continue;
+    const auto count = static_cast<Index>(family.terms.size());
+    families.emplace_back(static_cast<Index>(taken.size()), count);
+    for (Index i = 0; i < count; ++i) take(first + i, RepeatableError::kNoCandidate, s.repeatable);
+    ++groups;
   }
-  const std::size_t laws = out.groups.size();
-  out.groups.emplace_back();
   for (const auto& alternative : signatures.alternatives) {
-    if (out.candidate.size() > 0 && out.candidate.back() == alternative.candidate) continue;
+    if (!out.candidate.empty() && out.candidate.back() == alternative.candidate) continue;
     const auto& port = problem.candidates[alternative.candidate].effect->port;
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
       take(alternative.first + static_cast<Index>(i), alternative.candidate,
            port == "sensor" || port == "clock" ? s.reading : s.typical);
   }
-  if (out.groups.back().columns.empty()) out.groups.pop_back();
   out.white.resize(problem.trials.size());
-  out.own.resize(problem.trials.size());
-  const bool own = false;
-  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   parallel_for(problem.trials.size(), [&](std::size_t t) {
     MatrixXd& columns = out.white[t];
     columns = signatures.columns[t](Eigen::all, taken);
     for (std::size_t i = 0; i < weights.size(); ++i) columns.col(static_cast<Index>(i)) *= weights[i];
-    for (std::size_t g = 0; g < laws; ++g) {
-      const Index first = out.groups[g].columns.front(), count = static_cast<Index>(out.groups[g].columns.size());
-      columns.middleCols(first, count) *= process_factor(count);
-    }
+    for (const auto& [first, count] : families) columns.middleCols(first, count) *= process_factor(count);
     whiten(problem, t, columns);
-    if (!own) return;
-    out.own[t] = own_columns(problem, t, base, point.nuisances[t]);
-    whiten(problem, t, out.own[t]);
   });
   return out;
 }

@@ -17,31 +17,21 @@ struct ModelErrorScales {
   double numerical = 1.0;     // times the difference between honest simulations
   double port_knot_s = 0.02;  // distance in time of the knots of a force or torque (PlantModel::port_error)
   double repeatable = 0.01;   // the same in all trials, in scales of its port
-  double own = 0.01;          // of one trial, smooth in time, where a plant's port_error does not say
   double typical = 0.015;     // of every effect on the list, in its typical size
   double reading = 0.06;      // the same of effects on readings and their times
 };
 inline constexpr ModelErrorScales kModelErrorScales{};
 
-// Model error that is the same in all trials: laws of free form at the plant's ports and sensors, and a little
-// of every effect on the list. Columns times their prior standard deviation; taken everywhere as they are at
-// one point.
+// Model error that is the same in all trials: laws of free form at the plant's ports, and a little of every
+// effect on the list. Columns times their prior standard deviation; it is small, so that
+// they are taken everywhere as they are at one point.
 struct RepeatableError {
-  // Columns that share their scale.
-  struct Group {
-    std::string port, variable;     // of a law of free form
-    bool sensor = false;
-    bool expected = true;           // a little of it is model error; else it is something unknown or nothing
-    double port_scale = 1.0;        // of a law's knots, over the standard deviation that they have here
-    std::vector<Eigen::Index> columns;
-  };
-  std::vector<Group> groups;
-  std::vector<std::size_t> candidate;  // of each column, whose signature it is; kNoCandidate: of a law
+  std::vector<int> group;              // of each column: columns of a group share their scale
+  std::vector<std::size_t> candidate;  // whose signature it is; kNoCandidate: of a port
   std::vector<Eigen::MatrixXd> white;  // of every trial, whitened
-  std::vector<Eigen::MatrixXd> own;    // of every trial its own: a force at each port, smooth in time; whitened
 
   static constexpr std::size_t kNoCandidate = static_cast<std::size_t>(-1);
-  std::size_t size() const { return candidate.size(); }
+  std::size_t size() const { return group.size(); }
 };
 
 // Model error of one trial, independent of that of the others:
@@ -55,7 +45,7 @@ struct ModelError {
 };
 
 // At the point of the signatures, whitened as the problem is now.
-RepeatableError repeatable_error(const Problem& problem, const Point& point, const Signatures& signatures);
+RepeatableError repeatable_error(const Problem& problem, const Signatures& signatures);
 
 // At a point, for every trial, with the problem's noise model.
 std::vector<ModelError> model_errors(const Problem& problem, const Point& point);

@@ -1,0 +1,61 @@
+#include "tools/diagnose/evidence/beside.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tools/diagnose/evidence/log_evidence.hpp"
+#include "tools/diagnose/evidence/unknown_law.hpp"
+#include "tools/diagnose/search_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kWeighed = 8;      // sets
+constexpr std::size_t kLawsWeighed = 3;  // beside one set
+
+struct Weighed {
+  std::string what;
+  double log_mass = 0.0;
+};
+
+std::vector<const SetFit*> nearest(const Search& search) {
+  std::vector<const SetFit*> order;
+  for (const auto& [set, fit] : search.sets())
+    if (!fit.rough && fit.fit.status != FitStatus::failed) order.push_back(&fit);
+  std::ranges::sort(order, {}, [&](const SetFit* fit) { return search.criterion(*fit); });
+  if (order.size() > kWeighed) order.resize(kWeighed);
+  for (const SetFit* always : {&search.null(), &search.best()})
+    if (std::ranges::find(order, always) == order.end()) order.push_back(always);
+  return order;
+}
+
+}  // namespace
+
+void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
+  std::vector<Weighed> all;
+  for (const SetFit* fit : nearest(search)) {
+    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
+    const double log_mass = evidence.value + log_prior(problem, fit->set.size());
+    all.push_back({set_text(problem, fit->set), log_mass});
+    if (fit != &search.best() && !fit->set.empty()) continue;
+    const auto laws = unknown_laws(problem, fit->fit.point, evidence.times);
+    const double prior = std::log(kLimits.unknown_expected / static_cast<double>(laws.size()));
+    for (std::size_t i = 0; i < laws.size() && i < kLawsWeighed; ++i)
+      all.push_back({fmt::format("{} and unknown at {} of {}", set_text(problem, fit->set),
+                                 laws[i].family.port, laws[i].family.variable),
+                     log_mass + laws[i].log_factor + prior});
+  }
+  std::ranges::sort(all, std::greater<>{}, &Weighed::log_mass);
+  double total = 0.0;
+  for (const auto& one : all) total += std::exp(one.log_mass - all.front().log_mass);
+  for (const auto& one : all)
+    log.push_back(fmt::format("evidence: mass {:.3f}, ln {:.1f} {}",
+                              std::exp(one.log_mass - all.front().log_mass) / total,
+                              one.log_mass - all.front().log_mass, one.what));
+}
+
+}  // namespace sandhopper::diagnose
