@@ -135,15 +135,15 @@ TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
   EXPECT_TRUE(mixed_said);
 }
 
-// A pendulum that is held at 2 rad for `held_s` and let go, or pushed off at `speed_radps`; 1 s of it, at 200
-// Hz.
-Trial pendulum(double held_s, double speed_radps) {
+// A pendulum of a noisy encoder that is held at 2 rad for `held_s` and let go, or pushed off at
+// `speed_radps`; 1 s of it, at 200 Hz.
+Trial pendulum(double held_s, double speed_radps, double noise_rad = 1e-4) {
   Trial trial;
   double angle = 2.0, speed = speed_radps;
   for (int i = 0; i < 200; ++i) {
     const double t = 0.005 * i;
     trial.time_s.push_back(t);
-    trial.channels["position_rad"].push_back(angle + 1e-4 * ((i * 7) % 5 - 2));
+    trial.channels["position_rad"].push_back(angle + noise_rad * ((i * 7) % 5 - 2));
     if (t < held_s) continue;
     speed += 0.005 * -20.0 * std::sin(angle);
     angle += 0.005 * speed;
@@ -152,16 +152,17 @@ Trial pendulum(double held_s, double speed_radps) {
 }
 
 TEST(DiagnoseCampaignInput, APendulumInTheHandIsNotFreeYet) {
-  std::vector<Trial> trials{pendulum(0.3, 0.0), pendulum(0.0, 0.0), pendulum(0.0, -3.0)};
-  const auto free = take_free_axes(trials, {false, false, false});
-  EXPECT_EQ(free.without_torque, 3u);
+  std::vector<Trial> trials{pendulum(0.3, 0.0), pendulum(0.0, 0.0), pendulum(0.0, -3.0),
+                            pendulum(0.0, 0.0, 0.01), pendulum(0.0, 0.0, 0.05)};
+  const auto free = take_free_axes(trials, {false, false, false, false, false});
+  EXPECT_EQ(free.without_torque, 5u);
   EXPECT_EQ(free.held, 1u);
   const auto& torque = *trials[0].find("torque_Nm");
   const auto known = std::ranges::find_if(torque, [](double v) { return !std::isnan(v); });
   const double free_s = trials[0].time_s[static_cast<std::size_t>(known - torque.begin())];
   EXPECT_GE(free_s, 0.3);
   EXPECT_LT(free_s, 0.4);
-  for (const std::size_t i : {1u, 2u})
+  for (const std::size_t i : {1u, 2u, 3u, 4u})
     EXPECT_TRUE(std::ranges::all_of(*trials[i].find("torque_Nm"), [](double v) { return v == 0.0; })) << i;
 }
 

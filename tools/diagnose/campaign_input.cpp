@@ -133,10 +133,10 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
                      free.without_torque, all),
          "record it, or write motor_enabled = true for a trial that is driven, which is then left out");
   if (free.held > 0)
-    tell(fmt::format("is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} "
-                     "s at most; "
-                     "these rows are not used",
-                     free.held, all, free.longest_held_s),
+    tell(fmt::format(
+             "is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} s "
+             "at most; these rows are not used",
+             free.held, all, free.longest_held_s),
          "cut the recording where the axis is let go");
 }
 

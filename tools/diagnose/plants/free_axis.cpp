@@ -16,24 +16,24 @@ bool is_silent(const std::vector<double>& torque) {
 }  // namespace
 
 std::optional<double> let_go_s(const Trial& trial) {
-  constexpr double kFirst = 0.01, kSecond = 0.1, kNoise = 6.0;
+  constexpr double kFirst = 0.01, kSecond = 0.1, kNoise = 6.0, kApart = 2.0;
   const auto angle = samples_of(trial, "position_rad");
   if (angle.value.size() < 20) return std::nullopt;
   const double start = angle.value.front();
   double farthest = 0.0;
   for (const double v : angle.value) farthest = std::max(farthest, std::abs(v - start));
-  const auto moved_s = [&](double share) -> std::optional<double> {
-    const double least = std::max(share * farthest, kNoise * fluctuation_rms(angle));
-    for (std::size_t i = 0; i < angle.value.size(); ++i)
-      if (std::abs(angle.value[i] - start) > least) return angle.time_s[i];
-    return std::nullopt;
+  const double first = std::max(kFirst * farthest, kNoise * fluctuation_rms(angle)),
+               second = kSecond * farthest;
+  if (second < kApart * first) return std::nullopt;  // the noise hides how it begins
+  const auto moved_s = [&](double least) {
+    const auto there =
+        std::ranges::find_if(angle.value, [&](double v) { return std::abs(v - start) > least; });
+    return angle.time_s[static_cast<std::size_t>(there - angle.value.begin())];
   };
-  const auto first_s = moved_s(kFirst), second_s = moved_s(kSecond);
-  if (!first_s || !second_s) return std::nullopt;
-  const double begun_s = angle.time_s.front();
-  const double held_s = *first_s - (*second_s - *first_s) / (std::sqrt(kSecond / kFirst) - 1.0) - begun_s;
+  const double begun_s = angle.time_s.front(), first_s = moved_s(first), second_s = moved_s(second);
+  const double held_s = first_s - (second_s - first_s) / (std::sqrt(second / first) - 1.0) - begun_s;
   // Longer than half of the time until it moved.
-  if (held_s < 0.5 * (*first_s - begun_s)) return std::nullopt;
+  if (held_s < 0.5 * (first_s - begun_s)) return std::nullopt;
   return first_s;
 }
 

@@ -19,9 +19,10 @@ struct FreeAxes {
 // `motor_on`: of each trial, as the experimenter wrote it down.
 FreeAxes take_free_axes(std::vector<Trial>& trials, const std::vector<std::optional<bool>>& motor_on);
 
-// The time at which an axis that was held has moved by a hundredth of how far it gets, s; empty where it
-// moved from the first row on. From rest it moves as (t - t_0)^2, so that the times t_1 and t_2 at which it
-// has moved by 1 % and 10 % tell when it was let go, t_0 = t_1 - (t_2 - t_1) / (sqrt(10) - 1).
+// The time at which an axis that was held has moved by a hundredth of how far it gets, or out of the noise,
+// s; empty where it moved from the first row on. From rest it moves as (t - t_0)^2, so that the times t_1 and
+// t_2 at which it has moved by d_1 and d_2 tell when it was let go, t_0 = t_1 - (t_2 - t_1) / (sqrt(d_2 /
+// d_1) - 1).
 std::optional<double> let_go_s(const Trial& trial);
 
 }  // namespace sandhopper::diagnose
