@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/plants/bed_grains.hpp"
 #include "tools/diagnose/plants/doable.hpp"
-#include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/intruder_motion.hpp"
 #include "tools/diagnose/plants/intruder_trial.hpp"

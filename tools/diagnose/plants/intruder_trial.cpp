@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tools/diagnose/plants/bed_grains.hpp"
-#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/intruder_motion.hpp"

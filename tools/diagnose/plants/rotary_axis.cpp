@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <string>
 
 #include "tools/diagnose/balance.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
-#include "tools/diagnose/plants/nearby_sine.hpp"
 #include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
 #include "tools/diagnose/plants/rotary_trial.hpp"
-#include "tools/diagnose/sign_smooth.hpp"
-#include "tools/diagnose/virtual_channels.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

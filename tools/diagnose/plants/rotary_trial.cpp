@@ -4,13 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <string>
 
-#include "tools/diagnose/balance.hpp"
-#include "tools/diagnose/plants/doable.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/nearby_sine.hpp"
-#include "tools/diagnose/plants/ripple.hpp"
 #include "tools/diagnose/plants/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_figures.hpp"
 #include "tools/diagnose/sign_smooth.hpp"
