@@ -123,7 +123,7 @@ TEST(Belief, TheReleaseHeightOfATrialIsNotTheSpreadOfReleaseHeights) {
   EXPECT_EQ(belief.spread.robot.release_height_m, 0.0);
 }
 
-// What is thrown by hand starts less surely than a robot that is let go.
+// A hand throws from anywhere: heights and speeds of release spread far more than those of a robot.
 TEST(Belief, AThrowMayStartAnywhere) {
   const auto body = std::get<FallingBodyBelief>(
       believed("falling_body", "[spread]\nrelease_height_m = 0.5\nrelease_speed_mps = 2.0\n", ""));

@@ -151,7 +151,7 @@ struct BeliefSpread {
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
-    // A ball that is thrown by hand starts less surely than a robot that is let go.
+    // A hand throws from anywhere, a robot is let go where it hangs.
     constexpr Range kByHand{0.0, 100.0};
     SpreadConfig::fields(self.robot, [&](std::string_view key, auto& member, Range range) {
       visit(key, member, key == "release_height_m" || key == "release_speed_mps" ? kByHand : range);

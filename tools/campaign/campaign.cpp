@@ -273,11 +273,11 @@ std::optional<std::string> CampaignTrial::text(std::string_view key) const {
   return std::nullopt;
 }
 
-bool CampaignTrial::flag(std::string_view key) const {
+std::optional<bool> CampaignTrial::flag(std::string_view key) const {
   for (const auto& entry : setup)
     if (entry.key == key)
       if (const auto* value = std::get_if<bool>(&entry.value)) return *value;
-  return false;
+  return std::nullopt;
 }
 
 Campaign load_campaign(const fs::path& folder) { return Loader(folder).run(); }

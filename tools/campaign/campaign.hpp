@@ -58,7 +58,7 @@ struct CampaignTrial {
 
   std::optional<double> number(std::string_view key) const;  // a set-up value
   std::optional<std::string> text(std::string_view key) const;
-  bool flag(std::string_view key) const;  // true where it is written as true
+  std::optional<bool> flag(std::string_view key) const;
   // The same recording may be named by several trials that select different rows.
   std::size_t index = 0;  // place in the campaign
 };

@@ -9,7 +9,6 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "tools/campaign/setup_keys.hpp"
 #include "tools/diagnose/plants/free_axis.hpp"
@@ -110,14 +109,6 @@ void begin_at_zero(Recordings& recordings) {
   }
 }
 
-// Whether the experimenter wrote down that the motor was on; empty where he did not say.
-std::optional<bool> motor_enabled(const CampaignTrial& described) {
-  for (const auto& entry : described.setup)
-    if (const auto* on = std::get_if<bool>(&entry.value); on != nullptr && entry.key == "motor_enabled")
-      return *on;
-  return std::nullopt;
-}
-
 void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInput& input) {
   const auto tell = [&](std::string what, std::string cure) {
     input.findings.push_back({.kind = FindingKind::set_up,
@@ -178,7 +169,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));
     at_one_value.push_back(recording.at_one_value);
-    motor_on.push_back(motor_enabled(described));
+    motor_on.push_back(described.flag("motor_enabled"));
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
   take_what_is_at_one_value(at_one_value, input.recordings.trials);

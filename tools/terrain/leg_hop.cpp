@@ -71,7 +71,7 @@ void keep_leg_hop(const CampaignTrial& trial, const TrialRecording& recording, T
   if (!holds_leg_hop(result))
     result.ruled_out.push_back(fmt::format(
         "the leg's force estimate against the force plate: fewer than {} rows of either", kFewestRows));
-  series["leg_hop_held_out"] = {trial.flag("held_out") ? 1.0 : 0.0};
+  series["leg_hop_held_out"] = {trial.flag("held_out").value_or(false) ? 1.0 : 0.0};
   series["leg_hop_contact_settling_s"] = {trial.number("contact_settling_s").value_or(kDefaultSettling_s)};
   series["leg_hop_leg"] = numbers_of(std::get<HopperBelief>(trial.belief).robot.leg);
 }

@@ -169,7 +169,8 @@ class IntruderTrial final : public TrialModel {
     return read;
   }
 
-  // Whether a row's value is of the instant at which the cell sampled or of the row's is not told.
+  // Sampling instants of the rows: a nuisance moves them between the row's own time and the instant at which
+  // the cell last sampled, as recordings do not tell which of the two a value belongs to.
   std::vector<double> sampled_s(std::span<const double> nuisances) const {
     std::vector<double> at_s = times_;
     for (std::size_t i = 0; i < ages_s_.size(); ++i)
@@ -219,7 +220,7 @@ class IntruderTrial final : public TrialModel {
       const double asked_m = read.depth_m(i) + surface_m + deeper_m;
       if (touching && asked_m <= 0.0) {
         laws.pushed();
-        // Where the surface is lower now, the deepest point has not moved.
+        // The push moved the surface: the deepest point stays, so that its depth changes by as much.
         deepest_m += laws.deeper_m() - deeper_m;
         deeper_m = laws.deeper_m();
       }
@@ -302,7 +303,8 @@ class IntruderTrial final : public TrialModel {
                       std::hypot(reaction.added_mass_kg * accel_sd_mps2, grains_N));
   }
 
-  // Where the force is steep, an instant of sampling that is off by a twentieth of a row shows.
+  // Standard deviation of the force by which two simulations differ at an edge: the change of force within a
+  // twentieth of a row, by which their sampling instants may be apart.
   double edge_sd_N(const std::vector<double>& force_N, std::size_t i) const {
     constexpr double kPartOfARow = 0.05;
     const auto to_side = static_cast<std::size_t>(std::ceil(row_s_ / motion_.step_s));

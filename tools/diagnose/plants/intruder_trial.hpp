@@ -9,8 +9,7 @@ namespace sandhopper::diagnose {
 // Phases of an intrusion, by their index in the plant's phases().
 enum IntrusionPhase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 
-// Of what a trial's bed is stiffer by: whether it lets go of the foot along a stiffer line, too, is its
-// affair.
+// Belief key: share of a trial's extra bed stiffness that its unloading line takes up, too (0: none, 1: all).
 inline constexpr const char* kLineFollows = "spread.unloading_follows";
 
 // How often the foot goes below the surface, from above by a tenth of how deep it gets.
