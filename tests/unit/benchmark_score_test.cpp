@@ -111,6 +111,18 @@ TEST(BenchmarkJudge, IntervalsAreComparedByNameElseByUnit) {
   EXPECT_EQ(j.intervals_without_counterpart, 1u);
 }
 
+TEST(BenchmarkJudge, AHiddenSizeAboveItsUpperBoundBreaksTheBound) {
+  auto truth = hidden("several", {"rail.coulomb", "rail.viscous"});
+  truth.effects[0].parameters = {{"friction_N", -1.5}};
+  truth.effects[1].parameters = {{"viscous_N_s_per_m", 0.3}};
+  auto answer = null_only();
+  answer.absent = {{"rail.coulomb", "friction_N", 1.4}, {"rail.viscous", "viscous_N_s_per_m", 0.4}};
+  const auto j = judge(truth, answer);
+  EXPECT_EQ(j.bounded, 2u);
+  EXPECT_EQ(j.bounds_hold, 1u);
+  EXPECT_FALSE(score({j}).figures.back().met());
+}
+
 TEST(BenchmarkScore, CountsFiguresCalibrationAndLadder) {
   const auto nothing = hidden("null", {}), one = hidden("single", {"rail.coulomb"}, 1.0),
              small = hidden("single", {"rail.coulomb"}, 0.2);

@@ -81,6 +81,16 @@ TEST(Diagnose, NamesDryFrictionOfAnAxis) {
   expect_alone(d, "axis.coulomb", 0.095, 0.105);
 }
 
+// A name may be the wrong one, so another effect is bounded by the size it would have in the name's place:
+// dry friction of 0.1 N m at speeds of 2 rad/s and more takes viscous friction of up to 0.05 N m s.
+TEST(Diagnose, BoundsAnEffectByItsSizeInPlaceOfWhatWasFound) {
+  const auto d = diagnose(swings([](double, double w, double) { return -0.1 * std::tanh(w / 0.01); }));
+  const auto viscous = std::ranges::find(d.absent, "axis.viscous", &Bound::id);
+  ASSERT_NE(viscous, d.absent.end());
+  EXPECT_GT(viscous->value, 0.02);
+  EXPECT_LT(viscous->value, 0.2);
+}
+
 TEST(Diagnose, NamesViscousFrictionOfAnAxis) {
   const auto d = diagnose(swings([](double, double w, double) { return -0.03 * w; }));
   expect_alone(d, "axis.viscous", 0.029, 0.031);

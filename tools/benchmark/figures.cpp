@@ -24,6 +24,8 @@ std::vector<Figure> section_6(const std::vector<Judged>& cases) {
   Figure alike{"indistinguishable: class holds the truth", 0, 0, 0.90, 0.97};
   Figure floor{"held-out error within 1.2 of the floor, solved", 0, 0, 0.90, 0.90};
   Figure intervals{"95 % intervals that hold the truth", 0, 0, 0.90, 0.94};
+  // A hidden size above the bound that its effect is said to stay below: none may be.
+  Figure bounds{"upper bounds of `absent` that hold", 0, 0, 1.0, 1.0};
   for (const auto& j : cases) {
     const auto& truth = *j.truth;
     add(wrong, j.confident_wrong);
@@ -35,8 +37,10 @@ std::vector<Figure> section_6(const std::vector<Judged>& cases) {
     if (j.heldout_over_floor) add(floor, *j.heldout_over_floor <= 1.2);
     intervals.of += j.intervals;
     intervals.count += j.intervals_hold;
+    bounds.of += j.bounded;
+    bounds.count += j.bounds_hold;
   }
-  return {alarms, named, wrong, unknown, exact, alike, floor, intervals};
+  return {alarms, named, wrong, unknown, exact, alike, floor, intervals, bounds};
 }
 
 void grade(Score& s) {

@@ -68,6 +68,15 @@ void check_intervals(Judged& j, const Truth::Effect& effect, const Claim& claim)
   }
 }
 
+void check_bounds(Judged& j, const Truth::Effect& effect, const std::vector<UpperBound>& absent) {
+  for (const auto& bound : absent) {
+    const auto hidden = effect.parameters.find(bound.parameter);
+    if (bound.id != effect.id || hidden == effect.parameters.end()) continue;
+    ++j.bounded;
+    j.bounds_hold += std::abs(hidden->second) <= bound.value;
+  }
+}
+
 std::string in_short(const Diagnosis& d) {
   std::string text = d.verdict;
   for (const auto& claim : d.claims) {
@@ -128,6 +137,7 @@ Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis) {
   for (const auto& effect : truth.effects)
     for (const auto& claim : names)
       if (claim.id == effect.id) check_intervals(j, effect, claim);
+  for (const auto& effect : truth.effects) check_bounds(j, effect, d.absent);
   if (passed(j) && !truth.nothing_hidden() && d.heldout_after && d.floor && *d.floor > 0.0)
     j.heldout_over_floor = *d.heldout_after / *d.floor;
   return j;

@@ -24,6 +24,8 @@ struct Judged {
   };
   std::vector<Graded> graded;  // every name claimed, for calibration
   std::size_t intervals = 0, intervals_hold = 0, intervals_without_counterpart = 0;
+  // Hidden effects that the answer calls absent, and those of them that are no larger than its bound.
+  std::size_t bounded = 0, bounds_hold = 0;
 };
 
 constexpr double kConfident = 0.8;

@@ -112,6 +112,10 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
     for (const auto& effect : json["effects"]) d.claims.push_back(claim_of(effect));
   std::stable_sort(d.claims.begin(), d.claims.end(),
                    [](const Claim& a, const Claim& b) { return a.probability > b.probability; });
+  if (json.contains("absent") && json["absent"].is_array())
+    for (const auto& bound : json["absent"])
+      if (const auto value = bound.is_object() ? number(bound, "upper_bound") : std::nullopt)
+        d.absent.push_back({bound.value("id", ""), bound.value("parameter", ""), *value});
   if (json.contains("baselines") && json["baselines"].is_object())
     for (const auto& [name, one] : json["baselines"].items())
       if (one.is_object() && one.contains("id") && one["id"].is_string()) d.baselines[name] = one["id"];

@@ -39,9 +39,16 @@ struct Claim {
   bool covers(const std::string& id) const;
 };
 
+// An effect that was not found, and the size it stays below with 95 % (`absent`).
+struct UpperBound {
+  std::string id, parameter;
+  double value = 0.0;
+};
+
 struct Diagnosis {
   std::string verdict, detail;
   std::vector<Claim> claims;
+  std::vector<UpperBound> absent;
   std::optional<double> heldout_after, floor;
   std::optional<double> seconds;
   bool asks_for_a_split = false;  // recommends a trial to tell a class' members apart

@@ -228,33 +228,4 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
   }
 }
 
-void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
-  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
-  for (const auto& s : search.screened(search.best().set)) {
-    const auto& candidate = problem.candidates[s.candidate];
-    // Something unknown may hide whatever acts in the plant, or what the same sensor does.
-    if (std::ranges::any_of(diagnosis.effects, [&](const FoundEffect& found) {
-          if (!found.is_unknown()) return false;
-          return problem.context.has(found.port) ? candidate.channel == found.port
-                                                 : candidate.channel.empty();
-        }))
-      continue;
-    // What may stand in place of something found is not absent.
-    bool alternative = false;
-    for (const auto& found : diagnosis.effects)
-      for (const auto& id : found.indistinguishable_from)
-        alternative = alternative || id == candidate.effect->id;
-    if (alternative) continue;
-    const auto& p = candidate.parameters[0];
-    const double error = s.evidence.standard_error();
-    if (!(error < 1e6)) continue;
-    const double typicals = std::abs(s.evidence.size()) + quantile * error;
-    const double bound = typicals * p.typical * std::max(std::abs(p.scale), 1e-300);
-    diagnosis.absent.push_back(
-        {candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power), typicals});
-  }
-  std::sort(diagnosis.absent.begin(), diagnosis.absent.end(),
-            [](const Bound& a, const Bound& b) { return a.typicals > b.typicals; });
-}
-
 }  // namespace sandhopper::diagnose
