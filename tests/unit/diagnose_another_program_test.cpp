@@ -7,14 +7,14 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_hops.hpp"
-#include "tools/diagnose/effect.hpp"
-#include "tools/diagnose/left_over.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/fit/spread_seen.hpp"
+#include "tools/diagnose/model/effect.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
+#include "tools/diagnose/plants/hopper/recorded_controller.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
-#include "tools/diagnose/plants/intruder_motion.hpp"
-#include "tools/diagnose/plants/recorded_controller.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/spread_seen.hpp"
+#include "tools/diagnose/plants/intruder/intruder_motion.hpp"
 
 // What recordings by another program differ in, and what is no physics for that.
 namespace sandhopper::diagnose {

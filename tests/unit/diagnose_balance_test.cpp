@@ -6,10 +6,10 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_hops.hpp"
-#include "tools/diagnose/balance.hpp"
-#include "tools/diagnose/plants/hopper_balance.hpp"
+#include "tools/diagnose/discrepancy/balance.hpp"
+#include "tools/diagnose/plants/hopper/hopper_balance.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
-#include "tools/diagnose/plants/rotary_balance.hpp"
+#include "tools/diagnose/plants/rotary_axis/rotary_balance.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

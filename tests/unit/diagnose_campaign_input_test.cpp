@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tests/unit/campaign_folder.hpp"
-#include "tools/diagnose/campaign_input.hpp"
-#include "tools/diagnose/plants/free_axis.hpp"
+#include "tools/diagnose/plants/rotary_axis/free_axis.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

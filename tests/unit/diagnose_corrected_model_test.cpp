@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/corrected_model.hpp"
+#include "tools/diagnose/answer/corrected_model.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

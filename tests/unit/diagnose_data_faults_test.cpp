@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/data_faults.hpp"
+#include "tools/diagnose/recordings/data_faults.hpp"
 
 // What recordings contradict by themselves.
 namespace sandhopper::diagnose {

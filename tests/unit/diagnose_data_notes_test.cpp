@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tools/diagnose/data_faults.hpp"
+#include "tools/diagnose/recordings/data_faults.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/diagnose/problem.hpp"
+#include "tools/diagnose/fit/problem.hpp"
 
 // What a candidate does to a simulation at so many times its typical size.
 namespace sandhopper::diagnose {

@@ -7,10 +7,10 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tests/unit/diagnose_effect_sizes.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/proposals.hpp"
-#include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/evidence/proposals.hpp"
+#include "tools/diagnose/evidence/screen.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
 
 // What holds for every effect that a plant can have, whichever they are.
 namespace sandhopper::diagnose {

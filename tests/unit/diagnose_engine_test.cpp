@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/diagnosis_json.hpp"
-#include "tools/diagnose/diagnosis_text.hpp"
-#include "tools/diagnose/residuals_csv.hpp"
+#include "tools/diagnose/answer/diagnosis_json.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/answer/residuals_csv.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

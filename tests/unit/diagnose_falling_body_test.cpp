@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/plants/falling_body_recording.hpp"
-#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

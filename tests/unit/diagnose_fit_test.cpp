@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "tests/unit/diagnose_hops.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/signal.hpp"
-#include "tools/diagnose/signatures.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/fit/signatures.hpp"
+#include "tools/diagnose/model/signal.hpp"
 
 // How fits converge, and the derivatives they rest on.
 namespace sandhopper::diagnose {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "tools/diagnose/campaign_input.hpp"
-#include "tools/diagnose/diagnosis_text.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/engine.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

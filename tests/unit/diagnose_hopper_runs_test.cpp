@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/diagnose/plants/hopper_runs.hpp"
+#include "tools/diagnose/plants/hopper/hopper_runs.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

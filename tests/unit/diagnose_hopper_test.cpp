@@ -7,13 +7,13 @@
 
 #include "tests/unit/diagnose_effect_sizes.hpp"
 #include "tests/unit/diagnose_hops.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/left_over.hpp"
-#include "tools/diagnose/plants/hopper_recording.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/evidence/search.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/plants/hopper/hopper_recording.hpp"
+#include "tools/diagnose/plants/hopper/recorded_controller.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
-#include "tools/diagnose/plants/recorded_controller.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/search.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

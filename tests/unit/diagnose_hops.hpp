@@ -4,9 +4,9 @@
 #include <string>
 
 #include "estimation/leg.hpp"
-#include "tools/diagnose/plants/hopper_belief.hpp"
-#include "tools/diagnose/plants/hopper_simulation.hpp"
-#include "tools/diagnose/trial.hpp"
+#include "tools/diagnose/model/trial.hpp"
+#include "tools/diagnose/plants/hopper/hopper_belief.hpp"
+#include "tools/diagnose/plants/hopper/hopper_simulation.hpp"
 #include "tools/plant/random.hpp"
 
 // Hops in memory for the tests of the diagnosis.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/open_world.hpp"
+#include "tools/diagnose/discrepancy/open_world.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/diagnose/diagnosis_text.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/engine.hpp"
-#include "tools/diagnose/plants/falling_body_recording.hpp"
-#include "tools/diagnose/plants/falling_simulation.hpp"
+#include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
+#include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
 #include "tools/plant/random.hpp"
 
 namespace sandhopper::diagnose {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/left_over.hpp"
-#include "tools/diagnose/many_trials.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/recordings/many_trials.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/discrepancy/misfit.hpp"
 #include "tools/diagnose/engine.hpp"
-#include "tools/diagnose/left_over.hpp"
-#include "tools/diagnose/misfit.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/report_parts.hpp"
-#include "tools/diagnose/residuals.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/fit/residuals.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -8,8 +8,8 @@
 #include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/discrepancy/low_rank.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
 
 // Model error in the likelihood, and the evidence of a size.
 namespace sandhopper::diagnose {

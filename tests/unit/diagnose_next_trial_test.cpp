@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/diagnosis_json.hpp"
+#include "tools/diagnose/answer/diagnosis_json.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

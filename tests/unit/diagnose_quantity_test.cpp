@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tools/diagnose/quantity.hpp"
+#include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

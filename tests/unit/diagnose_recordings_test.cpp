@@ -8,8 +8,8 @@
 
 #include "tests/unit/campaign_folder.hpp"
 #include "tests/unit/shared_campaign.hpp"
-#include "tools/diagnose/campaign_input.hpp"
 #include "tools/diagnose/engine.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
-#include "tools/diagnose/diagnosis_text.hpp"
-#include "tools/diagnose/plants/nearby_sine.hpp"
-#include "tools/diagnose/prepare.hpp"
-#include "tools/diagnose/signal.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/model/signal.hpp"
+#include "tools/diagnose/plants/rotary_axis/nearby_sine.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

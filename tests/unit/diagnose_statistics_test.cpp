@@ -5,14 +5,14 @@
 #include <random>
 #include <set>
 
-#include "tools/diagnose/effect.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/noise_model.hpp"
-#include "tools/diagnose/plants/bed_grains.hpp"
-#include "tools/diagnose/screen.hpp"
-#include "tools/diagnose/sign_smooth.hpp"
-#include "tools/diagnose/signal.hpp"
-#include "tools/diagnose/statistics.hpp"
+#include "tools/diagnose/evidence/screen.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/noise_model.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
+#include "tools/diagnose/model/effect.hpp"
+#include "tools/diagnose/model/sign_smooth.hpp"
+#include "tools/diagnose/model/signal.hpp"
+#include "tools/diagnose/plants/intruder/bed_grains.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/unit/campaign_folder.hpp"
-#include "tools/diagnose/campaign_input.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 
 bool is_unknown(const std::string& id) { return id.rfind("unknown@", 0) == 0; }
 
-// The added mass's own gradient is a quadratic drag; beside it that name is no mistake (DIAGNOSIS, issue 4).
+// The added mass's own gradient is a quadratic drag; beside it that name is no mistake.
 bool excused(const Claim& claim, const Truth& truth) {
   return claim.id == "terrain.quadratic_drag" && truth.holds("terrain.added_mass");
 }

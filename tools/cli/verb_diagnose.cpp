@@ -6,12 +6,12 @@
 #include "tools/campaign/campaign.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/diagnose/campaign_input.hpp"
-#include "tools/diagnose/diagnosis_json.hpp"
-#include "tools/diagnose/diagnosis_text.hpp"
+#include "tools/diagnose/answer/diagnosis_json.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/answer/residuals_csv.hpp"
 #include "tools/diagnose/engine.hpp"
-#include "tools/diagnose/page/diagnosis_page.hpp"
-#include "tools/diagnose/residuals_csv.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::cli {
 namespace {

@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <chrono>
 
-#include "tools/diagnose/corrected_model.hpp"
-#include "tools/diagnose/data_faults.hpp"
-#include "tools/diagnose/events.hpp"
+#include "tools/diagnose/answer/corrected_model.hpp"
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/discrepancy/unexplained.hpp"
 #include "tools/diagnose/evidence/beside.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/many_trials.hpp"
-#include "tools/diagnose/next_trial.hpp"
-#include "tools/diagnose/posterior.hpp"
-#include "tools/diagnose/report_parts.hpp"
-#include "tools/diagnose/search.hpp"
-#include "tools/diagnose/search_parts.hpp"
-#include "tools/diagnose/spread_seen.hpp"
-#include "tools/diagnose/unexplained.hpp"
+#include "tools/diagnose/evidence/posterior.hpp"
+#include "tools/diagnose/evidence/search.hpp"
+#include "tools/diagnose/evidence/search_parts.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/spread_seen.hpp"
+#include "tools/diagnose/next/next_trial.hpp"
+#include "tools/diagnose/recordings/data_faults.hpp"
+#include "tools/diagnose/recordings/events.hpp"
+#include "tools/diagnose/recordings/many_trials.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

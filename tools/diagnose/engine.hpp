@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
-#include "tools/diagnose/diagnosis.hpp"
-#include "tools/diagnose/prepare.hpp"
+#include "tools/diagnose/answer/diagnosis.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
 
 namespace sandhopper::diagnose {
 

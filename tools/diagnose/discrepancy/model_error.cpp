@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/diagnose/free_laws.hpp"
-#include "tools/diagnose/linearise.hpp"
-#include "tools/diagnose/problem.hpp"
-#include "tools/diagnose/signatures.hpp"
+#include "tools/diagnose/discrepancy/free_laws.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/problem.hpp"
+#include "tools/diagnose/fit/signatures.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -15,8 +15,7 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kProbe = 0.2;  // of a port's scale, for the derivative by a force there
-constexpr Index kMostKnots = 40;
+constexpr Index kMostForceKnots = 40;
 
 // L with L L' = correlation of values at `count` knots.
 MatrixXd process_factor(Index count) { return knot_correlation(count).llt().matrixL(); }
@@ -27,7 +26,7 @@ MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edi
                       double knot_s) {
   double first = 1e300, last = -1e300;
   for (const auto& row : trial.rows) first = std::min(first, row.time_s), last = std::max(last, row.time_s);
-  const Index count = std::clamp<Index>(static_cast<Index>((last - first) / knot_s) + 1, 2, kMostKnots);
+  const Index count = std::clamp<Index>(static_cast<Index>((last - first) / knot_s) + 1, 2, kMostForceKnots);
   const double apart = (last - first) / static_cast<double>(count - 1);
   MatrixXd columns(centre.size(), count);
   for (Index k = 0; k < count; ++k) {
@@ -38,7 +37,8 @@ MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edi
                           return u > 0.0 ? scale * u : 0.0;
                         },
                         scale};
-    columns.col(k) = (predicted(problem, trial, with_term(base, term, kProbe), nuisances) - centre) / kProbe;
+    columns.col(k) =
+        (predicted(problem, trial, with_term(base, term, kTermStep), nuisances) - centre) / kTermStep;
   }
   return columns * process_factor(count);
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/diagnose/effect.hpp"
-#include "tools/diagnose/sign_smooth.hpp"
+#include "tools/diagnose/model/effect.hpp"
+#include "tools/diagnose/model/sign_smooth.hpp"
 
 // What effects share.
 namespace sandhopper::diagnose {

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "tools/diagnose/evidence/log_evidence.hpp"
+#include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/evidence/unknown_law.hpp"
-#include "tools/diagnose/search_parts.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kWeighed = 8;      // sets
 constexpr std::size_t kLawsWeighed = 3;  // beside one set
 
-struct Weighed {
+struct WeighedAnswer {
   std::string what;
   double log_mass = 0.0;
 };
@@ -36,7 +36,7 @@ std::vector<const SetFit*> nearest(const Search& search) {
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
   problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
-  std::vector<Weighed> all;
+  std::vector<WeighedAnswer> all;
   for (const SetFit* fit : nearest(search)) {
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     const double log_mass = evidence.value + log_prior(problem, fit->set.size());
@@ -49,7 +49,7 @@ void tell_evidence(Problem& problem, const Search& search, std::vector<std::stri
                                  laws[i].family.port, laws[i].family.variable),
                      log_mass + laws[i].log_factor + prior});
   }
-  std::ranges::sort(all, std::greater<>{}, &Weighed::log_mass);
+  std::ranges::sort(all, std::greater<>{}, &WeighedAnswer::log_mass);
   double total = 0.0;
   for (const auto& one : all) total += std::exp(one.log_mass - all.front().log_mass);
   for (const auto& one : all)

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/diagnose/search.hpp"
+#include "tools/diagnose/evidence/search.hpp"
 
 namespace sandhopper::diagnose {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/diagnose/discrepancy/free_laws.hpp"
 #include "tools/diagnose/evidence/log_determinant.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/fit/fit.hpp"
 
 namespace sandhopper::diagnose {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "tools/diagnose/evidence/limits.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/linearise.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
 
 namespace sandhopper::diagnose {
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "tools/diagnose/evidence/log_determinant.hpp"
-#include "tools/diagnose/screen.hpp"
+#include "tools/diagnose/evidence/screen.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -15,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kProbe = 0.2;  // of a port's scale, for the derivative by a knot
 
 // ln mean over s of exp(u' (H + R^-1 / s^2)^-1 u / 2) / |I + s^2 R H|^1/2.
 double log_factor_of(const MatrixXd& information, const VectorXd& score, const MatrixXd& precision) {
@@ -46,7 +44,7 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
     columns.emplace_back();
     for (const auto& term : family.terms) {
       columns.back().push_back(own + 1 + static_cast<Index>(terms.size()));
-      terms.push_back({with_term(base, term, kProbe), kProbe});
+      terms.push_back({with_term(base, term, kTermStep), kTermStep});
     }
   }
   const AtFit at = linearised_at(problem, point, terms);

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "tools/diagnose/discrepancy/free_laws.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
-#include "tools/diagnose/fit.hpp"
-#include "tools/diagnose/free_laws.hpp"
+#include "tools/diagnose/fit/fit.hpp"
 
 namespace sandhopper::diagnose {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/diagnose/plant.hpp"
+#include "tools/diagnose/model/plant.hpp"
 
 // Trials that could be done, for the choice of the next one.
 namespace sandhopper::diagnose {

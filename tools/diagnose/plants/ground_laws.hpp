@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "terrain/bed.hpp"
-#include "tools/diagnose/context.hpp"
-#include "tools/diagnose/edits.hpp"
+#include "tools/diagnose/model/context.hpp"
+#include "tools/diagnose/model/edits.hpp"
 
 namespace sandhopper::diagnose {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "tools/diagnose/statistics.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/diagnose/plant.hpp"
-#include "tools/diagnose/signal.hpp"
+#include "tools/diagnose/model/plant.hpp"
+#include "tools/diagnose/model/signal.hpp"
 
 // What the plants share: recorded channels made into rows and inputs.
 namespace sandhopper::diagnose {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "tools/diagnose/context.hpp"
+#include "tools/diagnose/model/context.hpp"
 
 namespace sandhopper::diagnose {
 

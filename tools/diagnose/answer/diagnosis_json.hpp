@@ -1,0 +1,11 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "tools/diagnose/answer/diagnosis.hpp"
+
+namespace sandhopper::diagnose {
+
+// The object of diagnosis.json.
+nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
+
+}  // namespace sandhopper::diagnose

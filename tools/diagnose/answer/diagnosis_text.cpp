@@ -1,0 +1,103 @@
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kMostCells = 3;
+constexpr std::size_t kMostChannels = 3;
+constexpr std::size_t kMostBounds = 4;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// Never "100 %" where something is left.
+std::string percent(double share) { return fmt::format("{:.0f} %", std::min(99.0, 100.0 * share)); }
+
+std::string effect_text(const FoundEffect& e) {
+  std::string text = fmt::format("what   {} (probability {:.2f}): {}\n       {}\n", e.id, e.probability,
+                                 e.statement, e.equation);
+  for (const auto& p : e.parameters)
+    text +=
+        fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}\n", p.name, p.value, p.low, p.high);
+  if (!e.indistinguishable_from.empty())
+    text += fmt::format("       cannot be told apart on these recordings from {}\n",
+                        joined(e.indistinguishable_from));
+  return text;
+}
+
+std::string where_text(const Where& w) {
+  std::string text = "where  ";
+  if (!w.port.empty()) text += w.port + ": ";
+  text += fmt::format("{} during {}, {:.0f} % of the excess", w.channel, w.phase, 100.0 * w.share_of_excess);
+  if (!w.coordinate.empty())
+    text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
+  return text + fmt::format(", p = {:.1g}\n", w.p_value);
+}
+
+std::string next_text(const NextTrial& next) {
+  if (next.kind.empty()) return next.why.empty() ? "" : "next   " + next.why + "\n";
+  return fmt::format("next   {}\n       {}\n", trial_in_words(next.kind, next.words, next.setup), next.why);
+}
+
+// The few that matter: what was looked for and is left with the widest bounds.
+std::string absent_text(const std::vector<Bound>& absent) {
+  if (absent.empty()) return "";
+  std::string text = "absent ";
+  for (std::size_t i = 0; i < absent.size() && i < kMostBounds; ++i)
+    text += fmt::format("{}{}: {} < {:.2g}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
+                        absent[i].value);
+  if (absent.size() > kMostBounds)
+    text += fmt::format("; {} more bounded closer", absent.size() - kMostBounds);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string headline(const Diagnosis& d) {
+  if (d.verdict == "consistent")
+    return fmt::format(
+        "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
+  if (d.verdict == "insufficient_data") return fmt::format("{} trials are too little to say.", d.trials);
+  if (d.verdict == "unknown_physics") return "Something is missing that is on no list.";
+  std::vector<std::string> names;
+  for (const auto& e : d.effects)
+    if (!e.is_unknown()) names.push_back(e.id);
+  if (d.detail == "data_fault") return "The physics agrees; the recording has faults.";
+  if (d.detail == "one_of_class")
+    return "Something is missing; these recordings leave more than one explanation.";
+  if (d.detail == "known_and_rest")
+    return fmt::format("Something is missing: {}; that closes {} of the gap, and what is left is on no list.",
+                       joined(names), percent(d.gap_closed));
+  return "Something is missing: " + joined(names) + ".";
+}
+
+double simulations_per_second(const Diagnosis& d) {
+  return static_cast<double>(d.simulations) / std::max(d.seconds, 1e-3);
+}
+
+std::string to_text(const Diagnosis& d) {
+  std::string text =
+      fmt::format("verdict: {}{}. {}\n", d.verdict, d.detail == "null" ? "" : ", " + d.detail, headline(d));
+  for (const auto& e : d.effects) text += effect_text(e);
+  for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
+  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i)
+    text +=
+        fmt::format("error  {}: {:.4g} before, {:.4g} after on held-out trials, floor {:.4g}\n",
+                    d.fits[i].channel, d.fits[i].heldout.before, d.fits[i].heldout.after, d.fits[i].floor);
+  text += next_text(d.next) + absent_text(d.absent);
+  for (const auto& note : d.notes) text += "note   " + note + "\n";
+  text += fmt::format("{} simulations in {:.1f} s ({:.0f} a second)", d.simulations, d.seconds,
+                      simulations_per_second(d));
+  return text;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Style = StudyAnswer::Style;
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string p_text(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+
+std::string joined(const std::vector<std::string>& words, const char* last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? fmt::format(" {} ", last) : ", ") + words[i];
+  return text;
+}
+
+bool nothing_found(const Diagnosis& d) { return d.effects.empty(); }
+
+std::string place_of(const Where& w) {
+  const auto axis = quantity_of(w.coordinate);
+  std::string text =
+      fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, in_words(w.phase), w.from_s, w.to_s);
+  if (!w.coordinate.empty() && w.coordinate != "t_s")
+    text += fmt::format("; {} {} to {} {}", axis.words, number(w.range_low), number(w.range_high), axis.unit);
+  return text + fmt::format("; {:.0f} % of the excess, {}", 100.0 * w.share_of_excess, p_text(w.p_value));
+}
+
+std::vector<std::string> ports_of(const Diagnosis& d) {
+  std::vector<std::string> ports;
+  const auto add = [&](const std::string& port) {
+    if (!port.empty() && std::find(ports.begin(), ports.end(), port) == ports.end()) ports.push_back(port);
+  };
+  for (const auto& w : d.where) add(w.port);
+  for (const auto& e : d.effects) add(e.port);
+  return ports;
+}
+
+StudyAnswer where(const Diagnosis& d) {
+  StudyAnswer box{"Where", {}, {}, 3};
+  if (nothing_found(d)) {
+    box.lines.emplace_back(Style::lead, d.verdict == "consistent" ? "Nowhere" : "Not to be said");
+    const PhaseError* worst = nullptr;
+    for (const auto& e : d.phase_errors)
+      if (e.samples >= 10 && (worst == nullptr || e.before / e.floor > worst->before / worst->floor))
+        worst = &e;
+    if (worst != nullptr)
+      box.lines.emplace_back(
+          Style::text, fmt::format("No channel differs from the simulation in any phase by more than trials "
+                                   "differ among themselves. Most: {}, {}, error {:.2f} of the floor.",
+                                   worst->channel, in_words(worst->phase), worst->before / worst->floor));
+    return box;
+  }
+  const auto ports = ports_of(d);
+  box.lines.emplace_back(Style::lead, (ports.size() > 1 ? "Ports: " : "Port: ") + joined(ports, "and"));
+  constexpr std::size_t kMost = 3;
+  for (std::size_t i = 0; i < d.where.size() && i < kMost; ++i)
+    box.lines.emplace_back(
+        i == 0 ? Style::text : Style::quiet,
+        (ports.size() > 1 && !d.where[i].port.empty() ? d.where[i].port + ": " : "") + place_of(d.where[i]));
+  if (d.where.size() > kMost)
+    box.lines.emplace_back(Style::quiet, fmt::format("and {} more, below", d.where.size() - kMost));
+  if (d.where.empty())
+    box.lines.emplace_back(Style::text,
+                           d.detail == "data_fault"
+                               ? "The faulty samples are left out; the rest agrees with the simulation."
+                               : "Spread over the trials: no channel and phase stands out alone.");
+  return box;
+}
+
+std::string parameters_of(const FoundEffect& e) {
+  std::string text;
+  for (const auto& p : e.parameters) {
+    const auto q = quantity_of(p.name);
+    text += (text.empty() ? "" : ";  ") + q.words + " " + with_interval(p.value, p.low, p.high, q.unit);
+  }
+  return text;
+}
+
+StudyAnswer what(const Diagnosis& d) {
+  StudyAnswer box{"What", {}, {}, 3};
+  if (nothing_found(d)) {
+    box.lines.emplace_back(Style::lead, d.verdict == "consistent" ? "Nothing is missing" : "Too few trials");
+    std::string bounds;
+    for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
+      const auto q = quantity_of(d.absent[i].parameter);
+      bounds += fmt::format("{}{}: {} below {}{}", bounds.empty() ? "" : ";  ", d.absent[i].id, q.words,
+                            number(d.absent[i].value), q.unit.empty() ? "" : " " + q.unit);
+    }
+    if (!bounds.empty())
+      box.lines.emplace_back(Style::text, "Hardest to exclude, at 95 %: " + bounds + ". All bounds below.");
+    return box;
+  }
+  const std::size_t most = d.effects.size() > 2 ? 3 : 2;
+  for (std::size_t i = 0; i < d.effects.size() && i < most; ++i) {
+    const auto& e = d.effects[i];
+    box.lines.emplace_back(Style::lead, e.id + (e.channel.empty() ? "" : " on " + e.channel));
+    box.lines.emplace_back(Style::text, e.statement);
+    if (d.effects.size() < 3) box.lines.emplace_back(Style::equation, e.equation);
+    if (!e.parameters.empty()) box.lines.emplace_back(Style::text, parameters_of(e));
+  }
+  if (d.effects.size() > most)
+    box.lines.emplace_back(Style::quiet, fmt::format("and {} more, below", d.effects.size() - most));
+  return box;
+}
+
+StudyAnswer how_sure(const Diagnosis& d) {
+  StudyAnswer box{"How sure", {}, {}, 2};
+  if (nothing_found(d)) {
+    box.lines.emplace_back(Style::lead, fmt::format("{} trials", d.trials));
+    box.lines.emplace_back(
+        Style::text, d.verdict == "consistent"
+                         ? fmt::format("None of {} effects that this plant can have is needed; whatever is "
+                                       "there lies below its bound.",
+                                       d.absent.size())
+                         : "How far trials repeat is not known well enough to tell an effect from chance.");
+    return box;
+  }
+  bool classes = false;
+  for (const auto& e : d.effects) classes = classes || !e.indistinguishable_from.empty();
+  box.lines.emplace_back(Style::lead, classes ? "More than one explanation is left" : "Probability");
+  for (const auto& e : d.effects) {
+    box.bars.push_back(
+        {e.id, e.probability, fmt::format("{:.2f}", e.probability), e.probability >= 0.8 ? "green" : "sand"});
+    if (!e.indistinguishable_from.empty())
+      box.lines.emplace_back(Style::text, fmt::format("{} cannot be told apart on these recordings from {}.",
+                                                      e.id, joined(e.indistinguishable_from, "or")));
+  }
+  if (!d.unknown.empty())
+    box.lines.emplace_back(
+        Style::text,
+        fmt::format("A free law of {} at {}, which no effect on the list stands for, predicts trials it was "
+                    "not fitted to ({}). It takes {:.0f} % of what can be explained.",
+                    d.unknown.front().curve.variable, d.unknown.front().port,
+                    p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
+  else if (!classes && d.detail == "known")
+    box.lines.emplace_back(Style::text, "No other effect explains these recordings as well.");
+  if (d.detail == "data_fault") box.lines.emplace_back(Style::text, "Seen in the samples themselves.");
+  return box;
+}
+
+StudyAnswer how_much_better(const Diagnosis& d) {
+  StudyAnswer box{"How much better", {}, {}, 2};
+  if (d.fits.empty()) {
+    box.lines.emplace_back(Style::lead, "No error to show");
+    return box;
+  }
+  const auto& f = d.fits.front();
+  const auto q = quantity_of(f.channel);
+  const double most = std::max({f.heldout.before, f.heldout.after, f.floor, 1e-300});
+  const auto bar = [&](const char* label, double value, const char* color) {
+    box.bars.push_back({label, value / most, number(value) + " " + q.unit, color});
+  };
+  const bool changed = !nothing_found(d) && d.detail != "data_fault";
+  box.lines.emplace_back(
+      Style::lead, !changed ? fmt::format("{}: {:.2f} of the floor", f.channel, f.heldout.before / f.floor)
+                            : fmt::format("{}: {:.2f} to {:.2f} of the floor", f.channel,
+                                          f.heldout.before / f.floor, f.heldout.after / f.floor));
+  bar(changed ? "before" : "error", f.heldout.before, "orange");
+  if (changed) bar("after", f.heldout.after, "blue");
+  bar("floor", f.floor, "grey");
+  box.lines.emplace_back(
+      Style::quiet, changed
+                        ? "Root mean square on trials held out of the fit; the floor is what trials "
+                          "differ by when nothing is missing."
+                        : "Root mean square; the floor is what trials differ by when nothing is missing.");
+  return box;
+}
+
+StudyAnswer what_next(const Diagnosis& d) {
+  StudyAnswer box{"What next", {}, {}, 2};
+  if (d.next.kind.empty()) {
+    box.lines.emplace_back(Style::lead, "No trial to recommend");
+    if (!d.next.why.empty()) box.lines.emplace_back(Style::text, d.next.why);
+    return box;
+  }
+  box.lines.emplace_back(Style::lead, trial_in_words(d.next.kind, d.next.words, d.next.setup));
+  box.lines.emplace_back(Style::text, d.next.why);
+  return box;
+}
+
+}  // namespace
+
+std::vector<StudyAnswer> page_answers(const Diagnosis& d) {
+  return {where(d), what(d), how_sure(d), how_much_better(d), what_next(d)};
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,35 @@
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+
+namespace sandhopper::diagnose {
+
+Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
+  Study study;
+  study.title = "Diagnosis: " + facts.campaign;
+  study.facts = {{"plant", facts.plant},
+                 {"trials", fmt::format("{}", d.trials)},
+                 {"verdict", d.detail == "null" ? d.verdict : d.verdict + ", " + d.detail},
+                 {"simulations", fmt::format("{} in {:.1f} s, {:.0f} a second", d.simulations, d.seconds,
+                                             simulations_per_second(d))}};
+  if (!facts.findings.empty() || !d.notes.empty())
+    study.facts.emplace_back("recordings",
+                             fmt::format("{} remarks, see below", facts.findings.size() + d.notes.size()));
+  study.verdict = headline(d);
+  study.verdict_mark = d.verdict == "consistent"          ? "good"
+                       : d.verdict == "insufficient_data" ? "partly"
+                       : d.detail == "known"              ? "bad"
+                                                          : "partly";
+  study.answers = page_answers(d);
+  study.sections = page_sections(d, facts);
+  return study;
+}
+
+void write_diagnosis_page(const Diagnosis& diagnosis, const PageFacts& facts,
+                          const std::filesystem::path& path) {
+  write_study_page(diagnosis_study(diagnosis, facts), path);
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// An error of the floor is no shade, ten times it the full one.
+double shade(double error_over_floor) {
+  return std::clamp(std::log10(std::max(error_over_floor, 1.0) / 1.1), 0.0, 1.0);
+}
+
+StudySection errors_section(const Diagnosis& d) {
+  std::vector<std::string> channels, phases;
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const auto& fit : d.fits) add(channels, fit.channel);
+  for (const auto& e : d.phase_errors) add(phases, e.phase);
+  StudyTable table;
+  table.columns = {"channel"};
+  for (auto phase : phases) {
+    std::replace(phase.begin(), phase.end(), '_', ' ');
+    table.columns.push_back(phase);
+  }
+  table.columns.insert(table.columns.end(), {"all, before", "all, after", "floor"});
+  for (const auto& channel : channels) {
+    std::vector<std::string> row{channel};
+    std::vector<std::pair<double, double>> shades{{0.0, 0.0}};
+    for (const auto& phase : phases) {
+      const auto cell = std::find_if(d.phase_errors.begin(), d.phase_errors.end(), [&](const PhaseError& e) {
+        return e.channel == channel && e.phase == phase;
+      });
+      if (cell == d.phase_errors.end()) {
+        row.emplace_back("");
+        shades.emplace_back(0.0, 0.0);
+        continue;
+      }
+      const double before = cell->before / cell->floor, after = cell->after / cell->floor;
+      row.push_back(fmt::format("{:.2f} → {:.2f}", before, after));
+      shades.emplace_back(shade(before), shade(after));
+    }
+    const auto fit =
+        std::find_if(d.fits.begin(), d.fits.end(), [&](const ChannelFit& f) { return f.channel == channel; });
+    const auto unit = quantity_of(channel).unit;
+    for (const double value : {fit->heldout.before, fit->heldout.after, fit->floor}) {
+      row.push_back(number(value) + " " + unit);
+      shades.emplace_back(0.0, 0.0);
+    }
+    table.rows.push_back(std::move(row));
+    table.shades.push_back(std::move(shades));
+  }
+  table.note =
+      "Held-out error over the floor of its channel and phase, before → after what was found is added. 1.00 "
+      "is as "
+      "good as trials repeat; the darker, the more is missing.";
+  return {"Before and after, by channel and phase", {table}};
+}
+
+StudySection effects_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"effect",
+                   "what it says",
+                   "equation",
+                   "parameter",
+                   "value",
+                   "95 % from",
+                   "95 % to",
+                   "probability",
+                   "share of the held-out gain",
+                   "of its typical size",
+                   "p"};
+  table.text_columns = 4;
+  table.whole = true;
+  for (const auto& e : d.effects) {
+    const std::size_t rows = std::max<std::size_t>(1, e.parameters.size());
+    for (std::size_t i = 0; i < rows; ++i) {
+      const bool first = i == 0;
+      std::vector<std::string> row{first ? e.id + (e.channel.empty() ? "" : "\n" + e.channel) : "",
+                                   first ? e.statement : "", first ? e.equation : ""};
+      if (i < e.parameters.size()) {
+        const auto& p = e.parameters[i];
+        row.insert(row.end(), {quantity_of(p.name).label(), number(p.value), number(p.low), number(p.high)});
+      } else {
+        row.insert(row.end(), {"", "", "", ""});
+      }
+      if (first)
+        row.insert(row.end(), {fmt::format("{:.2f}", e.probability), fmt::format("{:.2f}", e.heldout_gain),
+                               e.typicals > 0.0 ? number(e.typicals) : "",
+                               e.p_value < 1.0 ? fmt::format("{:.1e}", e.p_value) : ""});
+      else
+        row.insert(row.end(), 4, "");
+      table.rows.push_back(std::move(row));
+      table.row_marks.emplace_back(e.probability >= 0.8 ? "good" : "partly");
+    }
+  }
+  StudySection section{"What was found", {table}};
+  for (const auto& e : d.effects)
+    if (!e.indistinguishable_from.empty()) {
+      std::string others;
+      for (const auto& other : e.indistinguishable_from) others += (others.empty() ? "" : ", ") + other;
+      section.items.emplace_back(
+          fmt::format("{} or one of {}: they explain these recordings equally well.", e.id, others));
+    }
+  return section;
+}
+
+StudySection unknown_section(const Diagnosis& d) {
+  StudySection section{"The force that is on no list", {}};
+  for (const auto& u : d.unknown) {
+    StudySeries band{"estimate with 95 % band", u.curve.at, u.curve.value, {}, {},
+                     StudySeries::Mark::band,   "purple"};
+    for (std::size_t i = 0; i < u.curve.value.size(); ++i) {
+      band.low.push_back(u.curve.value[i] - 1.96 * u.curve.sd[i]);
+      band.high.push_back(u.curve.value[i] + 1.96 * u.curve.sd[i]);
+    }
+    const auto q = quantity_of(u.curve.variable);
+    StudyFigure figure{"What acts at " + u.port, q.label(), quantity_of(u.quantity).label(), {band}};
+    figure.note = "Straight between knots; drawn only where recordings have been.";
+    section.items.emplace_back(figure);
+  }
+  return section;
+}
+
+StudySection where_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the excess", "p", "trials"};
+  table.text_columns = 4;
+  for (const auto& w : d.where)
+    table.rows.push_back({w.channel, w.phase, w.port, quantity_of(w.coordinate).label(), number(w.range_low),
+                          number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
+                          fmt::format("{:.1e}", w.p_value), fmt::format("{}", w.trials.size())});
+  table.note =
+      "Where the error of the simulation as believed gathers. The axis is the quantity along which it is "
+      "least even, "
+      "with the range that holds its larger values. A port stands here only where something found acts on "
+      "that cell.";
+  return {"Where it shows", {table}};
+}
+
+StudySection trial_to_trial_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"", "believed sd", "mean as believed", "sd", "mean with what was found", "sd"};
+  for (const auto& n : d.trial_to_trial)
+    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
+                          number(n.sd_before), number(n.mean_after), number(n.sd_after)});
+  table.note =
+      "What every trial is fitted with beside the model. A mean that is far from zero for its believed sd, "
+      "or a sd that is much larger, says that something is taken up there.";
+  return {"What differs from trial to trial", {table}};
+}
+
+StudySection absent_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"effect", "parameter", "magnitude below", "of its typical size"};
+  table.text_columns = 2;
+  for (const auto& b : d.absent)
+    table.rows.push_back(
+        {b.id, quantity_of(b.parameter).label(), number(b.value), fmt::format("{:.2g}", b.typicals)});
+  table.note =
+      "95 % upper bounds of what was looked for and not found, each alone beside what was found. Above 1 of "
+      "the "
+      "typical size these recordings say little.";
+  return {"What is absent", {table}};
+}
+
+StudySection remarks_section(const Diagnosis& d, const PageFacts& facts) {
+  StudyTable table;
+  table.columns = {"remark"};
+  table.whole = true;
+  for (const auto& finding : facts.findings) table.rows.push_back({finding});
+  for (const auto& note : d.notes) table.rows.push_back({note});
+  return {"Recordings: what is broken, missing, and what that rules out", {table}};
+}
+
+StudySection log_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"set of effects, closest fit first"};
+  for (const auto& line : d.log) table.rows.push_back({line});
+  StudySection section{"What was tried", {table}};
+  section.folded = true;
+  return section;
+}
+
+}  // namespace
+
+std::vector<StudySection> page_sections(const Diagnosis& d, const PageFacts& facts) {
+  std::vector<StudySection> sections;
+  std::vector<std::string> trials;
+  for (const auto& trace : d.traces)
+    if (std::find(trials.begin(), trials.end(), trace.trial) == trials.end()) trials.push_back(trace.trial);
+  if (!trials.empty()) sections.push_back(trial_section(d, trials.front()));
+  if (!d.phase_errors.empty()) sections.push_back(errors_section(d));
+  if (!d.effects.empty()) sections.push_back(effects_section(d));
+  if (!d.unknown.empty()) sections.push_back(unknown_section(d));
+  if (!d.where.empty()) sections.push_back(where_section(d));
+  if (!d.trial_to_trial.empty()) sections.push_back(trial_to_trial_section(d));
+  if (!d.next.time_s.empty()) sections.push_back(next_trial_section(d));
+  if (!d.absent.empty()) sections.push_back(absent_section(d));
+  if (!facts.findings.empty() || !d.notes.empty()) sections.push_back(remarks_section(d, facts));
+  for (std::size_t i = 1; i < trials.size(); ++i) {
+    sections.push_back(trial_section(d, trials[i]));
+    sections.back().folded = true;
+  }
+  if (!d.log.empty()) sections.push_back(log_section(d));
+  return sections;
+}
+
+}  // namespace sandhopper::diagnose

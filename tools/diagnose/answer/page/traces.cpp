@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Mark = StudySeries::Mark;
+
+StudyFigure recorded_and_simulated(const Trace& trace, bool found) {
+  const auto q = quantity_of(trace.channel);
+  StudyFigure figure{q.words, "time, s", q.label(), {}};
+  figure.series.push_back({"recorded", trace.time_s, trace.measured, {}, {}, Mark::points, "grey"});
+  figure.series.push_back({found ? "simulation before" : "simulation",
+                           trace.time_s,
+                           trace.before,
+                           {},
+                           {},
+                           Mark::line,
+                           "orange",
+                           found});
+  if (found)
+    figure.series.push_back({"simulation after", trace.time_s, trace.after, {}, {}, Mark::line, "blue"});
+  return figure;
+}
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> out(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
+  return out;
+}
+
+StudySeries floor_band(const std::vector<double>& time_s, double floor) {
+  StudySeries band{"floor, ± 2 sd", {}, {}, {}, {}, Mark::band, "grey"};
+  if (time_s.empty()) return band;
+  band.x = {time_s.front(), time_s.back()};
+  band.y = {0.0, 0.0};
+  band.low = {-2.0 * floor, -2.0 * floor};
+  band.high = {2.0 * floor, 2.0 * floor};
+  return band;
+}
+
+StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
+  const auto q = quantity_of(trace.channel);
+  StudyFigure figure{q.words + ", recorded less simulated", "time, s", q.label(), {}};
+  figure.series.push_back(floor_band(trace.time_s, trace.floor));
+  figure.series.push_back({found ? "before" : "recorded less simulated",
+                           trace.time_s,
+                           difference(trace.measured, trace.before),
+                           {},
+                           {},
+                           Mark::points,
+                           "orange"});
+  if (found)
+    figure.series.push_back(
+        {"after", trace.time_s, difference(trace.measured, trace.after), {}, {}, Mark::points, "blue"});
+  return figure;
+}
+
+}  // namespace
+
+StudySection trial_section(const Diagnosis& d, const std::string& trial) {
+  const bool found = !d.effects.empty() && d.detail != "data_fault";
+  StudySection section{"Trial " + trial + ": recorded and simulated", {}};
+  for (const auto& fit : d.fits)  // the channel that shows most first
+    for (const auto& trace : d.traces) {
+      if (trace.trial != trial || trace.channel != fit.channel) continue;
+      if (section.items.empty())
+        section.items.emplace_back(fmt::format("{}. {}", trace.setup,
+                                               found ? "After: what was found is added with the sizes that "
+                                                       "the other trials give; this one was held out."
+                                                     : "The simulation is the one believed."));
+      section.items.emplace_back(recorded_and_simulated(trace, found));
+      section.items.emplace_back(recorded_less_simulated(trace, found));
+    }
+  return section;
+}
+
+StudySection next_trial_section(const Diagnosis& d) {
+  const auto& next = d.next;
+  const auto q = quantity_of(next.channel);
+  StudySection section{"The next trial", {next.why}};
+  StudyFigure both{"What it would record: " + q.words, "time, s", q.label(), {}};
+  both.series.push_back({next.first, next.time_s, next.by_first, {}, {}, Mark::line, "blue"});
+  both.series.push_back({next.second, next.time_s, next.by_second, {}, {}, Mark::line, "orange", true});
+  StudyFigure apart{"Difference of the two: " + q.words, "time, s", q.label(), {}};
+  apart.series.push_back(floor_band(next.time_s, next.floor));
+  apart.series.push_back({next.second + " less " + next.first,
+                          next.time_s,
+                          difference(next.by_second, next.by_first),
+                          {},
+                          {},
+                          Mark::line,
+                          "purple"});
+  section.items.emplace_back(both);
+  section.items.emplace_back(apart);
+  return section;
+}
+
+}  // namespace sandhopper::diagnose

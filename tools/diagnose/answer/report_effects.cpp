@@ -1,0 +1,146 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/evidence/calibration.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Covariance of a fit's parameters in typical sizes: the larger of what the noise gives and what the spread
+// between trials gives (sandwich), the latter held up as if `kModelTrials` trials agreed with the noise. To
+// this comes what a believed law of another form may do: it leaves up to the plant's `form_error` of the
+// explained deviance as a residual that all trials share, of which a part `kAlong` (root mean square) lies
+// along a parameter.
+MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
+  constexpr double kModelTrials = 4.0;
+  constexpr double kAlong = 1.0 / 6.0;
+  const auto directions = parameter_directions(problem, point);
+  const auto linear = linearise_all(problem, point, directions);
+  const auto k = static_cast<Index>(directions.size());
+  const auto own = static_cast<Index>(point.hypothesis.parameters());
+  MatrixXd information = MatrixXd::Zero(k, k), between = MatrixXd::Zero(k, k);
+  for (const auto& trial : linear) {
+    information += trial.gram.bottomRightCorner(k, k);
+    const VectorXd score = trial.gram.col(0).tail(k);
+    between += score * score.transpose();
+  }
+  MatrixXd held = information;
+  Index at = 0;
+  for (const auto c : point.hypothesis.candidates)
+    for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
+      held(at, at) += is_amplitude(problem.candidates[c].parameters, j) ? 0.01 : 1.0;
+  for (; at < k; ++at) held(at, at) += 1.0;
+  const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
+  const double trials = static_cast<double>(linear.size());
+  // What is believed beforehand counts like an observation: a channel's lateness is known no better than what
+  // instants of sampling leave unsure.
+  const MatrixXd middle =
+      (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) + (held - information);
+  const double form = kAlong * kAlong * problem.plant->form_error() * explained;
+  const MatrixXd covariance = inverse * middle * inverse + form * inverse;
+  return covariance.topLeftCorner(own, own);
+}
+
+// "mass_change_kg" of "mass_kg".
+std::string change_of(const std::string& name) {
+  for (const char* unit :
+       {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
+        "_radps", "_mps2", "_mps", "_rad", "_Nm", "_kg", "_N", "_m", "_s"})
+    if (name.ends_with(unit))
+      return name.substr(0, name.size() - std::string(unit).size()) + "_change" + unit;
+  return name + "_change";
+}
+
+// No more than a fit without the effect loses: of two that nearly cancel each seems to explain much, while
+// without it the other shrinks, too.
+double held_out_loss(const Search& search, const EffectEvidence& evidence) {
+  const double drop = evidence.evidence.held_out_drop();
+  auto rest = search.best().set;
+  std::erase(rest, evidence.candidate);
+  const auto it = search.sets().find(rest);
+  if (it == search.sets().end()) return drop;
+  return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, drop);
+}
+
+bool is_fault(const FoundEffect& effect) { return !effect.channel.empty(); }
+
+std::string filled(std::string text, const std::string& channel) {
+  if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
+  return text;
+}
+
+}  // namespace
+
+void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
+                    Diagnosis& diagnosis) {
+  const SetFit& best = search.best();
+  const Point& point = best.fit.point;
+  const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
+  const MatrixXd covariance = parameter_covariance(problem, point, explained);
+  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
+  Index at = 0;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto c = point.hypothesis.candidates[e];
+    const Candidate& candidate = problem.candidates[c];
+    FoundEffect found;
+    found.id = candidate.effect->id;
+    found.port = port_of(candidate);
+    found.channel = candidate.channel;
+    found.statement = filled(candidate.effect->statement, candidate.channel);
+    found.equation = candidate.effect->equation;
+    for (std::size_t j = 0; j < candidate.parameters.size(); ++j, ++at) {
+      const auto& p = candidate.parameters[j];
+      const double value = point.hypothesis.values[e][j];
+      const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
+      FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
+                         p.reported(std::min(p.high, value + half)), false};
+      if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
+        const double within = p.resolution + 1e-3 * std::abs(out.value);
+        out.low = out.value - within;
+        out.high = out.value + within;
+      }
+      if (out.low > out.high) std::swap(out.low, out.high);
+      found.parameters.push_back(out);
+      // What was added to the belief, where that held something already.
+      if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
+        found.parameters.push_back(
+            {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
+    }
+    found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
+    found.indistinguishable_from = candidate.effect->same_as;
+    if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
+      for (const auto other : it->second) {
+        const auto& id = problem.candidates[other].effect->id;
+        auto& list = found.indistinguishable_from;
+        if (id != found.id && std::find(list.begin(), list.end(), id) == list.end()) list.push_back(id);
+      }
+    for (const auto& evidence : best.evidence)
+      if (evidence.candidate == c) {
+        found.heldout_gain = std::min(1.0, held_out_loss(search, evidence) / explained);
+        found.p_value = std::max(evidence.p_value, 1e-300);
+        found.typicals = evidence.typicals;
+        if (evidence.weak) found.probability = std::min(found.probability, kMostOfWeak);
+      }
+    diagnosis.effects.push_back(std::move(found));
+  }
+  std::ranges::sort(diagnosis.effects, std::greater<>{}, &FoundEffect::heldout_gain);
+  bool form_in_doubt = false;
+  for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
+    auto& beside = diagnosis.effects[i];
+    if (beside.is_unknown()) continue;
+    beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+    form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
+  }
+  // A small fault of a sensor may be all that another form of the large law leaves.
+  if (form_in_doubt && !is_fault(diagnosis.effects.front()))
+    diagnosis.effects.front().probability = std::min(diagnosis.effects.front().probability, kMostBeside);
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/answer/report_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+struct Squares {
+  std::vector<double> sum, count;
+  explicit Squares(std::size_t cells) : sum(cells, 0.0), count(cells, 0.0) {}
+  double rms(std::size_t c) const { return count[c] > 0.0 ? std::sqrt(sum[c] / count[c]) : 0.0; }
+};
+
+// Sums by channel, and by channel and phase.
+struct Sums {
+  Squares by_channel, by_cell;
+  template <class ErrorOf>
+  Sums(const Problem& problem, const ErrorOf& error_of)
+      : by_channel(problem.channels.size()), by_cell(problem.channels.size() * problem.phases.size()) {
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+      const auto& rows = problem.trials[t]->rows;
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (!problem.used[t][k]) continue;
+        const double square = std::pow(error_of(t, k), 2);
+        const std::size_t cell = rows[k].channel * problem.phases.size() + rows[k].phase;
+        by_channel.sum[rows[k].channel] += square;
+        ++by_channel.count[rows[k].channel];
+        by_cell.sum[cell] += square;
+        ++by_cell.count[cell];
+      }
+    }
+  }
+};
+
+}  // namespace
+
+// Held out: the effects' parameters come from the other trials, the trial's own nuisances are fitted. The
+// floor is what noise and model error alone would leave in the same rows: it may grow with the force, and
+// differ between trials.
+void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis) {
+  const auto sums_of = [&](const std::vector<VectorXd>& errors) {
+    return Sums(problem, [&](std::size_t t, std::size_t k) { return errors[t][static_cast<Index>(k)]; });
+  };
+  const Sums before = sums_of(residuals.before), after = sums_of(residuals.after),
+             held_out = sums_of(residuals.held_out);
+  const Sums floor(problem, [&](std::size_t t, std::size_t k) { return row_sd(problem, t, k); });
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    if (before.by_channel.count[c] == 0.0 || !problem.context.has(problem.channels[c])) continue;
+    ChannelFit fit;
+    fit.channel = problem.channels[c];
+    fit.train = {before.by_channel.rms(c), after.by_channel.rms(c)};
+    fit.heldout = {before.by_channel.rms(c), held_out.by_channel.rms(c)};
+    fit.floor = floor.by_channel.rms(c);
+    diagnosis.noise_floor[fit.channel] = fit.floor;
+    diagnosis.fits.push_back(fit);
+    for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+      const std::size_t cell = c * problem.phases.size() + p;
+      if (before.by_cell.count[cell] > 0.0)
+        diagnosis.phase_errors.push_back({fit.channel, problem.phases[p], before.by_cell.rms(cell),
+                                          held_out.by_cell.rms(cell), floor.by_cell.rms(cell),
+                                          static_cast<std::size_t>(before.by_cell.count[cell])});
+    }
+  }
+  std::sort(diagnosis.fits.begin(), diagnosis.fits.end(), [](const ChannelFit& a, const ChannelFit& b) {
+    return a.heldout.before / std::max(a.floor, 1e-300) > b.heldout.before / std::max(b.floor, 1e-300);
+  });
+}
+
+}  // namespace sandhopper::diagnose

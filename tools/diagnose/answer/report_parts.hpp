@@ -1,0 +1,41 @@
+#pragma once
+#include "tools/diagnose/answer/diagnosis.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/discrepancy/open_world.hpp"
+#include "tools/diagnose/evidence/posterior.hpp"
+#include "tools/diagnose/evidence/search.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/fit/residuals.hpp"
+#include "tools/diagnose/recordings/data_faults.hpp"
+#include "tools/diagnose/recordings/events.hpp"
+
+// Parts of the answer, each made from the finished search.
+namespace sandhopper::diagnose {
+
+void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
+void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis);
+void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
+                    Diagnosis& diagnosis);
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
+// Adds an unknown without a law of free form, at the port of the effect that explains most; the effects
+// together close `gap_closed` of the gap. Call it after report_effects.
+void report_unknown_near(double gap_closed, Diagnosis& diagnosis);
+// Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of
+// that.
+void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
+// Where nothing says more, and the plant has one port only: there, unless sensors are loud where nothing
+// acts.
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis);
+void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
+void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
+void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
+                   Diagnosis& diagnosis);
+void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
+void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
+                  Diagnosis& diagnosis);
+
+}  // namespace sandhopper::diagnose

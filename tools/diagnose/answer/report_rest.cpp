@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
+constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
+
+void found_without_a_fit(Diagnosis& diagnosis, const char* detail) {
+  if (diagnosis.verdict != "consistent" && diagnosis.verdict != "insufficient_data") return;
+  diagnosis.verdict = "missing_physics";
+  diagnosis.detail = detail;
+}
+
+}  // namespace
+
+void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
+  for (const auto& text : prepared.left_out) diagnosis.notes.push_back("left out: " + text);
+  for (const auto& channel : prepared.missing_channels)
+    diagnosis.notes.push_back(fmt::format(
+        "{} was not recorded: faults of that sensor, and what only it shows, cannot be found", channel));
+  const auto trials = prepared.problem.trials.size();
+  if (trials > 0 && trials < 5)
+    diagnosis.notes.push_back(fmt::format(
+        "{} trials: how far trials repeat is barely known, the test is the weaker one within trials",
+        trials));
+}
+
+void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis) {
+  for (const auto& event : events)
+    diagnosis.notes.push_back(
+        fmt::format("{}: something happened once, {:.2f} to {:.2f} s (a push, a stop?): {} is up to {:.3g} "
+                    "off, {:.0f} times as "
+                    "far over its noise as in any other stretch; left out",
+                    problem.trials[event.trial]->name, event.from_s, event.to_s, event.channel,
+                    event.furthest, event.times_others));
+}
+
+// Only what has a name of its own: knots along depth have none.
+void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
+  const auto trials = problem.trials.size();
+  if (trials < 2) return;
+  const auto& first = problem.trials.front()->trial_nuisances;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const auto same = [&](const Nuisance& other) { return other.name == first[i].name; };
+    if (std::ranges::count_if(first, same) > 1) continue;
+    const auto moments = [&](const Point& point) {
+      double sum = 0.0, squares = 0.0;
+      for (const auto& own : point.nuisances) sum += own[i];
+      const double mean = sum / static_cast<double>(trials);
+      for (const auto& own : point.nuisances) squares += (own[i] - mean) * (own[i] - mean);
+      return std::pair{mean, std::sqrt(squares / static_cast<double>(trials - 1))};
+    };
+    const bool everywhere = std::ranges::all_of(problem.trials, [&](const auto& trial) {
+      return trial->trial_nuisances.size() > i && trial->trial_nuisances[i].name == first[i].name;
+    });
+    if (!everywhere) continue;
+    const auto [mean_before, sd_before] = moments(search.null().fit.point);
+    const auto [mean_after, sd_after] = moments(search.best().fit.point);
+    diagnosis.trial_to_trial.push_back(
+        {first[i].name, first[i].sd, mean_before, sd_before, mean_after, sd_after});
+  }
+}
+
+void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
+  std::string port = gain.family.port;
+  if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);
+  const char* acts = port == "axis" || port == "joint" || port == "actuator" ? "torque_Nm" : "force_N";
+  const std::string quantity = gain.family.sensor && port != "actuator" ? port : acts;
+  UnknownForce unknown{port, quantity, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
+  const auto n = gain.family.terms.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    // A knot that no recording visits keeps its prior: nothing is known there.
+    if (gain.sd[static_cast<Eigen::Index>(i)] > 0.8 / std::sqrt(kFreeLawInformation)) continue;
+    unknown.curve.at.push_back(gain.family.knots[i]);
+    unknown.curve.value.push_back(gain.size[static_cast<Eigen::Index>(i)] * gain.family.scale);
+    unknown.curve.sd.push_back(gain.sd[static_cast<Eigen::Index>(i)] * gain.family.scale);
+  }
+  FoundEffect effect;
+  effect.id = "unknown@" + port;
+  effect.port = port;
+  effect.statement =
+      fmt::format("Something that is on no list acts at {}: it goes with {}, {:.0f} % of the gap.", port,
+                  gain.family.variable, 100.0 * share);
+  effect.equation =
+      fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
+  effect.probability = 1.0 - std::min(0.5, 50.0 * gain.p_value);
+  effect.heldout_gain = share;
+  effect.p_value = gain.p_value;
+  diagnosis.effects.push_back(std::move(effect));
+  diagnosis.unknown.push_back(std::move(unknown));
+}
+
+void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
+  const auto near = std::ranges::find_if(diagnosis.effects, [](const FoundEffect& effect) {
+    return effect.channel.empty() && effect.port != "clock";
+  });
+  if (near == diagnosis.effects.end()) return;
+  FoundEffect effect;
+  effect.id = "unknown@" + near->port;
+  effect.port = near->port;
+  effect.statement = fmt::format(
+      "Something that is on no list acts, as far as these recordings tell, at {}: {:.0f} % of the gap; {} "
+      "comes nearest.",
+      near->port, 100.0 * (1.0 - gap_closed), near->id);
+  effect.equation = "not known";
+  effect.probability = kNearProbability;
+  effect.p_value = near->p_value;
+  effect.heldout_gain = 1.0 - gap_closed;
+  diagnosis.effects.push_back(std::move(effect));
+}
+
+void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + loud.port,
+       .port = loud.port,
+       .statement =
+           fmt::format("Something that is on no list acts at {}: {} scatters {:.1f} times as much as "
+                       "its sensor is believed to.",
+                       loud.port, loud.channel, loud.times),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
+  if (lean.port.empty()) return;
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + lean.port,
+       .port = lean.port,
+       .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
+                                "trial, is off by the same in all, by {:.1f} standard errors.",
+                                lean.port, lean.nuisance, std::abs(lean.z)),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
+  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (ports.size() != 1) return;
+  if (const auto quiet = problem.plant->quiet_phase())
+    for (std::size_t c = 0; c < problem.channels.size(); ++c)
+      if (problem.context.has(problem.channels[c]) &&
+          problem.noise.channel(c).sd_of_phase[*quiet] >
+              kQuiet *
+                  std::max(believed_noise(problem.context.belief, problem.channels[c]), problem.floor_sd[c]))
+        return;
+  const auto port = ports.front().port.substr(0, ports.front().port.find('.'));
+  diagnosis.effects.push_back(
+      {.id = "unknown@" + port,
+       .port = port,
+       .statement =
+           fmt::format("Something that is on no list acts, as far as these recordings tell, at {}: what "
+                       "is left is more than noise and goes with nothing that was recorded.",
+                       port),
+       .equation = "not known",
+       .parameters = {},
+       .probability = kNearProbability});
+}
+
+namespace {
+
+std::string fault_statement(const DataFault& fault) {
+  if (fault.limit != 0.0)
+    return fmt::format("{} stops at {:.4g} while the quantity goes on.", fault.channel, fault.limit);
+  if (fault.id == "data.stuck")
+    return fmt::format("{} stood still {} times while the quantity went on.", fault.channel, fault.stretches);
+  if (fault.channel == "t_s") return fmt::format("Rows are missing {} times.", fault.stretches);
+  return fmt::format("{} fell out {} times.", fault.channel, fault.stretches);
+}
+
+}  // namespace
+
+void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis) {
+  for (const auto& rule : rules) {
+    if (std::ranges::any_of(diagnosis.effects, [&](const auto& e) { return e.id == rule.id; })) continue;
+    diagnosis.effects.push_back({.id = rule.id,
+                                 .port = rule.port,
+                                 .statement = rule.statement,
+                                 .equation = rule.equation,
+                                 .parameters = {{rule.parameter, rule.value, rule.low, rule.high}},
+                                 .probability = kSeenDirectly});
+    found_without_a_fit(diagnosis, "known");
+  }
+}
+
+void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
+  for (const auto& fault : faults) {
+    FoundEffect effect;
+    effect.id = fault.id;
+    effect.port = fault.channel;
+    effect.channel = fault.channel;
+    effect.statement = fault_statement(fault);
+    effect.probability = kSeenDirectly;
+    if (fault.limit != 0.0) {
+      const double limit = std::abs(fault.limit);
+      effect.equation = "y = min(x, limit)";
+      const double within = fault.limit_resolution + 1e-3 * limit;
+      effect.parameters = {
+          {fault.id == "imu.clipping" ? "limit_mps2" : "limit", limit, limit - within, limit + within}};
+    } else {
+      effect.equation =
+          fault.id == "data.stuck" ? "y(t) = y(t_0), t_0 < t < t_0 + T" : "no y(t), t_0 < t < t_0 + T";
+      // A stretch of n samples lasted between n - 1 and n + 1 steps; one that fell between samples was not
+      // seen. How many there were follows Poisson.
+      const double longer_s = fault.duration_s + fault.step_s;
+      const double count = static_cast<double>(fault.stretches), each_Hz = fault.rate_Hz / count;
+      const double unseen = 1.0 + fault.step_s / std::max(fault.duration_s, fault.step_s);
+      effect.parameters = {
+          {"duration_s", fault.duration_s, std::max(0.0, fault.duration_s - fault.step_s), longer_s},
+          {"rate_Hz", fault.rate_Hz, std::max(0.0, count - 2.0 * std::sqrt(count)) * each_Hz,
+           unseen * (count + 2.0 * std::sqrt(count) + 2.0) * each_Hz}};
+    }
+    if (fault.borderline)
+      effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};
+    found_without_a_fit(diagnosis, "data_fault");
+    diagnosis.effects.push_back(std::move(effect));
+  }
+}
+
+}  // namespace sandhopper::diagnose

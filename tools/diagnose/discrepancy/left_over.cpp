@@ -1,0 +1,148 @@
+#include "tools/diagnose/discrepancy/left_over.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "tools/diagnose/discrepancy/misfit.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kTrialsThatLean = 12.0;
+
+}  // namespace
+
+double believed_noise(const Belief& belief, const std::string& channel) {
+  static const std::map<std::string, std::string> kKeys{{"height_m", "height_noise_m"},
+                                                        {"accel_mps2", "accel_noise_mps2"},
+                                                        {"position_rad", "position_noise_rad"},
+                                                        {"velocity_radps", "velocity_noise_radps"},
+                                                        {"force_N", "load_cell_noise_N"},
+                                                        {"motor_left_position_rad", "encoder_noise_rad"},
+                                                        {"motor_right_position_rad", "encoder_noise_rad"},
+                                                        {"imu_body_accel_z_mps2", "imu_noise_mps2"},
+                                                        {"imu_foot_accel_z_mps2", "imu_noise_mps2"},
+                                                        {"load_cell_force_N", "load_cell_noise_N"}};
+  const auto it = kKeys.find(channel);
+  return it == kKeys.end() ? 0.0 : belief.value("sensors." + it->second);
+}
+
+double noise_over_sensors(const Problem& problem) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (problem.context.channels.contains(problem.channels[c])) {
+      sum += std::log(problem.noise.channel(c).sd() / problem.floor_sd[c]);
+      ++count;
+    }
+  return count > 0.0 ? std::exp(sum / count) : 1.0;
+}
+
+double left_over_noise(const Problem& problem, const Fit& fit) {
+  const Edits edits = edits_for(problem, fit.point.hypothesis, fit.point.tolerances);
+  std::vector<std::vector<double>> ratios(problem.channels.size());
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const TrialModel& trial = *problem.trials[t];
+    const auto residual = residual_of(trial, predicted(problem, trial, edits, fit.point.nuisances[t]));
+    std::vector<double> left(ratios.size(), 0.0), noise(ratios.size(), 0.0);
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      if (!problem.used[t][k]) continue;
+      const Row& row = trial.rows[k];
+      left[row.channel] += std::pow(residual[static_cast<Eigen::Index>(k)], 2);
+      noise[row.channel] += std::pow(row_sd(problem, t, k), 2);
+    }
+    for (std::size_t c = 0; c < ratios.size(); ++c)
+      if (noise[c] > 0.0 && believed_noise(problem.context.belief, problem.channels[c]) > 0.0)
+        ratios[c].push_back(std::sqrt(left[c] / noise[c]));
+  }
+  double most = 0.0;
+  for (const auto& of_channel : ratios)
+    if (of_channel.size() >= kTooFewTrials) most = std::max(most, median(of_channel));
+  return most;
+}
+
+std::optional<LoudChannel> loudest_channel(const Problem& problem) {
+  constexpr double kLoud = 4.5, kQuiet = 1.3, kSmooth = 0.6;  // of it all, what is new in a sample
+  std::optional<LoudChannel> loudest;
+  std::size_t loud_index = 0;
+  std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const auto& channel = problem.channels[c];
+    const double believed = believed_noise(problem.context.belief, channel);
+    if (believed <= 0.0 || !problem.context.channels.contains(channel)) continue;
+    own[c] = std::max(believed, problem.floor_sd[c]);
+    times[c] = problem.noise.channel(c).sd() / own[c];
+    if (times[c] > (loudest ? loudest->times : kLoud)) {
+      loudest = LoudChannel{channel, times[c], channel};
+      loud_index = c;
+    }
+  }
+  if (!loudest) return std::nullopt;
+  const auto& by_phase = problem.noise.channel(loud_index).sd_of_phase;
+  const auto quiet_phase = problem.plant->quiet_phase();
+  // It is loud where nothing acts, or the other channels show nothing.
+  bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kLoud * own[loud_index];
+  // What accelerates a body changes slowly from sample to sample, a sensor's own noise does not; heights
+  // hardly show what comes and goes.
+  const auto is_smooth = [&] {
+    const auto& of_phase = problem.noise.channel(loud_index).correlation_of_phase;
+    return std::ranges::all_of(of_phase, [](const Autoregression& a) { return a.innovation_sd < kSmooth; });
+  };
+  const bool accelerates = loudest->channel.find("accel") != std::string::npos && is_smooth();
+  if (!quiet_phase && !accelerates) {
+    times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
+    std::erase(times, 0.0);  // of no sensor that the belief describes
+    sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuiet; });
+  }
+  const auto ports = problem.plant->free_ports(problem.context);
+  if (!sensor_alone && !ports.empty())
+    loudest->port = ports.front().port.substr(0, ports.front().port.find('.'));
+  return loudest;
+}
+
+std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
+  std::vector<Lean> leans;
+  if (problem.trials.empty()) return leans;
+  const auto trials = static_cast<double>(problem.trials.size());
+  const auto& names = problem.trials.front()->trial_nuisances;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].may_lean) continue;
+    double sum = 0.0;
+    bool everywhere = true;
+    for (std::size_t t = 0; t < problem.trials.size() && everywhere; ++t) {
+      const auto& own = problem.trials[t]->trial_nuisances;
+      everywhere = own.size() > i && own[i].name == names[i].name;
+      if (everywhere) sum += point.nuisances[t][i] / own[i].sd;
+    }
+    if (everywhere)
+      leans.push_back(
+          {names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kTrialsThatLean))});
+  }
+  std::ranges::sort(leans, [](const Lean& a, const Lean& b) { return std::abs(a.z) > std::abs(b.z); });
+  return leans;
+}
+
+Lean largest_lean(const Problem& problem, const Point& point) {
+  const auto leans = leans_of(problem, point);
+  return leans.empty() ? Lean{} : leans.front();
+}
+
+double noise_change(const NoiseModel& before, const NoiseModel& now) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < now.channels(); ++c) {
+    const auto &a = before.channel(c), &b = now.channel(c);
+    for (std::size_t p = 0; p < b.samples_of_phase.size(); ++p) {
+      const double sd = b.sd_of_phase[p] / a.sd_of_phase[p];
+      const double share_new =
+          b.correlation_of_phase[p].innovation_sd / a.correlation_of_phase[p].innovation_sd;
+      sum += b.samples_of_phase[p] * (std::pow(std::log(sd), 2) + std::pow(std::log(sd * share_new), 2));
+      count += b.samples_of_phase[p];
+    }
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace sandhopper::diagnose

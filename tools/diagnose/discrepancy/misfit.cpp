@@ -1,0 +1,36 @@
+#include "tools/diagnose/discrepancy/misfit.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kMuchPerRow = 0.5;
+constexpr double kMuchOfExplained = 0.1;
+constexpr double kLittlePerRow = 0.05;   // enough to be held against what is explained
+constexpr double kNoMatterOfForm = 0.3;  // of it: a true effect under another law leaves less
+
+}  // namespace
+
+Misfit misfit_of(const std::vector<TrialMisfit>& trials, double null_deviance, bool motion_is_prescribed) {
+  Misfit m;
+  double deviance = 0.0, rows = 0.0;
+  for (const auto& trial : trials) {
+    deviance += trial.deviance;
+    rows += trial.rows;
+  }
+  m.unexplained = deviance - rows;
+  m.explained = null_deviance - deviance;
+  if (trials.size() < kTooFewTrials) return m;
+  const std::size_t enough = motion_is_prescribed ? 2 : (trials.size() + 1) / 2;
+  // A few trials left far, whose simulations went astray, are no physics that is missing.
+  const auto left = [&](double per_row) {
+    std::size_t far = 0;
+    for (const auto& trial : trials) far += trial.deviance > (1.0 + per_row) * trial.rows;
+    return m.unexplained > per_row * rows && far >= enough;
+  };
+  m.large = left(kMuchPerRow) && m.unexplained > kMuchOfExplained * m.explained;
+  m.outweighs = left(kLittlePerRow) && m.unexplained > kNoMatterOfForm * m.explained;
+  m.noticeable = m.large || m.unexplained > kMuchPerRow * rows;
+  return m;
+}
+
+}  // namespace sandhopper::diagnose

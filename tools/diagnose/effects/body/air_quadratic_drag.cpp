@@ -1,0 +1,65 @@
+#include "tools/diagnose/effects/common.hpp"
+#include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kShareOfWeight = 0.1;
+
+// With the medium and the frontal area known the coefficient is dimensionless, else the whole factor is
+// asked.
+bool medium_known(const Context& c) {
+  return c.plant == PlantKind::falling_body && c.belief.value("medium.density_kg_per_m3") > 0.0 &&
+         c.belief.value("body.frontal_area_m2") > 0.0;
+}
+
+// What takes so much of the weight at the speed that was reached.
+double noticeable_N_s2_per_m2(const Context& c) {
+  return kShareOfWeight * c.scale("weight_N") / std::pow(c.scale("speed_mps"), 2);
+}
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (c.plant == PlantKind::rotary_axis) {
+    if (c.scale("moves") == 0.0) return {};
+    const double typical = kShareOfWeight * c.scale("torque_Nm") / std::pow(c.scale("speed_radps"), 2);
+    return {{.name = "quadratic_drag_Nm_s2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
+  }
+  if (medium_known(c)) {
+    const double believed = c.belief.value("medium.drag_coefficient");
+    const double per_coefficient_N_s2_per_m2 =
+        0.5 * c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.frontal_area_m2");
+    // Up to several times what a body can have: the coefficient then stands for a force of another origin.
+    const double typical = std::max(0.5, noticeable_N_s2_per_m2(c) / per_coefficient_N_s2_per_m2);
+    return {{.name = "drag_coefficient",
+             .typical = typical,
+             .low = -believed,
+             .high = std::max(20.0, 10.0 * typical),
+             .base = believed}};
+  }
+  const double typical = noticeable_N_s2_per_m2(c);
+  return {{.name = "quadratic_drag_N_s2_per_m2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
+}
+
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  if (medium_known(c)) return edits.add("medium.drag_coefficient", v[0]);
+  const double factor = v[0];
+  if (c.plant == PlantKind::rotary_axis)
+    return edits.law("axis", [=](const PortState& s) { return -factor * std::abs(s.velocity) * s.velocity; });
+  const double length = front_m(c.scale("wetted_over_m", 0.0));
+  edits.law("body", [=](const PortState& s) {
+    return -factor * wetted_share(s.load, length) * std::abs(s.velocity) * s.velocity;
+  });
+}
+
+const EffectRegistration kEffect(
+    {.id = "air.quadratic_drag",
+     .port = "body",
+     .statement = "The medium resists with a force that grows with the square of speed.",
+     .equation = "F += -1/2 rho A C_d |v| v",
+     .plants = {PlantKind::falling_body, PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = apply,
+     .belief_key = "medium.drag_coefficient"});
+
+}  // namespace
+}  // namespace sandhopper::diagnose

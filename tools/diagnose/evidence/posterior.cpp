@@ -1,0 +1,63 @@
+#include "tools/diagnose/evidence/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/evidence/calibration.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kRemainderScale = 10.0;  // of remainder that halves every difference
+// Of what is explained, a difference this small may come from the simulation's own errors, or from laws whose
+// true form is another one.
+constexpr double kShareOfExplained = 2e-4;
+constexpr double kShareOfForm = 0.02;  // of the plant's form error
+constexpr double kLeastShare = 0.05;   // of the likeliest: below, an alternative is no member of the class
+
+}  // namespace
+
+Posterior posterior(const Problem& problem, const Search& search, double remainder) {
+  Posterior out;
+  const double differs = std::max(kShareOfExplained, kShareOfForm * problem.plant->form_error());
+  const SetFit& best = search.best();
+  const double best_score = search.criterion(best);
+  const double explained =
+      with_form_unnoticed(problem, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
+  const double temperature = 1.0 + remainder / kRemainderScale + differs * explained;
+  out.apart = -2.0 * std::log(kLeastShare) * temperature;
+  out.apart_per_explained = -2.0 * std::log(kLeastShare) * differs;
+  std::map<std::vector<std::size_t>, double> weight;
+  double total = 0.0;
+  for (const auto& [set, fit] : search.sets()) {
+    // A rival need not be needed in every part, but it must not be larger than what it competes with.
+    if (fit.fit.status == FitStatus::failed || set.size() > best.set.size()) continue;
+    const double difference = search.criterion(fit) - best_score;
+    weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);
+    total += weight[set];
+  }
+  for (const auto candidate : best.set) {
+    auto rest = best.set;
+    rest.erase(std::remove(rest.begin(), rest.end(), candidate), rest.end());
+    std::vector<std::pair<double, std::size_t>> rivals;
+    double with = 0.0;
+    for (const auto& [set, w] : weight) {
+      if (std::find(set.begin(), set.end(), candidate) != set.end()) {
+        with += w;
+        continue;
+      }
+      if (set.size() != best.set.size() || !std::includes(set.begin(), set.end(), rest.begin(), rest.end()))
+        continue;
+      if (w < kLeastShare * weight[best.set]) continue;
+      with += w;
+      for (const auto other : set)
+        if (std::find(rest.begin(), rest.end(), other) == rest.end()) rivals.emplace_back(-w, other);
+    }
+    out.probability[candidate] = total > 0.0 ? calibrated(with / total) : 0.0;
+    std::sort(rivals.begin(), rivals.end());
+    for (const auto& rival : rivals) out.alternatives[candidate].push_back(rival.second);
+  }
+  return out;
+}
+
+}  // namespace sandhopper::diagnose

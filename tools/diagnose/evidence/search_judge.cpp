@@ -1,0 +1,316 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "tools/diagnose/discrepancy/overlap.hpp"
+#include "tools/diagnose/evidence/search.hpp"
+#include "tools/diagnose/evidence/search_parts.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+
+// Whether the trials need every effect of a set.
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTrialsToFlip = 6.0;  // that carry the information: 64 flips
+// Of the linear gain at the fit, by how much the fit without the effect is really worse; where a simulation
+// amplifies its smallest change, this is nothing while the derivative is huge.
+constexpr double kComesTrue = 0.05;
+constexpr double kTrialsAgree = 0.01;
+constexpr double kFlips = 0.05;  // family-wise, beside the trials' own p
+// Of what is named alone: that anything is missing is likelier than that one more thing is.
+constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
+// Of what is named beside something stronger: of 12 trials what is there has less by decades, what only mends
+// the form of the other's law has not.
+constexpr double kSignificanceBeside = 1e-4;
+constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
+constexpr double kWithoutFlips = 1e-4;
+constexpr double kFarShare = 0.02;  // of what is explained
+constexpr double kHopeless = 0.2;
+constexpr double kBeyondDoubt = 1e-8;
+constexpr double kUnmistakablePerRow =
+    0.3;  // what gains this share of the noise's power is not too small to name
+constexpr double kSmallestShare = 0.002;  // of what all effects explain
+constexpr std::size_t kTrialsToDoubt = 10;
+constexpr double kFormInDoubt = 0.01;
+constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
+
+// What one effect alone changes.
+Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& candidate = problem.candidates[hypothesis.candidates[e]];
+  Edits edits;
+  candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[e], edits);
+  return edits;
+}
+
+// By how much this effect makes channels late. The tolerances of those channels do the same and would leave
+// the trials nothing to say. Stamps of a recorded drive that are late make what acts early.
+std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const Edits edits = edits_of(problem, hypothesis, e);
+  std::map<std::string, double> delays;
+  for (const auto& edit : edits.sensors)
+    if (edit.kind == SensorEdit::Kind::delay_s)
+      delays[edit.channel] += edit.channel == "actuator" ? -edit.value : edit.value;
+  return delays;
+}
+
+// Whether all it does is to move channels by no more than their times are unsure; that of a recorded input is
+// as unsure as that of the channel whose samples come slowest.
+bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
+  if (delays.empty() || problem.tolerances.empty()) return false;
+  double slowest_s = 0.0;
+  for (const auto& tolerance : problem.tolerances) slowest_s = std::max(slowest_s, tolerance.of_sampling);
+  return std::ranges::all_of(delays, [&](const auto& delay) {
+    double scale_s = slowest_s;
+    for (const auto& tolerance : problem.tolerances)
+      if (tolerance.channel == delay.first) scale_s = tolerance.scale;
+    return std::abs(delay.second) <= kMostTolerance * scale_s;
+  });
+}
+
+// Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time,
+// and rows do between which what moves the foot is interpolated: as much variance in time as T^2 / 12 of
+// each.
+bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const Edits edits = edits_of(problem, hypothesis, e);
+  if (edits.sensors.empty() || !edits.belief.empty() || !edits.laws.empty()) return false;
+  const double of_mean = 1.0 / std::sqrt(12.0), unsure = 1.5;
+  return std::ranges::all_of(edits.sensors, [&](const SensorEdit& edit) {
+    const double conversion = conversion_s(problem.context.belief, edit.channel);
+    return edit.kind == SensorEdit::Kind::lag_s && conversion > 0.0 &&
+           edit.value <= unsure * of_mean * std::hypot(conversion, problem.row_s);
+  });
+}
+
+// Several channels that are late by the same: none is, against the others.
+bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
+  std::map<std::string, double> delays;
+  for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
+    for (const auto& [channel, delay_s] : delays_s(problem, hypothesis, e)) delays[channel] += delay_s;
+  if (delays.size() < 2) return false;
+  const double first_s = delays.begin()->second;
+  for (auto& [channel, delay_s] : delays) delay_s -= first_s;
+  return within_tolerance(problem, delays);
+}
+
+// Channels whose readings it changes; empty where it changes what happens, too.
+std::vector<std::string> channels_read(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const Edits edits = edits_of(problem, hypothesis, e);
+  std::vector<std::string> channels;
+  for (const auto& edit : edits.sensors) {
+    if (!problem.context.channels.contains(edit.channel) || edit.channel.ends_with("position_rad")) return {};
+    channels.push_back(edit.channel);
+  }
+  if (!edits.belief.empty() || !edits.laws.empty()) channels.clear();
+  return channels;
+}
+
+// What an effect has to explain to be more than a difference between two simulations: of the rows in which it
+// shows.
+double unnoticed(const Problem& problem, const Candidate& candidate,
+                 const std::vector<std::string>& channels) {
+  const double per_row =
+      problem.plant->simulations_differ(channels.empty() ? port_of(candidate) : "readings");
+  if (per_row == 0.0) return 0.0;
+  double rows = 0.0;
+  for (const auto& trial : problem.trials)
+    for (const auto& row : trial->rows)
+      rows +=
+          channels.empty() || std::ranges::find(channels, problem.channels[row.channel]) != channels.end();
+  return per_row * rows;
+}
+
+// Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
+// trial.
+bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
+  if (without.deviance - with.deviance > kComesTrue * linear_gain) return true;
+  std::vector<double> drops;
+  for (std::size_t t = 0; t < with.trial_deviance.size(); ++t)
+    drops.push_back(without.trial_deviance[t] - with.trial_deviance[t]);
+  return signed_rank_p_value(drops) < kTrialsAgree;
+}
+
+}  // namespace
+
+void Search::judge(SetFit& result) {
+  const Point& point = result.fit.point;
+  const auto directions = parameter_directions(*problem_, point);
+  const auto linear = linearise_all(*problem_, point, directions, {.columns = columns_for(result.set)});
+  const auto k = static_cast<Index>(directions.size());
+  const auto parameters = static_cast<Index>(point.hypothesis.parameters());
+  const VectorXd prior = prior_information(*problem_, point);
+  double dispersion = 0.0, count = 0.0;
+  Index first = 1;
+  result.evidence.clear();
+  result.judged = true;
+  result.beside = deviances_without_one(result);
+  result.needed = result.sound = true;
+  result.hopeless = false;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
+    const auto width = static_cast<Index>(candidate.parameters.size());
+    // The first amplitude of this effect, with its other parameters and everything else eliminated; shapes of
+    // an effect do not shelter others.
+    std::vector<TrialLinear> reordered = linear;
+    std::vector<Index> order{0, first};
+    std::vector<double> amplitudes;
+    std::vector<Index> amplitude_columns;
+    for (Index i = 0; i < width; ++i) {
+      const auto& p = candidate.parameters[static_cast<std::size_t>(i)];
+      if (is_amplitude(candidate.parameters, static_cast<std::size_t>(i))) {
+        amplitude_columns.push_back(first + i);
+        amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
+      }
+    }
+    const auto delays = delays_s(*problem_, point.hypothesis, e);
+    // An input that is late makes all channels early.
+    const bool of_input = std::ranges::any_of(
+        delays, [&](const auto& delay) { return !problem_->context.channels.contains(delay.first); });
+    std::vector<Index> others;
+    for (Index i = 1; i <= k; ++i) {
+      const bool own = i >= first && i < first + width;
+      const bool same_as_own =
+          i > parameters &&
+          (of_input ||
+           delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel));
+      if (!own && !same_as_own) others.push_back(i);
+    }
+    const auto n_own = static_cast<Index>(amplitude_columns.size());
+    const auto n_others = static_cast<Index>(others.size());
+    VectorXd others_prior(n_others);
+    for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
+    // A tolerance that goes as far as it may where the effect is not there cannot stand for it any further.
+    const auto parent = sets_.find(without(result.set, point.hypothesis.candidates[e]));
+    const Point& there = parent != sets_.end() ? parent->second.fit.point : null().fit.point;
+    const VectorXd prior_there = prior_information(*problem_, there).tail(k - parameters);
+    for (Index i = 0; i < n_others; ++i)
+      if (const Index tolerance = others[static_cast<std::size_t>(i)] - 1 - parameters; tolerance >= 0)
+        others_prior[i] = std::max(others_prior[i], prior_there[tolerance]);
+    for (auto& trial : reordered) {
+      MatrixXd gram(1 + n_own + n_others, 1 + n_own + n_others);
+      std::vector<Index> columns{0};
+      columns.insert(columns.end(), amplitude_columns.begin(), amplitude_columns.end());
+      columns.insert(columns.end(), others.begin(), others.end());
+      for (Index i = 0; i < gram.rows(); ++i)
+        for (Index j = 0; j < gram.cols(); ++j)
+          gram(i, j) = trial.gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+      // Put the effect back into the residual: column 0 becomes what is there without it.
+      VectorXd back = VectorXd::Zero(gram.rows());
+      back[0] = 1.0;
+      for (Index i = 0; i < n_own; ++i) back[1 + i] = amplitudes[static_cast<std::size_t>(i)];
+      const VectorXd column = gram * back;
+      const double corner = back.dot(column);
+      gram.col(0) = column;
+      gram.row(0) = column.transpose();
+      gram(0, 0) = corner;
+      trial.gram = gram;
+    }
+    const auto grams = eliminated(reordered, 1 + n_own, n_others, others_prior);
+    std::vector<Index> own;
+    for (Index i = 0; i < n_own; ++i) own.push_back(1 + i);
+    const auto group = group_gain(grams, own, 0.01);
+    EffectEvidence evidence;
+    evidence.candidate = point.hypothesis.candidates[e];
+    evidence.evidence = group.evidence;
+    evidence.gain = group.gain;
+    evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
+    evidence.p_value =
+        std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
+    for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
+      const auto& p = candidate.parameters[i];
+      const double value = point.hypothesis.values[e][i];
+      evidence.at_bound = evidence.at_bound || (p.other_law_above && value >= 0.99 * p.high) ||
+                          (is_amplitude(candidate.parameters, i) &&
+                           (value >= p.high - 1e-9 * std::abs(p.high) ||
+                            (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
+    }
+    if (within_tolerance(*problem_, delays) || within_conversion(*problem_, point.hypothesis, e))
+      result.sound = false;
+    const double model = std::max(1e-300, [&] {
+      double s = 0.0;
+      for (const double i : group.evidence.information) s += i;
+      return s;
+    }());
+    const double robust = std::pow(group.evidence.standard_error() * model, 2);
+    evidence.dispersion = std::max(1.0, robust / model);
+    dispersion += robust / model;
+    ++count;
+    result.evidence.push_back(std::move(evidence));
+    first += width;
+  }
+  if (late_together(*problem_, point.hypothesis)) result.sound = false;
+  result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
+  const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
+  const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
+  const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
+  const bool alone = enough && result.set.size() == 1;
+  const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
+  for (std::size_t e = 0; e < result.evidence.size(); ++e) {
+    auto& evidence = result.evidence[e];
+    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
+                        problem_->plant->form_error() >= kFormInDoubt;
+    const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
+    const auto parent = without(result.set, evidence.candidate);
+    const auto fitted = sets_.find(parent);
+    const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
+    const double drop =
+        fitted == sets_.end() ? evidence.gain : fitted->second.fit.deviance - result.fit.deviance;
+    // Signs are flipped at the set without this effect, against all candidates there; and where what its
+    // derivative at the fit promises is true, at the fit, as if all had been tried (Bonferroni).
+    if (screens_.contains(parent)) {
+      std::vector<TrialEvidence> rivals;
+      std::size_t chosen = 0;
+      for (const auto& s : screened(parent)) {
+        if (s.candidate == evidence.candidate) chosen = rivals.size();
+        rivals.push_back(s.evidence);
+      }
+      if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
+      if (drop > kMostlyTrue * evidence.gain)
+        evidence.flip_p_value =
+            std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
+                                                sign_flip_p_value({evidence.evidence}, 0, 1));
+    } else {
+      evidence.flip_p_value = 0.0;
+    }
+    // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
+    const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
+    // Flips are made where the effect is not there yet, which may be far from where the simulation is linear
+    // in it; what the trials say this clearly at the fit itself does not need them. What explains little is
+    // near. Nor can they say much where a few trials carry nearly all information.
+    const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
+    const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
+    const bool beyond_doubt = (far || !flips_can_tell || hidden) &&
+                              evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
+                              (hidden || drop > kMostlyTrue * evidence.gain);
+    const bool flips_decide = enough && !beyond_doubt;
+    const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
+    evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
+    const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
+    const double lost = std::min(evidence.gain, drop);
+    evidence.too_small = evidence.typicals < smallest;
+    evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
+                                                     channels_read(*problem_, point.hypothesis, e));
+    if (!(evidence.p_value < significance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
+        !came_true)
+      result.sound = false;
+    // A law of another form may leave as much, where it shows; where only readings change, of what those
+    // channels show.
+    if (result.sound && evidence.gain < least_share * explained) {
+      const auto read = channels_read(*problem_, point.hypothesis, e);
+      const double there =
+          read.empty() ? std::min(explained, shown_by_others(*problem_, point, e))
+                       : with_form_unnoticed(*problem_, deviance_of(*problem_, null().fit.point, read) -
+                                                            deviance_of(*problem_, result.fit.point, read));
+      result.sound = result.evidence.size() > 1 && evidence.gain >= least_share * there;
+    }
+    result.needed = result.needed && result.sound && !evidence.too_small && !evidence.unnoticed;
+    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
+  }
+}
+
+}  // namespace sandhopper::diagnose

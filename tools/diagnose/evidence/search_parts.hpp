@@ -1,0 +1,36 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tools/diagnose/fit/problem.hpp"
+
+// What walking through sets and judging them share.
+namespace sandhopper::diagnose {
+
+inline constexpr double kSignificance = 0.01;  // family-wise
+inline constexpr double kSmallestOfTypical = 0.08;
+
+inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
+  set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
+  return set;
+}
+
+inline std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
+  if (set.empty()) return "nothing";
+  std::string text;
+  for (const auto c : set) text += (text.empty() ? "" : " + ") + problem.candidates[c].label();
+  return text;
+}
+
+// The largest amplitude of one effect, in typical sizes.
+inline double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
+  const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
+  double typicals = 0.0;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (is_amplitude(parameters, i))
+      typicals = std::max(typicals, parameters[i].typicals(hypothesis.values[e][i]));
+  return typicals;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,330 @@
+#include "tools/diagnose/fit/linearise.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numeric>
+
+#include "tools/experiment/parallel.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
+constexpr double kNuisanceStep = 0.5;   // at most, of a nuisance's standard deviation
+
+// A derivative is taken over no more than the nuisance may plausibly move by.
+double step_of(const Nuisance& nuisance) { return std::min(nuisance.step, kNuisanceStep * nuisance.sd); }
+
+struct Centre {
+  std::size_t index;
+  const Edits& edits;
+  const std::vector<double>& nuisances;
+  const VectorXd& prediction;
+};
+
+void whiten(const Problem& problem, std::size_t index, KeptColumns& kept) {
+  const TrialModel& trial = *problem.trials[index];
+  kept.white_shared = kept.shared;
+  kept.white_block = kept.block;
+  whiten(problem, index, kept.white_shared);
+  whiten(problem, index, kept.white_block);
+  kept.gram = kept.white_shared.transpose() * kept.white_shared;
+  if (!trial.block_nuisances.empty()) {
+    const auto nb = static_cast<Index>(trial.block_nuisances.size());
+    kept.block_gram.assign(trial.blocks, MatrixXd::Zero(nb, nb));
+    kept.block_by_shared.assign(trial.blocks, MatrixXd::Zero(nb, kept.shared.cols()));
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      const auto b = trial.rows[k].block;
+      const auto row = static_cast<Index>(k);
+      kept.block_gram[b].noalias() += kept.white_block.row(row).transpose() * kept.white_block.row(row);
+      kept.block_by_shared[b].noalias() += kept.white_block.row(row).transpose() * kept.white_shared.row(row);
+    }
+  }
+}
+
+KeptColumns columns_at(const Problem& problem, const Centre& at) {
+  const TrialModel& trial = *problem.trials[at.index];
+  const auto rows = static_cast<Index>(trial.rows.size());
+  const auto tolerances = static_cast<Index>(problem.tolerances.size());
+  KeptColumns kept;
+  kept.shared.resize(rows, tolerances + static_cast<Index>(trial.trial_nuisances.size()));
+  kept.block.resize(rows, static_cast<Index>(trial.block_nuisances.size()));
+  for (Index i = 0; i < tolerances; ++i) {
+    Edits moved = at.edits;
+    problem.tolerances[static_cast<std::size_t>(i)].put(moved, kToleranceStep);
+    kept.shared.col(i) = (predicted(problem, trial, moved, at.nuisances) - at.prediction) / kToleranceStep;
+  }
+  auto moved = at.nuisances;
+  const std::size_t q = trial.trial_nuisances.size(), width = trial.block_nuisances.size();
+  for (std::size_t i = 0; i < q; ++i) {
+    const double step = step_of(trial.trial_nuisances[i]);
+    moved[i] = at.nuisances[i] + step;
+    const VectorXd above = predicted(problem, trial, at.edits, moved);
+    moved[i] = at.nuisances[i] - step;
+    kept.shared.col(tolerances + static_cast<Index>(i)) =
+        (above - predicted(problem, trial, at.edits, moved)) / (2.0 * step);
+    moved[i] = at.nuisances[i];
+  }
+  for (std::size_t j = 0; j < width; ++j) {
+    const double step = step_of(trial.block_nuisances[j]);
+    for (std::uint32_t b = 0; b < trial.blocks; ++b) moved[q + b * width + j] += step;
+    kept.block.col(static_cast<Index>(j)) =
+        (predicted(problem, trial, at.edits, moved) - at.prediction) / step;
+    for (std::uint32_t b = 0; b < trial.blocks; ++b)
+      moved[q + b * width + j] = at.nuisances[q + b * width + j];
+  }
+  whiten(problem, at.index, kept);
+  return kept;
+}
+
+// Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first; after
+// its columns come the tolerances `wanted` of the kept ones.
+void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
+               const std::vector<Index>& wanted, const KeptColumns& kept, double damping, TrialLinear& out) {
+  const auto q = static_cast<Index>(trial.trial_nuisances.size());
+  const Index nb = kept.block.cols(), own = x.cols();
+  const Index width = own + static_cast<Index>(wanted.size());
+  const auto count = static_cast<Index>(trial.nuisance_count());
+  // Kept columns that take part, in the order of the result: tolerances asked for, then nuisances.
+  std::vector<Index> columns = wanted;
+  for (Index i = 0; i < q; ++i) columns.push_back(kept.shared.cols() - q + i);
+  const MatrixXd cross = x.transpose() * kept.white_shared;
+  MatrixXd gram(width + q, width + q);
+  MatrixXd products = MatrixXd::Zero(own, own);
+  products.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+  gram.topLeftCorner(own, own) = products.selfadjointView<Eigen::Lower>();
+  for (Index j = 0; j < width + q - own; ++j) {
+    const Index c = columns[static_cast<std::size_t>(j)];
+    gram.block(0, own + j, own, 1) = cross.col(c);
+    gram.block(own + j, 0, 1, own) = cross.col(c).transpose();
+    for (Index i = 0; i < width + q - own; ++i)
+      gram(own + i, own + j) = kept.gram(columns[static_cast<std::size_t>(i)], c);
+  }
+  for (Index i = 0; i < q; ++i) {
+    const double weight = 1.0 / std::pow(trial.trial_nuisances[static_cast<std::size_t>(i)].sd, 2);
+    const double value = zeta[static_cast<std::size_t>(i)];
+    gram(width + i, width + i) = (1.0 + damping) * (gram(width + i, width + i) + weight);
+    gram(width + i, 0) -= weight * value;
+    gram(0, width + i) -= weight * value;
+    gram(0, 0) += weight * value * value;
+  }
+  std::vector<MatrixXd> block_solution;
+  if (nb > 0) {
+    std::vector<MatrixXd> c(trial.blocks, MatrixXd::Zero(nb, own));
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      const auto row = static_cast<Index>(k);
+      c[trial.rows[k].block].noalias() += kept.white_block.row(row).transpose() * x.row(row);
+    }
+    for (std::size_t b = 0; b < trial.blocks; ++b) {
+      MatrixXd hb = kept.block_gram[b];
+      MatrixXd cb(nb, width + q);
+      cb.leftCols(own) = c[b];
+      for (Index j = 0; j < width + q - own; ++j)
+        cb.col(own + j) = kept.block_by_shared[b].col(columns[static_cast<std::size_t>(j)]);
+      for (Index j = 0; j < nb; ++j) {
+        const double weight = 1.0 / std::pow(trial.block_nuisances[static_cast<std::size_t>(j)].sd, 2);
+        const double value = zeta[static_cast<std::size_t>(q + static_cast<Index>(b) * nb + j)];
+        hb(j, j) = (1.0 + damping) * (hb(j, j) + weight);
+        cb(j, 0) -= weight * value;
+        gram(0, 0) += weight * value * value;
+      }
+      block_solution.push_back(hb.ldlt().solve(cb));
+      gram.noalias() -= cb.transpose() * block_solution.back();
+    }
+  }
+  out.solution = MatrixXd::Zero(count, width);
+  if (q > 0) {
+    const MatrixXd inner = gram.bottomRightCorner(q, q).ldlt().solve(gram.bottomLeftCorner(q, width));
+    out.gram = gram.topLeftCorner(width, width) - gram.topRightCorner(width, q) * inner;
+    out.solution.topRows(q) = inner;
+  } else {
+    out.gram = gram;
+  }
+  for (std::size_t b = 0; b < block_solution.size(); ++b) {
+    const auto& s = block_solution[b];
+    out.solution.middleRows(q + static_cast<Index>(b) * nb, nb) =
+        s.leftCols(width) - s.rightCols(q) * out.solution.topRows(q);
+  }
+}
+
+// Columns of `m` in another order.
+MatrixXd in_order(const MatrixXd& m, const std::vector<Index>& order) {
+  MatrixXd out(m.rows(), static_cast<Index>(order.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) out.col(static_cast<Index>(i)) = m.col(order[i]);
+  return out;
+}
+
+}  // namespace
+
+VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
+                   const std::vector<double>& nuisances) {
+  VectorXd out(static_cast<Index>(trial.rows.size()));
+  trial.predict(edits, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
+  for (Index i = 0; i < out.size(); ++i)
+    if (!std::isfinite(out[i])) out[i] = 1e6;
+  __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);
+  return out;
+}
+
+VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
+  VectorXd out(prediction.size());
+  for (Index k = 0; k < out.size(); ++k)
+    out[k] = trial.rows[static_cast<std::size_t>(k)].measured - prediction[k];
+  return out;
+}
+
+namespace {
+
+// Columns of FormOf: `plain` holds the directions' derivatives from column 1 on.
+MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
+                      const std::vector<VectorXd>& derivatives) {
+  const auto rows = static_cast<Index>(trial.rows.size());
+  double first_s = 1e300, last_s = -1e300;
+  for (const auto& row : trial.rows) {
+    first_s = std::min(first_s, row.time_s);
+    last_s = std::max(last_s, row.time_s);
+  }
+  const double apart_s = (last_s - first_s) / static_cast<double>(kFormKnots - 1);
+  MatrixXd out = MatrixXd::Zero(rows, kFormKnots * static_cast<Index>(forms.size()));
+  for (std::size_t f = 0; f < forms.size(); ++f) {
+    VectorXd signature = VectorXd::Zero(rows);
+    for (const auto& [direction, weight] : forms[f].directions) signature += weight * derivatives[direction];
+    for (Index k = 0; k < rows; ++k) {
+      const double at =
+          apart_s > 0.0 ? (trial.rows[static_cast<std::size_t>(k)].time_s - first_s) / apart_s : 0.0;
+      const Index knot = std::clamp<Index>(static_cast<Index>(at), 0, kFormKnots - 2);
+      const double share = at - static_cast<double>(knot);
+      const Index column = static_cast<Index>(f) * kFormKnots + knot;
+      out(k, column) = (1.0 - share) * signature[k];
+      out(k, column + 1) = share * signature[k];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
+                      const std::vector<double>& nuisances, const std::vector<Direction>& directions,
+                      const LineariseOptions& options) {
+  const TrialModel& trial = *problem.trials[index];
+  const auto rows = static_cast<Index>(trial.rows.size());
+  const VectorXd centre =
+      options.prediction != nullptr ? *options.prediction : predicted(problem, trial, base, nuisances);
+  KeptColumns own_columns;
+  const auto& known = options.columns != nullptr ? *options.columns : problem.kept_columns;
+  const bool fresh = options.fresh_columns || known.empty();
+  if (fresh) own_columns = columns_at(problem, {index, base, nuisances, centre});
+  const KeptColumns& kept = fresh ? own_columns : known[index];
+
+  // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
+  std::vector<const Direction*> simulated;
+  std::vector<Index> wanted;
+  for (const auto& direction : directions)
+    if (direction.tolerance < 0)
+      simulated.push_back(&direction);
+    else
+      wanted.push_back(direction.tolerance);
+  std::vector<Index> order{0};
+  Index next_simulated = 1, next_wanted = 1 + static_cast<Index>(simulated.size());
+  for (const auto& direction : directions)
+    order.push_back(direction.tolerance < 0 ? next_simulated++ : next_wanted++);
+
+  TrialLinear out;
+  out.residual = residual_of(trial, centre);
+  MatrixXd x(rows, 1 + static_cast<Index>(simulated.size()));
+  x.col(0) = out.residual;
+  for (std::size_t i = 0; i < simulated.size(); ++i)
+    x.col(static_cast<Index>(i) + 1) =
+        (predicted(problem, trial, simulated[i]->edits, nuisances) - centre) / simulated[i]->step;
+  // Columns behind those asked for, in the result behind the tolerances, too.
+  const auto append = [&](const MatrixXd& more) {
+    const Index own = x.cols();
+    x.conservativeResize(Eigen::NoChange, own + more.cols());
+    x.rightCols(more.cols()) = more;
+    for (auto& place : order)
+      if (place >= own) place += more.cols();
+    for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
+  };
+  if (options.forms != nullptr) {
+    std::vector<VectorXd> derivatives(directions.size());
+    Index at = 1;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
+    append(form_columns(trial, *options.forms, derivatives));
+  }
+  if (options.more != nullptr) append((*options.more)[index]);
+  if (options.keep_plain) {
+    out.plain.resize(rows, x.cols() + static_cast<Index>(wanted.size()));
+    out.plain.leftCols(x.cols()) = x;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
+  }
+  whiten(problem, index, x);
+  if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
+    append(problem.repeatable_error.white[index]);
+  eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
+  if (options.keep_plain) {
+    // With the nuisances free to follow: column minus what they take up.
+    const auto q = static_cast<Index>(trial.trial_nuisances.size());
+    const Index nb = kept.block.cols();
+    out.plain.noalias() -= kept.shared.rightCols(q) * out.solution.topRows(q);
+    for (Index k = 0; k < rows && nb > 0; ++k)
+      out.plain.row(k) -= kept.block.row(k) *
+                          out.solution.middleRows(
+                              q + static_cast<Index>(trial.rows[static_cast<std::size_t>(k)].block) * nb, nb);
+    out.plain = in_order(out.plain, order);
+  }
+  out.solution = in_order(out.solution, order);
+  out.gram = in_order(MatrixXd(in_order(out.gram, order).transpose()), order);
+  return out;
+}
+
+std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& point,
+                                       const std::vector<Direction>& directions,
+                                       const LineariseOptions& options) {
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<TrialLinear> out((problem.trials.size() + options.every - 1) / options.every);
+  parallel_for(out.size(), [&](std::size_t i) {
+    const std::size_t t = i * options.every;
+    out[i] = linearise(problem, t, base, point.nuisances[t], directions, options);
+  });
+  return out;
+}
+
+double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels) {
+  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<double> of_trial(problem.trials.size(), 0.0);
+  parallel_for(of_trial.size(), [&](std::size_t t) {
+    const TrialModel& trial = *problem.trials[t];
+    VectorXd r = residual_of(trial, predicted(problem, trial, edits, point.nuisances[t]));
+    whiten(problem, t, r);
+    for (Index k = 0; k < r.size(); ++k) {
+      const auto& channel = problem.channels[trial.rows[static_cast<std::size_t>(k)].channel];
+      if (std::ranges::find(channels, channel) != channels.end()) of_trial[t] += r[k] * r[k];
+    }
+  });
+  return std::accumulate(of_trial.begin(), of_trial.end(), 0.0);
+}
+
+KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& base,
+                       const std::vector<double>& nuisances) {
+  const auto centre = predicted(problem, *problem.trials[trial], base, nuisances);
+  return columns_at(problem, {trial, base, nuisances, centre});
+}
+
+std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point) {
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<KeptColumns> columns(problem.trials.size());
+  parallel_for(columns.size(),
+               [&](std::size_t t) { columns[t] = columns_of(problem, t, base, point.nuisances[t]); });
+  return columns;
+}
+
+void keep_columns(Problem& problem, const Point& point) { problem.kept_columns = columns_at(problem, point); }
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,208 @@
+#include "tools/diagnose/fit/noise_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kOrder = 3;
+constexpr double kTooFewSamples = 30.0;
+constexpr double kTooFewForCorrelation = 200.0;
+constexpr double kOutlier = 6.0;    // robust standard deviations
+constexpr double kMostOfOne = 4.0;  // standard deviations that one sample counts for
+
+double median_magnitude(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Autoregression of the best order up to kOrder by Akaike's criterion; a shorter one where data are few.
+Autoregression levinson(const std::vector<double>& correlation, double samples) {
+  std::vector<double> a, best;
+  double error = 1.0, best_error = 1.0, best_score = 0.0;
+  for (std::size_t m = 1; m < correlation.size(); ++m) {
+    double reflection = correlation[m];
+    for (std::size_t j = 1; j < m; ++j) reflection -= a[j - 1] * correlation[m - j];
+    reflection = std::clamp(reflection / error, -0.995, 0.995);
+    std::vector<double> next(m);
+    next[m - 1] = reflection;
+    for (std::size_t j = 1; j < m; ++j) next[j - 1] = a[j - 1] - reflection * a[m - j - 1];
+    a = std::move(next);
+    error *= 1.0 - reflection * reflection;
+    const double score = samples * std::log(error) + 2.0 * static_cast<double>(m);
+    if (score < best_score) {
+      best_score = score;
+      best = a;
+      best_error = error;
+    }
+  }
+  return {best, std::sqrt(std::max(best_error, 1e-4))};
+}
+
+// Sums of products of scaled residuals, lag by lag.
+struct Products {
+  std::array<double, kOrder + 1> sums{}, counts{};
+
+  void add(std::size_t lag, double product) {
+    sums[lag] += product;
+    ++counts[lag];
+  }
+  Autoregression autoregression() const {
+    const double variance = counts[0] > 0.0 ? sums[0] / counts[0] : 0.0;
+    if (counts[0] < kTooFewSamples || variance <= 0.0) return {};
+    std::vector<double> correlation;
+    for (std::size_t lag = 0; lag <= kOrder; ++lag)
+      correlation.push_back(counts[lag] > 0.0 ? sums[lag] / counts[lag] / variance : 0.0);
+    return levinson(correlation, counts[0]);
+  }
+};
+
+}  // namespace
+
+void NoiseModel::fix(std::size_t channel, double sd) {
+  auto& noise = channels_[channel];
+  noise.sd_of_phase.assign(noise.sd_of_phase.size(), sd);
+  noise.correlation_of_phase.assign(noise.sd_of_phase.size(), {});
+}
+
+double ChannelNoise::sd() const {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t p = 0; p < sd_of_phase.size(); ++p) {
+    const double n = p < samples_of_phase.size() ? samples_of_phase[p] : 1.0;
+    sum += n * sd_of_phase[p] * sd_of_phase[p];
+    count += n;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+void NoiseModel::widen(double factor) {
+  for (auto& channel : channels_)
+    for (double& sd : channel.sd_of_phase) sd *= factor;
+}
+
+double NoiseModel::sd(const TrialModel& trial, const Row& row) const {
+  const double factor = trial.noise_factor.empty() ? 1.0 : trial.noise_factor[row.channel];
+  return std::hypot(factor * row.relative_sd * channels_[row.channel].sd_of_phase[row.phase],
+                    row.numerical_sd);
+}
+
+void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
+                        Eigen::Ref<Eigen::MatrixXd> values) const {
+  const std::size_t rows = trial.rows.size();
+  // How many scaled residuals a row has before it in its chain.
+  std::vector<std::uint8_t> before(rows, 0);
+  for (std::size_t k = 1; k < rows; ++k)
+    if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&
+        trial.rows[k].block == trial.rows[k - 1].block)
+      before[k] = static_cast<std::uint8_t>(std::min<std::size_t>(before[k - 1] + 1u, kOrder));
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    auto column = values.col(c);
+    std::array<double, kOrder> past{};  // scaled residuals, newest first
+    for (std::size_t k = 0; k < rows; ++k) {
+      double& value = column[static_cast<Eigen::Index>(k)];
+      if (!used[k]) {
+        value = 0.0;
+        continue;
+      }
+      const Row& row = trial.rows[k];
+      const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
+      const double e = value / sd(trial, row);
+      value = e;
+      if (before[k] >= a.size()) {
+        for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];
+        value /= innovation_sd;
+      }
+      for (std::size_t j = kOrder - 1; j > 0; --j) past[j] = past[j - 1];
+      past[0] = e;
+    }
+  }
+}
+
+NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
+                          const std::vector<std::vector<std::uint8_t>>& used,
+                          const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
+                          std::span<const double> floor_sd) {
+  std::vector<ChannelNoise> channels(floor_sd.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    ChannelNoise& noise = channels[c];
+    std::vector<std::vector<double>> of_phase(phases);
+    std::vector<double> all;
+    for (std::size_t t = 0; t < trials.size(); ++t)
+      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
+        const Row& row = trials[t]->rows[k];
+        if (row.channel != c || !used[t][k]) continue;
+        const double r = residuals[t][static_cast<Eigen::Index>(k)] /
+                         std::hypot(row.relative_sd, row.numerical_sd / floor_sd[c]);
+        of_phase[row.phase].push_back(r);
+        all.push_back(r);
+      }
+    const auto spread = [&](const std::vector<double>& values) {
+      const double limit = kOutlier * 1.4826 * std::max(median_magnitude(values), 1e-300);
+      double sum = 0.0, count = 0.0;
+      for (const double v : values)
+        if (std::abs(v) <= limit) {
+          sum += v * v;
+          ++count;
+        }
+      return std::max(count > 0.0 ? std::sqrt(sum / count) : 0.0, floor_sd[c]);
+    };
+    const double overall = all.empty() ? std::max(floor_sd[c], 1e-12) : spread(all);
+    noise.sd_of_phase.assign(phases, overall);
+    noise.samples_of_phase.assign(phases, 0.0);
+    for (std::size_t p = 0; p < phases; ++p) {
+      noise.samples_of_phase[p] = static_cast<double>(of_phase[p].size());
+      if (noise.samples_of_phase[p] >= kTooFewSamples) noise.sd_of_phase[p] = spread(of_phase[p]);
+    }
+    // Autocorrelation of scaled residuals, outliers limited.
+    Products all_phases;
+    std::vector<Products> products(phases);
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      std::vector<double> chain;
+      const Row* before = nullptr;
+      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
+        const Row& row = trials[t]->rows[k];
+        if (row.channel != c) continue;
+        if (before != nullptr && before->block != row.block) chain.clear();
+        before = &row;
+        if (!used[t][k]) {
+          chain.clear();
+          continue;
+        }
+        const double sd = std::hypot(row.relative_sd * noise.sd_of_phase[row.phase], row.numerical_sd);
+        const double e = std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / sd, -kMostOfOne, kMostOfOne);
+        chain.push_back(e);
+        for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
+          all_phases.add(lag, e * chain[chain.size() - 1 - lag]);
+          products[row.phase].add(lag, e * chain[chain.size() - 1 - lag]);
+        }
+      }
+    }
+    for (std::size_t p = 0; p < phases; ++p) {
+      const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
+      auto correlation = (enough ? products[p] : all_phases).autoregression();
+      // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than
+      // that.
+      const double white = std::min(1.0, floor_sd[c] / noise.sd_of_phase[p]);
+      correlation.innovation_sd = std::max(correlation.innovation_sd, white);
+      noise.correlation_of_phase.push_back(std::move(correlation));
+    }
+  }
+  return NoiseModel(std::move(channels));
+}
+
+NoiseModel white_noise(std::span<const double> sd, std::size_t phases) {
+  std::vector<ChannelNoise> channels(sd.size());
+  for (std::size_t c = 0; c < sd.size(); ++c) {
+    channels[c].sd_of_phase.assign(phases, sd[c]);
+    channels[c].samples_of_phase.assign(phases, 1.0);
+    channels[c].correlation_of_phase.assign(phases, {});
+  }
+  return NoiseModel(std::move(channels));
+}
+
+}  // namespace sandhopper::diagnose

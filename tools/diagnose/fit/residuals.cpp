@@ -1,0 +1,85 @@
+#include "tools/diagnose/fit/residuals.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// What each effect does to the rows of a trial: its amplitudes times their derivatives.
+std::vector<VectorXd> changes(const Problem& problem, const Point& point, const MatrixXd& plain) {
+  std::vector<VectorXd> out;
+  Index column = 1;
+  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
+    const auto& parameters = problem.candidates[point.hypothesis.candidates[e]].parameters;
+    VectorXd sum = VectorXd::Zero(plain.rows());
+    for (std::size_t j = 0; j < parameters.size(); ++j, ++column)
+      if (is_amplitude(parameters, j))
+        sum += plain.col(column) * (point.hypothesis.values[e][j] / parameters[j].typical);
+    out.push_back(std::move(sum));
+  }
+  return out;
+}
+
+}  // namespace
+
+double held_out_gain(const Problem& problem, const Residuals& residuals, const Point& null,
+                     const Point& point) {
+  double gain = 0.0;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const TrialModel& trial = *problem.trials[t];
+    for (std::size_t i = 0; i < trial.trial_nuisances.size(); ++i)
+      if (trial.trial_nuisances[i].may_lean)
+        gain += (std::pow(null.nuisances[t][i], 2) - std::pow(point.nuisances[t][i], 2)) /
+                std::pow(trial.trial_nuisances[i].sd, 2);
+    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+      if (!problem.used[t][k]) continue;
+      const auto row = static_cast<Index>(k);
+      const double sd = problem.noise.sd(trial, trial.rows[k]);
+      gain += (std::pow(residuals.before[t][row], 2) - std::pow(residuals.held_out[t][row], 2)) / (sd * sd);
+    }
+  }
+  return gain;
+}
+
+Residuals residuals_of(const Problem& problem, const Point& null, const Point& point) {
+  Residuals out;
+  for (auto& trial : linearise_all(problem, null, {}, {.keep_plain = true}))
+    out.before.emplace_back(trial.plain.col(0));
+
+  const auto directions = parameter_directions(problem, point);
+  const auto k = static_cast<Index>(directions.size());
+  const auto linear = linearise_all(problem, point, directions, {.keep_plain = true});
+  MatrixXd information = MatrixXd::Zero(k, k);
+  VectorXd score = VectorXd::Zero(k);
+  for (const auto& trial : linear) {
+    information += trial.gram.bottomRightCorner(k, k);
+    score += trial.gram.col(0).tail(k);
+  }
+  add_priors(problem, point, information, score);
+  // A tolerance that has gone as far as it may stays there; beside the 1 of any other.
+  const auto tolerances = static_cast<Index>(point.tolerances.size());
+  information.diagonal().tail(tolerances) +=
+      prior_information(problem, point).tail(tolerances) - VectorXd::Ones(tolerances);
+  for (const auto& trial : linear) {
+    const VectorXd after = trial.plain.col(0);
+    VectorXd held_out = after;
+    if (k > 0 && linear.size() > 1) {
+      const MatrixXd others = information - trial.gram.bottomRightCorner(k, k);
+      held_out -= trial.plain.rightCols(k) * others.ldlt().solve(score - trial.gram.col(0).tail(k));
+    }
+    out.after.push_back(after);
+    out.held_out.push_back(std::move(held_out));
+    out.change.push_back(changes(problem, point, trial.plain));
+  }
+  return out;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,53 @@
+#include "tools/diagnose/fit/spread_seen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "tools/diagnose/discrepancy/misfit.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kFarLess = 0.3;  // of what is believed, or of what all trials share
+constexpr double kHeldUp = 2.0, kLeastSpread = 0.05;
+constexpr double kMadOfNormal = 1.4826;  // standard deviations in the median distance from the middle
+
+}  // namespace
+
+std::vector<Point> take_spread_as_seen(Problem& problem, Point& point) {
+  if (problem.trials.size() < kTooFewTrials) return {};
+  std::vector<std::pair<std::string, double>> found;  // effect, what all share
+  for (std::size_t i = 0; i < problem.trials.front()->trial_nuisances.size(); ++i) {
+    const Nuisance first = problem.trials.front()->trial_nuisances[i];
+    const bool everywhere = std::ranges::all_of(problem.trials, [&](const auto& trial) {
+      return trial->trial_nuisances.size() > i && trial->trial_nuisances[i].name == first.name;
+    });
+    if (first.shared_as.empty() || !everywhere) continue;
+    // The middle ones: a trial whose fit is still on its way says nothing.
+    std::vector<double> values, apart;
+    for (const auto& own : point.nuisances) values.push_back(own[i]);
+    const double shared = median(values);
+    for (const double value : values) apart.push_back(std::abs(value - shared));
+    const double seen = kMadOfNormal * median(apart);
+    if (seen > kFarLess * std::max(first.sd, std::abs(shared))) continue;
+    for (auto& trial : problem.trials) {
+      trial->trial_nuisances[i].sd = std::max(kHeldUp * seen, kLeastSpread * first.sd);
+      trial->trial_nuisances[i].may_lean = false;  // how far trials differ is not what was believed
+    }
+    for (auto& own : point.nuisances) own[i] = 0.0;
+    found.emplace_back(first.shared_as, shared);
+  }
+  std::vector<Point> starts;
+  for (const auto& [label, shared] : found)
+    for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
+      if (problem.candidates[c].label() != label) continue;
+      starts.push_back(point);
+      starts.back().hypothesis = {.candidates = {c}, .values = {{shared}}};
+    }
+  return starts;
+}
+
+}  // namespace sandhopper::diagnose

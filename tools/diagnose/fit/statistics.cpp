@@ -1,0 +1,157 @@
+#include "tools/diagnose/fit/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kModelTrials = 4.0;
+
+// Continued fraction of the incomplete beta function (Lentz).
+double beta_fraction(double a, double b, double x) {
+  constexpr double kTiny = 1e-300;
+  double c = 1.0, d = 1.0 - (a + b) * x / (a + 1.0);
+  d = 1.0 / (std::abs(d) < kTiny ? kTiny : d);
+  double h = d;
+  for (int m = 1; m <= 300; ++m) {
+    for (const double numerator : {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
+                                   -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
+      d = 1.0 + numerator * d;
+      c = 1.0 + numerator / c;
+      d = 1.0 / (std::abs(d) < kTiny ? kTiny : d);
+      if (std::abs(c) < kTiny) c = kTiny;
+      h *= d * c;
+    }
+    if (std::abs(d * c - 1.0) < 1e-12) break;
+  }
+  return h;
+}
+
+double incomplete_beta(double a, double b, double x) {
+  if (x <= 0.0) return 0.0;
+  if (x >= 1.0) return 1.0;
+  const double front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(a, b, x) / a
+                                       : 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
+}
+
+double sum(const std::vector<double>& values) {
+  double s = 0.0;
+  for (const double v : values) s += v;
+  return s;
+}
+
+}  // namespace
+
+double student_t_two_sided(double t, double nu) {
+  if (!std::isfinite(t)) return 0.0;
+  return incomplete_beta(0.5 * nu, 0.5, nu / (nu + t * t));
+}
+
+double student_t_quantile(double two_sided, double nu) {
+  double low = 0.0, high = 1e3;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (student_t_two_sided(middle, nu) > two_sided ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double TrialEvidence::size() const {
+  const double information_sum = sum(information);
+  return information_sum > 0.0 ? sum(score) / information_sum : 0.0;
+}
+
+double TrialEvidence::degrees_of_freedom() const {
+  return kModelTrials + static_cast<double>(score.size()) - 1.0;
+}
+
+double TrialEvidence::standard_error() const {
+  const double information_sum = sum(information);
+  if (information_sum <= 0.0) return 1e300;
+  const double b = size();
+  double between = 0.0;
+  for (std::size_t t = 0; t < score.size(); ++t) between += std::pow(score[t] - b * information[t], 2);
+  const double trials = static_cast<double>(score.size());
+  const double variance = (kModelTrials * information_sum + between * trials) / degrees_of_freedom();
+  return std::sqrt(variance) / information_sum;
+}
+
+double TrialEvidence::effective_trials() const {
+  double squares = 0.0;
+  for (const double i : information) squares += i * i;
+  return squares > 0.0 ? std::pow(sum(information), 2) / squares : 0.0;
+}
+
+double TrialEvidence::held_out_drop() const {
+  const double score_sum = sum(score), information_sum = sum(information);
+  double drop = 0.0;
+  for (std::size_t t = 0; t < score.size(); ++t) {
+    const double others = information_sum - information[t];
+    if (others <= 0.0) continue;
+    const double size = (score_sum - score[t]) / others;
+    drop += size * (2.0 * score[t] - size * information[t]);
+  }
+  return std::max(0.0, drop);
+}
+
+double TrialEvidence::t() const { return size() / standard_error(); }
+double TrialEvidence::p_value() const { return student_t_two_sided(t(), degrees_of_freedom()); }
+
+double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed) {
+  const std::size_t trials = candidates[chosen].score.size();
+  const auto statistic = [](const TrialEvidence& e, auto&& sign) {
+    double s = 0.0;
+    for (std::size_t t = 0; t < e.score.size(); ++t) s += sign(t) * e.score[t];
+    const double information_sum = sum(e.information);
+    return information_sum > 0.0 ? std::abs(s) / std::sqrt(information_sum) : 0.0;
+  };
+  const double observed = statistic(candidates[chosen], [](std::size_t) { return 1.0; }) * (1.0 - 1e-9);
+  constexpr std::size_t kAllUpTo = 12;
+  const bool all = trials <= kAllUpTo;
+  const std::uint64_t flips = all ? std::uint64_t{1} << (trials - 1) : 2000;
+  std::mt19937_64 engine(seed);
+  std::uint64_t reached = 0;
+  for (std::uint64_t f = 0; f < flips; ++f) {
+    const std::uint64_t bits = all || f == 0 ? f : engine();
+    const auto sign = [bits](std::size_t t) { return (bits >> (t % 64)) & 1u ? -1.0 : 1.0; };
+    double most = 0.0;
+    for (const auto& e : candidates) most = std::max(most, statistic(e, sign));
+    reached += most >= observed;
+  }
+  return static_cast<double>(reached) / static_cast<double>(flips);
+}
+
+double signed_rank_p_value(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  std::ranges::stable_sort(sorted, {}, [](double v) { return std::abs(v); });
+  std::size_t positive = 0, all = 0;
+  std::vector<double> ways{1.0};  // probability of each sum of ranks
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const std::size_t rank = i + 1;
+    all += rank;
+    if (sorted[i] > 0.0) positive += rank;
+    std::vector<double> next(all + 1, 0.0);
+    for (std::size_t s = 0; s < ways.size(); ++s) {
+      next[s] += 0.5 * ways[s];
+      next[s + rank] += 0.5 * ways[s];
+    }
+    ways = std::move(next);
+  }
+  double p = 0.0;
+  for (std::size_t s = positive; s <= all; ++s) p += ways[s];
+  return p;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,323 @@
+#include "tools/diagnose/next/next_trial.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/evidence/rivals.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
+#include "tools/experiment/parallel.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNarrow = 0.5;          // a bound below this share of the typical size needs no closer one
+constexpr double kWorthATrial = 0.2;     // doublings of the information
+constexpr double kPriceOfTrouble = 0.1;  // doublings for one unit of cost
+constexpr double kASession = 10.0;       // trials: what would take more of them is not recommended
+constexpr double kEnoughGain = 10.0;     // times what tells two explanations apart: more brings nothing
+constexpr std::size_t kMostPoints = 400;
+
+// One trial's worth in doublings, before its cost; the best wins, earlier ones in a tie.
+struct Choice {
+  std::size_t trial = 0;
+  double worth = 0.0;
+  std::vector<double> all;
+};
+template <class Worth>
+Choice best_of(const PlannedTrials& planned, const Worth& worth) {
+  Choice choice;
+  choice.all.resize(planned.size());
+  parallel_for(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
+  double most = -1e300;
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    if (const double net = choice.all[i] - kPriceOfTrouble * planned[i].cost; net > most) {
+      most = net;
+      choice.trial = i;
+      choice.worth = choice.all[i];
+    }
+  return choice;
+}
+
+void take(const DoableTrial& trial, const char* purpose, NextTrial& next) {
+  next.purpose = purpose;
+  next.kind = trial.trial.kind;
+  next.setup = trial.trial.setup;
+  next.words = trial.words;
+}
+
+// The trace on which two predictions differ most against the floor.
+void show(const Problem& problem, const TrialModel& model, const Contest::Predictions& at, NextTrial& next) {
+  std::vector<double> energy(problem.channels.size(), 0.0);
+  double most = 0.0;
+  std::size_t where = 0;
+  for (std::size_t k = 0; k < model.rows.size(); ++k) {
+    const Row& row = model.rows[k];
+    const double apart =
+        std::abs(at.second[k] - at.first[k]) / problem.noise.channel(row.channel).sd_of_phase[row.phase];
+    energy[row.channel] += apart * apart;
+  }
+  const auto channel =
+      static_cast<std::uint32_t>(std::max_element(energy.begin(), energy.end()) - energy.begin());
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < model.rows.size(); ++k) {
+    if (model.rows[k].channel != channel) continue;
+    rows.push_back(k);
+    if (const double apart = std::abs(at.second[k] - at.first[k]); apart >= most) {
+      most = apart;
+      where = k;
+    }
+  }
+  if (rows.empty()) return;
+  next.channel = problem.channels[channel];
+  next.floor = problem.noise.channel(channel).sd();
+  const std::size_t step = (rows.size() + kMostPoints - 1) / kMostPoints;
+  for (std::size_t i = 0; i < rows.size(); i += step) {
+    next.time_s.push_back(model.rows[rows[i]].time_s);
+    next.by_first.push_back(at.first[rows[i]]);
+    next.by_second.push_back(at.second[rows[i]]);
+  }
+  const Row& row = model.rows[where];
+  next.why = fmt::format("{} at {:.3g} s ({}): {} predicts {:.4g}, {} {:+.2g} from that, floor {:.2g}.",
+                         next.channel, row.time_s, problem.phases[row.phase], next.first, at.first[where],
+                         next.second, at.second[where] - at.first[where], next.floor);
+}
+
+// A pair of explanations in one contest.
+struct Pair {
+  std::size_t group, i, j;
+};
+std::vector<Pair> pairs_of(const std::vector<Rivals>& groups) {
+  std::vector<Pair> pairs;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t i = 0; i < groups[g].size(); ++i)
+      for (std::size_t j = i + 1; j < groups[g].size(); ++j) pairs.push_back({g, i, j});
+  return pairs;
+}
+
+void split(const Problem& problem, const PlannedTrials& planned, const Search& search,
+           const Posterior& belief, const std::vector<Rivals>& groups, NextTrial& next) {
+  const auto pairs = pairs_of(groups);
+  const auto contests = [&](std::size_t trial) {
+    std::vector<Contest> all;
+    for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, search.dispersion());
+    return all;
+  };
+  // The more there is to explain, the more the simulation's own errors count.
+  const auto apart = [&](const Contest& one) {
+    return belief.apart + belief.apart_per_explained * one.explained();
+  };
+  const auto choice = best_of(planned, [&](std::size_t trial) {
+    const auto all = contests(trial);
+    std::vector<double> needed;
+    for (const auto& one : all) needed.push_back(apart(one));
+    double sum = 0.0;
+    for (const auto& p : pairs)
+      sum += std::log2(1.0 + std::min(all[p.group].lambda(p.i, p.j) / needed[p.group], kEnoughGain));
+    return sum / static_cast<double>(pairs.size());
+  });
+  const auto all = contests(choice.trial);
+  take(planned[choice.trial], "split", next);
+  std::string chances;
+  Pair shown = pairs.front();
+  double most = -1.0;
+  next.settles = 1.0;
+  for (const auto& p : pairs) {
+    const double chance = all[p.group].settles(p.i, p.j, apart(all[p.group]));
+    const double lambda = all[p.group].lambda(p.i, p.j);
+    next.settles = std::min(next.settles, chance);
+    next.splits = std::max(next.splits, chance);
+    // Shown is what was found against the rival it is told from best.
+    if (p.i == 0 && lambda > most) {
+      most = lambda;
+      shown = p;
+    }
+    if (p.i == 0)
+      chances += fmt::format("{}{} {:.2f}", chances.empty() ? "" : ", ", groups[p.group].names[p.j], chance);
+  }
+  next.first = groups[shown.group].names[shown.i];
+  next.second = groups[shown.group].names[shown.j];
+  show(problem, planned.model(choice.trial), all[shown.group].predictions(problem, planned, shown.i, shown.j),
+       next);
+  next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
+  if (next.splits >= 0.5) return;
+  const double repeats = std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3));
+  if (repeats <= kASession) {
+    next.why += fmt::format(" About {:.0f} of them would.", repeats);
+    return;
+  }
+  std::string others;
+  for (const auto& p : pairs)
+    if (p.i == 0) others += (others.empty() ? "" : ", ") + groups[p.group].names[p.j];
+  next = {};
+  next.why = fmt::format(
+      "None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "
+      "about {:.0f} times.",
+      planned.size(), groups[shown.group].names[0], others, repeats);
+}
+
+// Doublings of the information on some parameters of a point; `information` so far.
+double sharpening(const MatrixXd& information, const MatrixXd& added, const std::vector<Index>& of) {
+  const auto n = information.rows();
+  const MatrixXd before = information.ldlt().solve(MatrixXd::Identity(n, n));
+  const MatrixXd after = MatrixXd(information + added).ldlt().solve(MatrixXd::Identity(n, n));
+  double sum = 0.0;
+  for (const Index i : of) sum += std::log2(std::max(before(i, i), 1e-300) / std::max(after(i, i), 1e-300));
+  return of.empty() ? 0.0 : sum / static_cast<double>(of.size());
+}
+
+void sharpen(const Problem& problem, const PlannedTrials& planned, const Search& search,
+             const Diagnosis& diagnosis, NextTrial& next) {
+  const SetFit& best = search.best();
+  const Point& point = best.fit.point;
+  const auto directions = plain_directions(problem, point);
+  const auto k = static_cast<Index>(directions.size());
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  std::vector<Index> amplitudes;
+  Index at = 0;
+  for (const auto c : point.hypothesis.candidates)
+    for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
+      if (j == 0) amplitudes.push_back(at);
+  const auto choice = best_of(planned, [&](std::size_t i) {
+    const MatrixXd added = planned.linearised(i, base, directions).gram.bottomRightCorner(k, k);
+    return sharpening(best.fit.information, added, amplitudes);
+  });
+  if (choice.worth < kWorthATrial) {
+    next.why =
+        "None needed to tell what it is: no single trial narrows the intervals by more than a few per cent.";
+    return;
+  }
+  take(planned[choice.trial], "sharpen", next);
+  next.why =
+      fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; a middling trial to {:.0f} %.",
+                  amplitudes.size() > 1 ? "s" : "",
+                  diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
+                  100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
+                  100.0 * std::exp2(-0.5 * median(choice.all)));
+}
+
+void map_further(const Problem& problem, const PlannedTrials& planned, const Search& search,
+                 const FreeGain& rest, NextTrial& next) {
+  const Point& point = search.best().fit.point;
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  constexpr double kProbe = 0.2;
+  std::vector<Direction> directions;
+  for (const auto& term : rest.family.terms) directions.push_back({with_term(base, term, kProbe), kProbe});
+  const auto k = static_cast<Index>(directions.size());
+  MatrixXd information = MatrixXd::Identity(k, k) * kFreeLawInformation;
+  for (Index i = 0; i < k; ++i)
+    information(i, i) = std::max(kFreeLawInformation, 1.0 / std::pow(rest.sd[i], 2));
+  std::vector<Index> knots(static_cast<std::size_t>(k));
+  for (Index i = 0; i < k; ++i) knots[static_cast<std::size_t>(i)] = i;
+  const auto choice = best_of(planned, [&](std::size_t i) {
+    return sharpening(information, planned.linearised(i, base, directions).gram.bottomRightCorner(k, k),
+                      knots);
+  });
+  take(planned[choice.trial], "map", next);
+  next.why = fmt::format(
+      "Maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with a middling trial "
+      "to {:.0f} %.",
+      rest.family.port, rest.family.variable, 100.0 * std::exp2(-0.5 * choice.worth),
+      100.0 * std::exp2(-0.5 * median(choice.all)));
+}
+
+// The widest bound there is, of a candidate that the recordings bound at all.
+void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& search, bool few,
+                  NextTrial& next) {
+  const auto& screened = search.screened(search.best().set);
+  const Screened* widest = nullptr;
+  double typicals = 0.0;
+  for (const auto& s : screened) {
+    const double bound = std::abs(s.evidence.size()) + 2.0 * s.evidence.standard_error();
+    if (bound < 1e6 && bound > typicals) {
+      typicals = bound;
+      widest = &s;
+    }
+  }
+  if (widest == nullptr) return;
+  const Candidate& candidate = problem.candidates[widest->candidate];
+  if (!few && typicals < kNarrow) {
+    next.why = fmt::format(
+        "None needed: everything this plant can have is excluded beyond {:.2g} of its typical size.",
+        typicals);
+    return;
+  }
+  const Point& point = search.best().fit.point;
+  Hypothesis with = point.hypothesis;
+  constexpr double kProbe = 0.4;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    values.push_back(i == 0 ? std::min(kProbe * candidate.parameters[0].typical, candidate.parameters[0].high)
+                     : candidate.parameters[i].amplitude ? 0.0
+                                                         : candidate.parameters[i].typical);
+  with.candidates.push_back(widest->candidate);
+  with.values.push_back(values);
+  auto directions = plain_directions(problem, point);
+  directions.push_back(
+      {edits_for(problem, with, point.tolerances), values[0] / candidate.parameters[0].typical});
+  const auto k = static_cast<Index>(directions.size());
+  double known = 0.01;
+  for (const double one : widest->evidence.information) known += one;
+  MatrixXd information = MatrixXd::Zero(k, k);
+  information.topLeftCorner(k - 1, k - 1) = search.best().fit.information;
+  information(k - 1, k - 1) = known;
+  const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
+  const auto choice = best_of(planned, [&](std::size_t i) {
+    return sharpening(information, planned.linearised(i, base, directions).gram.bottomRightCorner(k, k),
+                      {k - 1});
+  });
+  if (!few && choice.worth < kWorthATrial) {
+    next.why = fmt::format(
+        "None: no trial like these would exclude more. The widest bound is that of {}, {:.2g} of its "
+        "typical size.",
+        candidate.label(), typicals);
+    return;
+  }
+  take(planned[choice.trial], "bound", next);
+  next.why = fmt::format(
+      "{}The widest bound is that of {}, {:.2g} of its typical size; this trial narrows it to {:.2g}.",
+      few ? "At least five trials are needed to know how far they repeat. " : "", candidate.label(), typicals,
+      typicals * std::exp2(-0.5 * choice.worth));
+}
+
+void record_again(const Recordings& recordings, const Diagnosis& diagnosis, NextTrial& next) {
+  const Trial& first = recordings.trials.front();
+  next.purpose = "repeat";
+  next.kind = first.kind;
+  next.setup = first.setup;
+  next.setup.erase("session");
+  next.why = fmt::format("Mend {} first, then record one of these again: the fault must be gone.",
+                         diagnosis.effects.front().channel);
+}
+
+}  // namespace
+
+void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
+                        const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
+  NextTrial& next = diagnosis.next;
+  if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
+  const Point& point = search.best().fit.point;
+  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
+  const PlannedTrials planned(problem, problem.plant->doable(recordings.trials, recordings.belief, edits));
+  if (planned.size() == 0) {
+    next.why = "Trials of this plant cannot be planned.";
+    return;
+  }
+  const auto rivals = rivals_of(problem, search, belief);
+  if (!diagnosis.unknown.empty() && rest != nullptr)
+    map_further(problem, planned, search, *rest, next);
+  else if (search.best().set.empty())
+    bound_closer(problem, planned, search, diagnosis.verdict == "insufficient_data", next);
+  else if (!rivals.empty())
+    split(problem, planned, search, belief, rivals, next);
+  else
+    sharpen(problem, planned, search, diagnosis, next);
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,81 @@
+#include "tools/diagnose/plants/falling_body/falling_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
+#include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
+#include "tools/diagnose/plants/falling_body/falling_trial.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kTouchdownAgrees_s =
+    1e-4;                       // instant at which the fall ends and that at which the bed begins
+constexpr double kSinks = 0.5;  // of the speed of a free fall
+
+class FallingBody final : public PlantModel {
+ public:
+  std::vector<std::string> channels() const override { return {"height_m", "accel_mps2", "touchdown_s"}; }
+  double form_error() const override { return 1e-3; }
+  double least_sd(const std::string& channel) const override {
+    return channel == "touchdown_s" ? kTouchdownAgrees_s : 0.0;
+  }
+  std::vector<std::string> phases() const override {
+    return {"held", "slow_fall", "fast_fall", "bed", "entry", "immersed"};
+  }
+
+  std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
+                                    std::string& why) const override {
+    auto model = make_falling_trial(trial, belief);
+    if (model->rows.size() >= 10) return model;
+    why = "fewer than 10 samples of height_m and accel_mps2";
+    return nullptr;
+  }
+
+  void describe(const std::vector<Trial>& trials, Context& context) const override {
+    const auto& b = context.belief;
+    const double g = b.value("gravity_mps2", 9.81);
+    double longest_s = 0.0, seen_mps = 0.0;
+    for (const auto& trial : trials) {
+      if (!trial.time_s.empty()) longest_s = std::max(longest_s, trial.time_s.back());
+      seen_mps = std::max(seen_mps, fastest_mps(samples_of(trial, "height_m")));
+    }
+    double drop_m = 0.0;
+    if (const auto it = context.channels.find("height_m"); it != context.channels.end())
+      drop_m = it->second.high - it->second.low;
+    double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
+    // What sinks slowly is never as fast as a fall from there.
+    if (seen_mps > 0.0 && seen_mps < kSinks * speed) speed = seen_mps;
+    if (std::ranges::any_of(trials, [&](const Trial& trial) { return meets_a_liquid(trial, b); }))
+      context.scales["wetted_over_m"] = body_length_m(b);
+    context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
+    context.scales["speed_mps"] = std::max(speed, 0.1);
+    context.scales["duration_s"] = longest_s;
+    context.scales["masses_differ"] = range_of_setup(trials, "mass_kg");
+    if (b.value("bed.stiffness_N_per_m") > 0.0) {
+      context.scales["depth_m"] = std::max(
+          0.01, std::abs(speed) * std::sqrt(b.value("body.mass_kg", 1.0) / b.value("bed.stiffness_N_per_m")));
+      context.scales["foot_radius_m"] =
+          std::max(0.01, std::sqrt(b.value("body.frontal_area_m2") / std::numbers::pi));
+    }
+  }
+
+  std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
+                                  const Edits& edits) const override {
+    return doable_drops(*this, recorded, belief, edits);
+  }
+
+  std::vector<FreePort> free_ports(const Context& context) const override {
+    return {{"body", false, 0.1 * context.scale("weight_N")}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PlantModel> make_falling_body() { return std::make_unique<FallingBody>(); }
+
+}  // namespace sandhopper::diagnose

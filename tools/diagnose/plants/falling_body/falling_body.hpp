@@ -1,0 +1,11 @@
+#pragma once
+#include <memory>
+
+#include "tools/diagnose/model/plant.hpp"
+
+namespace sandhopper::diagnose {
+
+// A body that falls through a medium, perhaps onto a bed. Channels height_m, accel_mps2.
+std::unique_ptr<PlantModel> make_falling_body();
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,44 @@
+#include "tools/diagnose/plants/hopper/hopper_belief.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace sandhopper::diagnose {
+namespace {
+
+template <class Table>
+void fill(Table& table, const std::string& prefix, const Belief& belief, const Edits& edits) {
+  Table::fields(table, [&]<class Member>(std::string_view key, Member& member, Range range = {}) {
+    const std::string name = prefix + std::string(key);
+    if constexpr (HasFields<Member>) {
+      fill(member, name + ".", belief, edits);
+    } else if constexpr (std::is_same_v<Member, double>) {
+      const double believed = belief.value(name, member);
+      const double edited = edits.edited(name, believed);
+      // What an effect asks for stays physical; what is believed is taken as it is.
+      member = edited == believed ? believed : std::clamp(edited, range.low, range.high);
+    } else if constexpr (std::is_same_v<Member, int>) {
+      member = static_cast<int>(belief.value(name, member));
+    } else if constexpr (std::is_same_v<Member, bool>) {
+      member = belief.value(name, member ? 1.0 : 0.0) != 0.0;
+    }
+  });
+}
+
+}  // namespace
+
+WorldConfig world_of(const Belief& belief, const Edits& edits) {
+  WorldConfig world;
+  fill(world, "", belief, edits);
+  return world;
+}
+
+Belief with_payload(Belief belief, const Trial& trial) {
+  const double payload_kg = trial.setup_or("payload_kg", 0.0);
+  if (payload_kg != 0.0)
+    belief.numbers["robot.body_mass_kg"] =
+        belief.value("robot.body_mass_kg", LegParameters{}.body_mass_kg) + payload_kg;
+  return belief;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,225 @@
+#include "tools/diagnose/plants/intruder/intruder_motion.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::size_t kFewSamples = 10;
+constexpr double kNotSampled = 1e4;   // variance of a reading that there is not, m^2 or m^2/s^2
+constexpr double kAccelError = 0.01;  // of the hardest acceleration: scale and interpolation between samples
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+// Where on the grid a quantity was sampled: not inside a gap.
+std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
+  std::vector<bool> known(m.depth_m.size(), false);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const double t = m.start_s + m.step_s * static_cast<double>(i);
+    while (next < samples.time_s.size() && samples.time_s[next] < t - 0.5 * m.step_s) ++next;
+    const bool here = next < samples.time_s.size() && samples.time_s[next] < t + 0.5 * m.step_s;
+    const bool between = next > 0 && next < samples.time_s.size() &&
+                         samples.time_s[next] - samples.time_s[next - 1] < kGapSteps * m.step_s;
+    known[i] = here || between;
+  }
+  return known;
+}
+
+void smooth_jointly(IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a) {
+  using Eigen::Matrix2d, Eigen::Vector2d;
+  const std::size_t n = m.depth_m.size();
+  const double dt = m.step_s;
+  const Matrix2d advance{{1.0, dt}, {0.0, 1.0}};
+  const Vector2d push{0.5 * dt * dt, dt};
+  const double hardest = largest(m.accel_mps2);
+  const double accel_sd = std::hypot(m.accel_sd_mps2.front(), kAccelError * hardest);
+  const auto process = [&](double sd) -> Matrix2d {
+    return sd * sd * push * push.transpose() + 1e-24 * Matrix2d::Identity();
+  };
+  const Matrix2d process_known = process(accel_sd), process_unknown = process(hardest);
+  const Vector2d sensor{m.depth_sd_m * m.depth_sd_m, m.speed_sd_mps * m.speed_sd_mps};
+  const auto z_known = sampled(z, m), v_known = sampled(v, m), a_known = sampled(a, m);
+  std::vector<Vector2d> before(n), after(n);
+  std::vector<Matrix2d> before_cov(n), after_cov(n);
+  Vector2d x{m.depth_m[0], m.speed_mps[0]};
+  Matrix2d p = sensor.asDiagonal();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0) {
+      x = advance * x + push * 0.5 * (m.accel_mps2[i - 1] + m.accel_mps2[i]);
+      p = advance * p * advance.transpose() + (a_known[i] ? process_known : process_unknown);
+    }
+    before[i] = x;
+    before_cov[i] = p;
+    if (i > 0) {
+      const Vector2d noise{z_known[i] ? sensor[0] : kNotSampled, v_known[i] ? sensor[1] : kNotSampled};
+      const Matrix2d gain = p * (p + Matrix2d(noise.asDiagonal())).inverse();
+      x += gain * (Vector2d{m.depth_m[i], m.speed_mps[i]} - x);
+      p = (Matrix2d::Identity() - gain) * p;
+    }
+    after[i] = x;
+    after_cov[i] = p;
+  }
+  Vector2d variance = Vector2d::Zero();
+  for (std::size_t i = n; i-- > 0;) {
+    if (i + 1 < n) {
+      const Matrix2d back = after_cov[i] * advance.transpose() * before_cov[i + 1].inverse();
+      after[i] += back * (after[i + 1] - before[i + 1]);
+      after_cov[i] += back * (after_cov[i + 1] - before_cov[i + 1]) * back.transpose();
+    }
+    m.depth_m[i] = after[i][0];
+    m.speed_mps[i] = after[i][1];
+    variance += after_cov[i].diagonal() / static_cast<double>(n);
+  }
+  m.depth_sd_m = std::sqrt(variance[0]);
+  m.speed_sd_mps = std::sqrt(variance[1]);
+}
+
+// A foot that is fast meets the bed between two rows: the grid is made finer, values and rates joined by
+// cubics (Hermite).
+void refine(IntruderMotion& m) {
+  constexpr double kFarthest_m = 1.5e-4;
+  constexpr std::size_t kMostParts = 8;
+  const auto parts = std::clamp<std::size_t>(
+      static_cast<std::size_t>(m.step_s * largest(m.speed_mps) / kFarthest_m + 1.0), 1, kMostParts);
+  const std::size_t n = m.depth_m.size();
+  if (parts == 1 || n < 2) return;
+  const auto joined = [&](const std::vector<double>& value, const std::vector<double>* rate) {
+    std::vector<double> fine;
+    fine.reserve((n - 1) * parts + 1);
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      for (std::size_t k = 0; k < parts; ++k) {
+        const double u = static_cast<double>(k) / static_cast<double>(parts), w = 1.0 - u;
+        double x = w * value[i] + u * value[i + 1];
+        if (rate != nullptr) {
+          const double mean = (value[i + 1] - value[i]) / m.step_s;
+          x += u * w * m.step_s * (w * ((*rate)[i] - mean) - u * ((*rate)[i + 1] - mean));
+        }
+        fine.push_back(x);
+      }
+    fine.push_back(value[n - 1]);
+    return fine;
+  };
+  m.depth_m = joined(m.depth_m, &m.speed_mps);
+  m.speed_mps = joined(m.speed_mps, &m.accel_mps2);
+  m.accel_mps2 = joined(m.accel_mps2, nullptr);
+  m.accel_sd_mps2 = joined(m.accel_sd_mps2, nullptr);
+  m.step_s /= static_cast<double>(parts);
+}
+
+constexpr double kClear = 4.0;                             // standard errors
+constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // less moves no force by what a cell can see
+
+// By how much a position is late and its clock fast, with standard errors.
+struct OutOfTime {
+  double late_s, drift, late_se_s, drift_se;
+};
+std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const Samples& a) {
+  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;  // samples to each side
+  constexpr std::size_t kLeastRows = 50;
+  const bool by_speed = z.time_s == v.time_s;
+  if (z.time_s.size() < kLeastRows || (!by_speed && z.time_s != a.time_s)) return std::nullopt;
+  const std::size_t half = by_speed ? kOfRate : kOfCurvature;
+  const auto position = smooth(z, half), other = smooth(by_speed ? v : a, half);
+  const auto& derived = by_speed ? position.rate : position.curvature;
+  const double order = by_speed ? 1.0 : 2.0;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d score = Eigen::Vector2d::Zero();
+  double squares = 0.0;
+  for (std::size_t i = half; i + half < z.time_s.size(); ++i) {
+    const double rate = other.rate[i], apart = derived[i] - other.value[i];
+    const Eigen::Vector2d x(-rate, -(order * other.value[i] + z.time_s[i] * rate));
+    information += x * x.transpose();
+    score += x * apart;
+    squares += apart * apart;
+  }
+  const Eigen::Matrix2d inverse = information.inverse();
+  const Eigen::Vector2d found = inverse * score;
+  if (!found.allFinite()) return std::nullopt;
+  // As many rows as one local parabola takes in are one observation.
+  const double variance = std::max(0.0, squares - found.dot(score)) * static_cast<double>(2 * half + 1) /
+                          static_cast<double>(z.time_s.size());
+  const Eigen::Vector2d se = (inverse.diagonal() * variance).cwiseMax(0.0).cwiseSqrt();
+  return OutOfTime{found[0], found[1], se[0], se[1]};
+}
+
+}  // namespace
+
+IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a) {
+  constexpr double kSmoothing_s = 0.004, kQuantum_m = 2e-6;
+  IntruderMotion m;
+  m.step_s = std::clamp(median_step_s(z.time_s), 2.5e-4, 0.02);
+  m.start_s = z.time_s.front();
+  m.speed_from_position = v.value.size() <= kFewSamples;
+  m.accel_from_position = m.speed_from_position && a.value.size() <= kFewSamples;
+  // What is late does not belong to the same motion.
+  const auto apart = out_of_time(z, v, a);
+  const bool late = apart && (std::abs(apart->late_s) > std::max(kLeastLate_s, kClear * apart->late_se_s) ||
+                              std::abs(apart->drift) > std::max(kLeastDrift, kClear * apart->drift_se));
+  const bool joined = !m.speed_from_position && a.value.size() > kFewSamples && !late;
+  const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / m.step_s, 2.0, 8.0));
+  const auto count = static_cast<std::size_t>((z.time_s.back() - z.time_s.front()) / m.step_s) + 1;
+  const auto put = [&](std::vector<double>& into, const Samples& samples) {
+    into = on_grid(samples, m.start_s, m.step_s, count, false).values;
+    for (double& value : into) value = -value;
+  };
+  const double noise_m = fluctuation_rms(z);
+  const Smoothed at = smooth(z, half);
+  put(m.depth_m, {z.time_s, noise_m > kQuantum_m && !joined ? at.value : z.value});
+  put(m.speed_mps, m.speed_from_position ? Samples{z.time_s, at.rate} : v);
+  if (a.value.size() > kFewSamples) {
+    put(m.accel_mps2, a);
+    m.accel_sd_mps2.assign(count, std::max(fluctuation_rms(a), 1e-6));
+  } else {
+    const auto derived = [&](std::size_t widths) {
+      return m.speed_from_position ? Samples{z.time_s, smooth(z, 2 * widths * half).curvature}
+                                   : Samples{v.time_s, smooth(v, widths * half).rate};
+    };
+    put(m.accel_mps2, derived(1));
+    put(m.accel_sd_mps2, derived(2));
+    const double n = static_cast<double>(2 * half * (m.speed_from_position ? 2 : 1) + 1);
+    const double noise = m.speed_from_position
+                             ? noise_m * std::sqrt(720.0 / std::pow(n, 5)) / (m.step_s * m.step_s)
+                             : fluctuation_rms(v) * std::sqrt(12.0 / std::pow(n, 3)) / m.step_s;
+    for (std::size_t i = 0; i < count; ++i)
+      m.accel_sd_mps2[i] = std::hypot(noise, m.accel_sd_mps2[i] - m.accel_mps2[i]);
+  }
+  m.depth_sd_m = std::max(noise_m, 1e-7);
+  m.speed_sd_mps = std::max(
+      m.speed_from_position ? noise_m / (m.step_s * static_cast<double>(half)) : fluctuation_rms(v), 1e-7);
+  if (joined)
+    smooth_jointly(m, z, v, a);
+  else if (noise_m > kQuantum_m)
+    m.depth_sd_m /= std::sqrt(static_cast<double>(half));
+  refine(m);
+  return m;
+}
+
+bool position_is_out_of_time(const std::vector<Trial>& trials) {
+  constexpr std::size_t kLeastTrials = 3;
+  std::vector<double> late_s, drift;
+  for (const auto& trial : trials)
+    if (const auto apart = out_of_time(samples_of(trial, "foot_z_m"), samples_of(trial, "foot_velocity_mps"),
+                                       samples_of(trial, "foot_accel_mps2"))) {
+      late_s.push_back(apart->late_s);
+      drift.push_back(apart->drift);
+    }
+  const auto clear = [](const std::vector<double>& of_trial, double least) {
+    const auto n = static_cast<double>(of_trial.size());
+    double sum = 0.0, squares = 0.0;
+    for (const double x : of_trial) sum += x, squares += x * x;
+    const double mean = sum / n, variance = std::max(0.0, (squares - n * mean * mean) / (n - 1.0));
+    return std::abs(mean) > std::max(least, kClear * std::sqrt(variance / n));
+  };
+  return late_s.size() >= kLeastTrials && (clear(late_s, kLeastLate_s) || clear(drift, kLeastDrift));
+}
+
+}  // namespace sandhopper::diagnose

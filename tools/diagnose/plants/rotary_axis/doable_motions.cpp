@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/diagnose/model/sign_smooth.hpp"
+#include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/rotary_axis/rotary_figures.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kMotionStep_s = 1e-3;
+constexpr double kSmoothing_Hz = 4.0;  // no drive follows a corner
+constexpr double kPi = std::numbers::pi;
+
+struct Axis {
+  RotaryFigures is;
+  double gain = 1.0;  // of the torque that acts over the reported one
+  std::vector<const Law*> laws;
+
+  Axis(const Belief& belief, const Edits& edits) : is(belief, edits), laws(edits.at("axis")) {
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
+  }
+
+  // What acts on the axis besides the drive; `drive_Nm` is what the laws see of the drive.
+  double passive_Nm(double t_s, double angle, double speed, double drive_Nm) const {
+    return sum_of(laws, {.time_s = t_s, .position = angle, .velocity = speed, .load = drive_Nm}) -
+           is.gravity_torque_Nm * std::sin(angle - is.bottom_rad) - is.viscous_Nm_s * speed -
+           is.coulomb_Nm * sign_smooth(speed, is.switch_speed_radps);
+  }
+};
+
+struct PlannedMotion {
+  std::vector<double> angle_rad, speed_radps, torque_Nm;  // reported
+};
+
+PlannedMotion followed(const Axis& axis, double duration_s, const std::function<double(double)>& target_rad) {
+  PlannedMotion m;
+  constexpr double kPole = 2.0 * kPi * kSmoothing_Hz;
+  double angle = target_rad(0.0), speed = 0.0, drive_Nm = 0.0;
+  for (double t = 0.0; t <= duration_s; t += kMotionStep_s) {
+    const double accel = kPole * kPole * (target_rad(t) - angle) - 2.0 * kPole * speed;
+    drive_Nm = axis.is.inertia_kg_m2 * accel - axis.passive_Nm(t, angle, speed, drive_Nm);
+    m.angle_rad.push_back(angle);
+    m.speed_radps.push_back(speed);
+    m.torque_Nm.push_back(drive_Nm / axis.gain);
+    speed += accel * kMotionStep_s;
+    angle += speed * kMotionStep_s;
+  }
+  return m;
+}
+
+PlannedMotion released(const Axis& axis, double duration_s, double from_rad) {
+  PlannedMotion m;
+  double angle = from_rad, speed = 0.0;
+  constexpr int kParts = 20;  // friction near rest is stiff
+  for (double t = 0.0; t <= duration_s; t += kMotionStep_s) {
+    m.angle_rad.push_back(angle);
+    m.speed_radps.push_back(speed);
+    m.torque_Nm.push_back(0.0);
+    for (int i = 0; i < kParts; ++i) {
+      speed += kMotionStep_s / kParts * axis.passive_Nm(t, angle, speed, 0.0) / axis.is.inertia_kg_m2;
+      angle += kMotionStep_s / kParts * speed;
+    }
+  }
+  return m;
+}
+
+struct Wish {
+  std::string profile;  // empty: hold
+  std::map<std::string, double> setup;
+  std::function<double(double)> target_rad;
+};
+
+double triangle(double turns) {  // -1 to 1, from 0 upwards
+  return 2.0 / kPi * std::asin(std::sin(2.0 * kPi * turns));
+}
+
+std::vector<Wish> wishes(double duration_s) {
+  std::vector<Wish> all;
+  for (const double angle : {0.5, 1.57, 2.4})
+    all.push_back({"", {{"position_rad", angle}}, [=](double) { return angle; }});
+  for (const double angle : {0.6, 1.5, 2.4})
+    all.push_back({"release", {{"release_position_rad", angle}}, {}});
+  for (const double a : {0.3, 0.8, 1.5})
+    for (const double f : {0.3, 0.8, 1.5})
+      all.push_back({"sine", {{"amplitude_rad", a}, {"frequency_Hz", f}}, [=](double t) {
+                       return a * std::sin(2.0 * kPi * f * t);
+                     }});
+  for (const double a : {0.4, 1.0})
+    all.push_back({"chirp",
+                   {{"amplitude_rad", a}, {"frequency_Hz", 0.3}, {"end_frequency_Hz", 2.5}},
+                   [=](double t) { return a * std::sin(2.0 * kPi * (0.3 * t + 1.1 * t * t / duration_s)); }});
+  for (const double v : {0.1, 0.5, 2.0})
+    all.push_back({"ramp", {{"speed_radps", v}, {"amplitude_rad", 1.2}}, [=](double t) {
+                     return 1.2 * triangle(t * v / 4.8);
+                   }});
+  return all;
+}
+
+}  // namespace
+
+std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, const Belief& belief,
+                                        const Edits& edits) {
+  std::vector<DoableTrial> trials;
+  if (recorded.empty()) return trials;
+  double duration_s = 0.0;
+  for (const auto& trial : recorded)
+    if (!trial.time_s.empty()) duration_s = std::max(duration_s, trial.time_s.back());
+  duration_s = std::clamp(duration_s, 2.0, 10.0);
+  const Axis axis(belief, edits);
+  const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
+  for (const auto& wish : wishes(duration_s)) {
+    const PlannedMotion m = wish.target_rad
+                                ? followed(axis, duration_s, wish.target_rad)
+                                : released(axis, duration_s, wish.setup.at("release_position_rad"));
+    double strongest_Nm = 0.0;
+    for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));
+    if (!(strongest_Nm < 0.8 * range_Nm)) continue;
+    const auto at = [&](const std::vector<double>& values, double t) {
+      return values[std::min(values.size() - 1, static_cast<std::size_t>(t / kMotionStep_s + 0.5))];
+    };
+    DoableTrial one;
+    one.belief = belief;
+    one.trial = recorded_like(recorded.front(), duration_s, [&](const std::string& channel, double t) {
+      return channel == "position_rad"     ? at(m.angle_rad, t)
+             : channel == "velocity_radps" ? at(m.speed_radps, t)
+             : channel == "torque_Nm"      ? at(m.torque_Nm, t)
+                                           : 0.0;
+    });
+    one.trial.kind = wish.profile.empty() ? "hold" : "motion";
+    one.trial.setup = wish.setup;
+    one.trial.setup["duration_s"] = std::round(duration_s);
+    if (!wish.profile.empty()) one.words["profile"] = wish.profile;
+    trials.push_back(std::move(one));
+  }
+  return trials;
+}
+
+}  // namespace sandhopper::diagnose

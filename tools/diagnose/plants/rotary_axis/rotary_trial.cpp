@@ -1,0 +1,428 @@
+#include "tools/diagnose/plants/rotary_axis/rotary_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "tools/diagnose/model/sign_smooth.hpp"
+#include "tools/diagnose/model/virtual_channels.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/rotary_axis/nearby_sine.hpp"
+#include "tools/diagnose/plants/rotary_axis/rotary_balance.hpp"
+#include "tools/diagnose/plants/rotary_axis/rotary_figures.hpp"
+
+namespace sandhopper::diagnose {
+
+bool without_noise_alone(Samples& torque) {
+  constexpr double kNoiseAlone = 1.15;  // of its standard deviation
+  if (torque.value.size() < 100) return false;
+  const double n = static_cast<double>(torque.value.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double v : torque.value) mean += v / n;
+  for (const double v : torque.value) squares += (v - mean) * (v - mean) / n;
+  const double sd = std::sqrt(squares);
+  if (sd > kNoiseAlone * fluctuation_rms(torque)) return false;
+  std::ranges::fill(torque.value, std::abs(mean) < 3.0 * sd / std::sqrt(n) ? 0.0 : mean);
+  return true;
+}
+
+bool speed_of_encoder(const Belief& belief) {
+  return belief.value("sensors.encoder_velocity_bandwidth_Hz") > 0.0;
+}
+
+namespace {
+
+constexpr double kBlock_s = 0.5;
+constexpr double kMostRows = 3000.0;    // of a channel
+constexpr double kLong_s = 4.0;         // a recording this long is simulated in longer steps
+constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
+constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
+// Seconds and rows without torque: nothing is simulated over them.
+constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
+// Nor over shorter gaps that are far enough apart to leave something to simulate.
+constexpr double kGap_s = 5e-3, kGapRows = 2.5, kAlone_s = 0.3;
+constexpr double kShortest_s = 0.1;     // of what is simulated between two such times
+constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
+constexpr double kStart_rad = 0.05;     // a start is unsure by at least that
+enum Phase : std::uint32_t { kRest, kSlow, kFast };
+enum BlockNuisance : std::size_t { kPosition, kVelocity, kTorque, kTorqueRise };
+
+class RotaryTrial final : public TrialModel {
+ public:
+  RotaryTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
+    name = trial.name;
+    // Faster rows are averaged, over more the longer the recording is.
+    const double least_step_s =
+        std::max(5e-3, (trial.time_s.empty() ? 0.0 : trial.time_s.back()) / kMostRows);
+    const auto positions = averaged(samples_of(trial, "position_rad"), least_step_s);
+    const auto velocities = averaged(samples_of(trial, "velocity_radps"), least_step_s);
+    torque_ = samples_of(trial, "torque_Nm");
+    drive_acts_ = !without_noise_alone(torque_);
+    if (torque_.empty() || (positions.empty() && velocities.empty())) return;
+    const auto& lead = positions.empty() ? velocities : positions;
+    const double row_s = median_step_s(lead.time_s);
+    take_torque();
+    cut(trial.time_s.back(), std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
+    // Nobody knows the zero of a torque's sensor better than one of its readings, unless he says so.
+    const double unsaid_Nm = belief.value("sensors.torque_noise_Nm");
+    const double torque_sd = belief.value("spread.torque_offset_Nm", unsaid_Nm);
+    if (torque_sd > 0.0) {
+      trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
+      trial_nuisances.back().may_lean = belief.numbers.contains("spread.torque_offset_Nm");
+    }
+    if (stretches_.empty()) return;
+    add_rows(0, positions);
+    add_rows(1, velocities);
+    find_starts(positions, velocities, where_it_began(trial));
+  }
+
+  void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
+    const RotaryFigures f(belief_, edits);
+    const auto laws = edits.at("axis");
+    Signal torque = acting_torque(edits);
+    const std::size_t q = trial_nuisances.size();
+    if (q > 0)
+      for (double& value : torque.values) value += nuisances[0];
+    Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
+    const std::array clocks{SensorClock(edits, "position_rad"), SensorClock(edits, "velocity_radps")};
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      Stretch stretch = begun_where_read(b, clocks);
+      const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
+      stretch.position += own[kPosition] - read_too_far_rad(edits);
+      stretch.velocity += own[kVelocity];
+      if (own.size() > kTorque) {
+        const double acting = acting_per_recorded(edits, 0.5 * (stretch.from_s + stretch.to_s));
+        stretch.torque_Nm = acting * own[kTorque];
+        stretch.torque_rise_Nm = acting * own[kTorqueRise];
+      }
+      simulate(f, laws, torque, stretch, position, velocity);
+      read_by_angle(edits, position, velocity);
+      for (const std::uint32_t channel : {0u, 1u}) {
+        const auto& span = spans_[b][channel];
+        if (span.count == 0) continue;
+        Signal signal = channel == 0 ? position : velocity;
+        observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
+                std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
+        mirror_unknown(span, clocks[channel], SensorClock(edits, "actuator"), out);
+      }
+    }
+  }
+
+ private:
+  // What the velocity is read as where that hangs on the angle, too.
+  static void read_by_angle(const Edits& edits, const Signal& position, Signal& velocity) {
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == kVelocityOfAngle)
+        for (std::size_t i = 0; i < velocity.values.size(); ++i)
+          velocity.values[i] += edit.law({.position = position.values[i], .velocity = velocity.values[i]});
+  }
+
+  // A stretch begins where the encoder says, less what it is believed to be off by.
+  static double read_too_far_rad(const Edits& edits) {
+    double sum = 0.0;
+    for (const auto& edit : edits.sensors)
+      if (edit.channel == "position_rad" && edit.kind == SensorEdit::Kind::offset) sum += edit.value;
+    return sum;
+  }
+
+  // The noise of the torque's sensor is scaled as what it reads; where a drive saturates, by the slope there.
+  double acting_per_recorded(const Edits& edits, double time_s) const {
+    constexpr double kApart = 1e-3;  // of the torque
+    double gain = 1.0;
+    std::vector<const Law*> laws;
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "actuator") continue;
+      if (edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
+      if (edit.kind == SensorEdit::Kind::law) laws.push_back(&edit.law);
+    }
+    if (laws.empty()) return gain;
+    const double torque_Nm = gain * drive_.at(time_s);
+    const double apart_Nm = kApart * std::max(std::abs(torque_Nm), 0.1);
+    const auto acting = [&](double t) { return t + sum_of(laws, {.time_s = time_s, .position = t}); };
+    return gain * (acting(torque_Nm + apart_Nm) - acting(torque_Nm - apart_Nm)) / (2.0 * apart_Nm);
+  }
+
+  struct Stretch {
+    double from_s, to_s, position = 0.0, velocity = 0.0;
+    double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
+  };
+
+  // A stretch reaches as far as its rows do by their clocks. It begins where the encoder was read then, not
+  // where it was read with the same stamp; how fast is as unsure as before.
+  Stretch begun_where_read(std::uint32_t b, const std::array<SensorClock, 2>& clocks) const {
+    Stretch s = stretches_[b];
+    double first_s = s.from_s;
+    for (const std::uint32_t channel : {0u, 1u}) {
+      if (spans_[b][channel].count == 0) continue;
+      first_s = std::min(first_s, clocks[channel].taken_s(stretches_[b].from_s));
+      s.to_s = std::max(s.to_s, clocks[channel].taken_s(stretches_[b].to_s));
+    }
+    const bool before = first_s < s.from_s - lead_in_s_;
+    if (before) s.from_s = std::max(0.0, s.from_s - std::ceil((s.from_s - first_s) / step_s_) * step_s_);
+    const SensorClock& lead = clocks[lead_channel_];
+    if (before || lead.rate != 1.0 || lead.late_s != 0.0) s.position = angle_.at(lead.stamp_s(s.from_s));
+    return s;
+  }
+
+  struct Span {
+    std::size_t first = 0, count = 0;
+  };
+
+  // Nothing is known of rows taken before or after the torque was recorded: they are as far off as those that
+  // mirror them at its end, which neither costs nor gains anything.
+  void mirror_unknown(const Span& span, const SensorClock& clock, const SensorClock& drive,
+                      std::span<double> out) const {
+    const double from_s = drive.stamp_s(torque_.time_s.front()) - lead_in_s_;
+    const double until_s = drive.stamp_s(torque_.time_s.back()) + torque_row_s_;
+    std::size_t known = span.first, end = span.first + span.count;
+    while (known < end && clock.taken_s(times_[known]) < from_s) ++known;
+    while (end > known && clock.taken_s(times_[end - 1]) > until_s) --end;
+    if (known == end) return;
+    const auto mirror = [&](std::size_t i, std::size_t at) {
+      out[i] = rows[i].measured + out[at] - rows[at].measured;
+    };
+    for (std::size_t i = span.first; i < known; ++i) mirror(i, std::min(2 * known - 1 - i, end - 1));
+    for (std::size_t i = end; i < span.first + span.count; ++i)
+      mirror(i, end - 1 - std::min(i - end, end - 1 - known));
+  }
+
+  // From row to row the torque goes over smoothly; a step of the simulation takes its mean, that of straight
+  // lines less what a cubic bends from them, h^2 f'' / 12. A drive that holds the torque acts half a row
+  // later, which the tolerance of the channels' times allows for.
+  void take_torque() {
+    const double row_s = torque_row_s_ = median_step_s(torque_.time_s);
+    const auto rows_per_step = static_cast<std::size_t>(
+        std::clamp(std::round(torque_.time_s.back() > kLong_s ? 4e-3 / row_s : 2e-3 / row_s), 1.0, 8.0));
+    step_s_ = std::min(row_s * static_cast<double>(rows_per_step), 5e-3);
+    const auto count = static_cast<std::size_t>(std::ceil(torque_.time_s.back() / step_s_)) + 2;
+    constexpr std::size_t kParts = 8;
+    const Signal fine = on_grid(torque_, 0.0, step_s_ / kParts, count * kParts, false);
+    drive_ = {0.0, step_s_, std::vector<double>(count, 0.0)};
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < kParts; ++k) drive_.values[i] += fine.values[i * kParts + k] / kParts;
+    const auto straight = drive_.values;
+    const double share = row_s * row_s / (12.0 * step_s_ * step_s_);
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      drive_.values[i] -= share * (straight[i - 1] - 2.0 * straight[i] + straight[i + 1]);
+  }
+
+  // Stretches of about `block_s`, none of which holds a time over which the torque is not known. Each begins
+  // on a step of the torque's grid.
+  void cut(double end_s, double block_s) {
+    const double row_s = median_step_s(torque_.time_s);
+    const double unknown_s = std::max(kUnknown_s, kUnknownRows * row_s);
+    const double gap_s = std::max(kGap_s, kGapRows * row_s);
+    std::vector<std::pair<double, double>> gaps;  // first and last time
+    for (std::size_t i = 1; i < torque_.time_s.size(); ++i)
+      if (torque_.time_s[i] - torque_.time_s[i - 1] > gap_s)
+        gaps.emplace_back(torque_.time_s[i - 1], torque_.time_s[i]);
+    std::vector<std::pair<double, double>> known{{0.0, end_s}};
+    for (std::size_t g = 0; g < gaps.size(); ++g) {
+      const auto& [first_s, last_s] = gaps[g];
+      const bool alone = (g == 0 || first_s - gaps[g - 1].second > kAlone_s) &&
+                         (g + 1 == gaps.size() || gaps[g + 1].first - last_s > kAlone_s);
+      if (!alone && last_s - first_s <= unknown_s) continue;
+      known.back().second = first_s;
+      known.emplace_back(last_s, end_s);
+    }
+    for (const auto& [first_s, last_s] : known) {
+      const double from = std::ceil(first_s / step_s_ - 1e-9), steps = last_s / step_s_ - from;
+      if (known.size() > 1 && steps * step_s_ < kShortest_s) continue;
+      const double parts = std::max(1.0, std::floor(steps * step_s_ / block_s));
+      const double each = std::ceil(steps / parts + 1e-9);
+      for (double at = 0.0; at < steps; at += each)
+        stretches_.push_back(
+            {step_s_ * (from + at), step_s_ * (from + std::min(at + each, std::ceil(steps + 1e-9)))});
+    }
+    blocks = static_cast<std::uint32_t>(stretches_.size());
+  }
+
+  Signal acting_torque(const Edits& edits) const {
+    const Signal& recorded = drive_;
+    const auto count = recorded.values.size();
+    bool edited = false;
+    for (const auto& edit : edits.sensors) edited = edited || edit.channel == "actuator";
+    if (!edited) return recorded;
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < count; ++i) times[i] = step_s_ * static_cast<double>(i);
+    Signal acting{0.0, step_s_, std::vector<double>(count)};
+    Signal used = recorded;
+    observe(used, {}, edits, "actuator", times, acting.values);
+    return acting;
+  }
+
+  void add_rows(std::uint32_t channel, const Samples& samples) {
+    if (spans_.empty()) spans_.assign(blocks, {});
+    for (std::size_t i = 0; i < samples.value.size(); ++i) {
+      const double t = samples.time_s[i];
+      const auto after = std::ranges::upper_bound(stretches_, t, {}, &Stretch::from_s);
+      if (after == stretches_.begin() || (after - 1)->to_s < t) continue;
+      const auto block = static_cast<std::uint32_t>(after - stretches_.begin() - 1);
+      auto& span = spans_[block][channel];
+      if (span.count++ == 0) span.first = rows.size();
+      times_.push_back(t);
+      rows.push_back({channel, block, kFast, t, samples.value[i]});
+    }
+  }
+
+  // Standard deviation over stretches of the noise of the torque's sensor, which the simulated axis follows
+  // and the recorded one did not: white, s / sqrt(n).
+  double torque_unknown_Nm() const {
+    if (!drive_acts_) return 0.0;
+    const double rows = static_cast<double>(torque_.time_s.size()) / static_cast<double>(blocks);
+    return belief_.value("sensors.torque_noise_Nm") / std::sqrt(std::max(1.0, rows));
+  }
+
+  // By the set-up.
+  static std::optional<double> where_it_began(const Trial& trial) {
+    for (const auto* key : {"position_rad", "release_position_rad"})
+      if (const auto it = trial.setup.find(key); it != trial.setup.end()) return it->second;
+    return std::nullopt;
+  }
+
+  // State at the beginning of each block, from the recording smoothed; the fit moves it from there. Without a
+  // position it starts from `began_rad`.
+  void find_starts(const Samples& positions, const Samples& velocities, std::optional<double> began_rad) {
+    const auto& lead = positions.empty() ? velocities : positions;
+    const double row_s = median_step_s(lead.time_s);
+    const auto half_width = static_cast<std::size_t>(std::clamp(0.01 / row_s, 3.0, 12.0));
+    const Smoothed at = smooth(lead, half_width);
+    Samples position = lead, velocity = lead;
+    if (!positions.empty()) {
+      position.value = at.value;
+      velocity.value = at.rate;
+    } else {
+      velocity.value = at.value;
+      double angle = began_rad.value_or(0.0);
+      for (std::size_t i = 0; i < position.value.size(); ++i) {
+        if (i > 0) angle += 0.5 * (at.value[i] + at.value[i - 1]) * (lead.time_s[i] - lead.time_s[i - 1]);
+        position.value[i] = angle;
+      }
+    }
+    const auto count = static_cast<std::size_t>(std::ceil(stretches_.back().to_s / step_s_)) + 2;
+    const Samples turns{position.time_s, last_turns(position.value, kTurn_rad)};
+    turned_at_ = on_grid(turns, 0.0, step_s_, count, true);
+    lead_channel_ = positions.empty() ? 1 : 0;
+    angle_ = on_grid(position, 0.0, step_s_, count, false);
+    const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
+    for (Stretch& stretch : stretches_) {
+      stretch.position = angle_.at(stretch.from_s);
+      stretch.velocity = speed.at(stretch.from_s);
+    }
+    double fastest = 0.0;
+    for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
+    const double noise = std::max(fluctuation_rms(lead), 1e-6);
+    const bool is_told = positions.empty() && began_rad;
+    block_nuisances = {{"position_rad", is_told ? kStart_rad : std::max(kStart_rad, 20.0 * noise), 1e-4},
+                       {"velocity_radps", std::max(0.3 * fastest, 0.05), 1e-3 * std::max(fastest, 0.1)}};
+    if (const double sd = torque_unknown_Nm(); sd > 0.0) {
+      block_nuisances.push_back({"torque_Nm", sd, 0.1 * sd});
+      block_nuisances.push_back({"torque_rise_Nm", std::sqrt(3.0) * sd, 0.1 * sd});
+    }
+    Coordinate v{"velocity_radps", {}}, p{"position_rad", {}}, torque{"torque_Nm", {}}, time{"t_s", {}};
+    for (Row& row : rows) {
+      v.values.push_back(speed.at(row.time_s));
+      p.values.push_back(angle_.at(row.time_s));
+      torque.values.push_back(drive_.at(row.time_s));
+      time.values.push_back(row.time_s);
+      const double share = std::abs(v.values.back()) / std::max(fastest, 1e-9);
+      row.phase = share < 0.03 ? kRest : share < 0.4 ? kSlow : kFast;
+    }
+    coordinates = {std::move(v), std::move(p), std::move(torque), std::move(time)};
+    sensors_[0] = sensor_belief(belief_, "position", "rad");
+    sensors_[1] =
+        sensor_belief(belief_, speed_of_encoder(belief_) ? "encoder_velocity" : "velocity", "radps");
+    if (const double bandwidth_Hz = sensors_[1].bandwidth_Hz; bandwidth_Hz > 0.0)
+      lead_in_s_ = std::max(kLeadIn_s, kTimeConstants / (2.0 * std::numbers::pi * bandwidth_Hz));
+  }
+
+  void simulate(const RotaryFigures& f, const std::vector<const Law*>& laws, const Signal& torque,
+                const Stretch& s, Signal& position, Signal& velocity) const {
+    const auto lead_in = static_cast<std::size_t>(std::ceil(lead_in_s_ / step_s_));
+    const auto count = lead_in + static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
+    position.start_s = velocity.start_s = s.from_s - step_s_ * static_cast<double>(lead_in);
+    position.values.resize(count);
+    velocity.values.resize(count);
+    double th = s.position, w = s.velocity;
+    // Friction near rest is stiff: its own rate limits the step.
+    const double stiffness_per_s = f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
+    const double slow_steps = std::ceil(step_s_ * stiffness_per_s / 1.5);
+    const auto accel = [&](const NearbySine& sine, double t, double torque_Nm, double angle, double speed) {
+      double sum = torque_Nm - f.gravity_torque_Nm * sine(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
+      if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
+      if (!laws.empty())
+        sum += sum_of(
+            laws,
+            {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm, .extreme = turned_at(t)});
+      return sum / f.inertia_kg_m2;
+    };
+    const auto torque_at = [&](double t) {  // mean of the step that begins then
+      const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
+      return s.torque_Nm + at * s.torque_rise_Nm + torque.values[step_of(t, torque)];
+    };
+    const auto rise_at = [&](double t) {  // over that step
+      const std::size_t i = step_of(t, torque);
+      return i == 0 || i + 1 == torque.values.size() ? 0.0
+                                                     : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
+    };
+    // A reading that is late shows at first what was before: what a steady acceleration leads there from.
+    const double first = accel(NearbySine(th - f.bottom_rad), s.from_s, torque_at(s.from_s), th, w);
+    for (std::size_t i = 0; i < lead_in; ++i) {
+      const double t = -step_s_ * static_cast<double>(lead_in - i);
+      position.values[i] = th + t * (w + 0.5 * t * first);
+      velocity.values[i] = w + t * first;
+    }
+    for (std::size_t i = lead_in; i < count; ++i) {
+      position.values[i] = th;
+      velocity.values[i] = w;
+      const double t0 = s.from_s + step_s_ * static_cast<double>(i - lead_in);
+      const double tau = torque_at(t0), rise = rise_at(t0);
+      const bool near_rest = std::abs(w) < 8.0 * f.switch_speed_radps;
+      const int parts =
+          static_cast<int>(std::clamp(near_rest ? slow_steps : 1.0, !laws.empty() ? 2.0 : 1.0, 40.0));
+      const double dt = step_s_ / parts;
+      for (int k = 0; k < parts; ++k) {
+        const double t = t0 + dt * k, half = 0.5 / parts;
+        const double middle = tau + rise * ((k + 0.5) / parts - 0.5);
+        const NearbySine sine(th - f.bottom_rad);
+        const double a1 = accel(sine, t, middle - half * rise, th, w);
+        const double a2 = accel(sine, t, middle, th + 0.5 * dt * w, w + 0.5 * dt * a1);
+        const double a3 = accel(sine, t, middle, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
+        const double a4 = accel(sine, t, middle + half * rise, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
+        th += dt * (w + dt * (a1 + a2 + a3) / 6.0);
+        w += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
+        w = std::clamp(w, -1e4, 1e4);
+      }
+    }
+  }
+
+  std::size_t step_of(double t, const Signal& torque) const {
+    return std::min(torque.values.size() - 1,
+                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))));
+  }
+
+  double turned_at(double t) const {
+    return turned_at_
+        .values[std::min(turned_at_.values.size() - 1, static_cast<std::size_t>(std::max(0.0, t / step_s_)))];
+  }
+
+  Belief belief_;
+  Samples torque_;
+  Signal drive_, turned_at_, angle_;  // the last as recorded, smoothed
+  std::size_t lead_channel_ = 0;
+  bool drive_acts_ = true;
+  double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
+  std::vector<Stretch> stretches_;
+  std::vector<std::array<Span, 2>> spans_;
+  std::array<SensorBelief, 2> sensors_{};
+  std::vector<double> times_;
+};
+
+}  // namespace
+
+std::unique_ptr<TrialModel> make_rotary_trial(const Trial& trial, const Belief& belief) {
+  return std::make_unique<RotaryTrial>(trial, belief);
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,185 @@
+#include "tools/diagnose/recordings/campaign_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "tools/campaign/setup_keys.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/rotary_axis/free_axis.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+template <class T>
+void flatten(const T& table, const std::string& prefix, std::map<std::string, double>& out) {
+  T::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
+    const std::string name = prefix + std::string(key);
+    if constexpr (HasFields<const Member>) {
+      flatten(member, name + ".", out);
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      out[name] = static_cast<double>(member);
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+      if (member) out[name] = *member;
+    }
+  });
+}
+
+PlantKind kind_of(CampaignPlant plant) {
+  switch (plant) {
+    case CampaignPlant::hopper:
+      return PlantKind::hopper;
+    case CampaignPlant::intruder:
+      return PlantKind::intruder;
+    case CampaignPlant::falling_body:
+      return PlantKind::falling_body;
+    case CampaignPlant::rotary_axis:
+      return PlantKind::rotary_axis;
+  }
+  return PlantKind::hopper;
+}
+
+// A channel at the end of its range, or at one value, in all trials: what it does show counts, and what ails
+// it is a finding.
+void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
+                               std::vector<Trial>& trials) {
+  std::map<std::string, std::size_t> count;
+  for (const auto& channels : of_trials)
+    for (const auto& channel : channels) ++count[channel.name];
+  for (std::size_t t = 0; t < trials.size(); ++t)
+    for (const auto& channel : of_trials[t])
+      if (count[channel.name] == trials.size() && channel.values.size() == trials[t].time_s.size())
+        trials[t].channels[channel.name] = channel.values;
+}
+
+// Set-ups under the names that plants know, where the experimenter gave them others.
+void translate_setups(const Campaign& campaign, CampaignInput& input) {
+  auto& trials = input.recordings.trials;
+  std::map<std::string, SetupMeaning> meanings;
+  for (const auto& trial : trials)
+    for (const auto& [key, value] : trial.setup)
+      if (const auto meaning = meaning_of_setup(key)) meanings.emplace(key, *meaning);
+  for (const auto& [key, meaning] : meanings) {
+    const std::string& usual = meaning.key;
+    const bool is_told =
+        std::ranges::any_of(trials, [&](const Trial& trial) { return trial.setup.contains(usual); });
+    if (is_told) continue;
+    double least = 0.0;
+    if (meaning.is_ordinal) {
+      least = std::numeric_limits<double>::infinity();
+      for (const auto& trial : trials) least = std::min(least, trial.setup_or(key, least));
+    }
+    for (auto& trial : trials)
+      if (const auto it = trial.setup.find(key); it != trial.setup.end())
+        trial.setup[usual] = meaning.scale * (it->second - least);
+    input.findings.push_back({.kind = FindingKind::set_up,
+                              .severity = FindingSeverity::note,
+                              .file = campaign.file.string(),
+                              .channel = key,
+                              .what = fmt::format("is taken for {}", usual),
+                              .cure = fmt::format("write {} to say so", usual)});
+  }
+}
+
+// A trial's time begins with its first row. A body falls from the start of its trial, which lies up to a row
+// of its camera before that: where the first rows of all trials are within a row of each other, one time is
+// the start of all: 0, or the earliest of them where the clock began elsewhere.
+void begin_at_zero(Recordings& recordings) {
+  constexpr double kRows = 1.5;
+  auto& trials = recordings.trials;
+  double earliest_s = 1e300, latest_s = -1e300, row_s = 0.0;
+  for (const auto& trial : trials) {
+    if (trial.time_s.empty()) continue;
+    earliest_s = std::min(earliest_s, trial.time_s.front());
+    latest_s = std::max(latest_s, trial.time_s.front());
+    row_s = std::max(row_s, kRows * median_step_s(trial.time_s));
+  }
+  const bool together = recordings.plant == PlantKind::falling_body && latest_s - earliest_s <= row_s;
+  const double shared_s = earliest_s >= 0.0 && earliest_s <= row_s ? 0.0 : earliest_s;
+  for (auto& trial : trials) {
+    if (trial.time_s.empty()) continue;
+    const double start_s = together ? shared_s : trial.time_s.front();
+    for (double& t : trial.time_s) t -= start_s;
+  }
+}
+
+void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInput& input) {
+  const auto tell = [&](std::string what, std::string cure) {
+    input.findings.push_back({.kind = FindingKind::set_up,
+                              .severity = FindingSeverity::note,
+                              .file = campaign.file.string(),
+                              .channel = "torque_Nm",
+                              .what = std::move(what),
+                              .cure = std::move(cure)});
+  };
+  const std::size_t all = input.recordings.trials.size();
+  if (free.without_torque > 0)
+    tell(fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
+                     free.without_torque, all),
+         "record it, or write motor_enabled = true for a trial that is driven, which is then left out");
+  if (free.held > 0)
+    tell(fmt::format(
+             "is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} s "
+             "at most; these rows are not used",
+             free.held, all, free.longest_held_s),
+         "cut the recording where the axis is let go");
+}
+
+}  // namespace
+
+Belief flattened(const sandhopper::Belief& belief) {
+  Belief flat;
+  std::visit(
+      [&](const auto& plant) {
+        flatten(plant, "", flat.numbers);
+        flat.effects = plant.effects;
+      },
+      belief);
+  return flat;
+}
+
+CampaignInput read_campaign(const Campaign& campaign) {
+  CampaignInput input;
+  input.recordings.plant = kind_of(campaign.plant);
+  input.recordings.belief = flattened(campaign.belief);
+  input.findings = campaign.findings;
+  std::vector<std::vector<TrialRecording::Channel>> at_one_value;
+  std::vector<std::optional<bool>> motor_on;
+  for (const auto& described : campaign.trials) {
+    const TrialRecording recording = read_trial(campaign, described);
+    for (const auto& finding : recording.findings)  // a file that several trials share has each once
+      if (std::ranges::find(input.findings, finding) == input.findings.end())
+        input.findings.push_back(finding);
+    if (!recording.usable()) {
+      ++input.unusable;
+      continue;
+    }
+    Trial trial;
+    trial.name = std::filesystem::path(described.name).stem().string();
+    trial.kind = name_of(described.kind);
+    for (const auto& entry : described.setup)
+      if (const auto* number = std::get_if<double>(&entry.value)) trial.setup[entry.key] = *number;
+    trial.time_s = recording.t_s;
+    for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
+    input.recordings.trials.push_back(std::move(trial));
+    at_one_value.push_back(recording.at_one_value);
+    motor_on.push_back(described.flag("motor_enabled"));
+    input.recordings.beliefs.push_back(flattened(described.belief));
+  }
+  take_what_is_at_one_value(at_one_value, input.recordings.trials);
+  if (input.recordings.plant == PlantKind::rotary_axis) {
+    const FreeAxes free = take_free_axes(input.recordings.trials, motor_on);
+    tell_free_axes(campaign, free, input);
+  }
+  begin_at_zero(input.recordings);
+  translate_setups(campaign, input);
+  return input;
+}
+
+}  // namespace sandhopper::diagnose

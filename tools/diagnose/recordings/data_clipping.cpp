@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tools/diagnose/fit/statistics.hpp"
+#include "tools/diagnose/recordings/data_fault_parts.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kPileUp = 0.01;        // of all samples, exactly on the end value
+constexpr std::size_t kLeast = 6;       // samples there
+constexpr std::size_t kFewest = 10;     // that tell a trial's noise
+constexpr std::size_t kInARow = 4;      // of them whose forerunner is there, too: a blow is short
+constexpr double kGridSteps = 3.0;      // noise must move the sensor by this many
+constexpr double kLifted = 3.0;         // standard deviations that noise may take a sample off the limit
+constexpr std::ptrdiff_t kAround = 12;  // samples on each side, whose median says where the quantity is
+constexpr std::ptrdiff_t kBeside = 2;   // samples on each side that a blow may lift off the limit
+
+// An accelerometer clips; the other sensors saturate.
+std::string range_fault(const std::string& channel) {
+  return channel.starts_with("imu_") ? "imu.clipping" : "sensor.saturation";
+}
+
+// Of the samples off the ends: on them there is no noise.
+double noise_off(const std::vector<SampledChannel>& samples, double low, double high) {
+  auto inside = samples;
+  for (auto& s : inside) {
+    std::vector<double> values, times_s;
+    for (std::size_t i = 0; i < s.value.size(); ++i)
+      if (s.value[i] != low && s.value[i] != high) {
+        values.push_back(s.value[i]);
+        times_s.push_back(s.time_s[i]);
+      }
+    s.value = std::move(values);
+    s.time_s = std::move(times_s);
+  }
+  std::erase_if(inside, [](const SampledChannel& s) { return s.value.size() < kFewest; });
+  return own_noise(inside);
+}
+
+// Which samples may have been cut. Where the quantity changes slowly, its neighbours say so and not its own
+// value: of samples near the limit those that noise took down would be left, and pass for what the quantity
+// was.
+std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double noise) {
+  const auto n = static_cast<std::ptrdiff_t>(beyond.size());
+  const auto at = [&](std::ptrdiff_t i) { return beyond[static_cast<std::size_t>(i)]; };
+  std::vector<std::size_t> near;
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    bool cut = false;
+    for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - kBeside); k <= std::min(n - 1, i + kBeside); ++k)
+      cut = cut || (at(k) == 0.0 && at(i) > -kLifted * noise);
+    if (!cut && at(i) > -2.0 * kLifted * noise) {
+      const auto reach = std::min({kAround, i, n - 1 - i});
+      cut = median({beyond.begin() + (i - reach), beyond.begin() + (i + reach + 1)}) > -kLifted * noise;
+    }
+    if (cut) near.push_back(static_cast<std::size_t>(i));
+  }
+  return near;
+}
+
+}  // namespace
+
+void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
+  const auto samples = sampled(trials, channel);
+  double low = 1e300, high = -1e300, total = 0.0;
+  for (const auto& s : samples)
+    for (const double v : s.value) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+      ++total;
+    }
+  if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
+    // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
+    DataFault always{.channel = channel,
+                     .id = range_fault(channel),
+                     .stretches = samples.size(),
+                     .limit = high,
+                     .borderline = true,
+                     .trials = {}};
+    for (const auto& s : samples) {
+      always.trials.push_back(s.trial->name);
+      for (const std::size_t row : s.rows)
+        s.trial->channels[channel][row] = std::numeric_limits<double>::quiet_NaN();
+    }
+    faults.push_back(std::move(always));
+    return;
+  }
+  if (total < 50.0 || !(high > low)) return;
+  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
+  if (noise < kGridSteps * grid) return;
+  DataFault fault;
+  fault.channel = channel;
+  fault.id = range_fault(channel);
+  fault.limit_resolution = 0.5 * grid;
+  for (const double end : {high, low}) {
+    double at_end = 0.0, next = 0.0;
+    std::size_t in_a_row = 0;
+    for (const auto& s : samples)
+      for (std::size_t i = 0; i < s.value.size(); ++i) {
+        const double v = s.value[i];
+        at_end += v == end ? 1.0 : 0.0;
+        in_a_row += i > 0 && v == end && s.value[i - 1] == end;
+        next += v != end && std::abs(v - end) < 4.5 * grid ? 1.0 : 0.0;
+      }
+    // Without a limit the end value is met about as often as the four steps below it.
+    if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
+    if (at_end < kPileUp * total && in_a_row < kInARow) continue;
+    if (fault.limit != 0.0 && std::abs(end) < std::abs(fault.limit)) continue;
+    fault.limit = end;
+  }
+  if (fault.limit == 0.0) return;
+  const bool both = high == -low;
+  for (const auto& s : samples) {
+    auto& values = s.trial->channels[channel];
+    bool hit = false;
+    for (const double sign : {1.0, -1.0}) {
+      if (!both && fault.limit != (sign > 0.0 ? high : low)) continue;
+      std::vector<double> beyond;
+      for (const double v : s.value) beyond.push_back(sign > 0.0 ? v - high : low - v);
+      hit = hit || std::ranges::find(beyond, 0.0) != beyond.end();
+      for (const std::size_t i : near_limit(beyond, noise))
+        values[s.rows[i]] = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (hit) {
+      fault.trials.push_back(s.trial->name);
+      ++fault.stretches;
+    }
+  }
+  faults.push_back(std::move(fault));
+}
+
+}  // namespace sandhopper::diagnose
