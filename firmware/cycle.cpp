@@ -14,6 +14,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
   frame_.request = turn.request;
   parts_.board.read(frame_);
   const StepOutput& output = parts_.controller.step(frame_);
+  parts_.board.note_fault(output.fault);
   parts_.board.write(output.command);
 
   parts_.logger.push(parts_.topics.frame, turn.time_ns, frame_);

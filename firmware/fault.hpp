@@ -63,9 +63,10 @@ enum class Fault : std::uint8_t {
   cycle_overruns,
   watchdog_tripped,
   estimate_diverged,
+  transmit_refused,
 };
 
-inline constexpr std::size_t kFaultCount = 51;
+inline constexpr std::size_t kFaultCount = 52;
 
 // What the robot does about a fault, gentlest first; a harsher one replaces a gentler one.
 //   stop: the next touchdown, or the present stance, becomes a soft stop
@@ -270,6 +271,13 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "compare tof.height_m (/frame) with estimate.body_z_m (/output) in the log to see which went wrong: an "
      "impact beyond accel_range_g of the IMUs (softer ground, lower release), an IMU whose zero moved since "
      "arming, or something in the ToF sensor's beam"},
+    {Fault::transmit_refused, "transmit_refused", Reaction::limp, Latch::until_restart, 2,
+     "the transmit guard did not let a frame out to the drives: it broke a rule, so the controller or the "
+     "motor "
+     "driver is wrong",
+     "send the log: bus.refused (/frame) has the rule and the frame's bytes, the CAN log has it as a "
+     "comment; "
+     "check limits.* and motor.* if they were changed last"},
 }};
 
 template <>

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/adc/load_cell_reader.hpp"
+#include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
@@ -11,7 +12,9 @@
 #include "drivers/imu/imu_reader.hpp"
 #include "drivers/latest.hpp"
 #include "drivers/tof/afbr_s50.hpp"
+#include "drivers/transmit_guard/guarded_port.hpp"
 #include "firmware/acquisition_thread.hpp"
+#include "firmware/transmit_limits.hpp"
 
 namespace sandhopper {
 
@@ -23,6 +26,7 @@ struct LinuxBoardDevices {
   std::unique_ptr<LoadCellReader> load_cell;
   std::unique_ptr<AfbrS50> tof;
   std::unique_ptr<CubeMarsDrives> drives;
+  GuardedPort* guard = nullptr;  // the drives own it
 };
 
 struct LinuxBoard::Acquisition {
@@ -60,6 +64,14 @@ class Opening {
   std::vector<DeviceReport> reports_;
 };
 
+// The driver reaches the bus through the transmit guard only.
+void open_drives(const LinuxBoardConfig& config, LinuxBoardDevices& d) {
+  auto socket = std::make_unique<CanSocket>(config.can.interface, CubeMarsBus(config.can).filters());
+  auto guard = std::make_unique<GuardedPort>(std::move(socket), transmit_limits(config.can, config.limits));
+  d.guard = guard.get();
+  d.drives = std::make_unique<CubeMarsDrives>(config.can, std::move(guard));
+}
+
 std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDevices& d, CanTap* tap) {
   Opening opening;
   opening.open("estop", d.estop, "estop", config.estop);
@@ -68,7 +80,7 @@ std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDev
   opening.open("imu_foot", d.imu_foot, "imu_foot", config.imu_foot);
   opening.open("load_cell", d.load_cell, config.load_cell);
   opening.open("tof", d.tof, config.tof);
-  opening.open("can", d.drives, config.can);
+  opening.attempt("can", [&] { open_drives(config, d); });
   if (d.drives) {
     d.drives->set_tap(tap);
     opening.attempt("motors", [&] { d.drives->probe(); });
@@ -127,14 +139,18 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
   take(a.load_cell, frame.load_cell);
   take(a.tof, frame.tof);
   frame.bus = d.drives->bus_sample();
+  frame.bus.refused = d.guard->refused();
   // A press that is over before the next cycle leaves an edge; a lost edge leaves the level.
   const bool pressed = d.estop->wait(0).has_value();
-  frame.emergency_stop = d.estop->active() || pressed;
+  frame.emergency_stop = emergency_stop_ = d.estop->active() || pressed;
 }
 
 void LinuxBoard::write(const Command& command) noexcept {
   const bool tripped = heart_ != nullptr && heart_->tripped();
-  devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, monotonic_ns());
+  const auto now_ns = monotonic_ns();
+  devices_->guard->begin(
+      {.now_ns = now_ns, .allowance = allowance_of(latched_), .emergency_stop = emergency_stop_});
+  devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, now_ns);
   if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
 }
 

@@ -63,6 +63,7 @@ class LinuxBoard : public Board {
   LinuxBoard& operator=(const LinuxBoard&) = delete;
 
   void read(SensorFrame& frame) noexcept override;
+  void note_fault(Fault latched) noexcept override { latched_ = latched; }
   void write(const Command& command) noexcept override;
 
   // From now on what was worked out before a trip of the cycle's watchdog is not sent. `heart` must outlive
@@ -77,6 +78,8 @@ class LinuxBoard : public Board {
   std::unique_ptr<LinuxBoardDevices> devices_;
   std::unique_ptr<Acquisition> acquisition_;
   const Heartbeat* heart_ = nullptr;
+  Fault latched_ = Fault::none;
+  bool emergency_stop_ = true;  // as last read
 };
 
 // One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no

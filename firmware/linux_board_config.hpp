@@ -5,6 +5,7 @@
 #include "drivers/gpio/line_config.hpp"
 #include "drivers/imu/imu_config.hpp"
 #include "drivers/tof/tof_config.hpp"
+#include "firmware/controller_config.hpp"
 
 namespace sandhopper {
 
@@ -21,6 +22,9 @@ struct LinuxBoardConfig {
   // Active holds the body, inactive lets go. Line empty: no catch.
   LineConfig body_catch{.chip = "", .line = "CATCH"};
   std::optional<BoardCalibrations> calibration{};
+  // Not keys here, like the motors of `can`: the robot's limits, which the transmit guard holds frames
+  // against.
+  LimitsConfig limits{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {

@@ -14,6 +14,8 @@ class CanTap {
  public:
   virtual ~CanTap() = default;
   virtual void on_frame(const can_frame& frame, std::int64_t monotonic_ns, bool sent) noexcept = 0;
+  // The transmit guard kept this frame from being sent.
+  virtual void on_refused(const can_frame&, std::int64_t /*monotonic_ns*/) noexcept {}
 };
 
 struct ReceivedFrame {

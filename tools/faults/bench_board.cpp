@@ -1,5 +1,7 @@
 #include "tools/faults/bench_board.hpp"
 
+#include "firmware/transmit_limits.hpp"
+
 namespace sandhopper::faults {
 
 CanConfig can_of(const RobotConfig& robot) {
@@ -9,12 +11,20 @@ CanConfig can_of(const RobotConfig& robot) {
   return can;
 }
 
-BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed)
+BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed, const BenchStages& stages)
     : world_(world), imu_body_(seed + 1), imu_foot_(seed + 2), tof_(seed + 3), load_cell_(seed + 4) {
   const auto can = can_of(robot);
   auto bus = std::make_unique<EmulatedBus>(world, can, seed);
   bus_ = bus.get();
-  drives_ = std::make_unique<CubeMarsDrives>(can, std::move(bus));
+  const auto pass = [](const BenchStages::Stage& stage, std::unique_ptr<CanPort> port) {
+    return stage ? stage(std::move(port)) : std::move(port);
+  };
+  auto guard = std::make_unique<GuardedPort>(pass(stages.behind_guard, std::move(bus)),
+                                             transmit_limits(can, robot.limits));
+  guard_ = guard.get();
+  auto miscoding = std::make_unique<MiscodingPort>(std::move(guard));
+  miscoding_ = miscoding.get();
+  drives_ = std::make_unique<CubeMarsDrives>(can, pass(stages.before_guard, std::move(miscoding)));
 }
 
 void BenchBoard::read(SensorFrame& frame) noexcept {
@@ -29,11 +39,14 @@ void BenchBoard::read(SensorFrame& frame) noexcept {
   tof_.pass(world_.tof(), frame.time_ns, frame.tof);
   load_cell_.pass(world_.load_cell(), frame.time_ns, frame.load_cell);
   frame.bus = drives_->bus_sample();
-  frame.emergency_stop = stop_level_ || stop_edge_;
+  frame.bus.refused = guard_->refused();
+  frame.emergency_stop = emergency_stop_ = stop_level_ || stop_edge_;
   stop_edge_ = false;
 }
 
 void BenchBoard::write(const Command& command) noexcept {
+  guard_->begin(
+      {.now_ns = world_.now_ns(), .allowance = allowance_of(latched_), .emergency_stop = emergency_stop_});
   drives_->command(command.motor, command.drive, world_.now_ns());
   if (command.open_catch) world_.open_catch();
 }
@@ -44,6 +57,7 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
     case Device::motor_left:
     case Device::motor_right:
     case Device::bus:
+      miscoding_->set(kind == Kind::miscoded);
       bus_->set(device, kind);
       return;
     case Device::imu_body:

@@ -132,6 +132,7 @@ void add_bus(Cells& cells) {
   cells.in_every_phase(bus, Kind::malformed, Fault::motor_reply_foreign);
   cells.in_every_phase(bus, Kind::overflow, Fault::bus_overflow);
   cells.in_every_phase(bus, Kind::protocol_error, Fault::bus_fault);
+  cells.in_every_phase(bus, Kind::miscoded, Fault::transmit_refused);
 }
 
 void add_system(Cells& cells) {

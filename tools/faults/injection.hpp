@@ -57,6 +57,7 @@ enum class Kind : std::uint8_t {
   malformed,  // replies of a wrong length
   overflow,
   protocol_error,
+  miscoded,  // the driver codes commands with full torque
   // E-stop.
   pressed,
   tapped,  // pressed and released between two cycles
@@ -84,13 +85,13 @@ struct EnumNames<faults::Device> {
 };
 template <>
 struct EnumNames<faults::Kind> {
-  static constexpr std::array<std::string_view, 40> value{
+  static constexpr std::array<std::string_view, 41> value{
       "off",       "stuck",          "garbage",      "wrong",     "slow",       "delayed",     "intermittent",
       "saturated", "drifting",       "error",        "hot",       "current",    "overcurrent", "undervoltage",
       "future",    "backward",       "not_a_number", "cable_off", "blocked",    "refused",     "bus_off",
       "passive",   "no_acknowledge", "lost",         "late",      "duplicated", "foreign",     "malformed",
-      "overflow",  "protocol_error", "pressed",      "tapped",    "wire_cut",   "stalled",     "overruns",
-      "watchdog",  "tilting",        "lifted",       "biased",    "limit"};
+      "overflow",  "protocol_error", "miscoded",     "pressed",   "tapped",     "wire_cut",    "stalled",
+      "overruns",  "watchdog",       "tilting",      "lifted",    "biased",     "limit"};
 };
 
 }  // namespace sandhopper
