@@ -21,6 +21,7 @@ const char* board_file() {
 LinuxBoardConfig load_linux_board(const std::filesystem::path& file, const RobotConfig& robot) {
   auto board = load_file<LinuxBoardConfig>(file.string());
   board.can.motor = robot.motor;
+  board.can.motor_torque_Nm = robot.limits.motor_torque_Nm;
   board.limits = robot.limits;
   return board;
 }

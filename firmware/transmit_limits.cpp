@@ -1,11 +1,13 @@
 #include "firmware/transmit_limits.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sandhopper {
 namespace {
 
 constexpr double kCyclesPerSecond = 1000.0;
+constexpr int kDampingCycles = 8;
 
 transmit::Dialect guarded_dialect(Dialect dialect) noexcept {
   switch (dialect) {
@@ -20,8 +22,10 @@ transmit::Dialect guarded_dialect(Dialect dialect) noexcept {
 }
 
 transmit::MotorLimits motor_limits(const CubeMarsConfig& motor, const LimitsConfig& limits) noexcept {
-  // motor_reply_misses cycles without a reply are a fault and end the torque. One more is for a reply on its
-  // way; servo's status frames come at a lower rate than the cycle's.
+  // motor_reply_misses cycles without a reply are a fault and end the torque; one more is for a reply on its
+  // way. Servo's status frames come more rarely, and its damping, worked out from them, goes on for a moment.
+  const int misses = limits.motor_reply_misses + 1;
+  const bool servo = motor.dialect == Dialect::servo;
   const auto cycles_per_reply = static_cast<int>(std::ceil(kCyclesPerSecond / replies_per_s(motor)));
   return {.dialect = guarded_dialect(motor.dialect),
           .can_id = static_cast<std::uint32_t>(motor.can_id),
@@ -44,8 +48,8 @@ transmit::MotorLimits motor_limits(const CubeMarsConfig& motor, const LimitsConf
           .speed_radps = limits.motor_speed_radps,
           .angle_min_rad = limits.leg_angle_min_rad,
           .angle_max_rad = limits.leg_angle_max_rad,
-          .status_rate_Hz = motor.dialect == Dialect::servo ? motor.status_rate_Hz : 0.0,
-          .most_unanswered = limits.motor_reply_misses + 1 + cycles_per_reply};
+          .status_rate_Hz = servo ? motor.status_rate_Hz : 0.0,
+          .most_unanswered = std::max(misses + cycles_per_reply, servo ? kDampingCycles : 0)};
 }
 
 }  // namespace

@@ -121,6 +121,8 @@ struct CanConfig {
   // Not keys here: the motors stand in the robot's file and are the same on every bus (config/files.hpp). A
   // leg whose single motor drives both sides has only the first.
   int motor_count = kMotorCount;
+  // Of one motor, from the robot's limits: bounds the law of a drive that takes a current only.
+  double motor_torque_Nm = 1e9;
   MotorConfigs motor{CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
                      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/can/can_socket.hpp"
+#include "drivers/can/host_law.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
 
@@ -105,7 +106,11 @@ void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& comman
     // time. What takes torque away goes out regardless.
     const bool waits = bus_.outstanding(side, now_ns);
     if (waits && (action == DriveAction::run || !sequence_.energised())) continue;
-    send(side, bus_.codec(side).frame(action, command[index(side)], newest_[index(side)]));
+    const auto& newest = newest_[index(side)];
+    const auto& asked = command[index(side)];
+    const bool host = bus_.codec(side).config().dialect == Dialect::servo;
+    const auto told = host ? host_law(asked, newest, config_.motor_torque_Nm) : asked;
+    send(side, bus_.codec(side).frame(action, told, newest));
   }
 }
 

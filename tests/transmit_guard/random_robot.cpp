@@ -33,7 +33,7 @@ void draw_limits(RobotConfig& robot, Random& random) {
   limits.fault_hold_stiffness_Nm_per_rad = chance(random, 0.1) ? 0.0 : log_uniform(random, 1.0, 500.0);
   limits.fault_damp_s = log_uniform(random, 0.01, 1.0);
   limits.fault_hold_s = log_uniform(random, 0.01, 1.0);
-  limits.motor_reply_misses = whole(random, 1, 10);
+  limits.motor_reply_misses = whole(random, 2, 10);
   limits.strides = whole(random, 1, 5);
   limits.settle_s = log_uniform(random, 0.02, 0.3);
   limits.ramp_down_s = log_uniform(random, 0.05, 1.0);
@@ -73,7 +73,7 @@ RobotConfig random_robot(const RobotConfig& shipped, Random& random) {
     motor.master_id = chance(random, 0.3) ? 0 : 0x100 + motor.can_id;
     draw_drive(motor, robot.limits, random);
   }
-  robot.arming.enable_s = log_uniform(random, 0.01, 0.1);
+  robot.arming.enable_s = 0.05;
   robot.arming.window_s = 0.05;
   return robot;
 }

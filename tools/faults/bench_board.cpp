@@ -7,6 +7,7 @@ namespace sandhopper::faults {
 CanConfig can_of(const RobotConfig& robot) {
   CanConfig can;
   can.motor = robot.motor;
+  can.motor_torque_Nm = robot.limits.motor_torque_Nm;
   can.motor_count = robot.robot.motor_count;
   return can;
 }
