@@ -156,10 +156,10 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
     if (standing) enter(State::soft_stop, frame);
     return;
   }
-  if (out_.state != State::fault) {
-    fault_energised_ = out_.command.drive == DriveRequest::run;
+  // As they are now: a later fault does not switch drives on that the first one's reaction switched off.
+  fault_energised_ = out_.command.drive == DriveRequest::run;
+  if (out_.state != State::fault)
     for (std::size_t i = 0; i < kMotorCount; ++i) hold_angle_rad_[i] = frame.motor[i].position_rad;
-  }
   ready_ = false;
   enter(State::fault, frame);
 }

@@ -109,7 +109,7 @@ void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& comman
     const auto& newest = newest_[index(side)];
     const auto& asked = command[index(side)];
     const bool host = bus_.codec(side).config().dialect == Dialect::servo;
-    const auto told = host ? host_law(asked, newest, config_.motor_torque_Nm) : asked;
+    const auto told = host ? host_law(asked, newest, now_ns, config_.motor_torque_Nm) : asked;
     send(side, bus_.codec(side).frame(action, told, newest));
   }
 }

@@ -6,14 +6,19 @@
 
 namespace sandhopper {
 
-// For a drive that takes a current only (servo): its law worked out here, and its torque within the robot's
-// limit, which a hard landing on full damping would pass. Without a state the command stays as it is.
-inline MotorCommand host_law(const MotorCommand& command, const MotorSample& state,
+// The law of a drive that takes a current only (servo), worked out from the newest status frame, as a torque
+// within the robot's limit, which the damping of a hard landing would pass. Gains without a status frame of
+// the last kHostLaw_ns make no torque: with an old speed they would drive the leg.
+inline constexpr std::int64_t kHostLaw_ns = 6'000'000;
+
+inline MotorCommand host_law(const MotorCommand& command, const MotorSample& state, std::int64_t now_ns,
                              double limit_Nm) noexcept {
-  if (state.time_ns == 0) return command;
-  const double torque_Nm = command.torque_Nm +
-                           command.kp_Nm_per_rad * (command.position_rad - state.position_rad) +
-                           command.kd_Nm_s_per_rad * (command.velocity_radps - state.velocity_radps);
+  const bool gains = command.kp_Nm_per_rad != 0.0 || command.kd_Nm_s_per_rad != 0.0;
+  double torque_Nm = command.torque_Nm;
+  if (gains && (state.time_ns == 0 || now_ns - state.time_ns > kHostLaw_ns)) return {};
+  if (gains)
+    torque_Nm += command.kp_Nm_per_rad * (command.position_rad - state.position_rad) +
+                 command.kd_Nm_s_per_rad * (command.velocity_radps - state.velocity_radps);
   return {.torque_Nm = std::clamp(torque_Nm, -limit_Nm, limit_Nm)};
 }
 

@@ -38,7 +38,8 @@ void draw_limits(RobotConfig& robot, Random& random) {
   limits.settle_s = log_uniform(random, 0.02, 0.3);
   limits.ramp_down_s = log_uniform(random, 0.05, 1.0);
   if (chance(random, 0.2)) robot.supervision.foot_height_m = 0.03;  // ends in a hold
-  if (chance(random, 0.2)) robot.supervision.cycle_gap = whole(random, 1, 20);
+  robot.supervision.cycle_gap = whole(random, 1, 30);
+  robot.supervision.overruns_per_s = 1000;  // else a few gaps end every trial
 }
 
 void draw_law(RobotConfig& robot, Random& random) {
