@@ -65,11 +65,10 @@ Frames resending_torque() {
   };
 }
 
-std::vector<Defect> of_the_controller() {
+std::vector<Defect> of_the_controller_hopping() {
   const auto clamped = [](const StepOutput&, Command& command, Fault&) {
     for (auto& motor : command.motor) motor.torque_Nm *= 20.0;
   };
-  const auto ignoring = [](double torque_Nm) { return commanding({.torque_Nm = torque_Nm}); };
   return {
       {.name = "torque clamp removed", .command = clamped},
       {.name = "torque clamp removed, v3", .dialect = Dialect::v3, .command = clamped},
@@ -79,6 +78,12 @@ std::vector<Defect> of_the_controller() {
        .command = commanding({.velocity_radps = 39.0, .kd_Nm_s_per_rad = 0.3})},
       {.name = "position set-point outside the leg's angles",
        .command = commanding({.position_rad = 3.0, .kp_Nm_per_rad = 5.0})},
+  };
+}
+
+std::vector<Defect> of_the_controller_stopped() {
+  const auto ignoring = [](double torque_Nm) { return commanding({.torque_Nm = torque_Nm}); };
+  return {
       {.name = "torque after the e-stop", .occasion = Occasion::stop_open, .command = ignoring(0.5)},
       {.name = "damping after the e-stop",
        .occasion = Occasion::stop_open,
@@ -95,6 +100,11 @@ std::vector<Defect> of_the_controller() {
            [n = 0](const StepOutput&, Command& command, Fault&) mutable {
              if (++n > 20) command.drive = DriveRequest::enable;  // when the drives were left
            }},
+  };
+}
+
+std::vector<Defect> of_the_controller_reacting() {
+  return {
       {.name = "torque left on while damping",
        .occasion = Occasion::damp_fault,
        .command =
@@ -140,7 +150,7 @@ std::vector<Defect> of_the_controller() {
   };
 }
 
-std::vector<Defect> of_the_mit_driver() {
+std::vector<Defect> of_the_mit_codec() {
   return {
       {.name = "torque in millinewton metres",
        .frames = altering([](can_frame& f) {
@@ -174,6 +184,11 @@ std::vector<Defect> of_the_mit_driver() {
        })},
       {.name = "bytes in reverse order",
        .frames = altering([](can_frame& f) { std::reverse(f.data, f.data + 8); })},
+  };
+}
+
+std::vector<Defect> of_the_mit_driver() {
+  return {
       {.name = "identifier of no motor", .frames = altering([](can_frame& f) { f.can_id += 7; })},
       {.name = "identifier of the other motor",
        .frames =
@@ -258,8 +273,10 @@ std::vector<Defect> of_the_other_drivers() {
 }  // namespace
 
 std::vector<Defect> all_defects() {
-  auto all = of_the_controller();
-  for (const auto& part : {of_the_mit_driver(), of_the_other_drivers()})
+  std::vector<Defect> all;
+  for (const auto& part :
+       {of_the_controller_hopping(), of_the_controller_stopped(), of_the_controller_reacting(),
+        of_the_mit_codec(), of_the_mit_driver(), of_the_other_drivers()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

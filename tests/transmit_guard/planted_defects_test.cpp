@@ -149,9 +149,9 @@ TEST(GuardDefects, EveryPlantedDefectIsCaughtAndEndsLimp) {
     EXPECT_EQ(out.wire.breach, "");
     EXPECT_LE(out.cycles, entry_of(Fault::transmit_refused).cycles);
     EXPECT_GE(out.cycles, 0) << "no fault";
-    // An e-stop that stays open is as harsh and stays latched itself.
-    EXPECT_EQ(out.fault,
-              defect.occasion == Occasion::stop_open ? Fault::emergency_stop : Fault::transmit_refused);
+    // An e-stop that stays open is as harsh and may stay the one that is named.
+    const bool stopped = defect.occasion == Occasion::stop_open && out.fault == Fault::emergency_stop;
+    EXPECT_TRUE(stopped || out.fault == Fault::transmit_refused) << name_of(out.fault);
     EXPECT_LT(out.later_torque_Nm, 0.02);
     EXPECT_FALSE(out.disarmed) << "was armed again";
   }
