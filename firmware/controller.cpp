@@ -24,7 +24,8 @@ Controller::Controller(const CycleConfig& config)
       estimator_(config_, leg_),
       arming_(config_, leg_),
       recorder_(config_.stiffness, config_.robot.foot_radius_m),
-      supervisor_(config_, leg_) {}
+      supervisor_(config_, leg_),
+      reaction_(config_) {}
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   event_count_ = 0;
@@ -156,10 +157,9 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
     if (standing) enter(State::soft_stop, frame);
     return;
   }
-  if (out_.state != State::fault) {
-    fault_energised_ = out_.command.drive == DriveRequest::run;
-    for (std::size_t i = 0; i < kMotorCount; ++i) hold_angle_rad_[i] = frame.motor[i].position_rad;
-  }
+  // Before the check at arming has passed the drives make at most its small torque: nothing is to be damped.
+  const bool energised = out_.command.drive == DriveRequest::run && (out_.state != State::armed || ready_);
+  if (out_.state != State::fault) reaction_.begin(frame, energised);
   ready_ = false;
   enter(State::fault, frame);
 }
@@ -240,7 +240,7 @@ void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
   if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
   emit(EventKind::stopped, Reason::settled,
        {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
-  fault_energised_ = false;
+  reaction_.begin(frame, false);
   enter(out_.fault == Fault::none ? State::idle : State::fault, frame);
 }
 
@@ -251,11 +251,11 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
     return;
   }
   if (out_.state == State::fault) {
-    write_fault_command(frame);
+    reaction_.write(frame, entry_of(out_.fault).reaction, time_in_state_s(frame), out_.command);
     return;
   }
   if (out_.state == State::armed && !ready_) {
-    out_.command.drive = DriveRequest::enable;
+    arming_.write(out_.command);
     return;
   }
   out_.command.drive = DriveRequest::run;
@@ -272,24 +272,6 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
   const double torque = std::clamp(force_N * leg.dlength_m_per_rad / motors, -limit, limit);
   for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i)
     out_.command.motor[i].torque_Nm = torque;
-}
-
-// Left to the drives' own law: it needs no reply to reach the controller. hold -> damp -> limp.
-void Controller::write_fault_command(const SensorFrame& frame) noexcept {
-  const auto& limits = config_.limits;
-  const Reaction reaction = entry_of(out_.fault).reaction;
-  const double hold_s = reaction == Reaction::hold ? limits.fault_hold_s : 0.0;
-  const double damp_s = reaction == Reaction::hold || reaction == Reaction::damp ? limits.fault_damp_s : 0.0;
-  const bool acting = fault_energised_ && time_in_state_s(frame) < hold_s + damp_s;
-  out_.command.drive = acting ? DriveRequest::run : DriveRequest::off;
-  if (!acting) return;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i) {
-    auto& motor = out_.command.motor[i];
-    motor.kd_Nm_s_per_rad = limits.fault_damping_Nm_s_per_rad;
-    if (time_in_state_s(frame) >= hold_s) continue;
-    motor.kp_Nm_per_rad = limits.fault_hold_stiffness_Nm_per_rad;
-    motor.position_rad = hold_angle_rad_[i];
-  }
 }
 
 }  // namespace sandhopper

@@ -6,6 +6,7 @@
 #include "estimation/leg.hpp"
 #include "firmware/arming.hpp"
 #include "firmware/controller_config.hpp"
+#include "firmware/fault_reaction.hpp"
 #include "firmware/gait.hpp"
 #include "firmware/records.hpp"
 #include "firmware/robot_estimator.hpp"
@@ -56,7 +57,6 @@ class Controller {
   bool still() const noexcept;
   void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
   void write_command(const SensorFrame& frame) noexcept;
-  void write_fault_command(const SensorFrame& frame) noexcept;
   LegObservation observation() const noexcept;
   double time_in_state_s(const SensorFrame& frame) const noexcept;
   double phase_time_s(const SensorFrame& frame) const noexcept;
@@ -67,6 +67,7 @@ class Controller {
   Arming arming_;
   StrideRecorder recorder_;
   Supervisor supervisor_;
+  FaultReaction reaction_;
   StepOutput out_{};
   std::array<Event, 8> events_{};
   std::size_t event_count_ = 0;
@@ -76,8 +77,6 @@ class Controller {
   bool ready_ = false;  // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
-  bool fault_energised_ = false;  // drives were on when the fault came
-  std::array<double, kMotorCount> hold_angle_rad_{};
   std::array<double, 2> fault_values_{};
 };
 

@@ -170,10 +170,10 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
     {Fault::motor_reply_unexpected, "motor_reply_unexpected", Reaction::damp, Latch::until_disarmed, 10,
      "a drive answers more often than it is asked",
      "check that no two drives have one id and that no other program commands the drives"},
-    {Fault::motor_reply_foreign, "motor_reply_foreign", Reaction::limp, Latch::until_disarmed, 2,
+    {Fault::motor_reply_foreign, "motor_reply_foreign", Reaction::limp, Latch::until_restart, 2,
      "frames with a drive's identifier do not look like its configured dialect",
-     "check motor.dialect against the drive's board and mode (CubeMars' serial tool) and power-cycle the "
-     "drive"},
+     "check motor.dialect against the drive's board and mode (CubeMars' serial tool), power-cycle the drive "
+     "and restart hopperd, which then asks each drive again for its dialect; until then none gets torque"},
     {Fault::motor_position_jump, "motor_position_jump", Reaction::damp, Latch::until_disarmed, 2,
      "a position changed faster than the motor can turn, or is not a number",
      "check the encoder, its magnet and the shield of the CAN cable; home again: a single encoder may have "

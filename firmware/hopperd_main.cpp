@@ -11,6 +11,7 @@
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/problem.hpp"
+#include "drivers/can/cubemars_drives.hpp"
 #include "drivers/can/torque_cut.hpp"
 #include "drivers/clock.hpp"
 #include "firmware/hop_session.hpp"
@@ -89,6 +90,21 @@ struct RealRobot {
       : tap(logger, config.can.interface), board(config, &tap) {
     cut.emplace(config.can);
     guard.emplace(*cut);
+  }
+  ~RealRobot() { shut_down(); }
+  RealRobot(const RealRobot&) = delete;
+  RealRobot& operator=(const RealRobot&) = delete;
+
+  // What is to be told; empty: every drive has confirmed that it is off.
+  std::string shut_down() {
+    const auto motors = board.shut_down();
+    if (motors.empty()) return {};
+    guard->take_over();
+    return fmt::format(
+        "not confirmed off within {} ms: motor {}. Its drive may still make its last torque until its own "
+        "time-out. The guard process goes on cutting, and the relay drive_enable is open where there is one. "
+        "Cut the supply with the e-stop before you go near the robot, then check the CAN bus (`hop doctor`)",
+        CubeMarsDrives::kShutDown_ns / 1'000'000, motors);
   }
   CanLogTap tap;
   // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
@@ -201,19 +217,24 @@ int run(const Options& options, OperatorChannel& channel) {
   std::function<void()> cut = [] {};
   if (real) {
     real->board.heed(heart);
-    cut = [&real] { real->cut->cut(); };
+    cut = [&real] {
+      real->cut->cut();
+      real->board.cut_supply();
+    };
   } else {
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
   }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
   auto result = run_session({robot, board, logger, channel, heart, cut});
+  const auto still_on = real ? real->shut_down() : std::string();
+  if (!still_on.empty()) channel.tell_text("error", still_on);
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
   result.log_error = logger.error();
   channel.tell(result);
   // A log that is not whole comes first: what it says of a fault may be what is missing.
-  if (!result.log_error.empty()) return 3;
+  if (!result.log_error.empty() || !still_on.empty()) return 3;
   return result.last_fault != Fault::none ? 1 : 0;
 }
 

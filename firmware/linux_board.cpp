@@ -12,12 +12,15 @@
 #include "drivers/latest.hpp"
 #include "drivers/tof/afbr_s50.hpp"
 #include "firmware/acquisition_thread.hpp"
+#include "firmware/drive_enable.hpp"
 
 namespace sandhopper {
 
 struct LinuxBoardDevices {
   std::unique_ptr<GpioEdges> estop;
   std::unique_ptr<GpioOutput> body_catch;
+  std::unique_ptr<GpioOutput> drive_enable_line;
+  std::unique_ptr<DriveEnable> drive_enable;
   std::unique_ptr<ImuReader> imu_body;
   std::unique_ptr<ImuReader> imu_foot;
   std::unique_ptr<LoadCellReader> load_cell;
@@ -35,6 +38,9 @@ struct LinuxBoard::Acquisition {
 };
 
 namespace {
+
+// From power to the first answer of a drive. No manual states it.
+constexpr std::int64_t kDriveBoot_ns = 2'000'000'000;
 
 // Opens device after device and keeps what was wrong, so that one start shows every fault.
 class Opening {
@@ -60,10 +66,20 @@ class Opening {
   std::vector<DeviceReport> reports_;
 };
 
+// Before the drives: without their supply they do not answer.
+void open_drive_enable(Opening& opening, const LineConfig& config, LinuxBoardDevices& d) {
+  opening.open("drive_enable", d.drive_enable_line, "drive_enable", config, true);
+  if (d.drive_enable_line == nullptr) return;
+  auto& line = *d.drive_enable_line;
+  d.drive_enable = std::make_unique<DriveEnable>([&line](bool active) { return line.set(active); });
+  sleep_ns(kDriveBoot_ns);
+}
+
 std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDevices& d, CanTap* tap) {
   Opening opening;
   opening.open("estop", d.estop, "estop", config.estop);
   if (config.body_catch.fitted()) opening.open("catch", d.body_catch, "catch", config.body_catch, true);
+  if (config.drive_enable.fitted()) open_drive_enable(opening, config.drive_enable, d);
   opening.open("imu_body", d.imu_body, "imu_body", config.imu_body);
   opening.open("imu_foot", d.imu_foot, "imu_foot", config.imu_foot);
   opening.open("load_cell", d.load_cell, config.load_cell);
@@ -113,7 +129,30 @@ LinuxBoard::LinuxBoard(const LinuxBoardConfig& config, CanTap* tap)
   a.threads.push_back(acquire("tof", config.tof.thread_priority, *d.tof, a.tof));
 }
 
-LinuxBoard::~LinuxBoard() { devices_->drives->shut_down(); }
+LinuxBoard::~LinuxBoard() { shut_down(); }
+
+void LinuxBoard::cut_supply() noexcept {
+  if (devices_->drive_enable) devices_->drive_enable->drop();
+}
+
+// The relay opens as soon as it is in the cycle; then the frames go on until the drives answer or time is up.
+std::string LinuxBoard::shut_down() {
+  if (shut_down_) return *shut_down_;
+  shut_down_.emplace();
+  auto& drives = *devices_->drives;
+  constexpr std::int64_t kFirst_ns = CubeMarsDrives::kLeaveOverdue * std::int64_t{1'000'000};
+  bool off = drives.shut_down(kFirst_ns);
+  if (!off) cut_supply();
+  off = off || drives.shut_down(CubeMarsDrives::kShutDown_ns - kFirst_ns);
+  if (off) return *shut_down_;
+  for (std::size_t i = 0; i < drives.bus().motor_count(); ++i) {
+    const auto side = static_cast<Side>(i);
+    if (!drives.may_be_on(side)) continue;
+    *shut_down_ += (shut_down_->empty() ? "" : ", ") + drives.bus().codec(side).config().name;
+  }
+  if (shut_down_->empty()) *shut_down_ = "unknown";  // replied, but frames still wait to leave
+  return *shut_down_;
+}
 
 void LinuxBoard::read(SensorFrame& frame) noexcept {
   auto& d = *devices_;
@@ -135,6 +174,7 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
 void LinuxBoard::write(const Command& command) noexcept {
   const bool tripped = heart_ != nullptr && heart_->tripped();
   devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, monotonic_ns());
+  if (tripped || devices_->drives->leave_overdue()) cut_supply();
   if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
 }
 

@@ -20,6 +20,8 @@ struct LinuxBoardConfig {
   LineConfig estop{.chip = "", .line = "ESTOP", .active_low = true, .bias = Bias::pull_down};
   // Active holds the body, inactive lets go. Line empty: no catch.
   LineConfig body_catch{.chip = "", .line = "CATCH"};
+  // Active closes a relay in the drives' supply (DriveEnable). Line empty: no relay.
+  LineConfig drive_enable{.chip = "", .line = "", .bias = Bias::as_is};
   std::optional<BoardCalibrations> calibration{};
 
   template <class Self, class Visitor>
@@ -31,6 +33,7 @@ struct LinuxBoardConfig {
     visit("tof", self.tof);
     visit("estop", self.estop);
     visit("catch", self.body_catch);
+    visit("drive_enable", self.drive_enable);
     visit("calibration", self.calibration);
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "config/json.hpp"
+#include "firmware/refusal_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -35,10 +36,12 @@ std::string stiffness(const Estimate& k) {
 }  // namespace
 
 std::string operator_text(const Event& e) {
+  const auto text = refusal_text(e);
   return fmt::format(
-      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]}})",
+      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]{}}})",
       name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, number(e.values[0]),
-      number(e.values[1]), number(e.values[2]), number(e.values[3]));
+      number(e.values[1]), number(e.values[2]), number(e.values[3]),
+      text.empty() ? "" : R"(,"text":)" + json_string(text));
 }
 
 std::string operator_text(const StrideResult& r) {

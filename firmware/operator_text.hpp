@@ -6,7 +6,7 @@
 // What hopperd says, one JSON object a line; without the line's end.
 namespace sandhopper {
 
-std::string operator_text(const Event& event);
+std::string operator_text(const Event& event);  // with "text" where arming was refused because of a drive
 std::string operator_text(const StrideResult& result);
 std::string operator_text(const LiveStatus& status);  // {"status":{…}}, keys as in LiveStatus
 std::string operator_text(const SessionResult& result);

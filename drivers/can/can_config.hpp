@@ -87,6 +87,10 @@ constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
   return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
 }
 
+// The drive works out position and velocity gains itself, from what it measures at that instant; else the
+// host does, from the newest sample.
+constexpr bool law_in_drive(const CubeMarsConfig& motor) noexcept { return motor.dialect != Dialect::servo; }
+
 using MotorConfigs = std::array<CubeMarsConfig, kMotorCount>;
 
 // Rules between the motors of one bus.

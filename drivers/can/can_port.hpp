@@ -64,6 +64,9 @@ class CanPort {
   // Up to one batch of what has arrived, oldest first; `more` is false when the port is empty.
   virtual std::span<const ReceivedFrame> receive(bool& more) noexcept = 0;
 
+  // Nothing that was sent waits to leave any more, as far as the port can tell.
+  virtual bool settled() const noexcept { return true; }
+
   // Not for the cycle: lets time pass; and waits until something can be read, false if nothing came.
   virtual void pause(std::int64_t duration_ns) noexcept = 0;
   virtual bool wait(std::int64_t timeout_ns) noexcept = 0;

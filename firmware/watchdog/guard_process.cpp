@@ -60,7 +60,9 @@ GuardProcess::GuardProcess(TorqueCut& cut) {
 }
 
 GuardProcess::~GuardProcess() {
-  [[maybe_unused]] const auto told = ::write(line_.get(), "q", 1);
+  if (line_) {
+    [[maybe_unused]] const auto told = ::write(line_.get(), "q", 1);
+  }
   ::waitpid(child_, nullptr, 0);
 }
 

@@ -16,6 +16,9 @@ class GuardProcess {
   GuardProcess(const GuardProcess&) = delete;
   GuardProcess& operator=(const GuardProcess&) = delete;
 
+  // It takes the torque away now, as if this process had died, and is not dismissed any more.
+  void take_over() noexcept { line_ = {}; }
+
  private:
   UniqueFd line_;  // the child reads its other end: a byte dismisses it, the end of the line is a death
   pid_t child_ = -1;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <ctime>
@@ -12,9 +13,11 @@
 #include "config/files.hpp"
 #include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
+#include "drivers/can/torque_cut.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
 #include "drivers/imu/imu_reader.hpp"
+#include "firmware/watchdog/guard_process.hpp"
 #include "tests/unit/allocation_guard.hpp"
 #include "tools/virtual_bench/control_client.hpp"
 
@@ -298,6 +301,29 @@ TEST(LinuxBoardOnBench, AWrongChipAndATakenLineAreNamed) {
   config.estop.line = config.body_catch.line;
   EXPECT_THAT(start_error(config), ::testing::AllOf(::testing::HasSubstr("ADS1115 at address 74"),
                                                     ::testing::HasSubstr("cannot take the line")));
+}
+
+int leave_frames_seen(CanSocket& listener, canid_t id) {
+  int count = 0;
+  bool more = true;
+  while (more)
+    for (const auto& received : listener.receive(more))
+      count += received.frame.can_id == id && std::ranges::equal(kMitLeave, received.frame.data);
+  return count;
+}
+
+TEST(GuardOnBench, TakesOverWhileHopperdLivesAndDoesNothingWhenDismissed) {
+  const auto can = board_config().can;
+  const std::array filters{exact_standard_id(static_cast<canid_t>(can.motor[0].can_id))};
+  CanSocket listener(can.interface, filters);
+  TorqueCut cut(can);
+  { const GuardProcess dismissed(cut); }
+  EXPECT_EQ(leave_frames_seen(listener, 1), 0);
+  {
+    GuardProcess guard(cut);
+    guard.take_over();
+  }  // waits until it has ended
+  EXPECT_GE(leave_frames_seen(listener, 1), 50) << "of 100; the listener's queue holds some hundred frames";
 }
 
 }  // namespace

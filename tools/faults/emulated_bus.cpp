@@ -32,7 +32,7 @@ EmulatedBus::EmulatedBus(World& world, const CanConfig& drives, std::uint64_t se
                                 most_torque_Nm_ = std::max(most_torque_Nm_, torque);
                                 const bool stale = world_.now_ns() - delivering_sent_ns_ > kMs;
                                 stale_torques_ += stale && torque > kNoTorque_Nm;
-                                world_.command(static_cast<Side>(i), command, enabled);
+                                world_.command(static_cast<Side>(i), command, enabled && !m.dead);
                               }});
 }
 
@@ -125,7 +125,7 @@ std::optional<std::int64_t> EmulatedBus::send(const can_frame& frame) noexcept {
     queue_.push_back(queued);
     return now_ns;
   }
-  deliver(queued);
+  if (!lost_ || !lost_(frame)) deliver(queued);
   return now_ns;
 }
 
@@ -175,6 +175,10 @@ void EmulatedBus::put_error(canid_t error_class, std::uint8_t controller) {
 
 void EmulatedBus::advance() {
   const auto now_ns = world_.now_ns();
+  if (now_ns >= heal_ns_) {
+    heal_ns_ = INT64_MAX;
+    set(Device::bus, {});
+  }
   delivering_sent_ns_ = now_ns;
   for (std::size_t i = 0; i < motor_.size(); ++i) {
     auto& m = motor_[i];

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,6 +24,13 @@ class EmulatedBus : public CanPort {
 
   void set(Device device, std::optional<Kind> kind);
 
+  // Frames to the drives that a one-shot controller loses: sent, and never on the wire.
+  void lose(std::function<bool(const can_frame&)> lost) { lost_ = std::move(lost); }
+  // This drive obeys and answers, but makes no torque: its power stage is dead.
+  void ignore_torque(Side side) { motor_[static_cast<std::size_t>(side)].dead = true; }
+  // The fault of the bus ends at this time of the world.
+  void heal_at(std::int64_t time_ns) { heal_ns_ = time_ns; }
+
   // Lets drives act and answer until the world's time.
   void advance();
 
@@ -38,6 +46,7 @@ class EmulatedBus : public CanPort {
   void begin_cycle() noexcept override;
   std::optional<std::int64_t> send(const can_frame& frame) noexcept override;
   std::span<const ReceivedFrame> receive(bool& more) noexcept override;
+  bool settled() const noexcept override { return queue_.empty(); }
   void pause(std::int64_t duration_ns) noexcept override;
   bool wait(std::int64_t timeout_ns) noexcept override;
   const CanCounters& counters() const noexcept override { return counters_; }
@@ -52,6 +61,7 @@ class EmulatedBus : public CanPort {
     int asked = 0;  // since the fault came
     MotorCommand told{};
     bool enabled = false;
+    bool dead = false;
   };
   struct Queued {
     can_frame frame;
@@ -71,6 +81,8 @@ class EmulatedBus : public CanPort {
   Random random_;
   std::vector<Motor> motor_;
   std::optional<Kind> fault_;
+  std::function<bool(const can_frame&)> lost_;
+  std::int64_t heal_ns_ = INT64_MAX;
   std::deque<Queued> queue_;              // taken and not yet on the wire
   std::deque<ReceivedFrame> on_the_way_;  // in the order of their times
   std::array<ReceivedFrame, 32> batch_{};

@@ -79,7 +79,8 @@ class Operator {
   void hear_event(const nlohmann::json& message) {
     const auto kind = message["event"].get<std::string>();
     if (kind == "armed") daemon_.write_line("release");
-    if (kind == "arming_refused") setup_.say("  arming refused: " + message["reason"].get<std::string>());
+    if (kind == "arming_refused")
+      setup_.say("  arming refused: " + message.value("text", message["reason"].get<std::string>()));
     if (kind == "stopped" || kind == "fault_raised" || kind == "arming_refused") daemon_.write_line("quit");
   }
 

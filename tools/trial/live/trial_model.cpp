@@ -88,7 +88,7 @@ std::string event_text(EventKind kind, const Json& json, Fault fault) {
     case EventKind::disarmed:
       return "disarmed: the drives are off";
     case EventKind::arming_refused:
-      return "arming refused: " + readable(json.at("reason").get<std::string>());
+      return "arming refused: " + json.value("text", readable(json.at("reason").get<std::string>()));
     case EventKind::disarm_refused:
       return fmt::format("disarming refused: {} must end first", name_of(fault));
     case EventKind::clock_stepped:
