@@ -101,9 +101,11 @@ struct RealRobot {
     if (motors.empty()) return {};
     guard->take_over();
     return fmt::format(
-        "not confirmed off within {} ms: motor {}. Its drive may still make its last torque until its own "
-        "time-out. The guard process goes on cutting, and the relay drive_enable is open where there is one. "
-        "Cut the supply with the e-stop before you go near the robot, then check the CAN bus (`hop doctor`)",
+        "not confirmed off within {} ms: motor {}. Such a drive may still make its last torque until its own "
+        "time-out. The guard process now sends the frames that take it away, and the relay drive_enable is "
+        "open "
+        "where there is one. Cut the supply with the e-stop before you go near the robot, then check the CAN "
+        "bus (`hop doctor`)",
         CubeMarsDrives::kShutDown_ns / 1'000'000, motors);
   }
   CanLogTap tap;

@@ -107,6 +107,26 @@ TEST(ShutDown, ABusThatIsOffIsNotWaitedFor) {
   EXPECT_LE(r.world.now_ns() - begin_ns, 2 * kMs);
 }
 
+// The driver's own defence, whatever the cycle asks: servo drives know no gains, so the host works them out.
+TEST(HostLaw, IsNotWorkedOutFromAnOldState) {
+  Running r(Dialect::servo);
+  const auto hold = [&](int cycles) {
+    std::array<MotorCommand, kMotorCount> command{};
+    for (auto& c : command) c.kd_Nm_s_per_rad = 1.0, c.velocity_radps = 1.0;
+    for (int i = 0; i < cycles; ++i) {
+      r.world.advance_to(r.world.now_ns() + kMs);
+      r.bus->advance();
+      r.driver->drain([](const MotorReading&) {});
+      r.driver->command(command, DriveRequest::run, r.world.now_ns());
+    }
+    return r.bus->told(Side::left).torque_Nm;
+  };
+  EXPECT_NEAR(hold(20), 1.0, 0.2) << "the leg is held: 1 N m s/rad times 1 rad/s";
+  r.bus->set(Device::bus, Kind::lost);
+  EXPECT_NEAR(hold(4), 1.0, 0.2) << "two status frames lost in a row are bridged";
+  EXPECT_EQ(hold(5), 0.0);
+}
+
 // In the cycle: the relay in the drives' supply is to open then.
 TEST(Leaving, ThatIsNotConfirmedBecomesOverdue) {
   for (const auto dialect : kDialects) {
