@@ -117,6 +117,7 @@ struct Session {
   OperatorChannel& channel;
   Heartbeat& heart;
   std::function<void()> cut;
+  std::function<bool()> guarded;  // the guard process lives, or there is none to live
 };
 
 SessionResult run_session(const Session& s) {
@@ -131,7 +132,17 @@ SessionResult run_session(const Session& s) {
   std::atomic<bool> ended{false};
   SessionResult result;
   const TorqueWatchdog watchdog(s.robot.watchdog, s.heart, s.cut);
-  const Keepalive keepalive(s.robot.watchdog, s.heart);
+  bool guarded = true;
+  const Keepalive keepalive(s.robot.watchdog, s.heart, [&] {
+    if (!guarded || s.guarded()) return;
+    guarded = false;
+    warn(
+        "the guard process has ended: nobody would cut the torque if hopperd were killed or stopped. A soft "
+        "stop "
+        "follows; start hopperd again");
+    Quit none = Quit::no;
+    quit.compare_exchange_strong(none, Quit::softly);
+  });
   warn(watchdog.warning());
   warn(keepalive.warning());
   std::thread cycle([&] {
@@ -202,12 +213,15 @@ int run(const Options& options, OperatorChannel& channel) {
   else
     real = std::make_unique<RealRobot>(devices, robot.watchdog, *heart, logger);
   std::function<void()> cut = [] {};
-  if (real)
+  std::function<bool()> guarded = [] { return true; };
+  if (real) {
     cut = [&real] { real->cut->cut(); };
-  else
+    guarded = [&real] { return real->guard->alive(); };
+  } else {
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
+  }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session({robot, board, logger, channel, *heart, cut});
+  auto result = run_session({robot, board, logger, channel, *heart, cut, guarded});
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -170,7 +171,8 @@ class Guard {
 
 GuardProcess::GuardProcess(const Setup& setup) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw std::system_error(errno, std::generic_category(), "line to the guard");
   const UniqueFd child_end(ends[0]);
   line_ = UniqueFd(ends[1]);
   child_ = ::fork();
@@ -181,7 +183,8 @@ GuardProcess::GuardProcess(const Setup& setup) {
 
 GuardProcess::~GuardProcess() {
   if (line_) {
-    [[maybe_unused]] const auto told = ::write(line_.get(), "q", 1);
+    // A guard that somebody killed must not end this process with SIGPIPE.
+    [[maybe_unused]] const auto told = ::send(line_.get(), "q", 1, MSG_NOSIGNAL);
     line_ = UniqueFd();
   }
   if (child_ > 0) ::waitpid(child_, nullptr, 0);

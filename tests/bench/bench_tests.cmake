@@ -18,7 +18,8 @@ set_tests_properties(bench.can_playback PROPERTIES LABELS bench SKIP_RETURN_CODE
 add_test(NAME bench.agreement COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/agreement)
 set_tests_properties(bench.agreement PROPERTIES LABELS bench TIMEOUT 2400 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 
-add_executable(bench_tests tests/bench/linux_board_test.cpp tests/bench/gpio_test.cpp tests/unit/allocation_guard.cpp)
+add_executable(bench_tests tests/bench/linux_board_test.cpp tests/bench/gpio_test.cpp
+  tests/bench/guard_process_test.cpp tests/unit/allocation_guard.cpp)
 target_link_libraries(bench_tests PRIVATE sandhopper_firmware GTest::gmock GTest::gtest_main)
 target_compile_definitions(bench_tests PRIVATE SANDHOPPER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(bench_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
