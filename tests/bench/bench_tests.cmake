@@ -32,7 +32,7 @@ set_tests_properties(bench.linux_board PROPERTIES LABELS bench TIMEOUT 1200 ENVI
 add_executable(spi_probe tests/bench/spi_probe.cpp)
 target_link_libraries(spi_probe PRIVATE sandhopper_options)
 set_target_properties(spi_probe PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
-foreach(name boot devices determinism calibrate watchdog)
+foreach(name boot devices determinism calibrate watchdog guard)
   add_test(NAME bench.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/${name})
   set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 2400 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 endforeach()
@@ -45,5 +45,5 @@ add_test(NAME daemon.on_the_bus
 set_tests_properties(daemon.on_the_bus PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 
 set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism
-  bench.calibrate bench.watchdog daemon.on_the_bus
+  bench.calibrate bench.watchdog bench.guard daemon.on_the_bus
   PROPERTIES FIXTURES_REQUIRED bench_kernel)
