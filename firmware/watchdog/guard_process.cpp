@@ -73,9 +73,6 @@ class Guard {
   enum class Message { none, dismissed, death };
 
   void set_up() const noexcept {
-    sigset_t all;
-    sigfillset(&all);
-    ::sigprocmask(SIG_BLOCK, &all, nullptr);
     ::setsid();
     ::prctl(PR_SET_NAME, "hopperd-guard");
     write_score(kNeverKilled);
@@ -175,9 +172,15 @@ GuardProcess::GuardProcess(const Setup& setup) {
     throw std::system_error(errno, std::generic_category(), "line to the guard");
   const UniqueFd child_end(ends[0]);
   line_ = UniqueFd(ends[1]);
+  // Blocked before the fork, so that no signal finds the child before it has blocked them itself.
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
   child_ = ::fork();
-  if (child_ < 0) throw std::system_error(errno, std::generic_category(), "fork of the guard");
   if (child_ == 0) Guard(setup, child_end.get()).run();
+  const int error = errno;
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (child_ < 0) throw std::system_error(error, std::generic_category(), "fork of the guard");
   if (is_never_killed()) write_score(kKilledLast);
 }
 
