@@ -23,6 +23,7 @@
 #include "firmware/version.hpp"
 #include "firmware/watchdog/guard_process.hpp"
 #include "firmware/watchdog/keepalive.hpp"
+#include "firmware/watchdog/shared.hpp"
 #include "firmware/watchdog/torque_watchdog.hpp"
 #include "tools/plant/load_world.hpp"
 #include "tools/plant/sim_board.hpp"
@@ -85,10 +86,12 @@ void add_options(CLI::App& app, Options& options) {
 
 // The robot's devices, their CAN traffic in the log.
 struct RealRobot {
-  RealRobot(const LinuxBoardConfig& config, TrialLogger& logger)
+  RealRobot(const LinuxBoardConfig& config, const WatchdogConfig& watchdog, Heartbeat& heart,
+            TrialLogger& logger)
       : tap(logger, config.can.interface), board(config, &tap) {
+    board.heed(heart);
     cut.emplace(config.can);
-    guard.emplace(*cut);
+    guard.emplace(GuardProcess::Setup{.cut = *cut, .heart = heart, .config = watchdog});
   }
   CanLogTap tap;
   // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
@@ -191,22 +194,20 @@ int run(const Options& options, OperatorChannel& channel) {
   describe_trial(logger, robot, options.board);
   if (!simulate) describe_devices(logger, devices);
   if (sheet) add_sheet(logger, *sheet);
+  const Shared<Heartbeat> heart;  // with the guard process
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
   if (simulate)
     simulated = std::make_unique<SimulatedRobot>(world, monotonic_ns());
   else
-    real = std::make_unique<RealRobot>(devices, logger);
-  Heartbeat heart;
+    real = std::make_unique<RealRobot>(devices, robot.watchdog, *heart, logger);
   std::function<void()> cut = [] {};
-  if (real) {
-    real->board.heed(heart);
+  if (real)
     cut = [&real] { real->cut->cut(); };
-  } else {
+  else
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
-  }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session({robot, board, logger, channel, heart, cut});
+  auto result = run_session({robot, board, logger, channel, *heart, cut});
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
