@@ -22,6 +22,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
     parts_.logger.push(parts_.topics.event, turn.time_ns, event);
     parts_.aftermath.offer(event);
   }
+  if (parts_.freeze != nullptr) parts_.freeze->push(frame_, output, parts_.controller.events());
   if (parts_.controller.stride_finished()) parts_.aftermath.offer(parts_.controller.stride_sums());
   return output;
 }

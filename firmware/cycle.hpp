@@ -7,6 +7,7 @@
 
 #include "firmware/board.hpp"
 #include "firmware/controller.hpp"
+#include "firmware/freeze/freeze_ring.hpp"
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/trial_logger.hpp"
 
@@ -68,6 +69,7 @@ class Cycle {
     TrialLogger& logger;
     const TrialTopics& topics;
     Aftermath& aftermath;
+    FreezeRing* freeze = nullptr;  // the last seconds in shared memory; may be null
   };
   explicit Cycle(const Parts& parts) noexcept : parts_(parts) {}
 

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/freeze/freeze_frame.hpp"
+
 namespace sandhopper {
 namespace {
 
 // Cycles after the drives are off, so that their last commands are sent and logged.
 constexpr std::uint64_t kTail_cycles = 20;
+// After a fault, so that its freeze frame has the second that follows it.
+constexpr std::uint64_t kFrozen_cycles = kFreezeAfter_ns / kCyclePeriod_ns + 1;
 // A robot that cannot come to rest is not waited for longer than this.
 constexpr std::uint64_t kPatience_cycles = 15'000;
 
@@ -26,7 +30,7 @@ SessionResult HopSession::run(World world) {
   SessionResult result;
   logger_.start();
   aftermath_.start();
-  Cycle cycle({board_, controller_, logger_, topics_, aftermath_});
+  Cycle cycle({board_, controller_, logger_, topics_, aftermath_, world.freeze});
   {
     const RealTimeThread real_time(robot_.real_time);
     for (const auto& warning : real_time.warnings()) world.say(warning);
@@ -47,6 +51,7 @@ SessionResult HopSession::run(World world) {
 void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, SessionResult& result) {
   std::uint64_t asked_to_quit = 0;
   std::uint64_t off_since = 0;
+  std::uint64_t picture_done = 0;  // the cycle in which the last fault's freeze frame is complete
   while (true) {
     const std::int64_t now_ns = clock.wait();
     Request request = world.requests.take();
@@ -68,10 +73,13 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
     const bool off = output.command.drive == DriveRequest::off;
     if (!off) off_since = clock.cycle();
     result.last_state = output.state;
+    if (world.freeze != nullptr && output.fault != Fault::none && output.fault != result.last_fault)
+      picture_done = clock.cycle() + kFrozen_cycles;
     result.last_fault = output.fault;
     if (asked_to_quit == 0) continue;
     if (quit == Quit::at_once) return;
-    if (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) return;
+    if (off && clock.cycle() > std::max({off_since + kTail_cycles, asked_to_quit + kTail_cycles, picture_done}))
+      return;
     if (clock.cycle() > asked_to_quit + kPatience_cycles) return;
   }
 }

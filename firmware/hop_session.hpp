@@ -56,6 +56,7 @@ class HopSession {
     TimeSource& time = monotonic_time();
     WallClock wall_clock{};
     Latest<LiveStatus>* status = nullptr;  // who watches the cycle, if anyone does
+    FreezeRing* freeze = nullptr;          // with it, a soft end waits for the second after a fault
   };
   // On the calling thread, which is made real-time.
   SessionResult run(World world);

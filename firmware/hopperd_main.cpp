@@ -13,6 +13,8 @@
 #include "config/problem.hpp"
 #include "drivers/can/torque_cut.hpp"
 #include "drivers/clock.hpp"
+#include "firmware/freeze/freeze_folders.hpp"
+#include "firmware/freeze/freeze_recorder.hpp"
 #include "firmware/hop_session.hpp"
 #include "firmware/instance_lock.hpp"
 #include "firmware/linux_board.hpp"
@@ -87,11 +89,11 @@ void add_options(CLI::App& app, Options& options) {
 // The robot's devices, their CAN traffic in the log.
 struct RealRobot {
   RealRobot(const LinuxBoardConfig& config, const WatchdogConfig& watchdog, Heartbeat& heart,
-            TrialLogger& logger)
+            TrialLogger& logger, LastAct* last_act)
       : tap(logger, config.can.interface), board(config, &tap) {
     board.heed(heart);
     cut.emplace(config.can);
-    guard.emplace(GuardProcess::Setup{.cut = *cut, .heart = heart, .config = watchdog});
+    guard.emplace(GuardProcess::Setup{.cut = *cut, .heart = heart, .config = watchdog, .last_act = last_act});
   }
   CanLogTap tap;
   // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
@@ -117,6 +119,7 @@ struct Session {
   OperatorChannel& channel;
   Heartbeat& heart;
   std::function<void()> cut;
+  FreezeRing* freeze;
 };
 
 SessionResult run_session(const Session& s) {
@@ -135,8 +138,12 @@ SessionResult run_session(const Session& s) {
   warn(watchdog.warning());
   warn(keepalive.warning());
   std::thread cycle([&] {
-    result = session.run(
-        {.quit = quit, .requests = requests, .heart = s.heart, .say = warn, .status = &s.channel.status()});
+    result = session.run({.quit = quit,
+                          .requests = requests,
+                          .heart = s.heart,
+                          .say = warn,
+                          .status = &s.channel.status(),
+                          .freeze = s.freeze});
     ended.store(true);
   });
   s.channel.tell_text("ready", "arm");
@@ -173,6 +180,18 @@ TrialLogOptions log_options(const LogConfig& config, const Options& options, Ope
   return log;
 }
 
+FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log,
+                             const LogDescription& description, OperatorChannel& channel) {
+  return {.folder = freeze::frame_folder(config.freeze_folder),
+          .newest = static_cast<std::size_t>(config.freeze_files),
+          .log_file = std::filesystem::absolute(log.mcap_file),
+          .start_ns = log.start_ns,
+          .realtime_offset_ns = log.realtime_offset_ns,
+          .description = description,
+          .warn = log.say,
+          .told = [&channel](const auto& frame) { channel.tell_text("freeze_frame", frame.string()); }};
+}
+
 int run(const Options& options, OperatorChannel& channel) {
   const auto directory = find_config_directory(options.config_directory);
   const auto file = [&](const std::string& given, const char* name) {
@@ -190,25 +209,29 @@ int run(const Options& options, OperatorChannel& channel) {
                          : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
   // Before the log: another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
-  TrialLogger logger(log_options(robot.log, options, channel));
+  const auto log = log_options(robot.log, options, channel);
+  TrialLogger logger(log);
   describe_trial(logger, robot, options.board);
   if (!simulate) describe_devices(logger, devices);
   if (sheet) add_sheet(logger, *sheet);
   const Shared<Heartbeat> heart;  // with the guard process
+  FreezeRecorder freeze(freeze_options(robot.log, log, logger.description(), channel));
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
   if (simulate)
     simulated = std::make_unique<SimulatedRobot>(world, monotonic_ns());
   else
-    real = std::make_unique<RealRobot>(devices, robot.watchdog, *heart, logger);
+    real = std::make_unique<RealRobot>(devices, robot.watchdog, *heart, logger, freeze.dump());
   std::function<void()> cut = [] {};
   if (real)
     cut = [&real] { real->cut->cut(); };
   else
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session({robot, board, logger, channel, *heart, cut});
+  freeze.start();
+  auto result = run_session({robot, board, logger, channel, *heart, cut, freeze.ring()});
   real.reset();
+  freeze.stop();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
   result.log_error = logger.error();

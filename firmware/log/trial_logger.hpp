@@ -70,6 +70,9 @@ class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the ri
   void attach(std::string_view name, std::string_view media_type, std::string_view text);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
 
+  // What was attached and added so far.
+  const LogDescription& description() const { return log_.description(); }
+
   void start();
 
   // From the one thread of the topic's lane. `time_ns` is the record's own, CLOCK_MONOTONIC.

@@ -53,6 +53,9 @@ class Operator {
     }
     if (message.contains("warning")) setup_.say("warning: " + message["warning"].get<std::string>());
     if (message.contains("error")) error_ = message["error"].get<std::string>();
+    if (message.contains("freeze_frame"))
+      setup_.say(fmt::format("  what was measured around it: hop explain {}",
+                             message["freeze_frame"].get<std::string>()));
     if (message.contains("ready")) prepare();
     if (message.contains("event")) hear_event(message);
     if (message.contains("end")) {
