@@ -100,6 +100,9 @@ FaultReading read_fault(const Event& event, const ConfigNode* robot) {
     if (const auto number = number_at(*robot, keys.substr(0, bar))) reading.limits.push_back(*number);
     keys = bar == std::string_view::npos ? std::string_view{} : keys.substr(bar + 1);
   }
+  if (check.is_plotted) reading.lines = reading.limits;
+  if (check.is_plotted && reading.limits.size() == 1 && check.rule == kEitherWay)
+    reading.lines.push_back(-reading.limits[0]);
   reading.value_text = with_unit(reading.value, reading.unit);
   reading.limit_text = limit_text(check, reading.limits);
   return reading;

@@ -22,6 +22,7 @@ struct FaultCheck {
   std::string_view limit{};     // key of robot.toml, or two as "low|high"; empty: the rule says all
   std::string_view rule{};      // what a sound robot keeps to: "at most", completed by the limit's number
   std::string_view channels{};  // of the explanation's plots: those that show the quantity
+  bool is_plotted = false;      // a plot shows this very quantity, so the limit is drawn in it
 };
 
 bool has_check(Fault fault);
@@ -38,6 +39,7 @@ struct FaultReading {
   std::string value_text;      // "112.4 °C"
   std::string limit_text;      // "at most 110 °C (supervision.winding_temperature_C)"
   std::string channels;
+  std::vector<double> lines;  // limits to draw in the plots of `channels`
 };
 
 // `robot` is the configuration that the log carries; null: the limits' numbers are not known.
