@@ -44,6 +44,7 @@ struct Options {
   std::optional<int> quota_MB;
   int status_Hz = 0;
   std::string sheet_file;
+  bool no_log = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -57,6 +58,7 @@ void add_options(CLI::App& app, Options& options) {
       "device file; default linux.toml of the configuration directory, on the virtual bench bench.toml");
   app.add_option("--log", options.log_file, "MCAP log; CAN traffic goes beside it as candump text")
       ->capture_default_str();
+  app.add_flag("--no-log", options.no_log, "write no log; a fault still leaves its freeze frame");
   app.add_option("--board", options.board,
                  "linux: this machine's devices; sim: simulated robot in the process")
       ->check(CLI::IsMember({"linux", "sim"}))
@@ -172,9 +174,13 @@ TrialLogOptions log_options(const LogConfig& config, const Options& options, Ope
   TrialLogOptions log;
   log.limits = config.limits();
   log.say = [&channel](const std::string& text) { channel.tell_text("warning", text); };
-  log.mcap_file = options.log_file;
   log.start_ns = monotonic_ns();
   log.realtime_offset_ns = realtime_offset_ns();
+  if (options.no_log) {
+    log.limits = {};
+    return log;
+  }
+  log.mcap_file = options.log_file;
   if (options.board == "linux")
     log.candump_file = std::filesystem::path(options.log_file).replace_extension(".candump");
   return log;
@@ -184,7 +190,7 @@ FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log
                              const LogDescription& description, OperatorChannel& channel) {
   return {.folder = freeze::frame_folder(config.freeze_folder),
           .newest = static_cast<std::size_t>(config.freeze_files),
-          .log_file = std::filesystem::absolute(log.mcap_file),
+          .log_file = log.mcap_file.empty() ? "" : std::filesystem::absolute(log.mcap_file),
           .start_ns = log.start_ns,
           .realtime_offset_ns = log.realtime_offset_ns,
           .description = description,

@@ -63,6 +63,13 @@ std::optional<std::filesystem::path> writable_memory_folder() {
   return std::nullopt;
 }
 
+std::vector<std::filesystem::path> all_folders(const std::string& configured) {
+  std::vector<std::filesystem::path> folders{frame_folder(""), kServiceFolder};
+  if (!configured.empty()) folders.insert(folders.begin(), configured);
+  for (auto& folder : memory_folders()) folders.push_back(std::move(folder));
+  return folders;
+}
+
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, std::string_view ending) {
   std::vector<std::filesystem::path> files;
   std::error_code none;

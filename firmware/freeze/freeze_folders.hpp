@@ -24,6 +24,9 @@ std::vector<std::filesystem::path> memory_folders();
 // The first of them in which this process can write; the last two are made. None: there is no such folder.
 std::optional<std::filesystem::path> writable_memory_folder();
 
+// All in which a picture of a fault may lie: the configured one, the user's, the service's, those in memory.
+std::vector<std::filesystem::path> all_folders(const std::string& configured);
+
 // All files of a folder with this ending, by name, that is, oldest first. Empty where there is no folder.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, std::string_view ending);
 

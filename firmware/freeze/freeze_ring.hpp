@@ -9,29 +9,14 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include "drivers/unique_fd.hpp"
+#include "firmware/freeze/freeze_cycle.hpp"
 #include "firmware/log/log_description.hpp"
-#include "firmware/records.hpp"
-#include "firmware/sensor_frame.hpp"
 
 // The newest cycles in shared memory. The memory outlives the process that writes it: after a crash or a
 // SIGKILL the guard process, the next start of hopperd, `hop explain` and `hop recover` read it.
 namespace sandhopper {
-
-// What one cycle consumed and made.
-struct FreezeCycle {
-  SensorFrame frame{};
-  StepOutput output{};
-  std::uint32_t event_count = 0;
-  std::array<Event, 8> events{};  // as many as a cycle can have (Controller::events)
-
-  std::span<const Event> seen_events() const noexcept {
-    return {events.data(), std::min<std::size_t>(event_count, events.size())};
-  }
-};
-static_assert(std::is_trivially_copyable_v<FreezeCycle>);
 
 namespace freeze {
 

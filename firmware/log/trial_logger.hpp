@@ -28,7 +28,7 @@ struct LogTopic {
 };
 
 struct TrialLogOptions {
-  std::filesystem::path mcap_file;
+  std::filesystem::path mcap_file;      // empty: nothing is logged
   std::filesystem::path candump_file;   // empty: CAN traffic is not logged
   std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; stamps what is attached
   std::int64_t realtime_offset_ns = 0;  // realtime_offset_ns(), or a fixed date for repeatable files

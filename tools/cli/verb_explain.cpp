@@ -3,10 +3,9 @@
 #include <filesystem>
 
 #include "config/hint.hpp"
-#include "config/robot_config.hpp"
-#include "config/files.hpp"
 #include "firmware/fault.hpp"
 #include "firmware/freeze/freeze_folders.hpp"
+#include "tools/cli/freeze_folder.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/explain/explain_page.hpp"
 #include "tools/explain/explanation_json.hpp"
@@ -61,16 +60,8 @@ ExitCode explain_code(Session& session, const std::string& code) {
   return ExitCode::ok;
 }
 
-// The folder of the configuration, if there is one, those of the user and of the service, and those in memory.
 std::filesystem::path last_frame(Session& session) {
-  std::vector<std::filesystem::path> folders{freeze::frame_folder(""), freeze::kServiceFolder};
-  try {
-    const auto robot = load_robot(session.config_directory());
-    if (!robot.log.freeze_folder.empty()) folders.emplace_back(robot.log.freeze_folder);
-  } catch (const std::exception&) {
-    // Without a configuration that can be read the other folders remain.
-  }
-  for (const auto& folder : freeze::memory_folders()) folders.push_back(folder);
+  const auto folders = freeze::all_folders(configured_freeze_folder(session));
   if (const auto last = find_last_freeze(folders)) return *last;
   std::string names;
   for (const auto& folder : folders) names += (names.empty() ? "" : ", ") + folder.string();

@@ -18,6 +18,7 @@ constexpr std::uint64_t kHang_cycles = 50;  // between armed and release
 constexpr std::uint64_t kLongest_cycles = 8000;
 constexpr std::uint64_t kUnseen_cycles = 600;  // of watching for what cannot be seen
 constexpr std::uint64_t kAfter_cycles = 20;    // of watching the reaction
+constexpr std::uint64_t kFrozen_cycles = 1010;  // of the second after a fault that a freeze frame shows
 constexpr std::uint64_t kSoft_cycles = 3000;   // of watching a soft stop
 constexpr int kZeroWithin_cycles = 2;          // limp: no torque commanded any more
 constexpr std::uint64_t kStall_cycles = 50;
@@ -69,7 +70,8 @@ class CellTrial {
         topics_(logger_),
         controller_(cycle_config(robot)),
         aftermath_(robot.stiffness, logger_, topics_, {}),
-        cycle_({board_, controller_, logger_, topics_, aftermath_}) {
+        is_frozen_(setup.freeze != nullptr),
+        cycle_({board_, controller_, logger_, topics_, aftermath_, is_frozen_ ? setup.freeze(robot) : nullptr}) {
     if (setup.without) controller_.switch_off(*setup.without);
   }
 
@@ -87,7 +89,8 @@ class CellTrial {
 
  private:
   std::uint64_t after_cycles() const {
-    return entry_of(cell_.expected).reaction == Reaction::stop ? kSoft_cycles : kAfter_cycles;
+    if (entry_of(cell_.expected).reaction == Reaction::stop) return kSoft_cycles;
+    return is_frozen_ ? kFrozen_cycles : kAfter_cycles;
   }
   bool over() const {
     if (output_ != nullptr && ended_) return true;
@@ -204,6 +207,7 @@ class CellTrial {
   TrialTopics topics_;
   Controller controller_;
   Aftermath aftermath_;
+  bool is_frozen_;
   Cycle cycle_;
   Injected injected_;
   const StepOutput* output_ = nullptr;
