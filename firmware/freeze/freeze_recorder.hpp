@@ -15,9 +15,9 @@
 namespace sandhopper {
 
 struct FreezeOptions {
-  std::filesystem::path folder;  // of the frames: freeze::frame_folder()
+  std::filesystem::path folder{};  // of the frames: freeze::frame_folder()
   std::size_t newest = 20;       // frames that are kept
-  std::filesystem::path log_file;
+  std::filesystem::path log_file{};
   std::int64_t start_ns = 0;
   std::int64_t realtime_offset_ns = 0;
   LogDescription description{};

@@ -65,8 +65,8 @@ std::uint64_t schema_hash();
 class FreezeRing {
  public:
   struct Options {
-    std::filesystem::path file;  // in memory (tmpfs); made anew, locked (flock) while this process lives
-    std::filesystem::path log_file;
+    std::filesystem::path file{};  // in memory (tmpfs); made anew, locked (flock) while this process lives
+    std::filesystem::path log_file{};
     std::int64_t start_ns = 0;
     std::int64_t realtime_offset_ns = 0;
     LogDescription description{};

@@ -1,7 +1,7 @@
 # Freeze frames: the ring, what becomes of it, the frame of every fault, and what is said of them. A program of its own,
 # because what it needs of the project is small.
 file(GLOB freeze_test_sources CONFIGURE_DEPENDS tests/freeze/*.cpp)
-add_executable(freeze_tests ${freeze_test_sources})
+add_executable(freeze_tests ${freeze_test_sources} tests/unit/allocation_guard.cpp)
 target_link_libraries(freeze_tests PRIVATE sandhopper_faults sandhopper_explain GTest::gmock GTest::gtest_main)
 target_compile_definitions(freeze_tests PRIVATE SANDHOPPER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(freeze_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)

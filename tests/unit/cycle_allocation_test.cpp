@@ -57,7 +57,8 @@ Run run_trial(std::uint64_t plant_at) {
     LeakyBoard board(sim, plant_at);
     Controller controller(CycleConfig{});
     Aftermath aftermath(StiffnessConfig{}, logger, topics, {});
-    Cycle cycle({board, controller, logger, topics, aftermath});
+    FreezeRing freeze({.file = log.parent_path() / "sandhopper_allocation_test.freeze.memory"});
+    Cycle cycle({board, controller, logger, topics, aftermath, &freeze});
     LatencyHistogram latency;
     Latest<LiveStatus> status;
     Request request = Request::arm;
@@ -77,6 +78,7 @@ Run run_trial(std::uint64_t plant_at) {
     }
     logger.stop();
     logger.close();
+    freeze.remove();
   }
   std::filesystem::remove(log);
   return run;
