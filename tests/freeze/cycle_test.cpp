@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "config/files.hpp"
+#include "drivers/clock.hpp"
 #include "firmware/hop_session.hpp"
 #include "tests/freeze/folders.hpp"
 #include "tests/unit/allocation_guard.hpp"
@@ -89,11 +88,11 @@ TEST(FreezeRing, APushTakesLessThanAMicrosecond) {
   const SensorFrame frame;
   const StepOutput output;
   constexpr int kPushes = 100'000;
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin_ns = clock_ns(CLOCK_THREAD_CPUTIME_ID);
   for (int i = 0; i < kPushes; ++i) recorder.ring()->push(frame, output, {});
-  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-  std::printf("%.0f ns a push, %zu bytes a cycle\n", took.count() / kPushes, sizeof(freeze::Slot));
-  EXPECT_LT(took.count() / kPushes, 1000.0);
+  const double push_ns = static_cast<double>(clock_ns(CLOCK_THREAD_CPUTIME_ID) - begin_ns) / kPushes;
+  std::printf("%.0f ns a push, %zu bytes a cycle\n", push_ns, sizeof(freeze::Slot));
+  EXPECT_LT(push_ns, 1000.0);
 }
 
 }  // namespace

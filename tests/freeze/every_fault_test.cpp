@@ -34,20 +34,30 @@ std::vector<faults::Cell> one_cell_a_fault() {
   return result;
 }
 
-// What the robot did must fit the fault's entry: limp has the drives off, damp damps first where the leg moved, …
+// What the robot did must fit the fault's entry: limp switches the drives off, damp damps first where the leg moved, …
 void expect_reaction(const Explanation& e, const faults::Cell& cell) {
   const auto& entry = entry_of(e.faults.front().fault);
   ASSERT_FALSE(e.steps.empty());
   const auto& last = e.steps.back();
+  if (entry.reaction == Reaction::stop && cell.phase != faults::Phase::idle) {
+    // The soft stop itself takes longer than the second that the frame shows.
+    EXPECT_TRUE(std::ranges::any_of(e.steps, [](const auto& step) { return step.state == State::soft_stop; }));
+    return;
+  }
   EXPECT_EQ(last.state, State::fault);
-  if (entry.reaction == Reaction::limp || entry.reaction == Reaction::stop || cell.phase == faults::Phase::idle)
-    EXPECT_EQ(last.drives, "drives off");
+  if (entry.reaction == Reaction::limp || cell.phase == faults::Phase::idle) {
+    EXPECT_EQ(last.drives, "off");
+  }
   const auto has = [&](std::string_view drives) {
     return std::ranges::any_of(e.steps, [&](const auto& step) { return step.drives == drives; });
   };
   if (cell.phase == faults::Phase::idle) return;
-  if (entry.reaction == Reaction::damp) EXPECT_TRUE(has("drives damp the leg"));
-  if (entry.reaction == Reaction::hold) EXPECT_TRUE(has("drives hold the leg"));
+  if (entry.reaction == Reaction::damp) {
+    EXPECT_TRUE(has("damping"));
+  }
+  if (entry.reaction == Reaction::hold) {
+    EXPECT_TRUE(has("hold"));
+  }
 }
 
 class FreezeOfTheMatrix {
@@ -109,7 +119,9 @@ TEST(FreezeFrames, OneOfEveryFaultTellsFaultValueLimitReactionAndCure) {
     EXPECT_EQ(e.missing_cycles, 0U);
     EXPECT_FALSE(fault.reading.quantity.empty());
     EXPECT_FALSE(fault.reading.limit_text.empty());
-    if (!fault.reading.limit_key.empty()) EXPECT_FALSE(fault.reading.limits.empty()) << fault.reading.limit_key;
+    if (!fault.reading.limit_key.empty()) {
+      EXPECT_FALSE(fault.reading.limits.empty()) << fault.reading.limit_key;
+    }
     expect_reaction(e, cell);
     const auto text = explanation_text(e);
     EXPECT_THAT(text, HasSubstr(std::string(entry_of(cell.expected).cure)));
@@ -120,7 +132,9 @@ TEST(FreezeFrames, OneOfEveryFaultTellsFaultValueLimitReactionAndCure) {
     seen.insert(cell.expected);
   }
   for (const auto& entry : kFaults)
-    if (entry.fault != Fault::none) EXPECT_TRUE(seen.contains(entry.fault)) << entry.name;
+    if (entry.fault != Fault::none) {
+      EXPECT_TRUE(seen.contains(entry.fault)) << entry.name;
+    }
   std::printf("%zu faults, a freeze frame of each\n", seen.size());
 }
 

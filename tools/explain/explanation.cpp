@@ -27,17 +27,17 @@ std::string utc(std::int64_t realtime_ns) {
 }
 
 std::string_view drives_of(const Command& command) {
-  if (command.drive == DriveRequest::off) return "drives off";
-  if (command.drive == DriveRequest::enable) return "drives on, no torque";
+  if (command.drive == DriveRequest::off) return "off";
+  if (command.drive == DriveRequest::enable) return "on, zero gains";
   double torque = 0.0, kp = 0.0, kd = 0.0;
   for (const auto& motor : command.motor) {
     torque = std::max(torque, std::abs(motor.torque_Nm));
     kp = std::max(kp, motor.kp_Nm_per_rad);
     kd = std::max(kd, motor.kd_Nm_s_per_rad);
   }
-  if (kp > 0.0) return "drives hold the leg";
-  if (kd > 0.0) return "drives damp the leg";
-  return torque > 0.0 ? "torque of the spring law" : "no torque";
+  if (kp > 0.0) return "hold";
+  if (kd > 0.0) return "damping";
+  return torque > 0.0 ? "spring law" : "zero torque";
 }
 
 std::vector<ReactionStep> steps_of(const Recording& recording) {

@@ -21,7 +21,7 @@ struct ReactionStep {
   double from_s = 0.0;
   double to_s = 0.0;
   State state = State::idle;
-  std::string drives;  // "spring law", "damped", "off", …
+  std::string drives;  // "spring law", "damping", "hold", "off", …
 };
 
 // All that is said of a recording. Times are seconds from its instant.

@@ -61,7 +61,12 @@ function fillAnswers(explained) {
       line('quiet', `Means: ${fault.meaning}.`));
   }
   box('What was done', stepTable(explained.steps), line('quiet', explained.ending));
-  for (const fault of explained.faults) box(explained.faults.length > 1 ? `Cure of ${fault.name}` : 'Cure', line('', fault.cure));
+  for (const fault of explained.faults) box(explained.faults.length > 1 ? `Cure of ${fault.name}` : 'Cure', element('p', {}, ...withCode(fault.cure)));
+}
+
+// Words between backquotes are commands or keys.
+function withCode(text) {
+  return text.split('`').map((part, i) => (i % 2 ? element('code', {}, part) : part));
 }
 
 function stepTable(steps) {
