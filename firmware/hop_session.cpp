@@ -78,7 +78,8 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
     result.last_fault = output.fault;
     if (asked_to_quit == 0) continue;
     if (quit == Quit::at_once) return;
-    if (off && clock.cycle() > std::max({off_since + kTail_cycles, asked_to_quit + kTail_cycles, picture_done}))
+    if (off &&
+        clock.cycle() > std::max({off_since + kTail_cycles, asked_to_quit + kTail_cycles, picture_done}))
       return;
     if (clock.cycle() > asked_to_quit + kPatience_cycles) return;
   }

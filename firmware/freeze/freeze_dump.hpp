@@ -19,13 +19,13 @@ class FreezeDump final : public LastAct {
   FreezeDump(const FreezeDump&) = delete;
   FreezeDump& operator=(const FreezeDump&) = delete;
 
-  // Async-signal-safe: write, fdatasync and rename only. Where the disk does not take it, the ring's own file in
-  // memory is still there.
+  // Async-signal-safe: write, fdatasync and rename only. Where the disk does not take it, the ring's own file
+  // in memory is still there.
   void run() noexcept override;
   std::span<const int> descriptors() const noexcept override { return {&descriptor_, 1}; }
 
-  // In hopperd, which stood still, let the guard act, and goes on: the file is hidden again, for the next time. The
-  // standstill's picture is the freeze frame of watchdog_tripped.
+  // In hopperd, which stood still, let the guard act, and goes on: the file is hidden again, for the next
+  // time. The standstill's picture is the freeze frame of watchdog_tripped.
   void take_back() noexcept;
   // Takes both names away: hopperd ended in order.
   void remove() noexcept;

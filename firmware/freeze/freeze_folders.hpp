@@ -14,8 +14,9 @@ inline constexpr std::string_view kMemoryEnding = ".freeze.memory";  // a ring i
 inline constexpr std::string_view kDumpEnding = ".freeze.dump";      // the guard's copy of a ring
 inline constexpr std::string_view kServiceFolder = "/var/log/sandhopper/freeze";
 
-// The folder of the frames. `configured` is log.freeze_folder; where that is empty, $LOGS_DIRECTORY/freeze (the
-// service), otherwise $XDG_STATE_HOME/sandhopper/freeze, which is ~/.local/state/sandhopper/freeze by default.
+// The folder of the frames. `configured` is log.freeze_folder; where that is empty, $LOGS_DIRECTORY/freeze
+// (the service), otherwise $XDG_STATE_HOME/sandhopper/freeze, which is ~/.local/state/sandhopper/freeze by
+// default.
 std::filesystem::path frame_folder(const std::string& configured);
 
 // Folders in memory, best first: $SANDHOPPER_FREEZE_MEMORY where it is set, and no other then;

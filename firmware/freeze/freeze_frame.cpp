@@ -41,14 +41,13 @@ class FrameWriter {
     for (const auto& a : description.attachments)
       writer_.attach(a.name, a.media_type, created_ns, mcap::bytes_of(a.text));
     for (const auto& [name, entries] : description.metadata) writer_.add_metadata(name, entries);
-    writer_.add_metadata(kFreezeMetadata,
-                         {{"cause", std::string(name_of(instant.cause))},
-                          {"fault", std::string(name_of(instant.fault))},
-                          {"time_ns", std::to_string(instant.time_ns)},
-                          {"cycle", cycle ? std::to_string(cycle->frame.cycle) : ""},
-                          {"log", ring_.log_file().string()},
-                          {"start_ns", std::to_string(ring_.header().start_ns)},
-                          {"process", std::to_string(ring_.header().process)}});
+    writer_.add_metadata(kFreezeMetadata, {{"cause", std::string(name_of(instant.cause))},
+                                           {"fault", std::string(name_of(instant.fault))},
+                                           {"time_ns", std::to_string(instant.time_ns)},
+                                           {"cycle", cycle ? std::to_string(cycle->frame.cycle) : ""},
+                                           {"log", ring_.log_file().string()},
+                                           {"start_ns", std::to_string(ring_.header().start_ns)},
+                                           {"process", std::to_string(ring_.header().process)}});
   }
 
   void write_between(std::int64_t from_ns, std::int64_t to_ns) {

@@ -42,10 +42,10 @@ std::vector<FreezeInstant> instants_left(const FreezeReader& ring);
 // Name without ending: time, trial, fault or cause.
 std::string frame_name_of(const FreezeReader& ring, const FreezeInstant& instant);
 
-// Writes 5 s before the instant and 1 s after it, or what there is of that, as an ordinary log: topics /frame,
-// /output and /event, attachments and metadata of the trial, and metadata "freeze". The file has its name when it
-// is whole. Returns its path; a frame of that name that is there already stays as it is. Makes the folder.
-// Throws std::system_error.
+// Writes 5 s before the instant and 1 s after it, or what there is of that, as an ordinary log: topics
+// /frame, /output and /event, attachments and metadata of the trial, and metadata "freeze". The file has its
+// name when it is whole. Returns its path; a frame of that name that is there already stays as it is. Makes
+// the folder. Throws std::system_error.
 std::filesystem::path write_frame(const FreezeReader& ring, const FreezeInstant& instant,
                                   const std::filesystem::path& folder);
 

@@ -58,9 +58,9 @@ class Leftovers {
 
 }  // namespace
 
-std::vector<std::filesystem::path> write_leftovers(
-    const std::filesystem::path& folder, const std::vector<std::filesystem::path>& memory_folders,
-    const std::function<void(const std::string&)>& warn) {
+std::vector<std::filesystem::path> write_leftovers(const std::filesystem::path& folder,
+                                                   const std::vector<std::filesystem::path>& memory_folders,
+                                                   const std::function<void(const std::string&)>& warn) {
   Leftovers leftovers(folder, warn);
   for (const auto& memory : memory_folders) {
     for (const auto& ring : freeze::files_in(memory, freeze::kMemoryEnding))

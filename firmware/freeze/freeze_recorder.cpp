@@ -26,11 +26,12 @@ FreezeRecorder::FreezeRecorder(FreezeOptions options) : options_(std::move(optio
   memory_ = *memory;
   const auto name = fmt::format("hopperd-{}-{}{}", ::getpid(), options_.start_ns, freeze::kMemoryEnding);
   try {
-    ring_ = std::make_unique<FreezeRing>(FreezeRing::Options{.file = memory_ / name,
-                                                             .log_file = options_.log_file,
-                                                             .start_ns = options_.start_ns,
-                                                             .realtime_offset_ns = options_.realtime_offset_ns,
-                                                             .description = options_.description});
+    ring_ =
+        std::make_unique<FreezeRing>(FreezeRing::Options{.file = memory_ / name,
+                                                         .log_file = options_.log_file,
+                                                         .start_ns = options_.start_ns,
+                                                         .realtime_offset_ns = options_.realtime_offset_ns,
+                                                         .description = options_.description});
   } catch (const std::system_error& error) {
     options_.warn(fmt::format("no freeze frames: {}", error.what()));
     return;
@@ -38,9 +39,10 @@ FreezeRecorder::FreezeRecorder(FreezeOptions options) : options_(std::move(optio
   try {
     dump_ = std::make_unique<FreezeDump>(*ring_, options_.folder);
   } catch (const std::system_error& error) {
-    options_.warn(fmt::format("freeze frames have no room on the disk and stay in {}, until the computer is "
-                              "restarted: {}",
-                              memory_.string(), error.what()));
+    options_.warn(
+        fmt::format("freeze frames have no room on the disk and stay in {}, until the computer is "
+                    "restarted: {}",
+                    memory_.string(), error.what()));
   }
 }
 
@@ -89,7 +91,8 @@ void FreezeRecorder::write(const FreezeInstant& instant) {
       if (options_.told) options_.told(frame);
       return;
     } catch (const std::system_error& error) {
-      options_.warn(fmt::format("the freeze frame of {} cannot be written: {}", name_of(instant.fault), error.what()));
+      options_.warn(
+          fmt::format("the freeze frame of {} cannot be written: {}", name_of(instant.fault), error.what()));
     }
   }
   kept_ = true;

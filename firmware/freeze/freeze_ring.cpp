@@ -25,7 +25,8 @@ void put_text(std::array<char, N>& field, std::string_view text) {
 
 template <std::size_t N>
 std::string text_in(const std::array<char, N>& field) {
-  return {field.data(), static_cast<std::size_t>(std::find(field.begin(), field.end(), '\0') - field.begin())};
+  return {field.data(),
+          static_cast<std::size_t>(std::find(field.begin(), field.end(), '\0') - field.begin())};
 }
 
 // Texts one after the other, each behind its length. A text for which there is no room is left out, and so
@@ -142,7 +143,8 @@ FreezeRing::~FreezeRing() {
 void FreezeRing::remove() noexcept { ::unlink(file_.c_str()); }
 
 FreezeReader::FreezeReader(std::span<const std::byte> bytes) {
-  if (bytes.size() < sizeof(freeze::Header)) throw std::runtime_error("too short for a freeze frame's memory");
+  if (bytes.size() < sizeof(freeze::Header))
+    throw std::runtime_error("too short for a freeze frame's memory");
   header_ = reinterpret_cast<const freeze::Header*>(bytes.data());
   if (header_->magic != kMagic) throw std::runtime_error("no freeze frame's memory");
   if (header_->layout != freeze::kLayout || header_->schema_hash != freeze::schema_hash() ||

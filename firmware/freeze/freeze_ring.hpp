@@ -43,8 +43,8 @@ struct Header {
   std::int32_t process = 0;
   std::array<char, 32> version{};
   std::array<char, 1024> log_file{};
-  std::atomic<std::uint64_t> count{0};      // cycles in the ring since start
-  std::atomic<std::uint64_t> dumped_at{0};  // the guard has dumped the ring when it held so many
+  std::atomic<std::uint64_t> count{0};       // cycles in the ring since start
+  std::atomic<std::uint64_t> dumped_at{0};   // the guard has dumped the ring when it held so many
   std::atomic<std::uint64_t> written_to{0};  // the faults of the first so many cycles are in frames already
 };
 

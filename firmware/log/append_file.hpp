@@ -11,8 +11,8 @@ namespace sandhopper {
 // A new file that only grows, by whole pieces: what append() is given is in the file, or nothing of it is.
 // Behind its end it keeps `reserve_bytes` of the disk allocated where the file system can, so that on a full
 // disk there is room left to say what was lost, and to close. Refuses to overwrite. Throws std::system_error,
-// with the file's name and what to do. After a failed append the next may succeed, when there is room again. An
-// empty name stands for a log that is switched off: everything is taken and nothing is kept.
+// with the file's name and what to do. After a failed append the next may succeed, when there is room again.
+// An empty name stands for a log that is switched off: everything is taken and nothing is kept.
 class AppendFile {
  public:
   explicit AppendFile(const std::filesystem::path& file, std::uint64_t reserve_bytes = 0,

@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// Counts what is missing between the frames of a log by their cycle numbers. A number that does not grow (a damaged
-// log) is passed over.
+// Counts what is missing between the frames of a log by their cycle numbers. A number that does not grow (a
+// damaged log) is passed over.
 class CycleCount {
  public:
   void see(const SensorFrame& frame, LogRecovery& result) {

@@ -15,7 +15,7 @@ struct LogConfig {
   int segment_MB = 200;  // a new file is begun when one holds this much; 0: one file
   int quota_MB = 4000;   // the oldest files of this log go when all together would hold more; 0: none goes
   std::string freeze_folder{};  // empty: the state folder of the service or of the user
-  int freeze_files = 20;      // the newest so many are kept; one frame has about 4 MB
+  int freeze_files = 20;        // the newest so many are kept; one frame has about 4 MB
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {

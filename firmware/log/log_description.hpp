@@ -6,8 +6,8 @@
 
 namespace sandhopper {
 
-// What a log carries in front of its records: configuration and other texts as attachments, build and board as
-// metadata. A freeze frame of the same trial carries the same.
+// What a log carries in front of its records: configuration and other texts as attachments, build and board
+// as metadata. A freeze frame of the same trial carries the same.
 struct LogDescription {
   struct Attachment {
     std::string name;

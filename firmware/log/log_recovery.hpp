@@ -39,7 +39,7 @@ struct LogRecovery {
   struct Cycles {
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    std::int64_t first_ns = 0;        // the cycles' own times, CLOCK_MONOTONIC
+    std::int64_t first_ns = 0;  // the cycles' own times, CLOCK_MONOTONIC
     std::int64_t last_ns = 0;
     std::uint64_t missing_inside = 0;  // between first and last; skipped ones are not among them
     std::uint64_t skipped = 0;         // grid points that the cycle did not run in: its overruns
@@ -62,8 +62,8 @@ struct LogRecovery {
 // When damage hides where records begin, the next chunk with a right CRC is searched for. A log of other
 // encodings than this firmware's is refused.
 //
-// `newest` are the last cycles that ran in this trial, oldest first, from its freeze ring (find_newest_cycles()): those
-// that a cut log lacks at its end are written to the copy, too.
+// `newest` are the last cycles that ran in this trial, oldest first, from its freeze ring
+// (find_newest_cycles()): those that a cut log lacks at its end are written to the copy, too.
 //
 // Throws mcap::Error when `from` is no such log or nothing can be read of it, std::system_error when a file
 // cannot be opened or written; an existing `to` is not overwritten.

@@ -30,8 +30,8 @@ struct SavedChannel {
   bool met = false;
   std::uint32_t sequence = 0;
   std::int64_t log_ns = 0;
-  std::int64_t own_ns = 0;       // its own time, which each record of this firmware begins with
-  std::size_t with_own_ns = 0;   // messages of that same time
+  std::int64_t own_ns = 0;      // its own time, which each record of this firmware begins with
+  std::size_t with_own_ns = 0;  // messages of that same time
   std::uint64_t damage_before = 0;
   std::uint64_t gaps_before = 0;
 
@@ -237,7 +237,8 @@ class Recovery {
         if (channel.topic == topic && channel.has_schema_of_cycle) return &channel;
       return nullptr;
     };
-    const std::array channels{channel_of(topic::kFrame), channel_of(topic::kOutput), channel_of(topic::kEvent)};
+    const std::array channels{channel_of(topic::kFrame), channel_of(topic::kOutput),
+                              channel_of(topic::kEvent)};
     if (std::ranges::count(channels, nullptr) > 0) return;
     auto& cycles = *result_.cycles;
     const std::int64_t offset_ns = channels[0]->log_ns - channels[0]->own_ns;
@@ -250,7 +251,8 @@ class Recovery {
         result_.last_ns = std::max(result_.last_ns, stamp.log_ns);
       };
       if (cycle.frame.time_ns > channels[0]->own_ns) {
-        if (cycles.restored++ == 0) cycles.missing_at_end = cycle_count_.missing_until(cycle.frame, cycles.last);
+        if (cycles.restored++ == 0)
+          cycles.missing_at_end = cycle_count_.missing_until(cycle.frame, cycles.last);
         put(0, cycle.frame);
       }
       if (cycle.frame.time_ns > channels[1]->own_ns) put(1, cycle.output);

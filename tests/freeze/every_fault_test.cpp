@@ -21,7 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// One cell of the fault matrix for each fault: of several the one latest in the hop, where there is most to see.
+// One cell of the fault matrix for each fault: of several the one latest in the hop, where there is most to
+// see.
 std::vector<faults::Cell> one_cell_a_fault() {
   std::map<Fault, faults::Cell> cells;
   for (const auto& cell : faults::all_cells()) {
@@ -34,14 +35,16 @@ std::vector<faults::Cell> one_cell_a_fault() {
   return result;
 }
 
-// What the robot did must fit the fault's entry: limp switches the drives off, damp damps first where the leg moved, …
+// What the robot did must fit the fault's entry: limp switches the drives off, damp damps first where the leg
+// moved, …
 void expect_reaction(const Explanation& e, const faults::Cell& cell) {
   const auto& entry = entry_of(e.faults.front().fault);
   ASSERT_FALSE(e.steps.empty());
   const auto& last = e.steps.back();
   if (entry.reaction == Reaction::stop && cell.phase != faults::Phase::idle) {
     // The soft stop itself takes longer than the second that the frame shows.
-    EXPECT_TRUE(std::ranges::any_of(e.steps, [](const auto& step) { return step.state == State::soft_stop; }));
+    EXPECT_TRUE(
+        std::ranges::any_of(e.steps, [](const auto& step) { return step.state == State::soft_stop; }));
     return;
   }
   EXPECT_EQ(last.state, State::fault);
@@ -128,7 +131,8 @@ TEST(FreezeFrames, OneOfEveryFaultTellsFaultValueLimitReactionAndCure) {
     EXPECT_THAT(text, HasSubstr(fault.reading.value_text));
     EXPECT_THAT(explanation_page(e), HasSubstr("\"explained\""));
     if (pages != nullptr)
-      write_explanation_page(e, std::filesystem::path(pages) / (std::string(name_of(cell.expected)) + ".html"));
+      write_explanation_page(e,
+                             std::filesystem::path(pages) / (std::string(name_of(cell.expected)) + ".html"));
     seen.insert(cell.expected);
   }
   for (const auto& entry : kFaults)
@@ -139,8 +143,7 @@ TEST(FreezeFrames, OneOfEveryFaultTellsFaultValueLimitReactionAndCure) {
 }
 
 TEST(FaultChecks, EveryFaultHasItsOwnAndEveryLimitIsAKeyOfTheRobotsFile) {
-  const auto robot =
-      to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
+  const auto robot = to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
   for (const auto& entry : kFaults) {
     if (entry.fault == Fault::none) continue;
     EXPECT_TRUE(has_check(entry.fault)) << entry.name << ": add a line to tools/explain/fault_checks.hpp";
@@ -154,7 +157,8 @@ TEST(FaultChecks, EveryFaultHasItsOwnAndEveryLimitIsAKeyOfTheRobotsFile) {
 
 TEST(FaultChecks, TheLimitIsThatOfTheDeviceThatTheEventNumbers) {
   const auto robot = to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
-  const Event event{.kind = EventKind::fault_raised, .fault = Fault::sensor_intermittent, .values = {3.0, 412.0, 0.0, 0.0}};
+  const Event event{
+      .kind = EventKind::fault_raised, .fault = Fault::sensor_intermittent, .values = {3.0, 412.0, 0.0, 0.0}};
   const auto reading = read_fault(event, &robot);
   EXPECT_EQ(reading.device, "load cell");
   EXPECT_EQ(reading.value_text, "412 Hz");

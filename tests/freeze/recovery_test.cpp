@@ -46,7 +46,8 @@ class TrialWithRing {
     auto cut = log_;
     cut.replace_extension(".cut.mcap");
     std::filesystem::copy_file(log_, cut, std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::resize_file(cut, static_cast<std::uintmax_t>(share * static_cast<double>(std::filesystem::file_size(log_))));
+    std::filesystem::resize_file(
+        cut, static_cast<std::uintmax_t>(share * static_cast<double>(std::filesystem::file_size(log_))));
     return cut;
   }
 

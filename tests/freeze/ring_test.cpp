@@ -142,8 +142,8 @@ TEST(FreezeRecorder, WithoutAFolderThatTakesFilesTheFrameStaysInMemoryAndTheNext
   EXPECT_TRUE(std::filesystem::is_empty(folders.memory()));
 }
 
-// A process of its own that pushes cycles and is killed; `act` runs in a child of it, like the guard process, when its
-// line to the parent breaks.
+// A process of its own that pushes cycles and is killed; `act` runs in a child of it, like the guard process,
+// when its line to the parent breaks.
 void run_and_kill(const FreezeOptions& options, bool with_guard, std::uint64_t cycles, Fault fault) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);

@@ -111,7 +111,8 @@ ExitCode run(Session& session, const Options& options) {
   if (options.last) return explain_file(session, last_frame(session), options);
   const bool is_file = options.subject.find_first_of("./") != std::string::npos;
   if (is_file && !std::filesystem::exists(options.subject))
-    throw Failure(ExitCode::usage, "no file " + options.subject, "name a freeze frame or a log, or use --last");
+    throw Failure(ExitCode::usage, "no file " + options.subject,
+                  "name a freeze frame or a log, or use --last");
   return is_file ? explain_file(session, options.subject, options) : explain_code(session, options.subject);
 }
 
@@ -125,8 +126,10 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--page", options->page, "page to write; default: beside the file, ending in .html");
   arguments.add_flag("--no-page", options->no_page, "text only");
   arguments.footer(
-      "Of a file: what was measured in the 5 s before and the 1 s after the fault, which check fired with value "
-      "and\nlimit, what was done, and the cure. Exit status: 0, 1 there is no fault to explain, 2 command line.");
+      "Of a file: what was measured in the 5 s before and the 1 s after the fault, which check fired with "
+      "value "
+      "and\nlimit, what was done, and the cure. Exit status: 0, 1 there is no fault to explain, 2 command "
+      "line.");
   return [options](Session& session) { return run(session, *options); };
 }
 

@@ -82,8 +82,8 @@ Recovered recover(Session& session, const Options& options, const std::filesyste
 void tell_cycles(Session& session, const Recovered& recovered) {
   const auto& cycles = recovered.log.cycles;
   if (!cycles) return;
-  session.say("  cycles {} to {}: {} missing between them, {} skipped by overruns", cycles->first, cycles->last,
-              cycles->missing_inside, cycles->skipped);
+  session.say("  cycles {} to {}: {} missing between them, {} skipped by overruns", cycles->first,
+              cycles->last, cycles->missing_inside, cycles->skipped);
   if (cycles->restored > 0)
     session.say("  the {} cycles after them were not in the log and come from {}", cycles->restored,
                 recovered.restored_from);
@@ -98,10 +98,12 @@ void tell_end(Session& session, const Recovered& recovered) {
   if (!found.cut_at) return;
   session.say("  the log was not closed: it ends at byte {}", *found.cut_at);
   if (found.end_is_known()) return;
-  session.say("  its newest records are missing, and no freeze frame of this trial says how many: usually the last "
-              "0.1 s (one chunk), after a power cut up to 1 s");
+  session.say(
+      "  its newest records are missing, and no freeze frame of this trial says how many: usually the last "
+      "0.1 s (one chunk), after a power cut up to 1 s");
   if (recovered.seen_on_bus)
-    session.say("  by the CAN traffic beside it at least {} cycles are missing at the end", *recovered.seen_on_bus);
+    session.say("  by the CAN traffic beside it at least {} cycles are missing at the end",
+                *recovered.seen_on_bus);
 }
 
 void tell(Session& session, const Recovered& recovered, const std::string& log, const std::string& output) {
@@ -182,8 +184,10 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--output", options->output,
                        "where to write what was saved; default: LOG with .recovered");
   arguments.footer(
-      "The log itself is not changed. A whole one is not copied. The end of a log whose hopperd was killed comes "
-      "from its\nfreeze ring or freeze frame where there is one; \"lost\" is null where nobody knows what the end "
+      "The log itself is not changed. A whole one is not copied. The end of a log whose hopperd was killed "
+      "comes "
+      "from its\nfreeze ring or freeze frame where there is one; \"lost\" is null where nobody knows what "
+      "the end "
       "took. Exit status: 0 the log is whole or what can "
       "be\n"
       "read of it was written, 1 nothing can be read of it, 2 command line, 3 a file cannot be read or "

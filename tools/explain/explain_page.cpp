@@ -11,7 +11,8 @@ namespace sandhopper {
 namespace {
 
 std::string verdict(const Explanation& e) {
-  if (e.faults.empty()) return "hopperd was killed, crashed or stood still: these are the last cycles it ran.";
+  if (e.faults.empty())
+    return "hopperd was killed, crashed or stood still: these are the last cycles it ran.";
   const auto& reading = e.faults.front().reading;
   return fmt::format("{}{}: {}; allowed: {}", reading.device.empty() ? "" : reading.device + ", ",
                      reading.quantity, reading.value_text, reading.limit_text);

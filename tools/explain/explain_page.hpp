@@ -6,8 +6,8 @@
 
 namespace sandhopper {
 
-// One HTML page that holds all it shows and asks no network: the check that fired with value and limit, what was
-// done, the cure, and plots of what was measured before and after.
+// One HTML page that holds all it shows and asks no network: the check that fired with value and limit, what
+// was done, the cure, and plots of what was measured before and after.
 std::string explanation_page(const Explanation& explanation);
 
 // Throws std::runtime_error with path and cause where that fails.

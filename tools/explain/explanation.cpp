@@ -42,9 +42,15 @@ std::string_view drives_of(const Command& command) {
 
 std::vector<ReactionStep> steps_of(const Recording& recording) {
   std::vector<ReactionStep> steps;
-  for (const auto& [frame, output] : recording.cycles) {
+  const auto& cycles = recording.cycles;
+  auto first = std::ranges::find_if(cycles, [&](const auto& cycle) {
+    return seconds_from(recording, cycle.second.time_ns) >= -kBeforeSteps_s;
+  });
+  // After a gap there is none of those 20 ms: the last cycle before it says what was done until then.
+  if (first != cycles.begin() && first != cycles.end() && first->second.time_ns >= recording.time_ns) --first;
+  for (; first != cycles.end(); ++first) {
+    const StepOutput& output = first->second;
     const double time_s = seconds_from(recording, output.time_ns);
-    if (time_s < -kBeforeSteps_s) continue;
     const auto drives = drives_of(output.command);
     if (!steps.empty() && steps.back().state == output.state && steps.back().drives == drives) {
       steps.back().to_s = time_s;
@@ -79,8 +85,7 @@ void add_faults(const Recording& recording, Explanation& result) {
   const ConfigNode* robot = recording.robot ? &*recording.robot : nullptr;
   for (const Event& event : recording.events) {
     if (event.kind != EventKind::fault_raised || event.time_ns < recording.time_ns) continue;
-    result.faults.push_back(
-        {seconds_from(recording, event.time_ns), event.fault, read_fault(event, robot)});
+    result.faults.push_back({seconds_from(recording, event.time_ns), event.fault, read_fault(event, robot)});
   }
 }
 
@@ -107,13 +112,15 @@ std::vector<std::string> notes_of(const Recording& recording, const Explanation&
   std::vector<std::string> notes;
   if (recording.cause == FreezeCause::killed)
     notes.emplace_back(
-        "hopperd ended here without closing its log: it was killed, crashed or stood still. This is what it wrote "
+        "hopperd ended here without closing its log: it was killed, crashed or stood still. This is what it "
+        "wrote "
         "last.");
   if (recording.cut) notes.emplace_back("The file was not closed; it is shown up to its last whole record.");
   if (e.missing_cycles > 0)
     notes.push_back(fmt::format("{} cycles are missing, by the cycle counter.", e.missing_cycles));
   if (!recording.robot)
-    notes.emplace_back("The file carries no configuration, so limits that the event does not name are not known.");
+    notes.emplace_back(
+        "The file carries no configuration, so limits that the event does not name are not known.");
   return notes;
 }
 
@@ -121,9 +128,9 @@ std::string fault_lines(const ExplainedFault& f) {
   const FaultEntry& entry = entry_of(f.fault);
   const auto device = f.reading.device.empty() ? "" : f.reading.device + ": ";
   return fmt::format(
-      "  check:    {}{}: {}; allowed: {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n", device,
-      f.reading.quantity, f.reading.value_text, f.reading.limit_text, entry.meaning, name_of(entry.reaction),
-      name_of(entry.latch), entry.cure);
+      "  check:    {}{}: {}; allowed: {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n",
+      device, f.reading.quantity, f.reading.value_text, f.reading.limit_text, entry.meaning,
+      name_of(entry.reaction), name_of(entry.latch), entry.cure);
 }
 
 }  // namespace
@@ -155,9 +162,10 @@ Explanation explain(const Recording& recording) {
   data.notes = result.notes;
   data.facts.emplace_back("date", result.date);
   for (const auto& key : {"log", "board", "version", "who", "bed"})
-    if (const auto fact = recording.facts.find(key); fact != recording.facts.end())
+    if (const auto fact = recording.facts.find(key); fact != recording.facts.end() && !fact->second.empty())
       data.facts.emplace_back(key, fact->second);
-  data.facts.emplace_back("shown", fmt::format("{:.3f} s before, {:.3f} s after", result.before_s, result.after_s));
+  data.facts.emplace_back("shown",
+                          fmt::format("{:.3f} s before, {:.3f} s after", result.before_s, result.after_s));
   return result;
 }
 
@@ -171,8 +179,8 @@ std::string explanation_text(const Explanation& e) {
   }
   text += "  what was done:\n";
   for (const auto& step : e.steps)
-    text += fmt::format("    {:+.3f} s to {:+.3f} s  {:<11} {}\n", step.from_s, step.to_s, name_of(step.state),
-                        step.drives);
+    text += fmt::format("    {:+.3f} s to {:+.3f} s  {:<11} {}\n", step.from_s, step.to_s,
+                        name_of(step.state), step.drives);
   for (const auto& note : e.notes) text += "  note: " + note + "\n";
   text += fmt::format("  the file holds {:.3f} s before and {:.3f} s after", e.before_s, e.after_s);
   return text;

@@ -29,9 +29,10 @@ struct Explanation {
   std::string title;
   std::string date;  // UTC, of the instant
   FreezeCause cause = FreezeCause::fault;
-  std::vector<ExplainedFault> faults;  // the first one is the recording's own, unless it was killed without one
-  std::vector<ReactionStep> steps;     // from just before the instant on
-  double before_s = 0.0;               // what the recording holds
+  std::vector<ExplainedFault>
+      faults;                       // the first one is the recording's own, unless it was killed without one
+  std::vector<ReactionStep> steps;  // from just before the instant on
+  double before_s = 0.0;            // what the recording holds
   double after_s = 0.0;
   std::uint64_t missing_cycles = 0;  // by the cycle counter, overruns not counted
   std::vector<std::string> notes;

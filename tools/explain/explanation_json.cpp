@@ -39,15 +39,9 @@ Json fault_json(const ExplainedFault& f) {
 }  // namespace
 
 Json explanation_json(const Explanation& e) {
-  Json json{{"title", e.title},
-            {"date", e.date},
-            {"cause", std::string(name_of(e.cause))},
-            {"before_s", e.before_s},
-            {"after_s", e.after_s},
-            {"missing_cycles", e.missing_cycles},
-            {"faults", Json::array()},
-            {"steps", Json::array()},
-            {"notes", e.notes}};
+  Json json{{"title", e.title},        {"date", e.date},         {"cause", std::string(name_of(e.cause))},
+            {"before_s", e.before_s},  {"after_s", e.after_s},   {"missing_cycles", e.missing_cycles},
+            {"faults", Json::array()}, {"steps", Json::array()}, {"notes", e.notes}};
   for (const auto& fault : e.faults) json["faults"].push_back(fault_json(fault));
   for (const auto& step : e.steps)
     json["steps"].push_back({{"from_s", step.from_s},

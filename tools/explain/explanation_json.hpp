@@ -5,7 +5,8 @@
 
 namespace sandhopper {
 
-// Faults with check, value, limit, meaning, reaction and cure, and the steps of the reaction; without the plots.
+// Faults with check, value, limit, meaning, reaction and cure, and the steps of the reaction; without the
+// plots.
 nlohmann::ordered_json explanation_json(const Explanation& explanation);
 
 }  // namespace sandhopper

@@ -10,7 +10,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr FaultCheck kPlain{Fault::none, FaultDevice::none, 0,  "first value of the event", "",
+constexpr FaultCheck kPlain{Fault::none, FaultDevice::none,  0, "first value of the event", "",
                             "",          "not written down", ""};
 
 const FaultCheck* find_check(Fault fault) {

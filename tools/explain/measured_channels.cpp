@@ -15,9 +15,12 @@ struct Row {
   const StepOutput& output;
   const SensorFrame& before;
   const SensorFrame& first;
+  State last;  // of the cycle before
 
+  // The estimator rests in idle and from the cycle after a fault on: its values are then of earlier.
   bool estimating() const {
-    return output.state != State::idle && output.estimate.leg_length_m != 0.0;
+    const bool rests = output.state == State::idle || (output.state == State::fault && last == State::fault);
+    return !rests && output.estimate.leg_length_m != 0.0;
   }
 };
 
@@ -118,7 +121,9 @@ void add(const Channels& channels, const Recording& recording, ReportData& data)
     bool any = false;
     for (std::size_t i = 0; i < cycles.size(); ++i) {
       const SensorFrame& before = cycles[i == 0 ? 0 : i - 1].first;
-      const double value = channel.value({cycles[i].first, cycles[i].second, before, cycles.front().first});
+      const State last = cycles[i == 0 ? 0 : i - 1].second.state;
+      const double value =
+          channel.value({cycles[i].first, cycles[i].second, before, cycles.front().first, last});
       any = any || std::isfinite(value);
       column.values.push_back(value);
     }

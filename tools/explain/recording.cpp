@@ -91,7 +91,8 @@ Recording read_log(const std::filesystem::path& file) {
   recording.file = file;
   const auto found = survey(file, recording);
   const auto fault_ns = last_episode_ns(found.events);
-  if (!found.frozen_ns && !fault_ns) throw std::runtime_error(file.string() + ": there is no fault in this log");
+  if (!found.frozen_ns && !fault_ns)
+    throw std::runtime_error(file.string() + ": there is no fault in this log");
   recording.time_ns = found.frozen_ns ? *found.frozen_ns : *fault_ns;
   recording.cause = found.killed ? FreezeCause::killed : FreezeCause::fault;
   read_cycles(file, recording);

@@ -28,9 +28,10 @@ struct Recording {
   bool cut = false;                          // the file was not closed
 };
 
-// From a freeze frame, a trial's log, a ring in memory or a dump of one. Of a log: around the fault that began its
-// last episode of faults. Of a ring or dump: around its newest fault, or its end. Throws mcap::Error or
-// std::runtime_error for a file that is none of these or has no fault, std::system_error where it cannot be opened.
+// From a freeze frame, a trial's log, a ring in memory or a dump of one. Of a log: around the fault that
+// began its last episode of faults. Of a ring or dump: around its newest fault, or its end. Throws
+// mcap::Error or std::runtime_error for a file that is none of these or has no fault, std::system_error where
+// it cannot be opened.
 Recording read_recording(const std::filesystem::path& file);
 
 }  // namespace sandhopper

@@ -16,11 +16,11 @@ namespace {
 constexpr std::uint64_t kArm_cycle = 300;   // noise of the sensors is known by then
 constexpr std::uint64_t kHang_cycles = 50;  // between armed and release
 constexpr std::uint64_t kLongest_cycles = 8000;
-constexpr std::uint64_t kUnseen_cycles = 600;  // of watching for what cannot be seen
-constexpr std::uint64_t kAfter_cycles = 20;    // of watching the reaction
+constexpr std::uint64_t kUnseen_cycles = 600;   // of watching for what cannot be seen
+constexpr std::uint64_t kAfter_cycles = 20;     // of watching the reaction
 constexpr std::uint64_t kFrozen_cycles = 1010;  // of the second after a fault that a freeze frame shows
-constexpr std::uint64_t kSoft_cycles = 3000;   // of watching a soft stop
-constexpr int kZeroWithin_cycles = 2;          // limp: no torque commanded any more
+constexpr std::uint64_t kSoft_cycles = 3000;    // of watching a soft stop
+constexpr int kZeroWithin_cycles = 2;           // limp: no torque commanded any more
 constexpr std::uint64_t kStall_cycles = 50;
 constexpr double kLimpTorque_Nm = 1e-9;
 
@@ -71,7 +71,8 @@ class CellTrial {
         controller_(cycle_config(robot)),
         aftermath_(robot.stiffness, logger_, topics_, {}),
         is_frozen_(setup.freeze != nullptr),
-        cycle_({board_, controller_, logger_, topics_, aftermath_, is_frozen_ ? setup.freeze(robot) : nullptr}) {
+        cycle_(
+            {board_, controller_, logger_, topics_, aftermath_, is_frozen_ ? setup.freeze(robot) : nullptr}) {
     if (setup.without) controller_.switch_off(*setup.without);
   }
 

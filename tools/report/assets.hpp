@@ -13,7 +13,7 @@ extern const std::string_view kStudyScript;  // its scripts, in order
 extern const std::string_view kExplainPage;
 extern const std::string_view kExplainStyle;
 extern const std::string_view kExplainScript;
-extern const std::string_view kPlotStyle;    // dygraphs
+extern const std::string_view kPlotStyle;  // dygraphs
 extern const std::string_view kPlotScript;
 
 }  // namespace sandhopper::report_assets

@@ -60,7 +60,7 @@ const PANELS = [
     ],
   },
   {
-    title: 'Bus, since the picture\'s start', unit: 'frames', scale: 1, digits: 0,
+    title: 'Bus, since the first cycle shown', unit: 'frames', scale: 1, digits: 0,
     series: [
       { channel: 'bus_errors', label: 'errors', color: 'orange', style: 'steps' },
       { channel: 'bus_no_acknowledge', label: 'no acknowledge', color: 'purple', style: 'steps' },
