@@ -34,7 +34,7 @@ const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
 
   if (frame.wall_clock_step_ns != 0)
     emit(EventKind::clock_stepped, Reason::date_changed, {to_s(frame.wall_clock_step_ns), 0.0, 0.0, 0.0});
-  serve_request(frame);
+  request_had_effect_ = serve_request(frame);
   if (estimating()) {
     estimator_.update(frame, out_.estimate);
     out_.estimate.surface_z_m = recorder_.surface_z_m();
@@ -87,48 +87,49 @@ void Controller::enter(State state, const SensorFrame& frame) noexcept {
   state_since_ns_ = still_since_ns_ = frame.time_ns;
 }
 
-void Controller::serve_request(const SensorFrame& frame) noexcept {
+bool Controller::serve_request(const SensorFrame& frame) noexcept {
   switch (frame.request) {
     case Request::arm:
       if (out_.state == State::fault)
         emit(EventKind::arming_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
-      if (out_.state != State::idle) return;
+      if (out_.state != State::idle) return false;
       arming_.begin(frame.time_ns);
       ready_ = stop_requested_ = false;
       free_fall_count_ = 0;
       out_.command.open_catch = false;
       enter(State::armed, frame);
-      return;
+      return true;
     case Request::release:
-      if (out_.state != State::armed || !ready_) return;
+      if (out_.state != State::armed || !ready_) return false;
       out_.command.open_catch = true;
-      return;
+      return true;
     case Request::stop:
-      if (!drives_on(out_.state) || out_.state == State::soft_stop) return;
+      if (!drives_on(out_.state) || out_.state == State::soft_stop) return false;
       emit(EventKind::stop_requested, Reason::operator_request, {});
       stop_requested_ = true;
       if (out_.state == State::armed) enter(out_.command.open_catch ? State::soft_stop : State::idle, frame);
       if (out_.state == State::compression || out_.state == State::extension) enter(State::soft_stop, frame);
-      return;
+      return true;
     case Request::disarm:
-      disarm(frame);
-      return;
+      return disarm(frame);
     case Request::none:
-      return;
+      return false;
   }
+  return false;
 }
 
-void Controller::disarm(const SensorFrame& frame) noexcept {
-  if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return;
+bool Controller::disarm(const SensorFrame& frame) noexcept {
+  if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return false;
   const Latch latch = entry_of(out_.fault).latch;
   if (latch == Latch::until_restart || (latch == Latch::until_released && frame.emergency_stop)) {
     emit(EventKind::disarm_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
-    return;
+    return false;
   }
   out_.fault = Fault::none;
   ready_ = false;
   enter(State::idle, frame);
   emit(EventKind::disarmed, Reason::operator_request, {});
+  return true;
 }
 
 void Controller::supervise(const SensorFrame& frame) noexcept {

@@ -37,13 +37,15 @@ class Controller {
   // Whether the last step finished a stride; its sums then.
   bool stride_finished() const noexcept { return stride_finished_; }
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
+  // Whether the last step's request meant anything in the state the robot was in.
+  bool request_had_effect() const noexcept { return request_had_effect_; }
   const CycleConfig& config() const noexcept { return config_; }
 
   // For tests of the tests: without this fault's detector.
   void switch_off(Fault detector) noexcept { supervisor_.switch_off(detector); }
 
  private:
-  void serve_request(const SensorFrame& frame) noexcept;
+  bool serve_request(const SensorFrame& frame) noexcept;
   void supervise(const SensorFrame& frame) noexcept;
   void step_armed(const SensorFrame& frame) noexcept;
   void step_hop(const SensorFrame& frame) noexcept;
@@ -51,7 +53,7 @@ class Controller {
   void apply(const Transition& transition, const SensorFrame& frame) noexcept;
   void enter(State state, const SensorFrame& frame) noexcept;
   void raise(const FaultFound& found, const SensorFrame& frame) noexcept;
-  void disarm(const SensorFrame& frame) noexcept;
+  bool disarm(const SensorFrame& frame) noexcept;
   bool estimating() const noexcept;
   bool still() const noexcept;
   void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
@@ -76,6 +78,7 @@ class Controller {
   bool ready_ = false;  // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
+  bool request_had_effect_ = false;
   bool fault_energised_ = false;  // drives were on when the fault came
   std::array<double, kMotorCount> hold_angle_rad_{};
   std::array<double, 2> fault_values_{};

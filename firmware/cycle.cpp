@@ -53,6 +53,10 @@ void Aftermath::serve() {
     if (listener_.event) listener_.event(*event);
     events_.pop();
   }
+  for (const RequestRecord* answer = answers_.front(); answer != nullptr; answer = answers_.front()) {
+    if (listener_.request) listener_.request(*answer);
+    answers_.pop();
+  }
   for (const StrideSums* sums = strides_.front(); sums != nullptr; sums = strides_.front()) {
     const StrideResult result = solve_stride(*sums, config_);
     logger_.push(topics_.stride, sums->summary.liftoff_ns, result);

@@ -19,6 +19,7 @@ HopSession::HopSession(const RobotConfig& robot, Board& board, TrialLogger& logg
       board_(board),
       logger_(logger),
       topics_(logger),
+      request_topic_(logger.add_topic<RequestRecord>(topic::kRequest)),
       controller_(cycle_config(robot)),
       aftermath_(robot.stiffness, logger, topics_, std::move(listener)) {}
 
@@ -49,12 +50,9 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
   std::uint64_t off_since = 0;
   while (true) {
     const std::int64_t now_ns = clock.wait();
-    Request request = world.requests.take();
+    const auto taken = world.requests.take(now_ns, world.quit);
     const Quit quit = world.quit.load(std::memory_order_acquire);
-    if (quit != Quit::no && asked_to_quit == 0) {
-      asked_to_quit = clock.cycle();
-      request = Request::stop;
-    }
+    if (quit != Quit::no && asked_to_quit == 0) asked_to_quit = clock.cycle();
     const auto step_ns = world.wall_clock.step_ns();
     if (step_ns != 0) ++result.clock_steps;
     const auto& output = cycle.run({.time_ns = now_ns,
@@ -62,17 +60,45 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
                                     .overruns = clock.overruns(),
                                     .watchdog_stall_ns = world.heart.take_trip(),
                                     .wall_clock_step_ns = step_ns,
-                                    .request = request});
+                                    .request = taken.request});
     world.heart.beat(output.state, output.fault);
+    tell_answers(taken.answers, output);
     if (world.status != nullptr) world.status->publish(live_status(cycle.frame(), output, clock.latency()));
     const bool off = output.command.drive == DriveRequest::off;
     if (!off) off_since = clock.cycle();
     result.last_state = output.state;
     result.last_fault = output.fault;
     if (asked_to_quit == 0) continue;
-    if (quit == Quit::at_once) return;
-    if (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) return;
-    if (clock.cycle() > asked_to_quit + kPatience_cycles) return;
+    const bool over = quit == Quit::at_once ||
+                      (off && clock.cycle() > std::max(off_since, asked_to_quit) + kTail_cycles) ||
+                      clock.cycle() > asked_to_quit + kPatience_cycles;
+    if (!over) continue;
+    answer_the_rest(world, now_ns, output);
+    return;
+  }
+}
+
+// A quit is served whatever the state is: the session ends by it.
+void HopSession::tell_answers(std::span<RequestRecord> answers, const StepOutput& output) noexcept {
+  for (auto& answer : answers) {
+    answer.state = output.state;
+    const bool idle_word = answer.outcome == RequestOutcome::served && !means_quit(answer.word);
+    if (idle_word && !controller_.request_had_effect()) answer.outcome = RequestOutcome::no_effect;
+    logger_.push(request_topic_, answer.time_ns, answer);
+    aftermath_.offer(answer);
+  }
+}
+
+// Words that came while the last cycle ran. No cycle will serve them.
+void HopSession::answer_the_rest(World& world, std::int64_t now_ns, const StepOutput& output) noexcept {
+  for (auto taken = world.requests.take(now_ns, world.quit); !taken.answers.empty();
+       taken = world.requests.take(now_ns, world.quit)) {
+    for (auto& answer : taken.answers)
+      if (answer.outcome == RequestOutcome::served && !means_quit(answer.word)) {
+        answer.outcome = RequestOutcome::overruled;
+        answer.overruled_by = Word::quit;
+      }
+    tell_answers(taken.answers, output);
   }
 }
 

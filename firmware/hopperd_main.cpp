@@ -74,11 +74,10 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   app.footer(
-      "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
-      "one JSON\n"
-      "object a line. End of input, SIGINT, SIGTERM and SIGHUP stop the robot softly, close the log and "
-      "quit; a second "
-      "one\nswitches the drives off at once.\n"
+      "Operated by lines on standard input: arm, release, stop, disarm, quit; an unknown word stops softly. "
+      "Answers on\nstandard output, one JSON object a line. End of input, SIGINT, SIGTERM and SIGHUP stop "
+      "the "
+      "robot softly, close the\nlog and quit; a second one switches the drives off at once.\n"
       "Exit status: 0 ended in order, 1 ended in a fault, 2 configuration or command line, 3 a device is "
       "missing,\nanother hopperd runs these motors, or the log's disk failed.");
 }
@@ -122,7 +121,8 @@ SessionResult run_session(const Session& s) {
   };
   HopSession session(s.robot, s.board, s.logger,
                      {.event = [&](const Event& event) { s.channel.tell(event); },
-                      .stride = [&](const StrideResult& result) { s.channel.tell(result); }});
+                      .stride = [&](const StrideResult& result) { s.channel.tell(result); },
+                      .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }});
   RequestBox requests;
   std::atomic<Quit> quit{Quit::no};
   std::atomic<bool> ended{false};
