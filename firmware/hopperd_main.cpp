@@ -177,7 +177,7 @@ int run(const Options& options, OperatorChannel& channel) {
   };
   // All of the configuration before the first file or device.
   const bool simulate = options.board == "sim";
-  auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  auto robot = load_robot_file(file(options.robot_file, "robot.toml"));
   override_log(robot.log, options);
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
