@@ -24,7 +24,12 @@ Controller::Controller(const CycleConfig& config)
       estimator_(config_, leg_),
       arming_(config_, leg_),
       recorder_(config_.stiffness, config_.robot.foot_radius_m),
-      supervisor_(config_, leg_) {}
+      supervisor_(config_, leg_) {
+  if (config_.start.fault == Fault::none) return;
+  out_.fault = config_.start.fault;
+  out_.state = State::fault;
+  fault_of_last_run_ = true;
+}
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   event_count_ = 0;
@@ -120,12 +125,14 @@ bool Controller::serve_request(const SensorFrame& frame) noexcept {
 
 bool Controller::disarm(const SensorFrame& frame) noexcept {
   if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return false;
-  const Latch latch = entry_of(out_.fault).latch;
+  // The restart that such a fault asks for has taken place.
+  const Latch latch = fault_of_last_run_ ? Latch::until_disarmed : entry_of(out_.fault).latch;
   if (latch == Latch::until_restart || (latch == Latch::until_released && frame.emergency_stop)) {
     emit(EventKind::disarm_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
     return false;
   }
   out_.fault = Fault::none;
+  fault_of_last_run_ = false;
   ready_ = false;
   enter(State::idle, frame);
   emit(EventKind::disarmed, Reason::operator_request, {});
@@ -139,7 +146,7 @@ void Controller::supervise(const SensorFrame& frame) noexcept {
                          .phase_time_s = phase_time_s(frame),
                          .estimating = estimating(),
                          .energised = drives_on(out_.state) && (out_.state != State::armed || ready_),
-                         .touchdowns = recorder_.strides_begun(),
+                         .touchdowns = touchdowns(),
                          .command = out_.command});
   if (found.fault != Fault::none) raise(found, frame);
 }
@@ -149,6 +156,7 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
   const Reaction reaction = entry_of(found.fault).reaction;
   if (out_.fault != Fault::none && reaction <= entry_of(out_.fault).reaction) return;
   out_.fault = found.fault;
+  fault_of_last_run_ = false;
   fault_values_ = found.values;
   emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
   const bool standing = out_.state == State::compression || out_.state == State::extension;

@@ -40,6 +40,9 @@ class Controller {
   // Whether the last step's request meant anything in the state the robot was in.
   bool request_had_effect() const noexcept { return request_had_effect_; }
   const CycleConfig& config() const noexcept { return config_; }
+  const ThermalModel& thermal(std::size_t motor) const noexcept { return supervisor_.thermal(motor); }
+  // Since the leg was inspected, earlier runs included.
+  std::uint32_t touchdowns() const noexcept { return config_.start.touchdowns + recorder_.strides_begun(); }
 
   // For tests of the tests: without this fault's detector.
   void switch_off(Fault detector) noexcept { supervisor_.switch_off(detector); }
@@ -80,6 +83,7 @@ class Controller {
   bool stride_finished_ = false;
   bool request_had_effect_ = false;
   bool fault_energised_ = false;  // drives were on when the fault came
+  bool fault_of_last_run_ = false;
   std::array<double, kMotorCount> hold_angle_rad_{};
   std::array<double, 2> fault_values_{};
 };

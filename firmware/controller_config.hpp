@@ -5,6 +5,7 @@
 #include "drivers/samples.hpp"
 #include "estimation/kalman_filter.hpp"
 #include "estimation/leg.hpp"
+#include "firmware/state/start_state.hpp"
 #include "firmware/supervision/supervision_config.hpp"
 #include "terrain/stiffness_fit.hpp"
 
@@ -141,6 +142,7 @@ struct CycleConfig {
   SupervisionConfig supervision{};
   // Answers a second that a drive owes: one a command, or the rate at which it sends its status by itself.
   std::array<double, kMotorCount> motor_reply_rate_Hz{1000.0, 1000.0};
+  StartState start{};
 };
 
 }  // namespace sandhopper

@@ -11,16 +11,33 @@ constexpr std::uint64_t kTail_cycles = 20;
 // A robot that cannot come to rest is not waited for longer than this.
 constexpr std::uint64_t kPatience_cycles = 15'000;
 
+CycleConfig started_from(CycleConfig config, const StartState& start) {
+  config.start = start;
+  return config;
+}
+
+StateSample state_sample(const Controller& controller, const SensorFrame& frame, Fault fault) noexcept {
+  StateSample sample;
+  for (std::size_t i = 0; i < kMotorCount; ++i) {
+    sample.winding_C[i] = controller.thermal(i).winding_C();
+    sample.housing_C[i] = controller.thermal(i).housing_C();
+    sample.position_rad[i] = frame.motor[i].time_ns == 0 ? kNotMeasured : frame.motor[i].position_rad;
+  }
+  sample.touchdowns = controller.touchdowns();
+  sample.fault = fault;
+  return sample;
+}
+
 }  // namespace
 
 HopSession::HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger,
-                       Aftermath::Listener listener)
+                       Aftermath::Listener listener, const StartState& start)
     : robot_(robot),
       board_(board),
       logger_(logger),
       topics_(logger),
       request_topic_(logger.add_topic<RequestRecord>(topic::kRequest)),
-      controller_(cycle_config(robot)),
+      controller_(started_from(cycle_config(robot), start)),
       aftermath_(robot.stiffness, logger, topics_, std::move(listener)) {}
 
 SessionResult HopSession::run(World world) {
@@ -64,6 +81,7 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
     world.heart.beat(output.state, output.fault);
     tell_answers(taken.answers, output);
     if (world.status != nullptr) world.status->publish(live_status(cycle.frame(), output, clock.latency()));
+    if (world.state != nullptr) world.state->publish(state_sample(controller_, cycle.frame(), output.fault));
     const bool off = output.command.drive == DriveRequest::off;
     if (!off) off_since = clock.cycle();
     result.last_state = output.state;

@@ -33,7 +33,8 @@ struct SessionResult {
 // becomes of each word goes into the log (topic /request) and to the listener.
 class HopSession {
  public:
-  HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger, Aftermath::Listener listener);
+  HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger, Aftermath::Listener listener,
+             const StartState& start = {});
 
   // What a run stands between. The defaults are the real ones.
   struct World {
@@ -44,6 +45,7 @@ class HopSession {
     TimeSource& time = monotonic_time();
     WallClock wall_clock{};
     Latest<LiveStatus>* status = nullptr;  // who watches the cycle, if anyone does
+    Latest<StateSample>* state = nullptr;  // who keeps the robot's state, if anyone does
   };
   // On the calling thread, which is made real-time.
   SessionResult run(World world);

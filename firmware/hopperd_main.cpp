@@ -20,6 +20,8 @@
 #include "firmware/log/trial_description.hpp"
 #include "firmware/log/trial_sheet.hpp"
 #include "firmware/operator_channel.hpp"
+#include "firmware/state/recollection.hpp"
+#include "firmware/state/state_keeper.hpp"
 #include "firmware/version.hpp"
 #include "firmware/watchdog/guard_process.hpp"
 #include "firmware/watchdog/keepalive.hpp"
@@ -41,6 +43,9 @@ struct Options {
   std::optional<int> quota_MB;
   int status_Hz = 0;
   std::string sheet_file;
+  std::string state_directory;
+  bool motors_cold = false;
+  bool leg_inspected = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -69,6 +74,13 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--sheet", options.sheet_file,
                  "trial sheet (TOML: who, bed, bed_preparation, release_height_m, payload_kg, notes) to be "
                  "kept in the log");
+  app.add_option("--state", options.state_directory,
+                 "where the motors' temperatures and counts are kept between runs; default "
+                 "$RUNTIME_DIRECTORY and $STATE_DIRECTORY (systemd), else /run/sandhopper and "
+                 "/var/lib/sandhopper; not with --board sim");
+  app.add_flag("--motors-cold", options.motors_cold,
+               "the motors are at supervision.ambient_C, whatever is remembered or assumed");
+  app.add_flag("--leg-inspected", options.leg_inspected, "count touchdowns from 0 again (hop_count_limit)");
   app.add_option("--status-Hz", options.status_Hz,
                  "how often to tell how the cycle stands, {\"status\": {…}}; 0: never")
       ->check(CLI::Range(0, 100))
@@ -113,6 +125,8 @@ struct Session {
   OperatorChannel& channel;
   Heartbeat& heart;
   std::function<void()> cut;
+  const StartState& start;
+  StateKeeper* keeper;  // null: nothing is kept
 };
 
 SessionResult run_session(const Session& s) {
@@ -122,7 +136,8 @@ SessionResult run_session(const Session& s) {
   HopSession session(s.robot, s.board, s.logger,
                      {.event = [&](const Event& event) { s.channel.tell(event); },
                       .stride = [&](const StrideResult& result) { s.channel.tell(result); },
-                      .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }});
+                      .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }},
+                     s.start);
   RequestBox requests;
   std::atomic<Quit> quit{Quit::no};
   std::atomic<bool> ended{false};
@@ -132,8 +147,12 @@ SessionResult run_session(const Session& s) {
   warn(watchdog.warning());
   warn(keepalive.warning());
   std::thread cycle([&] {
-    result = session.run(
-        {.quit = quit, .requests = requests, .heart = s.heart, .say = warn, .status = &s.channel.status()});
+    result = session.run({.quit = quit,
+                          .requests = requests,
+                          .heart = s.heart,
+                          .say = warn,
+                          .status = &s.channel.status(),
+                          .state = s.keeper == nullptr ? nullptr : &s.keeper->newest()});
     ended.store(true);
   });
   s.channel.tell_text("ready", "arm");
@@ -170,6 +189,27 @@ TrialLogOptions log_options(const LogConfig& config, const Options& options, Ope
   return log;
 }
 
+// What the robot remembers, told to the operator.
+StartState remembered_start(const Options& options, const StatePlaces& places, const RobotConfig& robot,
+                            OperatorChannel& channel) {
+  auto memory =
+      recollect(read_state_file(places.boot), read_state_file(places.lasting), state_clock(), robot);
+  if (options.motors_cold) {
+    memory.start.temperatures_known = false;
+    memory.trusted = true;
+    memory.text = fmt::format("motors at {:g} C by the operator's word", robot.supervision.ambient_C);
+  }
+  if (options.leg_inspected) memory.start.touchdowns = 0;
+  channel.tell_text(memory.trusted ? "memory" : "warning", memory.text);
+  if (!memory.positions.empty()) channel.tell_text("warning", memory.positions);
+  if (memory.start.fault != Fault::none)
+    channel.tell_text("warning",
+                      fmt::format("the last run did not end in order and left the fault {}: disarm "
+                                  "when its cause is removed",
+                                  name_of(memory.start.fault)));
+  return memory.start;
+}
+
 int run(const Options& options, OperatorChannel& channel) {
   const auto directory = find_config_directory(options.config_directory);
   const auto file = [&](const std::string& given, const char* name) {
@@ -187,9 +227,14 @@ int run(const Options& options, OperatorChannel& channel) {
                          : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
   // Before the log: another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
+  const auto places = state_places(options.state_directory);
+  const auto start = simulate ? StartState{} : remembered_start(options, places, robot, channel);
   TrialLogger logger(log_options(robot.log, options, channel));
   describe_trial(logger, robot, options.board);
-  if (!simulate) describe_devices(logger, devices);
+  if (!simulate) {
+    describe_devices(logger, devices);
+    describe_start(logger, start);
+  }
   if (sheet) add_sheet(logger, *sheet);
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
@@ -206,7 +251,11 @@ int run(const Options& options, OperatorChannel& channel) {
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
   }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session({robot, board, logger, channel, heart, cut});
+  std::optional<StateKeeper> keeper;
+  if (!simulate)
+    keeper.emplace(places, [&channel](const std::string& text) { channel.tell_text("warning", text); });
+  auto result = run_session({robot, board, logger, channel, heart, cut, start, keeper ? &*keeper : nullptr});
+  if (keeper) keeper->close();
   real.reset();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -42,6 +43,7 @@ struct Plan {
   std::map<int, Quit> quit;
   std::map<int, std::vector<Word>> words;  // one read of the operator's pipe
   int trip_at = 0;
+  StartState start{};
   int turns = 1000;
 };
 
@@ -92,6 +94,7 @@ struct Recorded {
   std::vector<RequestRecord> requests;
   std::map<std::uint64_t, Request> inputs;  // of the cycles that had one
   std::optional<ReplayMismatch> mismatch;
+  StateSample state{};  // the last one published
 };
 
 void read_log(const std::filesystem::path& file, Recorded& out) {
@@ -134,13 +137,18 @@ Recorded run(const Plan& plan) {
     RequestBox requests;
     PlannedBoard board(time, plan, heart, requests);
     describe_trial(logger, robot, "sim");
-    HopSession session(robot, board, logger, {});
+    describe_start(logger, plan.start);
+    HopSession session(robot, board, logger, {}, plan.start);
+    Latest<StateSample> state;
     out.result = session.run({.quit = board.quit,
                               .requests = requests,
                               .heart = heart,
                               .say = {},
                               .time = time,
-                              .wall_clock = WallClock([&board] { return board.offset_ns; })});
+                              .wall_clock = WallClock([&board] { return board.offset_ns; }),
+                              .status = nullptr,
+                              .state = &state});
+    state.take(out.state);
     EXPECT_FALSE(heart.beating()) << "the end was not told to the watchdog";
     logger.close();
   }
@@ -316,6 +324,21 @@ TEST(HopSession, AfterQuitNothingArmsAndEveryWordIsAnswered) {
                                             "release overruled quit", "arm overruled quit"));
   EXPECT_FALSE(happened(seen, EventKind::armed));
   EXPECT_LT(seen.result.cycles, 130U);
+}
+
+// Without the start state in the log a replay would begin with cold motors and find no fault.
+TEST(HopSession, StartsFromTheStateItIsGivenAndItsLogReplaysFromTheSame) {
+  Plan plan;
+  plan.start = {
+      .temperatures_known = true, .winding_C = {111.0, 60.0}, .housing_C = {100.0, 50.0}, .touchdowns = 40};
+  const auto seen = run(plan);
+  EXPECT_EQ(seen.result.last_fault, Fault::motor_winding_hot);
+  EXPECT_FALSE(seen.mismatch) << seen.mismatch->field;
+  EXPECT_NEAR(seen.state.winding_C[1], 60.0, 0.5);
+  EXPECT_NEAR(seen.state.housing_C[0], 100.0, 0.5);
+  EXPECT_EQ(seen.state.touchdowns, 40U);
+  EXPECT_EQ(seen.state.fault, Fault::motor_winding_hot);
+  EXPECT_TRUE(std::isfinite(seen.state.position_rad[0]));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ sandhopper_verb(diagnose "find the physics that a simulation lacks against recor
   LIBRARIES sandhopper_diagnose)
 sandhopper_verb(doctor "say whether this machine can run the robot, and what to do if not"
   SOURCES doctor_bus.cpp doctor_config.cpp doctor_devices.cpp doctor_identity.cpp doctor_interrupts.cpp
-          doctor_machine.cpp
+          doctor_machine.cpp doctor_state.cpp
   LIBRARIES sandhopper_firmware)
 sandhopper_verb(experiment "many simulated trials and what they say together"
   SOURCES experiment_paper.cpp experiment_strides.cpp LIBRARIES sandhopper_experiment)
