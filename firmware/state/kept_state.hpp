@@ -34,7 +34,7 @@ struct KeptState {
     visit("realtime_ns", self.realtime_ns);
     visit("clock_synchronised", self.clock_synchronised);
     visit("closed", self.closed);
-    visit("period_s", self.period_s, Range{0.0, 3600.0});
+    visit("period_s", self.period_s, Range{0.0, 60.0});
     visit("winding_C", self.winding_C, Range{-100.0, 1000.0});
     visit("housing_C", self.housing_C, Range{-100.0, 1000.0});
     visit("position_rad", self.position_rad, Range{-1e6, 1e6});

@@ -37,12 +37,14 @@ foreach(name boot devices determinism calibrate watchdog)
 endforeach()
 
 # hopperd as a process, where it has a bus.
-add_test(NAME daemon.on_the_bus
-  COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 900 ${PROJECT_SOURCE_DIR}/tests/daemon/on_the_bus
-          ${CMAKE_BINARY_DIR}
-  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(daemon.on_the_bus PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+foreach(name on_the_bus remembers)
+  add_test(NAME daemon.${name}
+    COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 900 ${PROJECT_SOURCE_DIR}/tests/daemon/${name}
+            ${CMAKE_BINARY_DIR}
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(daemon.${name} PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+endforeach()
 
 set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism
-  bench.calibrate bench.watchdog daemon.on_the_bus
+  bench.calibrate bench.watchdog daemon.on_the_bus daemon.remembers
   PROPERTIES FIXTURES_REQUIRED bench_kernel)

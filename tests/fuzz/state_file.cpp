@@ -26,7 +26,7 @@ void recall(const StateRead& read) {
     fuzz::require(again.state && state_text(*again.state) == state_text(*read.state),
                   "is read as it was written");
   }
-  const RobotConfig robot;
+  static const RobotConfig robot;
   const StateClock now{"b", 1'000'000'000'000, 2'000'000'000'000, true};
   for (const auto& memory : {recollect(read, {}, now, robot), recollect({}, read, now, robot)}) {
     fuzz::require(memory.start.temperatures_known && !memory.text.empty(),
