@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kHotShare = 0.8;
 constexpr int kCoolingSteps = 1000;
-constexpr double kHeatingStep_s = 1e-3;
+constexpr double kHeatingStep_s = 1e-2;  // of time constants over 0.4 s (config/consistency.hpp)
 
 struct Age {
   double seconds = 0.0;
