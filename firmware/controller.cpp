@@ -143,10 +143,12 @@ void Controller::supervise(const SensorFrame& frame) noexcept {
   if (found.fault != Fault::none) raise(found, frame);
 }
 
-// A harsher fault takes the place of a gentler one; the first of equals stays.
+// A harsher fault takes the place of a gentler one. One that is harsher by its latch alone leaves the
+// reaction as it runs.
 void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexcept {
   const Reaction reaction = entry_of(found.fault).reaction;
-  if (out_.fault != Fault::none && reaction <= entry_of(out_.fault).reaction) return;
+  if (out_.fault != Fault::none && !is_harsher(found.fault, out_.fault)) return;
+  const bool reacting = out_.state == State::fault && reaction == entry_of(out_.fault).reaction;
   out_.fault = found.fault;
   fault_values_ = found.values;
   emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
@@ -156,6 +158,7 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
     if (standing) enter(State::soft_stop, frame);
     return;
   }
+  if (reacting) return;
   if (out_.state != State::fault) {
     fault_energised_ = out_.command.drive == DriveRequest::run;
     for (std::size_t i = 0; i < kMotorCount; ++i) hold_angle_rad_[i] = frame.motor[i].position_rad;

@@ -31,7 +31,8 @@ class MotorCheck {
 
  private:
   void see_replies(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
-  void see_motion(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
+  // False: the position cannot be true.
+  bool see_motion(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_torque(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_limits(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   double number() const noexcept { return static_cast<double>(motor_); }

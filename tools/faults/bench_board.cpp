@@ -1,6 +1,25 @@
 #include "tools/faults/bench_board.hpp"
 
 namespace sandhopper::faults {
+namespace {
+
+// One session's way to a bus that outlives it.
+class SessionPort : public CanPort {
+ public:
+  explicit SessionPort(EmulatedBus& bus) : bus_(bus) {}
+  void begin_cycle() noexcept override { bus_.begin_cycle(); }
+  std::optional<std::int64_t> send(const can_frame& frame) noexcept override { return bus_.send(frame); }
+  std::span<const ReceivedFrame> receive(bool& more) noexcept override { return bus_.receive(more); }
+  void pause(std::int64_t duration_ns) noexcept override { bus_.pause(duration_ns); }
+  bool wait(std::int64_t timeout_ns) noexcept override { return bus_.wait(timeout_ns); }
+  const CanCounters& counters() const noexcept override { return bus_.counters(); }
+  void set_tap(CanTap* tap) noexcept override { bus_.set_tap(tap); }
+
+ private:
+  EmulatedBus& bus_;
+};
+
+}  // namespace
 
 CanConfig can_of(const RobotConfig& robot) {
   CanConfig can;
@@ -10,11 +29,24 @@ CanConfig can_of(const RobotConfig& robot) {
 }
 
 BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed)
-    : world_(world), imu_body_(seed + 1), imu_foot_(seed + 2), tof_(seed + 3), load_cell_(seed + 4) {
-  const auto can = can_of(robot);
-  auto bus = std::make_unique<EmulatedBus>(world, can, seed);
-  bus_ = bus.get();
-  drives_ = std::make_unique<CubeMarsDrives>(can, std::move(bus));
+    : world_(world),
+      can_(can_of(robot)),
+      bus_(std::make_unique<EmulatedBus>(world, can_, seed)),
+      drives_(make_driver()),
+      imu_body_(seed + 1),
+      imu_foot_(seed + 2),
+      tof_(seed + 3),
+      load_cell_(seed + 4) {}
+
+std::unique_ptr<CubeMarsDrives> BenchBoard::make_driver() {
+  return std::make_unique<CubeMarsDrives>(can_, std::make_unique<SessionPort>(*bus_));
+}
+
+void BenchBoard::restart_driver() {
+  drives_.reset();
+  bus_->reopen();
+  drives_ = make_driver();
+  drives_->probe();
 }
 
 void BenchBoard::read(SensorFrame& frame) noexcept {

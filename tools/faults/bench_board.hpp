@@ -22,12 +22,18 @@ class BenchBoard : public Board {
   // Breaks a device; no kind repairs it.
   void set(Device device, std::optional<Kind> kind);
 
+  // The driver of a new session on the same bus, as hopperd begins it. Throws DeviceError when it refuses.
+  void restart_driver();
+
   EmulatedBus& bus() { return *bus_; }
   CubeMarsDrives& drives() { return *drives_; }
 
  private:
+  std::unique_ptr<CubeMarsDrives> make_driver();
+
   World& world_;
-  EmulatedBus* bus_;  // the drives own it
+  CanConfig can_;
+  std::unique_ptr<EmulatedBus> bus_;
   std::unique_ptr<CubeMarsDrives> drives_;
   SensorFault<ImuSample> imu_body_;
   SensorFault<ImuSample> imu_foot_;

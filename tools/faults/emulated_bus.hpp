@@ -13,6 +13,9 @@
 
 namespace sandhopper::faults {
 
+// A torque no larger than this is none: half a count of the field of a command, rounded up.
+inline constexpr double kNoTorque_Nm = 0.02;
+
 // A CAN bus in the world's time with the emulated drives on it: what the driver of the robot is put on when
 // there is no kernel. Frames arrive at once, answers 0.22 ms later; error frames are those of
 // linux/can/error.h. Every fault of the bus and of the drives' frames is made here.
@@ -22,6 +25,10 @@ class EmulatedBus : public CanPort {
   EmulatedBus(World& world, const CanConfig& drives, std::uint64_t seed);
 
   void set(Device device, std::optional<Kind> kind);
+
+  // A new session opens its socket: counters begin anew, nothing received earlier is seen. Frames of the old
+  // session that have not left stay in the controller.
+  void reopen() noexcept;
 
   // Lets drives act and answer until the world's time.
   void advance();
@@ -59,12 +66,16 @@ class EmulatedBus : public CanPort {
   };
 
   MotorSample felt(std::size_t i) const;
+  void take_power(std::size_t i);
   void deliver(const Queued& queued);
   void ask(std::size_t i, const Queued& queued);
   void answer(std::size_t i, can_frame frame, std::int64_t at_ns);
   void put(const can_frame& frame, std::int64_t at_ns);
   void put_error(canid_t error_class, std::uint8_t controller);
   bool motor_lost(Motor& motor);
+  bool without_power(const Motor& motor) const;
+  bool nobody_acknowledges() const;
+  bool holds_frames() const;
 
   World& world_;
   CanConfig config_;
@@ -72,6 +83,7 @@ class EmulatedBus : public CanPort {
   std::vector<Motor> motor_;
   std::optional<Kind> fault_;
   std::deque<Queued> queue_;              // taken and not yet on the wire
+  std::size_t left_over_ = 0;             // of them from an earlier session
   std::deque<ReceivedFrame> on_the_way_;  // in the order of their times
   std::array<ReceivedFrame, 32> batch_{};
   CanCounters counters_{};
