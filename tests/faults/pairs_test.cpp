@@ -39,9 +39,11 @@ TEST(FaultPairs, EveryClassComesBeforeEveryOtherMoreThanAThousandInAll) {
   }
   EXPECT_GE(pairs.size(), 1000U);
   EXPECT_EQ(names.size(), pairs.size());
-  for (const auto& first : classes)
+  auto firsts = classes;
+  firsts.erase("restart");
+  for (const auto& first : firsts)
     for (const auto& second : classes)
-      if (first != "restart") EXPECT_TRUE(ordered.contains({first, second})) << first << ", " << second;
+      EXPECT_TRUE(ordered.contains({first, second})) << first << ", " << second;
 }
 
 TEST(FaultPairs, TheSameSeedDrawsTheSame) {

@@ -46,6 +46,7 @@ void EmulatedBus::set(Device device, std::optional<Kind> kind) {
     if (kind == Kind::overflow) put_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW);
     if (kind == Kind::protocol_error) put_error(CAN_ERR_PROT, 0);
     if (holds_frames()) return;
+    if (kind == Kind::bus_off) queue_.clear();  // a controller that is off sends nothing
     for (const auto& queued : queue_) deliver(queued);
     queue_.clear();
     left_over_ = 0;

@@ -7,11 +7,13 @@ namespace {
 
 constexpr double kFast_radps = 8.0;  // a velocity wrong by two is beyond its tolerance from half of this on
 constexpr int kFast_cycles = 20;     // longer than the low-pass and the count of its check
+constexpr int kPure_cycles = 15;     // until the current of a pure torque is compared with it
 
 }  // namespace
 
 int Evidence::needed(const RobotConfig& robot) const {
   if (fault_ == Fault::motor_velocity_implausible) return kFast_cycles;
+  if (fault_ == Fault::motor_torque_implausible) return kPure_cycles;
   return fault_ == Fault::motor_reply_lost ? robot.limits.motor_reply_misses : 1;
 }
 
@@ -22,7 +24,8 @@ bool Evidence::any_motor(const SensorFrame& frame, auto&& condition) const {
   return shows(0) || shows(1);
 }
 
-bool Evidence::shows(const SensorFrame& frame, const StepOutput& output, const RobotConfig& robot) const {
+bool Evidence::shows(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
+                     const RobotConfig& robot) const {
   switch (fault_) {
     case Fault::motor_reply_lost:
       return any_motor(frame, [](const MotorSample& m) { return !m.fresh; });
@@ -43,6 +46,13 @@ bool Evidence::shows(const SensorFrame& frame, const StepOutput& output, const R
     }
     case Fault::bus_off:
       return frame.bus.state == BusState::off;
+    case Fault::bus_send_refused:
+      return frame.bus.send_failures != before.bus.send_failures;
+    case Fault::motor_torque_implausible:
+      return output.command.drive == DriveRequest::off || output.command.motor[0].kd_Nm_s_per_rad == 0.0;
+    case Fault::load_cell_implausible:
+    case Fault::estimate_diverged:
+    case Fault::energy_implausible:
     case Fault::estimate_not_finite:
       return output.state != State::idle && output.state != State::fault;
     default:
@@ -50,8 +60,9 @@ bool Evidence::shows(const SensorFrame& frame, const StepOutput& output, const R
   }
 }
 
-void Evidence::see(const SensorFrame& frame, const StepOutput& output, const RobotConfig& robot) {
-  in_a_row_ = shows(frame, output, robot) ? in_a_row_ + 1 : 0;
+void Evidence::see(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
+                   const RobotConfig& robot) {
+  in_a_row_ = shows(frame, before, output, robot) ? in_a_row_ + 1 : 0;
   complete_ = complete_ || in_a_row_ >= needed(robot);
   last_cycle_ = frame.cycle;
 }
@@ -70,6 +81,13 @@ std::string Evidence::wanted() const {
       return "while every second cycle is missing, a late reply comes in time";
     case Fault::bus_off:
       return "the controller does not report it";
+    case Fault::bus_send_refused:
+      return "no frame is refused";
+    case Fault::motor_torque_implausible:
+      return "the drives' own law runs, whose torque is not known";
+    case Fault::load_cell_implausible:
+    case Fault::estimate_diverged:
+    case Fault::energy_implausible:
     case Fault::estimate_not_finite:
       return "in state fault nothing is estimated, and the drives' own damping needs no sensor";
     default:

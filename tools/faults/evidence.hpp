@@ -11,8 +11,9 @@ class Evidence {
  public:
   explicit Evidence(const Cell& cell) : fault_(cell.expected), device_(cell.device) {}
 
-  // Once a cycle since the fault was set.
-  void see(const SensorFrame& frame, const StepOutput& output, const RobotConfig& robot);
+  // Once a cycle since the fault was set; `before` is the frame of the cycle before that.
+  void see(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
+           const RobotConfig& robot);
   bool complete() const { return complete_; }
   // So many cycles before the present one it began to show.
   int cycles_shown() const { return in_a_row_ - 1; }
@@ -20,7 +21,8 @@ class Evidence {
   std::string wanted() const;
 
  private:
-  bool shows(const SensorFrame& frame, const StepOutput& output, const RobotConfig& robot) const;
+  bool shows(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
+             const RobotConfig& robot) const;
   int needed(const RobotConfig& robot) const;  // cycles in a row
   bool any_motor(const SensorFrame& frame, auto&& condition) const;
 

@@ -30,7 +30,7 @@ struct Planted {
     if (visible_at != 0 || (set_at == 0 && !is_limit()) || rig.turns() < set_at) return;
     if (shown_at == 0 && (!cell.visible || cell.visible(rig.frame(), rig.output(), before)))
       shown_at = rig.turns();
-    evidence.see(rig.frame(), rig.output(), robot);
+    evidence.see(rig.frame(), before.frame, rig.output(), robot);
     if (shown_at != 0 && evidence.complete())
       visible_at =
           std::max(shown_at, rig.turns() - static_cast<std::uint64_t>(std::max(0, evidence.cycles_shown())));
@@ -59,6 +59,15 @@ bool is_over_at_once(const Cell& cell) {
   }
 }
 
+// What a new session cannot know, in words; empty: it must find the fault that is still there.
+std::string lost_with_a_restart(const Cell& cell) {
+  if (cell.kind == Kind::biased || (cell.device == Device::load_cell && cell.kind == Kind::wrong))
+    return "an offset that is there before arming is taken for zero";
+  if (cell.device == Device::load_cell && cell.kind == Kind::stuck)
+    return "its noise was never seen, and its constant value is taken for zero";
+  return {};
+}
+
 class PairTrial {
  public:
   PairTrial(const Pair& pair, const MatrixSetup& setup, const RobotConfig& robot)
@@ -84,7 +93,8 @@ class PairTrial {
   bool over() const {
     if (!refusal_.empty()) return true;
     if (second_.set_at == 0) return false;
-    if (rig_.turns() <= std::max(first_.deadline(), second_.deadline())) return ended_;
+    const auto watched = std::max({first_.deadline(), second_.deadline(), second_.set_at + kQuiet_cycles});
+    if (rig_.turns() <= watched) return ended_;
     return ended_ || (off_cycles_ > kQuiet_cycles && rig_.output().state == State::fault);
   }
 
@@ -251,7 +261,9 @@ void PairTrial::judge_restart() {
   if (!armed_ && rig_.board().bus().most_torque_Nm() > kNoTorque_Nm)
     wrong("torque before the new session was armed");
   if (!refusal_.empty()) return;
-  if (result_.together == Fault::none && !is_over_at_once(pair_.first)) wrong("silent after the restart");
+  if (result_.together != Fault::none || is_over_at_once(pair_.first)) return;
+  result_.hidden = lost_with_a_restart(pair_.first);
+  if (result_.hidden.empty()) wrong("silent after the restart");
 }
 
 void PairTrial::judge_drives() {
