@@ -15,8 +15,9 @@ class Evidence {
   void see(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
            const RobotConfig& robot);
   bool complete() const { return complete_; }
-  // So many cycles before the present one it began to show.
-  int cycles_shown() const { return in_a_row_ - 1; }
+  // So many cycles before the present one it began to show. A current is compared with its torque only when
+  // the drives have settled: it shows from then on.
+  int cycles_shown() const { return fault_ == Fault::motor_torque_implausible ? 0 : in_a_row_ - 1; }
   // What was looked for, in words.
   std::string wanted() const;
 

@@ -303,7 +303,9 @@ Fault PairRunner::alone(const Cell& cell) {
   const auto key = fmt::format("{} {}", cell.name(), name_of(cell.phase));
   const auto known = alone_.find(key);
   if (known != alone_.end()) return known->second;
-  return alone_[key] = run_cell(cell, setup_).at_end;
+  auto complete = setup_;
+  complete.without.reset();
+  return alone_[key] = run_cell(cell, complete).at_end;
 }
 
 PairResult PairRunner::run(const Pair& pair) {
