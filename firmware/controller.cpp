@@ -179,11 +179,12 @@ void Controller::step_armed(const SensorFrame& frame) noexcept {
     emit(EventKind::zero_check, verdict->reason, verdict->values);
     emit(EventKind::armed, Reason::zero_confirmed, {});
     estimator_.start(verdict->calibration, frame);
+    body_bias_mps2_ = verdict->calibration.body_bias_mps2;
     recorder_.on_release(frame.time_ns);
     ready_ = true;
     return;
   }
-  const double body_force = frame.imu_body.accel_mps2[2];
+  const double body_force = frame.imu_body.accel_mps2[2] - body_bias_mps2_;
   free_fall_count_ = body_force < config_.arming.free_fall_accel_mps2 ? free_fall_count_ + 1 : 0;
   if (free_fall_count_ < config_.arming.free_fall_cycles) return;
   const auto& e = out_.estimate;

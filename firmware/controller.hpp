@@ -73,7 +73,8 @@ class Controller {
   std::int64_t state_since_ns_ = 0;
   std::int64_t still_since_ns_ = 0;
   int free_fall_count_ = 0;
-  bool ready_ = false;  // armed and checked
+  double body_bias_mps2_ = 0.0;  // of the body's accelerometer, measured while arming
+  bool ready_ = false;           // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
   bool fault_energised_ = false;  // drives were on when the fault came

@@ -148,6 +148,13 @@ TEST(FaultPairs, ANewSessionWhileTheCauseIsThereDoesNotHop) {
   }
 }
 
+// The offset is measured while the robot hangs; without it a fall looks like half a weight.
+TEST(FaultPairs, AnOffsetOfTheImuThatArmingMeasuredDoesNotHideTheRelease) {
+  const auto biased = cell_of(Device::robot, Kind::biased, Phase::armed);
+  const auto result = run(biased, cell_of(Device::computer, Kind::restart, Phase::armed));
+  EXPECT_EQ(result.state, State::idle) << "hopped and stopped";
+}
+
 TEST(FaultPairs, AFullDiskAtTheEndOfTheLogIsNamed) {
   const auto error = cell_of(Device::motor_left, Kind::error, Phase::flight);
   const auto disk = cell_of(Device::computer, Kind::disk_full, Phase::flight);

@@ -172,7 +172,7 @@ class PairTrial {
   void judge_end();
   void judge_restart();
   void judge_harshness();
-  bool is_hidden(const Planted& fault);
+  bool note_hidden(const Planted& fault);
   void judge_times();
   void judge_drives();
   bool covers(Fault alone) const { return alone == Fault::none || !is_harsher(alone, result_.together); }
@@ -217,17 +217,18 @@ void PairTrial::judge_end() {
   judge_times();
 }
 
-bool PairTrial::is_hidden(const Planted& fault) {
+// Notes why there was no evidence of it; false when there was.
+bool PairTrial::note_hidden(const Planted& fault) {
   if (fault.visible_at != 0) return false;
   result_.hidden = fault.evidence.wanted();
   return true;
 }
 
 void PairTrial::judge_harshness() {
-  if (!covers(result_.first_alone) && !is_hidden(first_))
+  if (!covers(result_.first_alone) && !note_hidden(first_))
     wrong(fmt::format("ended in {}, alone the first ends in {}", name_of(result_.together),
                       name_of(result_.first_alone)));
-  if (!covers(result_.second_alone) && !is_hidden(second_))
+  if (!covers(result_.second_alone) && !note_hidden(second_))
     wrong(fmt::format("ended in {}, alone the second ends in {}", name_of(result_.together),
                       name_of(result_.second_alone)));
 }
@@ -261,7 +262,10 @@ void PairTrial::judge_restart() {
   if (!armed_ && rig_.board().bus().most_torque_Nm() > kNoTorque_Nm)
     wrong("torque before the new session was armed");
   if (!refusal_.empty()) return;
-  if (result_.together != Fault::none || is_over_at_once(pair_.first)) return;
+  if (result_.together != Fault::none) return;
+  if (!ended_)
+    wrong(fmt::format("without a fault the new session stayed in state {}", name_of(result_.state)));
+  if (is_over_at_once(pair_.first)) return;
   result_.hidden = lost_with_a_restart(pair_.first);
   if (result_.hidden.empty()) wrong("silent after the restart");
 }

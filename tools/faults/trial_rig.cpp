@@ -54,7 +54,7 @@ TrialLogOptions log_options(const std::filesystem::path& log, FileCalls calls) {
 }  // namespace
 
 // What a restart of hopperd makes anew.
-struct TrialRig::Session {
+struct TrialRig::Session {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
   Session(TrialLogOptions options, const RobotConfig& robot, Board& board)
       : logger(std::move(options)),
         topics(logger),
