@@ -3,12 +3,20 @@
 #include <fstream>
 #include <string>
 
+#include "config/consistency.hpp"
 #include "config/load.hpp"
 
 namespace sandhopper {
 
 RobotConfig load_robot(const std::filesystem::path& directory) {
-  return load_file<RobotConfig>((directory / "robot.toml").string());
+  return load_robot_file(directory / "robot.toml");
+}
+
+RobotConfig load_robot_file(const std::filesystem::path& file) {
+  const auto document = parse_config_file(file.string());
+  auto robot = load_document<RobotConfig>(document);
+  refuse(contradictions(robot), document);
+  return robot;
 }
 
 const char* board_file() {
@@ -19,8 +27,12 @@ const char* board_file() {
 }
 
 LinuxBoardConfig load_linux_board(const std::filesystem::path& file, const RobotConfig& robot) {
-  auto board = load_file<LinuxBoardConfig>(file.string());
+  const auto document = parse_config_file(file.string());
+  auto board = load_document<LinuxBoardConfig>(document);
+  refuse(contradictions(board, robot), document);
   board.can.motor = robot.motor;
+  board.can.motor_torque_Nm = robot.limits.motor_torque_Nm;
+  board.limits = robot.limits;
   return board;
 }
 

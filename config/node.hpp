@@ -40,6 +40,10 @@ struct ConfigDocument {
   ConfigNode root;
 };
 
+// The node of a key below this table, which may lie deeper ("motor[1].can_id"); where the document has no
+// such key, the nearest table above it.
+const ConfigNode& nearest_node(const ConfigNode& table, std::string_view key);
+
 // Both throw ConfigError: a file that cannot be read, a syntax error or a key given twice (with its line).
 ConfigDocument parse_config_text(std::string name, std::string_view text);
 ConfigDocument parse_config_file(const std::string& path);

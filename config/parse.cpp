@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -95,6 +97,26 @@ ConfigDocument parse_config_file(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return parse_config_text(path, text.str());
+}
+
+const ConfigNode& nearest_node(const ConfigNode& table, std::string_view key) {
+  const auto* node = &table;
+  while (!key.empty()) {
+    const auto end = std::min(key.find_first_of(".["), key.size());
+    const ConfigNode* next = nullptr;
+    if (key.front() == '[') {
+      const auto index = static_cast<std::size_t>(std::atoi(std::string(key.substr(1)).c_str()));
+      if (index < node->children.size()) next = &node->children[index];
+      key.remove_prefix(std::min(key.find(']') + 1, key.size()));
+    } else {
+      next = node->find(key.substr(0, end));
+      key.remove_prefix(end);
+    }
+    if (!key.empty() && key.front() == '.') key.remove_prefix(1);
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
 }
 
 }  // namespace sandhopper

@@ -226,26 +226,8 @@ void ConfigReader::forget_missing_named_in(std::string_view cure, const std::str
 
 void ConfigReader::broken_rule(const ConfigNode& table, const std::string& path, std::string_view key,
                                std::string_view text) {
-  // The key may lie deeper ("motor[1].can_id"): its own line if the file has it, else that of the nearest
-  // table.
-  const auto* node = &table;
-  std::string_view rest = key;
-  while (!rest.empty()) {
-    const auto end = std::min(rest.find_first_of(".["), rest.size());
-    const ConfigNode* next = nullptr;
-    if (rest.front() == '[') {
-      const auto index = static_cast<std::size_t>(std::atoi(std::string(rest.substr(1)).c_str()));
-      if (index < node->children.size()) next = &node->children[index];
-      rest.remove_prefix(std::min(rest.find(']') + 1, rest.size()));
-    } else {
-      next = node->find(rest.substr(0, end));
-      rest.remove_prefix(end);
-    }
-    if (!rest.empty() && rest.front() == '.') rest.remove_prefix(1);
-    if (!next) break;
-    node = next;
-  }
-  add(node->key_position, join(path, key), fmt::format("key '{}' does not fit: {}", join(path, key), text));
+  add(nearest_node(table, key).key_position, join(path, key),
+      fmt::format("key '{}' does not fit: {}", join(path, key), text));
 }
 
 void ConfigReader::add(ConfigPosition position, std::string path, std::string text) {

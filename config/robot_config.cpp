@@ -51,11 +51,30 @@ void check_reach(const Report& report, const RobotConfig& c, const Leg& leg) {
   }
 }
 
+// The torque that proves motor mode at arming: below the motors' limit, and several steps of the drives'
+// torque field, or its reply cannot show it.
+void check_confirm_torque(const Report& report, const RobotConfig& c) {
+  const double torque_Nm = c.arming.confirm_torque_Nm;
+  if (torque_Nm > c.limits.motor_torque_Nm)
+    report("arming.confirm_torque_Nm", fmt::format("expected at most limits.motor_torque_Nm ({}), got {}",
+                                                   c.limits.motor_torque_Nm, torque_Nm));
+  for (const auto& motor : c.motor) {
+    const double step_Nm = 2.0 * motor.torque_range_Nm / 4095.0 * motor.gear_ratio;
+    if (motor.dialect == Dialect::servo || torque_Nm >= 4.0 * step_Nm) continue;
+    report(
+        "arming.confirm_torque_Nm",
+        fmt::format("expected at least four steps of the torque field of motor \"{}\" (4 x 2 x {} / 4095 x "
+                    "gear_ratio = {:.3f} N m), or its reply cannot show it, got {}",
+                    motor.name, motor.torque_range_Nm, 4.0 * step_Nm, torque_Nm));
+  }
+}
+
 }  // namespace
 
 void RobotConfig::check(const Report& report) const {
   const auto leg = check_leg(report, robot);
   check_motors(motor, report);
+  check_confirm_torque(report, *this);
   expect_below(report, {"limits.leg_angle_min_rad", limits.leg_angle_min_rad},
                {"limits.leg_angle_max_rad", limits.leg_angle_max_rad});
   if (leg && limits.leg_angle_min_rad < limits.leg_angle_max_rad) check_reach(report, *this, *leg);
@@ -89,6 +108,7 @@ CycleConfig cycle_config(const RobotConfig& c) {
   for (std::size_t i = 0; i < kMotorCount; ++i) {
     cycle.torque_constant_Nm_per_A[i] = c.motor[i].torque_constant_Nm_per_A;
     cycle.motor_reply_rate_Hz[i] = replies_per_s(c.motor[i]);
+    cycle.law_in_drive[i] = law_in_drive(c.motor[i]);
   }
   cycle.estimator = c.estimator;
   cycle.controller = c.controller;

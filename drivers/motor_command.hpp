@@ -14,6 +14,11 @@ struct EnumNames<DriveRequest> {
   static constexpr std::array<std::string_view, 3> value{"off", "enable", "run"};
 };
 
+// Oldest motor sample from which the host may work out position or velocity gains itself, for a drive that
+// has no such law (servo dialect). Such a drive sends its status every 2 to 2.5 ms: two lost in a row are
+// bridged, three are not.
+inline constexpr double kHostLawAge_s = 0.006;
+
 // Law inside the drive: torque = kp (position - measured) + kd (velocity - measured) + torque. Link side,
 // signs of MotorSample.
 struct MotorCommand {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "config/fields.hpp"
+#include "drivers/transmit_guard/rule.hpp"
 
 // What the devices deliver, in SI units and in the robot's frame (z up), each with the time at which it was
 // measured: nanoseconds of CLOCK_MONOTONIC. `fresh` is true in the one cycle that first sees the sample.
@@ -115,6 +116,7 @@ struct BusSample {
   std::uint32_t errors = 0;  // other error frames: protocol, transceiver
   std::array<std::uint32_t, kMotorCount> rejected{};
   std::array<std::uint32_t, kMotorCount> unsolicited{};
+  RefusedFrames refused{};  // by the transmit guard
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -125,6 +127,7 @@ struct BusSample {
     visit("errors", self.errors);
     visit("rejected", self.rejected);
     visit("unsolicited", self.unsolicited);
+    visit("refused", self.refused);
   }
 };
 

@@ -7,10 +7,13 @@
 namespace sandhopper {
 
 Arming::Arming(const CycleConfig& config, const Leg& leg) noexcept
-    : config_(config), expected_angle_rad_(leg.angle_at_length(config.arming.zero_pose_length_m)) {}
+    : config_(config),
+      expected_angle_rad_(leg.angle_at_length(config.arming.zero_pose_length_m)),
+      drives_(config) {}
 
 void Arming::begin(std::int64_t now_ns) noexcept {
-  begin_ns_ = now_ns;
+  drives_.begin(now_ns);
+  confirmed_ = false;
   angle_rad_ = {};
   body_accel_ = foot_accel_ = load_cell_ = tof_ = {};
   lowest_rad_.fill(std::numeric_limits<double>::infinity());
@@ -18,9 +21,14 @@ void Arming::begin(std::int64_t now_ns) noexcept {
 }
 
 std::optional<Arming::Verdict> Arming::update(const SensorFrame& frame) noexcept {
-  const double elapsed_s = static_cast<double>(frame.time_ns - begin_ns_) * 1e-9;
-  const auto& c = config_.arming;
-  if (elapsed_s < c.enable_s) return std::nullopt;
+  if (!confirmed_) {
+    const auto result = drives_.update(frame);
+    if (result == DriveConfirmation::Result::refused) return not_confirmed();
+    if (result == DriveConfirmation::Result::pending) return std::nullopt;
+    confirmed_ = true;
+    window_begin_ns_ = frame.time_ns;
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < kMotorCount; ++i) {
     if (!frame.motor[i].fresh) continue;
     angle_rad_[i].add(frame.motor[i].position_rad);
@@ -31,8 +39,23 @@ std::optional<Arming::Verdict> Arming::update(const SensorFrame& frame) noexcept
   if (frame.imu_foot.fresh) foot_accel_.add(frame.imu_foot.accel_mps2[2]);
   if (frame.load_cell.fresh) load_cell_.add(frame.load_cell.force_N);
   if (frame.tof.fresh && std::isfinite(frame.tof.height_m)) tof_.add(frame.tof.height_m);
-  if (elapsed_s < c.enable_s + c.window_s) return std::nullopt;
+  if (to_s(frame.time_ns - window_begin_ns_) < config_.arming.window_s) return std::nullopt;
   return judge();
+}
+
+void Arming::write(Command& command) const noexcept {
+  command.drive = confirmed_ ? DriveRequest::enable : drives_.drive();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i)
+    command.motor[i].torque_Nm = confirmed_ ? 0.0 : drives_.torque_Nm(i);
+}
+
+Arming::Verdict Arming::not_confirmed() const noexcept {
+  const auto& measured = drives_.measured_Nm();
+  return {.passed = false,
+          .reason = Reason::drives_not_confirmed,
+          .values = {measured[0], measured[1], config_.arming.confirm_torque_Nm,
+                     static_cast<double>(drives_.tries())},
+          .calibration = {}};
 }
 
 Arming::Verdict Arming::judge() const noexcept {

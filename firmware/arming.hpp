@@ -5,14 +5,16 @@
 
 #include "estimation/leg.hpp"
 #include "firmware/controller_config.hpp"
+#include "firmware/drive_confirmation.hpp"
 #include "firmware/event.hpp"
 #include "firmware/robot_estimator.hpp"
 
 namespace sandhopper {
 
-// The check made at every start while the robot hangs still: both encoders must read the angle of the hanging
-// pose and agree with each other, nothing may move, and every sensor must deliver. The means of the same
-// window give IMU bias, load-cell tare and body height.
+// The check made at every start while the robot hangs still: every drive must be in motor mode
+// (DriveConfirmation), then both encoders must read the angle of the hanging pose and agree with each other,
+// nothing may move, and every sensor must deliver. The means of the same window give IMU bias, load-cell tare
+// and body height.
 class Arming {
  public:
   Arming(const CycleConfig& config, const Leg& leg) noexcept;
@@ -22,11 +24,14 @@ class Arming {
   struct Verdict {
     bool passed;
     Reason reason;
-    std::array<double, 4> values;  // left, right, expected angle, largest range [rad]
+    std::array<double, 4> values;  // as Event::values of zero_check and arming_refused
     StaticCalibration calibration;
   };
-  // Nothing until enable_s + window_s have passed.
+  // Nothing until the drives are confirmed and window_s has passed, or until they are not.
   std::optional<Verdict> update(const SensorFrame& frame) noexcept;
+
+  // What the drives are to do until then.
+  void write(Command& command) const noexcept;
 
  private:
   struct Mean {
@@ -39,10 +44,13 @@ class Arming {
     double value() const noexcept { return count > 0 ? sum / count : 0.0; }
   };
   Verdict judge() const noexcept;
+  Verdict not_confirmed() const noexcept;
 
   const CycleConfig& config_;
   double expected_angle_rad_;
-  std::int64_t begin_ns_ = 0;
+  DriveConfirmation drives_;
+  bool confirmed_ = false;
+  std::int64_t window_begin_ns_ = 0;
   std::array<Mean, kMotorCount> angle_rad_{};
   std::array<double, kMotorCount> lowest_rad_{}, highest_rad_{};
   Mean body_accel_, foot_accel_, load_cell_, tof_;

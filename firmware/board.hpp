@@ -1,5 +1,6 @@
 #pragma once
 #include "firmware/command.hpp"
+#include "firmware/fault.hpp"
 #include "firmware/sensor_frame.hpp"
 
 namespace sandhopper {
@@ -14,6 +15,9 @@ class Board {
   // previous cycle's samples where nothing new came (fresh = false then). `frame.time_ns`, `.cycle`,
   // `.overruns`, `.watchdog_stall_ns`, `.wall_clock_step_ns` and `.request` belong to the caller.
   virtual void read(SensorFrame& frame) noexcept = 0;
+
+  // The fault that is latched, before each write(): what leaves for the drives is held against it.
+  virtual void note_fault(Fault /*latched*/) noexcept {}
 
   // Sends the cycle's command. A drive's reply to it is in a later read().
   virtual void write(const Command& command) noexcept = 0;

@@ -24,7 +24,13 @@ Controller::Controller(const CycleConfig& config)
       estimator_(config_, leg_),
       arming_(config_, leg_),
       recorder_(config_.stiffness, config_.robot.foot_radius_m),
-      supervisor_(config_, leg_) {}
+      supervisor_(config_, leg_),
+      reaction_(config_) {
+  if (config_.start.fault == Fault::none) return;
+  out_.fault = config_.start.fault;
+  out_.state = State::fault;
+  fault_of_last_run_ = true;
+}
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   event_count_ = 0;
@@ -34,7 +40,7 @@ const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
 
   if (frame.wall_clock_step_ns != 0)
     emit(EventKind::clock_stepped, Reason::date_changed, {to_s(frame.wall_clock_step_ns), 0.0, 0.0, 0.0});
-  serve_request(frame);
+  request_had_effect_ = serve_request(frame);
   if (estimating()) {
     estimator_.update(frame, out_.estimate);
     out_.estimate.surface_z_m = recorder_.surface_z_m();
@@ -87,48 +93,51 @@ void Controller::enter(State state, const SensorFrame& frame) noexcept {
   state_since_ns_ = still_since_ns_ = frame.time_ns;
 }
 
-void Controller::serve_request(const SensorFrame& frame) noexcept {
+bool Controller::serve_request(const SensorFrame& frame) noexcept {
   switch (frame.request) {
     case Request::arm:
       if (out_.state == State::fault)
         emit(EventKind::arming_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
-      if (out_.state != State::idle) return;
+      if (out_.state != State::idle) return false;
       arming_.begin(frame.time_ns);
       ready_ = stop_requested_ = false;
       free_fall_count_ = 0;
       out_.command.open_catch = false;
       enter(State::armed, frame);
-      return;
+      return true;
     case Request::release:
-      if (out_.state != State::armed || !ready_) return;
+      if (out_.state != State::armed || !ready_) return false;
       out_.command.open_catch = true;
-      return;
+      return true;
     case Request::stop:
-      if (!drives_on(out_.state) || out_.state == State::soft_stop) return;
+      if (!drives_on(out_.state) || out_.state == State::soft_stop) return false;
       emit(EventKind::stop_requested, Reason::operator_request, {});
       stop_requested_ = true;
       if (out_.state == State::armed) enter(out_.command.open_catch ? State::soft_stop : State::idle, frame);
       if (out_.state == State::compression || out_.state == State::extension) enter(State::soft_stop, frame);
-      return;
+      return true;
     case Request::disarm:
-      disarm(frame);
-      return;
+      return disarm(frame);
     case Request::none:
-      return;
+      return false;
   }
+  return false;
 }
 
-void Controller::disarm(const SensorFrame& frame) noexcept {
-  if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return;
-  const Latch latch = entry_of(out_.fault).latch;
+bool Controller::disarm(const SensorFrame& frame) noexcept {
+  if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return false;
+  // The restart that such a fault asks for has taken place.
+  const Latch latch = fault_of_last_run_ ? Latch::until_disarmed : entry_of(out_.fault).latch;
   if (latch == Latch::until_restart || (latch == Latch::until_released && frame.emergency_stop)) {
     emit(EventKind::disarm_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
-    return;
+    return false;
   }
   out_.fault = Fault::none;
+  fault_of_last_run_ = false;
   ready_ = false;
   enter(State::idle, frame);
   emit(EventKind::disarmed, Reason::operator_request, {});
+  return true;
 }
 
 void Controller::supervise(const SensorFrame& frame) noexcept {
@@ -138,16 +147,19 @@ void Controller::supervise(const SensorFrame& frame) noexcept {
                          .phase_time_s = phase_time_s(frame),
                          .estimating = estimating(),
                          .energised = drives_on(out_.state) && (out_.state != State::armed || ready_),
-                         .touchdowns = recorder_.strides_begun(),
+                         .touchdowns = touchdowns(),
                          .command = out_.command});
   if (found.fault != Fault::none) raise(found, frame);
 }
 
-// A harsher fault takes the place of a gentler one; the first of equals stays.
+// A harsher fault takes the place of a gentler one. One that is harsher by its latch alone leaves the
+// reaction as it runs.
 void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexcept {
   const Reaction reaction = entry_of(found.fault).reaction;
-  if (out_.fault != Fault::none && reaction <= entry_of(out_.fault).reaction) return;
+  if (out_.fault != Fault::none && !is_harsher(found.fault, out_.fault)) return;
+  const bool reacting = out_.state == State::fault && reaction == entry_of(out_.fault).reaction;
   out_.fault = found.fault;
+  fault_of_last_run_ = false;
   fault_values_ = found.values;
   emit(EventKind::fault_raised, Reason::fault, {found.values[0], found.values[1], 0.0, 0.0});
   const bool standing = out_.state == State::compression || out_.state == State::extension;
@@ -156,10 +168,10 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
     if (standing) enter(State::soft_stop, frame);
     return;
   }
-  if (out_.state != State::fault) {
-    fault_energised_ = out_.command.drive == DriveRequest::run;
-    for (std::size_t i = 0; i < kMotorCount; ++i) hold_angle_rad_[i] = frame.motor[i].position_rad;
-  }
+  if (reacting) return;
+  // Before the check at arming has passed the drives make at most its small torque: nothing is to be damped.
+  const bool energised = out_.command.drive == DriveRequest::run && (out_.state != State::armed || ready_);
+  if (out_.state != State::fault) reaction_.begin(frame, energised);
   ready_ = false;
   enter(State::fault, frame);
 }
@@ -176,11 +188,12 @@ void Controller::step_armed(const SensorFrame& frame) noexcept {
     emit(EventKind::zero_check, verdict->reason, verdict->values);
     emit(EventKind::armed, Reason::zero_confirmed, {});
     estimator_.start(verdict->calibration, frame);
+    body_bias_mps2_ = verdict->calibration.body_bias_mps2;
     recorder_.on_release(frame.time_ns);
     ready_ = true;
     return;
   }
-  const double body_force = frame.imu_body.accel_mps2[2];
+  const double body_force = frame.imu_body.accel_mps2[2] - body_bias_mps2_;
   free_fall_count_ = body_force < config_.arming.free_fall_accel_mps2 ? free_fall_count_ + 1 : 0;
   if (free_fall_count_ < config_.arming.free_fall_cycles) return;
   const auto& e = out_.estimate;
@@ -240,7 +253,7 @@ void Controller::step_soft_stop(const SensorFrame& frame) noexcept {
   if (still_s <= config_.limits.settle_s + config_.limits.ramp_down_s) return;
   emit(EventKind::stopped, Reason::settled,
        {e.leg_length_m, e.leg_rate_mps, e.foot_z_m, e.foot_velocity_mps});
-  fault_energised_ = false;
+  reaction_.begin(frame, false);
   enter(out_.fault == Fault::none ? State::idle : State::fault, frame);
 }
 
@@ -251,11 +264,11 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
     return;
   }
   if (out_.state == State::fault) {
-    write_fault_command(frame);
+    reaction_.write(frame, entry_of(out_.fault).reaction, time_in_state_s(frame), out_.command);
     return;
   }
   if (out_.state == State::armed && !ready_) {
-    out_.command.drive = DriveRequest::enable;
+    arming_.write(out_.command);
     return;
   }
   out_.command.drive = DriveRequest::run;
@@ -272,24 +285,6 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
   const double torque = std::clamp(force_N * leg.dlength_m_per_rad / motors, -limit, limit);
   for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i)
     out_.command.motor[i].torque_Nm = torque;
-}
-
-// Left to the drives' own law: it needs no reply to reach the controller. hold -> damp -> limp.
-void Controller::write_fault_command(const SensorFrame& frame) noexcept {
-  const auto& limits = config_.limits;
-  const Reaction reaction = entry_of(out_.fault).reaction;
-  const double hold_s = reaction == Reaction::hold ? limits.fault_hold_s : 0.0;
-  const double damp_s = reaction == Reaction::hold || reaction == Reaction::damp ? limits.fault_damp_s : 0.0;
-  const bool acting = fault_energised_ && time_in_state_s(frame) < hold_s + damp_s;
-  out_.command.drive = acting ? DriveRequest::run : DriveRequest::off;
-  if (!acting) return;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(config_.robot.motor_count); ++i) {
-    auto& motor = out_.command.motor[i];
-    motor.kd_Nm_s_per_rad = limits.fault_damping_Nm_s_per_rad;
-    if (time_in_state_s(frame) >= hold_s) continue;
-    motor.kp_Nm_per_rad = limits.fault_hold_stiffness_Nm_per_rad;
-    motor.position_rad = hold_angle_rad_[i];
-  }
 }
 
 }  // namespace sandhopper

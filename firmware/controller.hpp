@@ -6,6 +6,7 @@
 #include "estimation/leg.hpp"
 #include "firmware/arming.hpp"
 #include "firmware/controller_config.hpp"
+#include "firmware/fault_reaction.hpp"
 #include "firmware/gait.hpp"
 #include "firmware/records.hpp"
 #include "firmware/robot_estimator.hpp"
@@ -37,13 +38,18 @@ class Controller {
   // Whether the last step finished a stride; its sums then.
   bool stride_finished() const noexcept { return stride_finished_; }
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
+  // Whether the last step's request meant anything in the state the robot was in.
+  bool request_had_effect() const noexcept { return request_had_effect_; }
   const CycleConfig& config() const noexcept { return config_; }
+  const ThermalModel& thermal(std::size_t motor) const noexcept { return supervisor_.thermal(motor); }
+  // Since the leg was inspected, earlier runs included.
+  std::uint32_t touchdowns() const noexcept { return config_.start.touchdowns + recorder_.strides_begun(); }
 
   // For tests of the tests: without this fault's detector.
   void switch_off(Fault detector) noexcept { supervisor_.switch_off(detector); }
 
  private:
-  void serve_request(const SensorFrame& frame) noexcept;
+  bool serve_request(const SensorFrame& frame) noexcept;
   void supervise(const SensorFrame& frame) noexcept;
   void step_armed(const SensorFrame& frame) noexcept;
   void step_hop(const SensorFrame& frame) noexcept;
@@ -51,12 +57,11 @@ class Controller {
   void apply(const Transition& transition, const SensorFrame& frame) noexcept;
   void enter(State state, const SensorFrame& frame) noexcept;
   void raise(const FaultFound& found, const SensorFrame& frame) noexcept;
-  void disarm(const SensorFrame& frame) noexcept;
+  bool disarm(const SensorFrame& frame) noexcept;
   bool estimating() const noexcept;
   bool still() const noexcept;
   void emit(EventKind kind, Reason reason, const std::array<double, 4>& values) noexcept;
   void write_command(const SensorFrame& frame) noexcept;
-  void write_fault_command(const SensorFrame& frame) noexcept;
   LegObservation observation() const noexcept;
   double time_in_state_s(const SensorFrame& frame) const noexcept;
   double phase_time_s(const SensorFrame& frame) const noexcept;
@@ -67,17 +72,19 @@ class Controller {
   Arming arming_;
   StrideRecorder recorder_;
   Supervisor supervisor_;
+  FaultReaction reaction_;
   StepOutput out_{};
   std::array<Event, 8> events_{};
   std::size_t event_count_ = 0;
   std::int64_t state_since_ns_ = 0;
   std::int64_t still_since_ns_ = 0;
   int free_fall_count_ = 0;
-  bool ready_ = false;  // armed and checked
+  double body_bias_mps2_ = 0.0;  // of the body's accelerometer, measured while arming
+  bool ready_ = false;           // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
-  bool fault_energised_ = false;  // drives were on when the fault came
-  std::array<double, kMotorCount> hold_angle_rad_{};
+  bool request_had_effect_ = false;
+  bool fault_of_last_run_ = false;
   std::array<double, 2> fault_values_{};
 };
 

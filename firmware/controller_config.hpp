@@ -5,6 +5,7 @@
 #include "drivers/samples.hpp"
 #include "estimation/kalman_filter.hpp"
 #include "estimation/leg.hpp"
+#include "firmware/state/start_state.hpp"
 #include "firmware/supervision/supervision_config.hpp"
 #include "terrain/stiffness_fit.hpp"
 
@@ -59,11 +60,14 @@ struct ControllerConfig {
   }
 };
 
-// What happens between the request to arm and being ready: drives on with zero gains, then everything held
-// still for `window_s` while both encoders are checked against the pose and IMU bias, load-cell tare and
-// height are measured.
+// What happens between the request to arm and being ready: drives on with zero gains, a small torque that
+// each drive's current must follow (`drive_confirmation.hpp`), then everything held still for `window_s`
+// while both encoders are checked against the pose and IMU bias, load-cell tare and height are measured.
 struct ArmingConfig {
-  double enable_s = 0.05;
+  double enable_s = 0.03;
+  double confirm_torque_Nm = 0.1;
+  double confirm_s = 0.02;
+  int confirm_tries = 3;
   double window_s = 0.20;
   double zero_pose_length_m = 0.30;  // hip-to-toe length in which the robot hangs when armed
   double zero_tolerance_rad = 0.03;
@@ -73,7 +77,10 @@ struct ArmingConfig {
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
-    visit("enable_s", self.enable_s, Range{0.0, 5.0});
+    visit("enable_s", self.enable_s, Range{0.01, 5.0});
+    visit("confirm_torque_Nm", self.confirm_torque_Nm, Range{0.01, 5.0});
+    visit("confirm_s", self.confirm_s, Range{0.016, 1.0});
+    visit("confirm_tries", self.confirm_tries, Range{1, 20});
     visit("window_s", self.window_s, Range{0.02, 10.0});
     visit("zero_pose_length_m", self.zero_pose_length_m, Range{0.02, 2.0});
     visit("zero_tolerance_rad", self.zero_tolerance_rad, Range{1e-3, 0.5});
@@ -141,6 +148,9 @@ struct CycleConfig {
   SupervisionConfig supervision{};
   // Answers a second that a drive owes: one a command, or the rate at which it sends its status by itself.
   std::array<double, kMotorCount> motor_reply_rate_Hz{1000.0, 1000.0};
+  // The drive works out gains itself; else the host does, from the newest sample (`kHostLawAge_s`).
+  std::array<bool, kMotorCount> law_in_drive{true, true};
+  StartState start{};
 };
 
 }  // namespace sandhopper

@@ -14,6 +14,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
   frame_.request = turn.request;
   parts_.board.read(frame_);
   const StepOutput& output = parts_.controller.step(frame_);
+  parts_.board.note_fault(output.fault);
   parts_.board.write(output.command);
 
   parts_.logger.push(parts_.topics.frame, turn.time_ns, frame_);
@@ -22,6 +23,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
     parts_.logger.push(parts_.topics.event, turn.time_ns, event);
     parts_.aftermath.offer(event);
   }
+  if (parts_.freeze != nullptr) parts_.freeze->push(frame_, output, parts_.controller.events());
   if (parts_.controller.stride_finished()) parts_.aftermath.offer(parts_.controller.stride_sums());
   return output;
 }
@@ -52,6 +54,10 @@ void Aftermath::serve() {
   for (const Event* event = events_.front(); event != nullptr; event = events_.front()) {
     if (listener_.event) listener_.event(*event);
     events_.pop();
+  }
+  for (const RequestRecord* answer = answers_.front(); answer != nullptr; answer = answers_.front()) {
+    if (listener_.request) listener_.request(*answer);
+    answers_.pop();
   }
   for (const StrideSums* sums = strides_.front(); sums != nullptr; sums = strides_.front()) {
     const StrideResult result = solve_stride(*sums, config_);

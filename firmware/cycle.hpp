@@ -7,8 +7,10 @@
 
 #include "firmware/board.hpp"
 #include "firmware/controller.hpp"
+#include "firmware/freeze/freeze_ring.hpp"
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/trial_logger.hpp"
+#include "firmware/request_box.hpp"
 
 namespace sandhopper {
 
@@ -35,6 +37,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   struct Listener {
     std::function<void(const Event&)> event{};
     std::function<void(const StrideResult&)> stride{};
+    std::function<void(const RequestRecord&)> request{};
   };
   Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics, Listener listener);
   ~Aftermath();
@@ -46,6 +49,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   // From the cycle.
   void offer(const Event& event) noexcept { events_.push(event); }
   void offer(const StrideSums& sums) noexcept { strides_.push(sums); }
+  void offer(const RequestRecord& answer) noexcept { answers_.push(answer); }
 
  private:
   StiffnessConfig config_;
@@ -54,6 +58,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   Listener listener_;
   SpscRing<Event> events_{1024};
   SpscRing<StrideSums> strides_{64};
+  SpscRing<RequestRecord> answers_{2048};
   std::thread thread_;
   std::atomic<bool> stopping_{false};
 };
@@ -68,6 +73,7 @@ class Cycle {
     TrialLogger& logger;
     const TrialTopics& topics;
     Aftermath& aftermath;
+    FreezeRing* freeze = nullptr;  // the last seconds in shared memory; may be null
   };
   explicit Cycle(const Parts& parts) noexcept : parts_(parts) {}
 

@@ -47,11 +47,12 @@ enum class Reason : std::uint8_t {
   fault,
   zero_confirmed,
   catch_opened,
-  date_changed
+  date_changed,
+  drives_not_confirmed
 };
 template <>
 struct EnumNames<Reason> {
-  static constexpr std::array<std::string_view, 16> value{"operator_request",
+  static constexpr std::array<std::string_view, 17> value{"operator_request",
                                                           "free_fall",
                                                           "leg_deflection",
                                                           "leg_rate",
@@ -66,11 +67,15 @@ struct EnumNames<Reason> {
                                                           "fault",
                                                           "zero_confirmed",
                                                           "catch_opened",
-                                                          "date_changed"};
+                                                          "date_changed",
+                                                          "drives_not_confirmed"};
 };
 
 // Something that happened, with the values that triggered it. Their meaning by kind:
 //   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest range [rad]
+//   arming_refused for drives_not_confirmed: torque measured left, right (NaN: no such motor), torque
+//   commanded
+//     [N m], tries; which motor failed: `torque_follows` (drive_confirmation.hpp)
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
 //   fault_raised, disarm_refused: the two values the fault's entry names, 0, 0

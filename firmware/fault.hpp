@@ -63,9 +63,10 @@ enum class Fault : std::uint8_t {
   cycle_overruns,
   watchdog_tripped,
   estimate_diverged,
+  transmit_refused,
 };
 
-inline constexpr std::size_t kFaultCount = 51;
+inline constexpr std::size_t kFaultCount = 52;
 
 // What the robot does about a fault, gentlest first; a harsher one replaces a gentler one.
 //   stop: the next touchdown, or the present stance, becomes a soft stop
@@ -170,10 +171,10 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
     {Fault::motor_reply_unexpected, "motor_reply_unexpected", Reaction::damp, Latch::until_disarmed, 10,
      "a drive answers more often than it is asked",
      "check that no two drives have one id and that no other program commands the drives"},
-    {Fault::motor_reply_foreign, "motor_reply_foreign", Reaction::limp, Latch::until_disarmed, 2,
+    {Fault::motor_reply_foreign, "motor_reply_foreign", Reaction::limp, Latch::until_restart, 2,
      "frames with a drive's identifier do not look like its configured dialect",
-     "check motor.dialect against the drive's board and mode (CubeMars' serial tool) and power-cycle the "
-     "drive"},
+     "check motor.dialect against the drive's board and mode (CubeMars' serial tool), power-cycle the drive "
+     "and restart hopperd, which then asks each drive again for its dialect; until then none gets torque"},
     {Fault::motor_position_jump, "motor_position_jump", Reaction::damp, Latch::until_disarmed, 2,
      "a position changed faster than the motor can turn, or is not a number",
      "check the encoder, its magnet and the shield of the CAN cable; home again: a single encoder may have "
@@ -251,8 +252,8 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "in flight the robot gains energy that nobody puts in",
      "check the ToF sensor, both IMUs and the rail: an estimate has gone wrong or something lifts the robot"},
     {Fault::hop_count_limit, "hop_count_limit", Reaction::stop, Latch::until_disarmed, 2,
-     "more touchdowns since the daemon started than supervision.hop_count",
-     "inspect the leg as its schedule says, then restart the daemon"},
+     "more touchdowns since the leg was inspected than supervision.hop_count",
+     "inspect the leg as its schedule says, then start hopperd once with --leg-inspected"},
     {Fault::cycle_gap, "cycle_gap", Reaction::damp, Latch::until_disarmed, 1,
      "the cycle missed supervision.cycle_gap grid points in a row; torque was held meanwhile",
      "look for what stopped the computer: `hop doctor`, other SCHED_FIFO programs, thermal throttling"},
@@ -270,6 +271,13 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "compare tof.height_m (/frame) with estimate.body_z_m (/output) in the log to see which went wrong: an "
      "impact beyond accel_range_g of the IMUs (softer ground, lower release), an IMU whose zero moved since "
      "arming, or something in the ToF sensor's beam"},
+    {Fault::transmit_refused, "transmit_refused", Reaction::limp, Latch::until_restart, 2,
+     "the transmit guard did not let a frame out to the drives: it broke a rule, so the controller or the "
+     "motor "
+     "driver is wrong",
+     "send the log: bus.refused (/frame) has the rule and the frame's bytes, the CAN log has it as a "
+     "comment; "
+     "check limits.* and motor.* if they were changed last"},
 }};
 
 template <>

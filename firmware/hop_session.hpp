@@ -9,24 +9,11 @@
 #include "firmware/cycle.hpp"
 #include "firmware/live_status.hpp"
 #include "firmware/realtime.hpp"
+#include "firmware/request_box.hpp"
 #include "firmware/wall_clock.hpp"
 #include "firmware/watchdog/heartbeat.hpp"
 
 namespace sandhopper {
-
-// The operator's requests on their way to the cycle: the newest one not yet taken. Any thread may post.
-class RequestBox {
- public:
-  void post(Request request) noexcept { request_.store(request, std::memory_order_release); }
-  Request take() noexcept { return request_.exchange(Request::none, std::memory_order_acq_rel); }
-
- private:
-  std::atomic<Request> request_{Request::none};
-};
-
-// How to end. softly: stop the robot, wait until its drives are off. at_once: not even that; whoever owns the
-// drives switches them off.
-enum class Quit : std::uint8_t { no, softly, at_once };
 
 struct SessionResult {
   std::uint64_t cycles = 0;
@@ -42,10 +29,12 @@ struct SessionResult {
   Fault last_fault = Fault::none;
 };
 
-// The cycle in real time: sleeps to the grid, takes the operator's request, runs a turn; until `quit`.
+// The cycle in real time: sleeps to the grid, takes the operator's request, runs a turn; until `quit`. What
+// becomes of each word goes into the log (topic /request) and to the listener.
 class HopSession {
  public:
-  HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger, Aftermath::Listener listener);
+  HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger, Aftermath::Listener listener,
+             const StartState& start = {});
 
   // What a run stands between. The defaults are the real ones.
   struct World {
@@ -56,17 +45,22 @@ class HopSession {
     TimeSource& time = monotonic_time();
     WallClock wall_clock{};
     Latest<LiveStatus>* status = nullptr;  // who watches the cycle, if anyone does
+    FreezeRing* freeze = nullptr;          // with it, a soft end waits for the second after a fault
+    Latest<StateSample>* state = nullptr;  // who keeps the robot's state, if anyone does
   };
   // On the calling thread, which is made real-time.
   SessionResult run(World world);
 
  private:
   void turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, SessionResult& result);
+  void tell_answers(std::span<RequestRecord> answers, const StepOutput& output) noexcept;
+  void answer_the_rest(World& world, std::int64_t now_ns, const StepOutput& output) noexcept;
 
   const RobotConfig& robot_;
   Board& board_;
   TrialLogger& logger_;
   TrialTopics topics_;
+  LogTopic<RequestRecord> request_topic_;
   Controller controller_;
   Aftermath aftermath_;
 };

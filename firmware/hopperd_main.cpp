@@ -11,8 +11,11 @@
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/problem.hpp"
+#include "drivers/can/cubemars_drives.hpp"
 #include "drivers/can/torque_cut.hpp"
 #include "drivers/clock.hpp"
+#include "firmware/freeze/freeze_folders.hpp"
+#include "firmware/freeze/freeze_recorder.hpp"
 #include "firmware/hop_session.hpp"
 #include "firmware/instance_lock.hpp"
 #include "firmware/linux_board.hpp"
@@ -20,9 +23,12 @@
 #include "firmware/log/trial_description.hpp"
 #include "firmware/log/trial_sheet.hpp"
 #include "firmware/operator_channel.hpp"
+#include "firmware/state/recollection.hpp"
+#include "firmware/state/state_keeper.hpp"
 #include "firmware/version.hpp"
 #include "firmware/watchdog/guard_process.hpp"
 #include "firmware/watchdog/keepalive.hpp"
+#include "firmware/watchdog/shared.hpp"
 #include "firmware/watchdog/torque_watchdog.hpp"
 #include "tools/plant/load_world.hpp"
 #include "tools/plant/sim_board.hpp"
@@ -41,6 +47,10 @@ struct Options {
   std::optional<int> quota_MB;
   int status_Hz = 0;
   std::string sheet_file;
+  bool no_log = false;
+  std::string state_directory;
+  bool motors_cold = false;
+  bool leg_inspected = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -54,6 +64,7 @@ void add_options(CLI::App& app, Options& options) {
       "device file; default linux.toml of the configuration directory, on the virtual bench bench.toml");
   app.add_option("--log", options.log_file, "MCAP log; CAN traffic goes beside it as candump text")
       ->capture_default_str();
+  app.add_flag("--no-log", options.no_log, "write no log; a fault still leaves its freeze frame");
   app.add_option("--board", options.board,
                  "linux: this machine's devices; sim: simulated robot in the process")
       ->check(CLI::IsMember({"linux", "sim"}))
@@ -69,26 +80,51 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--sheet", options.sheet_file,
                  "trial sheet (TOML: who, bed, bed_preparation, release_height_m, payload_kg, notes) to be "
                  "kept in the log");
+  app.add_option("--state", options.state_directory,
+                 "where the motors' temperatures and counts are kept between runs; default "
+                 "$RUNTIME_DIRECTORY and $STATE_DIRECTORY (systemd), else /run/sandhopper and "
+                 "/var/lib/sandhopper; not with --board sim");
+  app.add_flag("--motors-cold", options.motors_cold,
+               "the motors are at supervision.ambient_C, whatever is remembered or assumed");
+  app.add_flag("--leg-inspected", options.leg_inspected, "count touchdowns from 0 again (hop_count_limit)");
   app.add_option("--status-Hz", options.status_Hz,
                  "how often to tell how the cycle stands, {\"status\": {…}}; 0: never")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   app.footer(
-      "Operated by lines on standard input: arm, release, stop, disarm, quit. Answers on standard output, "
-      "one JSON\n"
-      "object a line. End of input, SIGINT, SIGTERM and SIGHUP stop the robot softly, close the log and "
-      "quit; a second "
-      "one\nswitches the drives off at once.\n"
+      "Operated by lines on standard input: arm, release, stop, disarm, quit; an unknown word stops softly. "
+      "Answers on\nstandard output, one JSON object a line. End of input, SIGINT, SIGTERM and SIGHUP stop "
+      "the "
+      "robot softly, close the\nlog and quit; a second one switches the drives off at once.\n"
       "Exit status: 0 ended in order, 1 ended in a fault, 2 configuration or command line, 3 a device is "
       "missing,\nanother hopperd runs these motors, or the log's disk failed.");
 }
 
 // The robot's devices, their CAN traffic in the log.
 struct RealRobot {
-  RealRobot(const LinuxBoardConfig& config, TrialLogger& logger)
+  RealRobot(const LinuxBoardConfig& config, const WatchdogConfig& watchdog, Heartbeat& heart,
+            TrialLogger& logger, LastAct* last_act)
       : tap(logger, config.can.interface), board(config, &tap) {
+    board.heed(heart);
     cut.emplace(config.can);
-    guard.emplace(*cut);
+    guard.emplace(GuardProcess::Setup{.cut = *cut, .heart = heart, .config = watchdog, .last_act = last_act});
+  }
+  ~RealRobot() { shut_down(); }
+  RealRobot(const RealRobot&) = delete;
+  RealRobot& operator=(const RealRobot&) = delete;
+
+  // What is to be told; empty: every drive has confirmed that it is off.
+  std::string shut_down() {
+    const auto motors = board.shut_down();
+    if (motors.empty()) return {};
+    guard->abandon();
+    return fmt::format(
+        "not confirmed off within {} ms: motor {}. Such a drive may still make its last torque until its own "
+        "time-out. The guard process now sends the frames that take it away, and the relay drive_enable is "
+        "open "
+        "where there is one. Cut the supply with the e-stop before you go near the robot, then check the CAN "
+        "bus (`hop doctor`)",
+        CubeMarsDrives::kShutDown_ns / 1'000'000, motors);
   }
   CanLogTap tap;
   // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
@@ -114,6 +150,10 @@ struct Session {
   OperatorChannel& channel;
   Heartbeat& heart;
   std::function<void()> cut;
+  std::function<bool()> guarded;  // the guard process lives, or there is none to live
+  FreezeRing* freeze;
+  const StartState& start;
+  StateKeeper* keeper;  // null: nothing is kept
 };
 
 SessionResult run_session(const Session& s) {
@@ -122,18 +162,35 @@ SessionResult run_session(const Session& s) {
   };
   HopSession session(s.robot, s.board, s.logger,
                      {.event = [&](const Event& event) { s.channel.tell(event); },
-                      .stride = [&](const StrideResult& result) { s.channel.tell(result); }});
+                      .stride = [&](const StrideResult& result) { s.channel.tell(result); },
+                      .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }},
+                     s.start);
   RequestBox requests;
   std::atomic<Quit> quit{Quit::no};
   std::atomic<bool> ended{false};
   SessionResult result;
   const TorqueWatchdog watchdog(s.robot.watchdog, s.heart, s.cut);
-  const Keepalive keepalive(s.robot.watchdog, s.heart);
+  bool guarded = true;
+  const Keepalive keepalive(s.robot.watchdog, s.heart, [&] {
+    if (!guarded || s.guarded()) return;
+    guarded = false;
+    warn(
+        "the guard process has ended: nobody would cut the torque if hopperd were killed or stopped. A soft "
+        "stop "
+        "follows; start hopperd again");
+    Quit none = Quit::no;
+    quit.compare_exchange_strong(none, Quit::softly);
+  });
   warn(watchdog.warning());
   warn(keepalive.warning());
   std::thread cycle([&] {
-    result = session.run(
-        {.quit = quit, .requests = requests, .heart = s.heart, .say = warn, .status = &s.channel.status()});
+    result = session.run({.quit = quit,
+                          .requests = requests,
+                          .heart = s.heart,
+                          .say = warn,
+                          .status = &s.channel.status(),
+                          .freeze = s.freeze,
+                          .state = s.keeper == nullptr ? nullptr : &s.keeper->newest()});
     ended.store(true);
   });
   s.channel.tell_text("ready", "arm");
@@ -162,12 +219,49 @@ TrialLogOptions log_options(const LogConfig& config, const Options& options, Ope
   TrialLogOptions log;
   log.limits = config.limits();
   log.say = [&channel](const std::string& text) { channel.tell_text("warning", text); };
-  log.mcap_file = options.log_file;
   log.start_ns = monotonic_ns();
   log.realtime_offset_ns = realtime_offset_ns();
+  if (options.no_log) {
+    log.limits = {};
+    return log;
+  }
+  log.mcap_file = options.log_file;
   if (options.board == "linux")
     log.candump_file = std::filesystem::path(options.log_file).replace_extension(".candump");
   return log;
+}
+
+FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log,
+                             const LogDescription& description, OperatorChannel& channel) {
+  return {.folder = freeze::frame_folder(config.freeze_folder),
+          .newest = static_cast<std::size_t>(config.freeze_files),
+          .log_file = log.mcap_file.empty() ? "" : std::filesystem::absolute(log.mcap_file),
+          .start_ns = log.start_ns,
+          .realtime_offset_ns = log.realtime_offset_ns,
+          .description = description,
+          .warn = log.say,
+          .told = [&channel](const auto& frame) { channel.tell_text("freeze_frame", frame.string()); }};
+}
+
+// What the robot remembers, told to the operator.
+StartState remembered_start(const Options& options, const StatePlaces& places, const RobotConfig& robot,
+                            OperatorChannel& channel) {
+  auto memory =
+      recollect(read_state_file(places.boot), read_state_file(places.lasting), state_clock(), robot);
+  if (options.motors_cold) {
+    memory.start.temperatures_known = false;
+    memory.trusted = true;
+    memory.text = fmt::format("motors at {:g} C by the operator's word", robot.supervision.ambient_C);
+  }
+  if (options.leg_inspected) memory.start.touchdowns = 0;
+  channel.tell_text(memory.trusted ? "memory" : "warning", memory.text);
+  if (!memory.positions.empty()) channel.tell_text("warning", memory.positions);
+  if (memory.start.fault != Fault::none)
+    channel.tell_text("warning",
+                      fmt::format("the last run did not end in order and left the fault {}: disarm "
+                                  "when its cause is removed",
+                                  name_of(memory.start.fault)));
+  return memory.start;
 }
 
 int run(const Options& options, OperatorChannel& channel) {
@@ -177,7 +271,7 @@ int run(const Options& options, OperatorChannel& channel) {
   };
   // All of the configuration before the first file or device.
   const bool simulate = options.board == "sim";
-  auto robot = load_file<RobotConfig>(file(options.robot_file, "robot.toml"));
+  auto robot = load_robot_file(file(options.robot_file, "robot.toml"));
   override_log(robot.log, options);
   const auto world = simulate ? load_world(directory, robot) : WorldConfig{};
   const auto devices =
@@ -187,33 +281,53 @@ int run(const Options& options, OperatorChannel& channel) {
                          : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
   // Before the log: another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
-  TrialLogger logger(log_options(robot.log, options, channel));
+  const auto places = state_places(options.state_directory);
+  const auto start = simulate ? StartState{} : remembered_start(options, places, robot, channel);
+  const auto log = log_options(robot.log, options, channel);
+  TrialLogger logger(log);
   describe_trial(logger, robot, options.board);
-  if (!simulate) describe_devices(logger, devices);
+  if (!simulate) {
+    describe_devices(logger, devices);
+    describe_start(logger, start);
+  }
   if (sheet) add_sheet(logger, *sheet);
+  const Shared<Heartbeat> heart;  // with the guard process
+  FreezeRecorder freeze(freeze_options(robot.log, log, logger.description(), channel));
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
   if (simulate)
     simulated = std::make_unique<SimulatedRobot>(world, monotonic_ns());
   else
-    real = std::make_unique<RealRobot>(devices, logger);
-  Heartbeat heart;
+    real = std::make_unique<RealRobot>(devices, robot.watchdog, *heart, logger, freeze.dump());
   std::function<void()> cut = [] {};
+  std::function<bool()> guarded = [] { return true; };
   if (real) {
-    real->board.heed(heart);
-    cut = [&real] { real->cut->cut(); };
+    cut = [&real] {
+      real->cut->cut();
+      real->board.cut_supply();
+    };
+    guarded = [&real] { return real->guard->alive(); };
   } else {
     robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
   }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
-  auto result = run_session({robot, board, logger, channel, heart, cut});
+  std::optional<StateKeeper> keeper;
+  if (!simulate)
+    keeper.emplace(places, [&channel](const std::string& text) { channel.tell_text("warning", text); });
+  freeze.start();
+  auto result = run_session({robot, board, logger, channel, *heart, cut, guarded, freeze.ring(), start,
+                             keeper ? &*keeper : nullptr});
+  const auto still_on = real ? real->shut_down() : std::string();
+  if (!still_on.empty()) channel.tell_text("error", still_on);
+  if (keeper) keeper->close();
   real.reset();
+  freeze.stop();
   logger.attach("wake_latency_us.json", "application/json", result.latency.as_json());
   logger.close();
   result.log_error = logger.error();
   channel.tell(result);
   // A log that is not whole comes first: what it says of a fault may be what is missing.
-  if (!result.log_error.empty()) return 3;
+  if (!result.log_error.empty() || !still_on.empty()) return 3;
   return result.last_fault != Fault::none ? 1 : 0;
 }
 

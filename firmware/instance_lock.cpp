@@ -1,6 +1,7 @@
 #include "firmware/instance_lock.hpp"
 
 #include <fmt/format.h>
+#include <net/if.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
@@ -15,11 +16,17 @@
 namespace sandhopper {
 namespace {
 
+// An interface can have several names (ip link property add dev can0 altname leg): all have its index.
+std::string identity(const std::string& interface) {
+  const auto index = ::if_nametoindex(interface.c_str());
+  return index == 0 ? interface : "#" + std::to_string(index);
+}
+
 // Abstract: the name begins with a zero and has no end but its length.
 struct Address {
   explicit Address(const std::string& interface) {
     socket.sun_family = AF_UNIX;
-    const auto name = "sandhopper/hopperd/" + interface;
+    const auto name = "sandhopper/hopperd/" + identity(interface);
     const auto length = std::min(name.size(), sizeof socket.sun_path - 1);
     std::memcpy(socket.sun_path + 1, name.data(), length);
     size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/adc/load_cell_reader.hpp"
+#include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
@@ -11,18 +12,24 @@
 #include "drivers/imu/imu_reader.hpp"
 #include "drivers/latest.hpp"
 #include "drivers/tof/afbr_s50.hpp"
+#include "drivers/transmit_guard/guarded_port.hpp"
 #include "firmware/acquisition_thread.hpp"
+#include "firmware/drive_enable.hpp"
+#include "firmware/transmit_limits.hpp"
 
 namespace sandhopper {
 
 struct LinuxBoardDevices {
   std::unique_ptr<GpioEdges> estop;
   std::unique_ptr<GpioOutput> body_catch;
+  std::unique_ptr<GpioOutput> drive_enable_line;
+  std::unique_ptr<DriveEnable> drive_enable;
   std::unique_ptr<ImuReader> imu_body;
   std::unique_ptr<ImuReader> imu_foot;
   std::unique_ptr<LoadCellReader> load_cell;
   std::unique_ptr<AfbrS50> tof;
   std::unique_ptr<CubeMarsDrives> drives;
+  GuardedPort* guard = nullptr;  // the drives own it
 };
 
 struct LinuxBoard::Acquisition {
@@ -35,6 +42,9 @@ struct LinuxBoard::Acquisition {
 };
 
 namespace {
+
+// From power to the first answer of a drive. No manual states it.
+constexpr std::int64_t kDriveBoot_ns = 2'000'000'000;
 
 // Opens device after device and keeps what was wrong, so that one start shows every fault.
 class Opening {
@@ -60,15 +70,33 @@ class Opening {
   std::vector<DeviceReport> reports_;
 };
 
+// Before the drives: without their supply they do not answer.
+void open_drive_enable(Opening& opening, const LineConfig& config, LinuxBoardDevices& d) {
+  opening.open("drive_enable", d.drive_enable_line, "drive_enable", config, true);
+  if (d.drive_enable_line == nullptr) return;
+  auto& line = *d.drive_enable_line;
+  d.drive_enable = std::make_unique<DriveEnable>([&line](bool active) { return line.set(active); });
+  sleep_ns(kDriveBoot_ns);
+}
+
+// The driver reaches the bus through the transmit guard only.
+void open_drives(const LinuxBoardConfig& config, LinuxBoardDevices& d) {
+  auto socket = std::make_unique<CanSocket>(config.can.interface, CubeMarsBus(config.can).filters());
+  auto guard = std::make_unique<GuardedPort>(std::move(socket), transmit_limits(config.can, config.limits));
+  d.guard = guard.get();
+  d.drives = std::make_unique<CubeMarsDrives>(config.can, std::move(guard));
+}
+
 std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDevices& d, CanTap* tap) {
   Opening opening;
   opening.open("estop", d.estop, "estop", config.estop);
   if (config.body_catch.fitted()) opening.open("catch", d.body_catch, "catch", config.body_catch, true);
+  if (config.drive_enable.fitted()) open_drive_enable(opening, config.drive_enable, d);
   opening.open("imu_body", d.imu_body, "imu_body", config.imu_body);
   opening.open("imu_foot", d.imu_foot, "imu_foot", config.imu_foot);
   opening.open("load_cell", d.load_cell, config.load_cell);
   opening.open("tof", d.tof, config.tof);
-  opening.open("can", d.drives, config.can);
+  opening.attempt("can", [&] { open_drives(config, d); });
   if (d.drives) {
     d.drives->set_tap(tap);
     opening.attempt("motors", [&] { d.drives->probe(); });
@@ -113,7 +141,30 @@ LinuxBoard::LinuxBoard(const LinuxBoardConfig& config, CanTap* tap)
   a.threads.push_back(acquire("tof", config.tof.thread_priority, *d.tof, a.tof));
 }
 
-LinuxBoard::~LinuxBoard() { devices_->drives->shut_down(); }
+LinuxBoard::~LinuxBoard() { shut_down(); }
+
+void LinuxBoard::cut_supply() noexcept {
+  if (devices_->drive_enable) devices_->drive_enable->drop();
+}
+
+// The relay opens as soon as it is in the cycle; then the frames go on until the drives answer or time is up.
+std::string LinuxBoard::shut_down() {
+  if (shut_down_) return *shut_down_;
+  shut_down_.emplace();
+  auto& drives = *devices_->drives;
+  constexpr std::int64_t kFirst_ns = CubeMarsDrives::kLeaveOverdue * std::int64_t{1'000'000};
+  bool off = drives.shut_down(kFirst_ns);
+  if (!off) cut_supply();
+  off = off || drives.shut_down(CubeMarsDrives::kShutDown_ns - kFirst_ns);
+  if (off) return *shut_down_;
+  for (std::size_t i = 0; i < drives.bus().motor_count(); ++i) {
+    const auto side = static_cast<Side>(i);
+    if (!drives.may_be_on(side)) continue;
+    *shut_down_ += (shut_down_->empty() ? "" : ", ") + drives.bus().codec(side).config().name;
+  }
+  if (shut_down_->empty()) *shut_down_ = "unknown";  // replied, but frames still wait to leave
+  return *shut_down_;
+}
 
 void LinuxBoard::read(SensorFrame& frame) noexcept {
   auto& d = *devices_;
@@ -127,14 +178,19 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
   take(a.load_cell, frame.load_cell);
   take(a.tof, frame.tof);
   frame.bus = d.drives->bus_sample();
+  frame.bus.refused = d.guard->refused();
   // A press that is over before the next cycle leaves an edge; a lost edge leaves the level.
   const bool pressed = d.estop->wait(0).has_value();
-  frame.emergency_stop = d.estop->active() || pressed;
+  frame.emergency_stop = emergency_stop_ = d.estop->active() || pressed;
 }
 
 void LinuxBoard::write(const Command& command) noexcept {
   const bool tripped = heart_ != nullptr && heart_->tripped();
-  devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, monotonic_ns());
+  const auto now_ns = monotonic_ns();
+  devices_->guard->begin(
+      {.now_ns = now_ns, .allowance = allowance_of(latched_), .emergency_stop = emergency_stop_});
+  devices_->drives->command(command.motor, tripped ? DriveRequest::off : command.drive, now_ns);
+  if (tripped || devices_->drives->leave_overdue()) cut_supply();
   if (devices_->body_catch) devices_->body_catch->set(!command.open_catch);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,7 @@ struct LinuxBoardDevices;
 //
 // The constructor opens every device, asks each drive for its state and throws DeviceError with one line for
 // each device that is not right; until then no drive gets anything but "leave motor mode". The destructor
-// takes torque and motor mode away.
+// shuts the drives down.
 class LinuxBoard : public Board {
  public:
   // `tap`, if any, sees every CAN frame both ways.
@@ -63,6 +64,7 @@ class LinuxBoard : public Board {
   LinuxBoard& operator=(const LinuxBoard&) = delete;
 
   void read(SensorFrame& frame) noexcept override;
+  void note_fault(Fault latched) noexcept override { latched_ = latched; }
   void write(const Command& command) noexcept override;
 
   // From now on what was worked out before a trip of the cycle's watchdog is not sent. `heart` must outlive
@@ -71,12 +73,24 @@ class LinuxBoard : public Board {
 
   LinuxBoardStatus status() const noexcept;
 
+  // Opens the relay in the drives' supply, where there is one. Any thread; waits for nothing.
+  void cut_supply() noexcept;
+
+  // Takes torque and motor mode away until every drive has confirmed it, for at most
+  // CubeMarsDrives::kShutDown_ns; where a drive does not, opens the relay, too. The names of the motors that
+  // did not confirm: they may still make their last torque, and the guard process must not be dismissed.
+  // Empty: all have. Not for the cycle; afterwards nothing is to be written. Done once.
+  std::string shut_down();
+
  private:
   struct Acquisition;
 
   std::unique_ptr<LinuxBoardDevices> devices_;
   std::unique_ptr<Acquisition> acquisition_;
   const Heartbeat* heart_ = nullptr;
+  std::optional<std::string> shut_down_;  // its result
+  Fault latched_ = Fault::none;
+  bool emergency_stop_ = true;  // as last read
 };
 
 // One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no

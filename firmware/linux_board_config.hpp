@@ -5,6 +5,7 @@
 #include "drivers/gpio/line_config.hpp"
 #include "drivers/imu/imu_config.hpp"
 #include "drivers/tof/tof_config.hpp"
+#include "firmware/controller_config.hpp"
 
 namespace sandhopper {
 
@@ -20,7 +21,12 @@ struct LinuxBoardConfig {
   LineConfig estop{.chip = "", .line = "ESTOP", .active_low = true, .bias = Bias::pull_down};
   // Active holds the body, inactive lets go. Line empty: no catch.
   LineConfig body_catch{.chip = "", .line = "CATCH"};
+  // Active closes a relay in the drives' supply (DriveEnable). Line empty: no relay.
+  LineConfig drive_enable{.chip = "", .line = "", .bias = Bias::as_is};
   std::optional<BoardCalibrations> calibration{};
+  // Not keys here, like the motors of `can`: the robot's limits, which the transmit guard holds frames
+  // against.
+  LimitsConfig limits{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -31,6 +37,7 @@ struct LinuxBoardConfig {
     visit("tof", self.tof);
     visit("estop", self.estop);
     visit("catch", self.body_catch);
+    visit("drive_enable", self.drive_enable);
     visit("calibration", self.calibration);
   }
 

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <optional>
 #include <system_error>
 
 #include "drivers/clock.hpp"
@@ -17,12 +16,6 @@
 
 namespace sandhopper {
 namespace {
-
-std::optional<Request> request_named(std::string_view word) {
-  for (std::size_t i = 1; i < EnumNames<Request>::value.size(); ++i)
-    if (EnumNames<Request>::value[i] == word) return static_cast<Request>(i);
-  return std::nullopt;
-}
 
 // Never gentler than it was asked before.
 void ask_to(Quit how, std::atomic<Quit>& quit) {
@@ -35,14 +28,15 @@ void ask_again(std::atomic<Quit>& quit) {
 
 }  // namespace
 
-bool take_word(std::string_view word, RequestBox& requests, std::atomic<Quit>& quit) {
-  if (word == "quit") {
-    ask_again(quit);
-    return true;
+void post_words(std::span<const Word> words, std::int64_t received_ns, RequestBox& requests,
+                std::atomic<Quit>& quit) {
+  for (const Word word : words) {
+    if (word == Word::end_of_input)
+      ask_to(Quit::softly, quit);
+    else if (means_quit(word))
+      ask_again(quit);
   }
-  const auto request = request_named(word);
-  if (request) requests.post(*request);
-  return request.has_value();
+  requests.post(words, received_ns);
 }
 
 OperatorChannel::OperatorChannel() {
@@ -67,11 +61,9 @@ void OperatorChannel::listen(RequestBox& requests, std::atomic<Quit>& quit, cons
   std::array<pollfd, 2> fds{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{signal_fd_, POLLIN, 0}};
   while (!ended.load()) {
     if (poll(fds.data(), fds.size(), look_ms) < 0 && errno != EINTR) ask_to(Quit::at_once, quit);
-    if ((fds[1].revents & POLLIN) != 0) take_signal(quit);
-    if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit)) {
+    if ((fds[1].revents & POLLIN) != 0) take_signal(requests, quit);
+    if ((fds[0].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0 && !read_lines(requests, quit))
       fds[0].fd = -1;
-      ask_to(Quit::softly, quit);
-    }
     if (status_Hz_ > 0 && monotonic_ns() >= next_status_ns) {
       next_status_ns = monotonic_ns() + look_ms * std::int64_t{1'000'000};
       tell_status();
@@ -84,34 +76,48 @@ void OperatorChannel::tell_status() {
   if (status_.take(newest)) outbox_->put_status(operator_text(newest));
 }
 
-void OperatorChannel::take_signal(std::atomic<Quit>& quit) {
+void OperatorChannel::take_signal(RequestBox& requests, std::atomic<Quit>& quit) {
   signalfd_siginfo info{};
   while (read(signal_fd_, &info, sizeof info) == sizeof info) {
+    post_words(std::array{Word::signal}, monotonic_ns(), requests, quit);
     tell_text("signal", strsignal(static_cast<int>(info.ssi_signo)));
-    ask_again(quit);
   }
 }
 
+// What one read gives belongs together: a stop in it overrules an arm or release in it (RequestBox). False at
+// the end of input.
 bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<Quit>& quit) {
-  std::array<char, 256> buffer{};
+  std::array<char, 4096> buffer{};
   const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
-  if (got <= 0) return false;
-  pending_.append(buffer.data(), static_cast<std::size_t>(got));
-  for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
-    take_line(pending_.substr(0, end), requests, quit);
-    pending_.erase(0, end + 1);
+  if (got < 0 && (errno == EINTR || errno == EAGAIN)) return true;
+  std::vector<WordReader::Line> lines;
+  if (got > 0) {
+    reader_.read({buffer.data(), static_cast<std::size_t>(got)}, lines);
+  } else {
+    reader_.end(lines);
+    lines.push_back({Word::end_of_input, ""});
   }
-  if (pending_.size() > 1024) pending_.clear();
-  return true;
+  take_lines(lines, requests, quit);
+  return got > 0;
 }
 
-void OperatorChannel::take_line(const std::string& line, RequestBox& requests, std::atomic<Quit>& quit) {
-  if (!line.empty() && !take_word(line, requests, quit))
-    tell_text("error", "unknown word '" + line + "'; known: arm, release, stop, disarm, quit");
+void OperatorChannel::take_lines(const std::vector<WordReader::Line>& lines, RequestBox& requests,
+                                 std::atomic<Quit>& quit) {
+  std::vector<Word> words;
+  words.reserve(lines.size());
+  for (const auto& line : lines) words.push_back(line.word);
+  post_words(words, monotonic_ns(), requests, quit);
+  for (const auto& line : lines)
+    if (line.word == Word::unknown)
+      tell_text("error",
+                "unknown word '" + line.text +
+                    "': a robot whose drives are on stops softly; known: arm, release, stop, disarm, "
+                    "quit");
 }
 
 void OperatorChannel::tell(const Event& event) { outbox_->put(operator_text(event)); }
 void OperatorChannel::tell(const StrideResult& result) { outbox_->put(operator_text(result)); }
+void OperatorChannel::tell(const RequestRecord& answer) { outbox_->put(operator_text(answer)); }
 void OperatorChannel::tell(const SessionResult& result) { outbox_->put(operator_text(result)); }
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {
   outbox_->put(operator_text(key, text));

@@ -3,19 +3,24 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "firmware/hop_session.hpp"
 #include "firmware/outbox.hpp"
+#include "firmware/word_reader.hpp"
 
 namespace sandhopper {
 
-// arm, release, stop, disarm, quit: what the operator may say. False: not one of these. A second quit means
-// at once.
-bool take_word(std::string_view word, RequestBox& requests, std::atomic<Quit>& quit);
+// Hands the words of one read to the cycle. A quit among them is asked for first, so the cycle cannot serve
+// one of the others without seeing it; a second quit or signal means at once. received_ns: CLOCK_MONOTONIC,
+// or 0 where the cycle runs on another clock.
+void post_words(std::span<const Word> words, std::int64_t received_ns, RequestBox& requests,
+                std::atomic<Quit>& quit);
 
-// hopperd's conversation with whoever operates it: one word a line on standard input (arm, release, stop,
-// disarm, quit; end of input, SIGINT, SIGTERM and SIGHUP, a lost terminal, mean quit), one JSON object a line
-// on standard output. A second `quit` or signal means at once. A reader who does not read holds nobody up
+// hopperd's conversation with its operator: one word a line on standard input (arm, release, stop, disarm,
+// quit; WordReader), one JSON object a line on standard output, an answer to each word among them
+// (RequestBox). An unknown word stops the robot softly. End of input, SIGINT, SIGTERM and SIGHUP, a lost
+// terminal, mean quit; a second `quit` or signal means at once. A reader who does not read holds nobody up
 // (Outbox).
 class OperatorChannel {
  public:
@@ -34,20 +39,21 @@ class OperatorChannel {
 
   void tell(const Event& event);
   void tell(const StrideResult& result);
+  void tell(const RequestRecord& answer);
   void tell(const SessionResult& result);
   void tell_text(const std::string& key, const std::string& text);
 
  private:
-  void take_line(const std::string& line, RequestBox& requests, std::atomic<Quit>& quit);
+  void take_lines(const std::vector<WordReader::Line>& lines, RequestBox& requests, std::atomic<Quit>& quit);
   bool read_lines(RequestBox& requests, std::atomic<Quit>& quit);
-  void take_signal(std::atomic<Quit>& quit);
+  void take_signal(RequestBox& requests, std::atomic<Quit>& quit);
   void tell_status();
 
   int signal_fd_ = -1;
   int status_Hz_ = 0;
   Latest<LiveStatus> status_;
   std::optional<Outbox> outbox_;
-  std::string pending_;
+  WordReader reader_;
 };
 
 }  // namespace sandhopper

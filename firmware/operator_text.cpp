@@ -5,25 +5,34 @@
 #include <cmath>
 
 #include "config/json.hpp"
+#include "firmware/refusal_text.hpp"
 
 namespace sandhopper {
 namespace {
 
 std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') {
-      out += "\\n";
-      continue;
-    }
-    out += c;
-  }
-  return out + '"';
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 // JSON has no NaN.
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+
+// "release: overruled by stop"
+std::string in_words(const RequestRecord& r) {
+  const auto word = name_of(r.word);
+  switch (r.outcome) {
+    case RequestOutcome::served:
+      return fmt::format("{}: {}", word, r.word == Word::unknown ? "soft stop" : "served");
+    case RequestOutcome::no_effect:
+      return fmt::format("{}: no effect in state {}", word, name_of(r.state));
+    case RequestOutcome::overruled:
+      return fmt::format("{}: overruled by {}", word, name_of(r.overruled_by));
+    case RequestOutcome::refused:
+      return fmt::format("{}: refused with {} words in all, {} are waiting", word, r.count,
+                         RequestBox::kMost);
+  }
+  return {};
+}
 
 template <class Estimate>
 std::string stiffness(const Estimate& k) {
@@ -35,10 +44,12 @@ std::string stiffness(const Estimate& k) {
 }  // namespace
 
 std::string operator_text(const Event& e) {
+  const auto text = refusal_text(e);
   return fmt::format(
-      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]}})",
+      R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]{}}})",
       name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, number(e.values[0]),
-      number(e.values[1]), number(e.values[2]), number(e.values[3]));
+      number(e.values[1]), number(e.values[2]), number(e.values[3]),
+      text.empty() ? "" : R"(,"text":)" + json_string(text));
 }
 
 std::string operator_text(const StrideResult& r) {
@@ -47,6 +58,12 @@ std::string operator_text(const StrideResult& r) {
                      r.summary.stride, number(r.summary.touchdown_speed_mps), number(r.summary.peak_force_N),
                      number(r.summary.max_depth_m), stiffness(r.quasi_static_ols), stiffness(r.observer_ols),
                      stiffness(r.observer_wls), stiffness(r.joint));
+}
+
+std::string operator_text(const RequestRecord& r) {
+  auto json = to_json(r);
+  json["text"] = in_words(r);
+  return nlohmann::ordered_json{{"request", json}}.dump();
 }
 
 std::string operator_text(const SessionResult& r) {

@@ -3,12 +3,14 @@
 
 #include "firmware/hop_session.hpp"
 
-// What hopperd says, one JSON object a line; without the line's end.
+// What hopperd says, one JSON object a line; without the line's end. Bytes that are no UTF-8 become U+FFFD.
 namespace sandhopper {
 
-std::string operator_text(const Event& event);
+std::string operator_text(const Event& event);  // with "text" where arming was refused because of a drive
 std::string operator_text(const StrideResult& result);
 std::string operator_text(const LiveStatus& status);  // {"status":{…}}, keys as in LiveStatus
+std::string operator_text(
+    const RequestRecord& answer);  // {"request":{…}}, keys as in RequestRecord, and "text"
 std::string operator_text(const SessionResult& result);
 std::string operator_text(const std::string& key, const std::string& text);
 

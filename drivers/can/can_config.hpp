@@ -87,6 +87,10 @@ constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
   return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
 }
 
+// The drive works out position and velocity gains itself, from what it measures at that instant; else the
+// host does, from the newest sample.
+constexpr bool law_in_drive(const CubeMarsConfig& motor) noexcept { return motor.dialect != Dialect::servo; }
+
 using MotorConfigs = std::array<CubeMarsConfig, kMotorCount>;
 
 // Rules between the motors of one bus.
@@ -121,6 +125,8 @@ struct CanConfig {
   // Not keys here: the motors stand in the robot's file and are the same on every bus (config/files.hpp). A
   // leg whose single motor drives both sides has only the first.
   int motor_count = kMotorCount;
+  // Of one motor, from the robot's limits: bounds the law of a drive that takes a current only.
+  double motor_torque_Nm = 1e9;
   MotorConfigs motor{CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
                      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};
 

@@ -14,6 +14,8 @@ class CanTap {
  public:
   virtual ~CanTap() = default;
   virtual void on_frame(const can_frame& frame, std::int64_t monotonic_ns, bool sent) noexcept = 0;
+  // The transmit guard kept this frame from being sent.
+  virtual void on_refused(const can_frame&, std::int64_t /*monotonic_ns*/) noexcept {}
 };
 
 struct ReceivedFrame {
@@ -63,6 +65,9 @@ class CanPort {
 
   // Up to one batch of what has arrived, oldest first; `more` is false when the port is empty.
   virtual std::span<const ReceivedFrame> receive(bool& more) noexcept = 0;
+
+  // Nothing that was sent waits to leave any more, as far as the port can tell.
+  virtual bool settled() const noexcept { return true; }
 
   // Not for the cycle: lets time pass; and waits until something can be read, false if nothing came.
   virtual void pause(std::int64_t duration_ns) noexcept = 0;

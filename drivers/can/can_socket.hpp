@@ -30,6 +30,7 @@ class CanSocket : public CanPort {
   void begin_cycle() noexcept override;
   std::optional<std::int64_t> send(const can_frame& frame) noexcept override;
   std::span<const ReceivedFrame> receive(bool& more) noexcept override;
+  bool settled() const noexcept override { return ledger_.settled(); }
   void pause(std::int64_t duration_ns) noexcept override;
   bool wait(std::int64_t timeout_ns) noexcept override;
   const CanCounters& counters() const noexcept override { return counters_; }

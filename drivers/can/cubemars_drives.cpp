@@ -1,9 +1,11 @@
 #include "drivers/can/cubemars_drives.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "drivers/can/can_socket.hpp"
+#include "drivers/can/host_law.hpp"
 #include "drivers/clock.hpp"
 #include "drivers/device_error.hpp"
 
@@ -14,6 +16,10 @@ constexpr int kProbeTries = 10;
 constexpr std::int64_t kProbeWait_ns = 10'000'000;
 constexpr std::int64_t kListen_ns = 100'000'000;
 constexpr double kRateShare = 0.7;  // of the configured status rate, at least
+constexpr std::int64_t kShutDownStep_ns = 1'000'000;
+// Motor mode is entered below this speed: well over the noise of a drive's velocity at rest, and a leg at
+// this speed turns 0.5 mrad in a cycle. Entered at speed a drive jumps (HARDWARE 8).
+constexpr double kStill_radps = 0.5;
 
 constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
 }  // namespace
@@ -84,9 +90,30 @@ void CubeMarsDrives::require_dialect(Side side, std::uint32_t unasked) const {
                       "Give each drive its own id, with only one connected at a time");
 }
 
-void CubeMarsDrives::send(Side side, const std::optional<can_frame>& frame) noexcept {
-  if (!frame) return;
-  if (const auto sent_ns = port_->send(*frame)) bus_.command_sent(side, *sent_ns);
+std::optional<std::int64_t> CubeMarsDrives::send(Side side, const std::optional<can_frame>& frame) noexcept {
+  if (!frame) return std::nullopt;
+  const auto sent_ns = port_->send(*frame);
+  if (sent_ns) bus_.command_sent(side, *sent_ns);
+  return sent_ns;
+}
+
+void CubeMarsDrives::take(const MotorReading& reading) noexcept {
+  newest_[index(reading.side)] = reading.sample;
+  left_[index(reading.side)].see(reading.sample, bus_.codec(reading.side).config().torque_constant_Nm_per_A);
+}
+
+DriveFeedback CubeMarsDrives::feedback() const noexcept {
+  DriveFeedback out{.still = true, .left = port_->settled()};
+  for (const Side side : sides_) {
+    const auto& newest = newest_[index(side)];
+    out.still = out.still && newest.time_ns != 0 && std::abs(newest.velocity_radps) < kStill_radps;
+    out.left = out.left && left_[index(side)].confirmed();
+  }
+  return out;
+}
+
+bool CubeMarsDrives::may_be_on(Side side) const noexcept {
+  return sequence_.energised() && !left_[index(side)].confirmed();
 }
 
 // Once a drive spoke another dialect it gets no torque: what it would make of a command is not known.
@@ -99,13 +126,22 @@ void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& comman
                              std::int64_t now_ns) noexcept {
   port_->begin_cycle();
   const bool may_run = port_->counters().state != BusState::off && right_dialect();
-  const auto action = sequence_.next(may_run ? request : DriveRequest::off);
+  const auto action = sequence_.next(may_run ? request : DriveRequest::off, feedback());
+  leaving_cycles_ = sequence_.leaving() ? std::min(leaving_cycles_ + 1, kLeaveOverdue + 1) : 0;
   for (const Side side : sides_) {
+    auto& left = left_[index(side)];
+    if (!sequence_.leaving()) left.restart();
     // One command outstanding: a drive that answers late would otherwise be taken for one that answers in
     // time. What takes torque away goes out regardless.
     const bool waits = bus_.outstanding(side, now_ns);
     if (waits && (action == DriveAction::run || !sequence_.energised())) continue;
-    send(side, bus_.codec(side).frame(action, command[index(side)], newest_[index(side)]));
+    const auto& newest = newest_[index(side)];
+    const auto& asked = command[index(side)];
+    const auto told = law_in_drive(bus_.codec(side).config())
+                          ? asked
+                          : host_law(asked, newest, now_ns, config_.motor_torque_Nm);
+    const auto sent_ns = send(side, bus_.codec(side).frame(action, told, newest));
+    if (sent_ns && action == DriveAction::leave && sequence_.leaving()) left.sent(*sent_ns);
   }
 }
 
@@ -123,12 +159,14 @@ BusSample CubeMarsDrives::bus_sample() const noexcept {
   return out;
 }
 
-void CubeMarsDrives::shut_down() noexcept {
-  while (sequence_.energised()) {
+bool CubeMarsDrives::shut_down(std::int64_t patience_ns) noexcept {
+  for (std::int64_t waited_ns = 0; sequence_.energised(); waited_ns += kShutDownStep_ns) {
+    if (waited_ns >= patience_ns || port_->counters().state == BusState::off) return false;
     command({}, DriveRequest::off, monotonic_ns());
-    port_->pause(1'000'000);
+    port_->pause(kShutDownStep_ns);
     drain([](const MotorReading&) {});
   }
+  return true;
 }
 
 }  // namespace sandhopper

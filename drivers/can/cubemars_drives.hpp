@@ -7,6 +7,7 @@
 #include "drivers/can/can_port.hpp"
 #include "drivers/can/cubemars.hpp"
 #include "drivers/can/drive_sequence.hpp"
+#include "drivers/can/leave_confirmation.hpp"
 
 namespace sandhopper {
 
@@ -34,7 +35,7 @@ class CubeMarsDrives {
   void drain(OnReading&& on_reading) noexcept {
     port_->drain([&](const ReceivedFrame& received) {
       if (const auto reading = bus_.receive(received.frame, received.time_ns)) {
-        newest_[static_cast<std::size_t>(reading->side)] = reading->sample;
+        take(*reading);
         on_reading(*reading);
       }
     });
@@ -42,8 +43,17 @@ class CubeMarsDrives {
 
   bool wait(std::int64_t timeout_ns) noexcept { return port_->wait(timeout_ns); }
 
-  // Zero torque, then out of motor mode; takes some milliseconds. Not for the cycle.
-  void shut_down() noexcept;
+  // Zero torque, then out of motor mode, again and again until every drive has confirmed it; takes some
+  // milliseconds. False when the bus is off, or when it was not confirmed within `patience_ns`: then a drive
+  // may still make its last torque. May be called again to go on. Not for the cycle.
+  bool shut_down(std::int64_t patience_ns = kShutDown_ns) noexcept;
+  static constexpr std::int64_t kShutDown_ns = 500'000'000;
+
+  // Motor mode is being left since more than kLeaveOverdue cycles and a drive has not confirmed it.
+  bool leave_overdue() const noexcept { return leaving_cycles_ > kLeaveOverdue; }
+  static constexpr int kLeaveOverdue = 50;
+  // This drive has not confirmed that it left motor mode.
+  bool may_be_on(Side side) const noexcept;
 
   // For the cycle's frame.
   BusSample bus_sample() const noexcept;
@@ -52,7 +62,9 @@ class CubeMarsDrives {
   const CanCounters& port_counters() const noexcept { return port_->counters(); }
 
  private:
-  void send(Side side, const std::optional<can_frame>& frame) noexcept;
+  std::optional<std::int64_t> send(Side side, const std::optional<can_frame>& frame) noexcept;
+  void take(const MotorReading& reading) noexcept;
+  DriveFeedback feedback() const noexcept;
   void require_dialect(Side side, std::uint32_t unasked) const;
   bool right_dialect() const noexcept;
 
@@ -62,6 +74,8 @@ class CubeMarsDrives {
   DriveSequence sequence_;
   std::vector<Side> sides_;
   std::array<MotorSample, kMotorCount> newest_{};
+  std::array<LeaveConfirmation, kMotorCount> left_{};
+  int leaving_cycles_ = 0;
   std::array<std::uint32_t, kMotorCount> rejected_at_probe_{};
 };
 

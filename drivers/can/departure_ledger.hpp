@@ -18,25 +18,34 @@ class DepartureLedger {
   static constexpr std::int64_t kGiveUp_ns = 10'000'000;
 
   void sent(canid_t id, std::int64_t now_ns) noexcept {
-    if (waiting_ == entries_.size()) forget(1);
+    if (waiting_ == entries_.size()) give_up_oldest();
     entries_[waiting_++] = {id, now_ns};
   }
   void departed(canid_t id) noexcept {
     for (std::size_t i = 0; i < waiting_; ++i)
-      if (entries_[i].id == id) return forget(i + 1);
+      if (entries_[i].id == id) {
+        given_up_ = false;
+        return forget(i + 1);
+      }
   }
   // Whether a frame sent earlier is overdue, so that none should follow it.
   bool holds(std::int64_t now_ns) noexcept {
-    while (waiting_ > 0 && now_ns - entries_[0].sent_ns > kGiveUp_ns) forget(1);
+    while (waiting_ > 0 && now_ns - entries_[0].sent_ns > kGiveUp_ns) give_up_oldest();
     return waiting_ > 0 && now_ns - entries_[0].sent_ns > kPatience_ns;
   }
   std::size_t waiting() const noexcept { return waiting_; }
+  // Every frame sent has left, or one sent after it has: nothing old can still leave.
+  bool settled() const noexcept { return waiting_ == 0 && !given_up_; }
 
  private:
   struct Entry {
     canid_t id = 0;
     std::int64_t sent_ns = 0;
   };
+  void give_up_oldest() noexcept {
+    given_up_ = true;
+    forget(1);
+  }
   void forget(std::size_t count) noexcept {
     for (std::size_t i = count; i < waiting_; ++i) entries_[i - count] = entries_[i];
     waiting_ -= count;
@@ -44,6 +53,7 @@ class DepartureLedger {
 
   std::array<Entry, 16> entries_{};  // oldest first
   std::size_t waiting_ = 0;
+  bool given_up_ = false;  // on an echo, and none of a later frame has come since
 };
 
 }  // namespace sandhopper

@@ -14,6 +14,9 @@ namespace {
 constexpr std::int64_t kByteWait_ns = 50'000'000;
 constexpr std::int64_t kAnswerWait_ns = 300'000'000;
 constexpr int kTries = 3;
+// Quality of a result [%]. 1: the sensor's own verdict that it is invalid; PX4's driver drops these, too
+// (HARDWARE 4). 0: firmware that gives no quality. The values above are logged and not judged.
+constexpr std::uint8_t kInvalidQuality = 1;
 
 std::string device_of(const TofConfig& config) {
   return "tof (companion controller on " + config.device + ")";
@@ -34,7 +37,8 @@ TofSample to_sample(const SciMeasurement& m, const TofConfig& config, std::int64
   out.status = m.status;
   out.quality = m.quality;
   out.fresh = true;
-  const bool good = m.status == 0 && m.range_m >= config.range_min_m && m.range_m <= config.range_max_m;
+  const bool good = m.status == 0 && m.quality != kInvalidQuality && m.range_m >= config.range_min_m &&
+                    m.range_m <= config.range_max_m;
   if (good) out.height_m = m.range_m + config.mount_offset_m;
   return out;
 }

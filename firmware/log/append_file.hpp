@@ -12,6 +12,7 @@ namespace sandhopper {
 // Behind its end it keeps `reserve_bytes` of the disk allocated where the file system can, so that on a full
 // disk there is room left to say what was lost, and to close. Refuses to overwrite. Throws std::system_error,
 // with the file's name and what to do. After a failed append the next may succeed, when there is room again.
+// An empty name stands for a log that is switched off: everything is taken and nothing is kept.
 class AppendFile {
  public:
   explicit AppendFile(const std::filesystem::path& file, std::uint64_t reserve_bytes = 0,
@@ -42,6 +43,7 @@ class AppendFile {
   std::uint64_t size_ = 0;
   std::uint64_t allocated_ = 0;
   bool can_allocate_ = true;
+  bool is_off_ = false;
 };
 
 }  // namespace sandhopper

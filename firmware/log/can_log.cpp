@@ -83,7 +83,11 @@ void CanLog::write_until(std::int64_t time_ns) {
   for (; held != held_.end() && held->frame.time_ns <= time_ns; ++held) {
     CandumpFrame frame = held->frame;
     frame.time_ns += realtime_offset_ns_;
-    writer_->write(frame, interfaces_[held->interface]->name);
+    const auto& name = interfaces_[held->interface]->name;
+    if (frame.direction == CanDirection::refused)
+      writer_->comment("refused by the transmit guard: " + format_candump(frame, name));
+    else
+      writer_->write(frame, name);
   }
   held_.erase(held_.begin(), held);
 }

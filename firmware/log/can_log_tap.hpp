@@ -16,16 +16,23 @@ class CanLogTap final : public CanTap {
       : logger_(logger), number_(logger.add_can_interface(interface)) {}
 
   void on_frame(const can_frame& frame, std::int64_t monotonic_ns, bool sent) noexcept override {
+    log(frame, monotonic_ns, sent ? CanDirection::sent : CanDirection::received);
+  }
+  void on_refused(const can_frame& frame, std::int64_t monotonic_ns) noexcept override {
+    log(frame, monotonic_ns, CanDirection::refused);
+  }
+
+ private:
+  void log(const can_frame& frame, std::int64_t monotonic_ns, CanDirection direction) noexcept {
     CandumpFrame logged;
     logged.time_ns = monotonic_ns;
     logged.id = frame.can_id;  // the flags are linux/can.h's in both
     logged.length = std::min<std::uint8_t>(frame.can_dlc, CAN_MAX_DLEN);
     std::copy_n(frame.data, logged.length, logged.data.begin());
-    logged.direction = sent ? CanDirection::sent : CanDirection::received;
+    logged.direction = direction;
     logger_.push_can(number_, logged);
   }
 
- private:
   TrialLogger& logger_;
   std::size_t number_;
 };

@@ -56,8 +56,9 @@ void append_line(std::string& text, const CandumpFrame& frame, std::string_view 
   } else {
     for (std::size_t i = 0; i < length; ++i) append_hex(text, frame.data[i], 2);
   }
-  if (format.direction && frame.direction != CanDirection::unknown)
-    text += frame.direction == CanDirection::received ? " R" : " T";
+  if (!format.direction) return;
+  if (frame.direction == CanDirection::received) text += " R";
+  if (frame.direction == CanDirection::sent) text += " T";
 }
 
 [[noreturn]] void bad(std::string_view what, std::string_view part) {

@@ -16,7 +16,8 @@
 // frame; R in place of data is a remote request.
 namespace sandhopper {
 
-enum class CanDirection : std::uint8_t { unknown, received, sent };
+// refused: kept from being sent; a comment in the text, so that no tool takes it for traffic.
+enum class CanDirection : std::uint8_t { unknown, received, sent, refused };
 
 struct CandumpFrame {
   std::int64_t time_ns = 0;  // since 1970, or whatever zero the recording used

@@ -2,21 +2,27 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <string>
 
 #include "config/fields.hpp"
 #include "firmware/log/segmented_log.hpp"
 
 namespace sandhopper {
 
-// How hopperd divides a long log, and what that log may take of the disk. Megabytes are 10^6 bytes.
+// How hopperd divides a long log, what that log may take of the disk, and where the freeze frames of faults
+// go (firmware/freeze). Megabytes are 10^6 bytes.
 struct LogConfig {
   int segment_MB = 200;  // a new file is begun when one holds this much; 0: one file
   int quota_MB = 4000;   // the oldest files of this log go when all together would hold more; 0: none goes
+  std::string freeze_folder{};  // empty: the state folder of the service or of the user
+  int freeze_files = 20;        // the newest so many are kept; one frame has about 4 MB
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("segment_MB", self.segment_MB, Range{0, 1000000});
     visit("quota_MB", self.quota_MB, Range{0, 1000000});
+    visit("freeze_folder", self.freeze_folder);
+    visit("freeze_files", self.freeze_files, Range{1, 10000});
   }
 
   // Only whole files go, and neither the one being written nor the one before it: two must fit.

@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "firmware/freeze/freeze_cycle.hpp"
 
 namespace sandhopper {
 
@@ -32,6 +35,23 @@ struct LogRecovery {
   std::uint64_t gaps = 0;               // that the log itself records, and the records missing in them
   std::uint64_t lost_in_gaps = 0;
 
+  // By the cycle counter in /frame; nothing where the log has no such records of this build.
+  struct Cycles {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    std::int64_t first_ns = 0;  // the cycles' own times, CLOCK_MONOTONIC
+    std::int64_t last_ns = 0;
+    std::uint64_t missing_inside = 0;  // between first and last; skipped ones are not among them
+    std::uint64_t skipped = 0;         // grid points that the cycle did not run in: its overruns
+    std::uint64_t restored = 0;        // after `last`, from the freeze ring; they are in the copy
+    // After `last`, and not restored. 0 of a log that was closed; nothing when nobody knows.
+    std::optional<std::uint64_t> missing_at_end;
+  };
+  std::optional<Cycles> cycles;
+
+  // All that is missing is counted in lost(): the log was closed, or its end was restored.
+  bool end_is_known() const { return !cut_at || (cycles && cycles->missing_at_end); }
+
   std::uint64_t saved() const;
   std::uint64_t lost() const;  // without the gaps' own
 };
@@ -42,9 +62,15 @@ struct LogRecovery {
 // When damage hides where records begin, the next chunk with a right CRC is searched for. A log of other
 // encodings than this firmware's is refused.
 //
+// `newest` are the last cycles that ran in this trial, oldest first, from its freeze ring
+// (find_newest_cycles()): those that a cut log lacks at its end are written to the copy, too.
+//
 // Throws mcap::Error when `from` is no such log or nothing can be read of it, std::system_error when a file
 // cannot be opened or written; an existing `to` is not overwritten.
-LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to);
+LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to,
+                         std::span<const FreezeCycle> newest = {});
+// Only looks. Throws as recover_mcap does.
+LogRecovery look_at_mcap(const std::filesystem::path& from);
 
 // The same for CAN traffic as candump text: lines that are no frame, a torn last line among them, are left
 // out. Throws CandumpError when there is no frame in it.

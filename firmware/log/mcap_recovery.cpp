@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <system_error>
 #include <utility>
 
+#include "firmware/log/cycle_count.hpp"
 #include "firmware/log/log_recovery.hpp"
 #include "firmware/log/mapped_file.hpp"
 #include "firmware/log/mcap_reader.hpp"
@@ -22,15 +24,18 @@ struct SavedChannel {
   mcap::Schema schema;
   std::uint16_t number_in_copy = 0;
   bool has_schema_of_gap = false;
+  bool has_schema_of_cycle = false;  // of the SensorFrame, StepOutput or Event that its topic should hold
 
   // Of the last message met.
   bool met = false;
   std::uint32_t sequence = 0;
   std::int64_t log_ns = 0;
+  std::int64_t own_ns = 0;      // its own time, which each record of this firmware begins with
+  std::size_t with_own_ns = 0;  // messages of that same time
   std::uint64_t damage_before = 0;
   std::uint64_t gaps_before = 0;
 
-  void forget() { met = false, damage_before = gaps_before = 0; }
+  void forget() { met = false, own_ns = 0, with_own_ns = damage_before = gaps_before = 0; }
 };
 
 // Goes through the file, twice when there is something to write: first only to see what is there.
@@ -46,7 +51,7 @@ class Recovery {
     return result_;
   }
 
-  LogRecovery copy(const std::filesystem::path& to) {
+  LogRecovery copy(const std::filesystem::path& to, std::span<const FreezeCycle> newest) {
     mcap::Writer writer(to);
     for (auto& [number, channel] : channels_) {
       channel.number_in_copy = writer.add_channel(channel.topic, channel.schema.name, channel.schema.text);
@@ -54,9 +59,11 @@ class Recovery {
     }
     gap_channel_ = channel_for_gaps(writer);
     walk(&writer);
+    restore_end(writer, newest);
     writer.add_metadata("recovery", {{"file", name_},
                                      {"saved_records", std::to_string(result_.saved())},
                                      {"lost_records", std::to_string(result_.lost())},
+                                     {"restored_cycles", std::to_string(restored())},
                                      {"unreadable_bytes", std::to_string(result_.unreadable_bytes)}});
     writer.close();
     return result_;
@@ -81,7 +88,16 @@ class Recovery {
                           "); try: mcap recover FILE -o OTHER");
       channel.has_schema_of_gap = channel.schema.name == schema::message_name<LogGap>() &&
                                   channel.schema.text == schema::text_of<LogGap>();
+      channel.has_schema_of_cycle = is_of<SensorFrame>(channel, topic::kFrame) ||
+                                    is_of<StepOutput>(channel, topic::kOutput) ||
+                                    is_of<Event>(channel, topic::kEvent);
     }
+  }
+
+  template <HasFields Record>
+  static bool is_of(const SavedChannel& channel, std::string_view topic) {
+    return channel.topic == topic && channel.schema.name == schema::message_name<Record>() &&
+           channel.schema.text == schema::text_of<Record>();
   }
 
   void learn(Op op, Bytes content) {
@@ -121,6 +137,7 @@ class Recovery {
   void walk(mcap::Writer* writer) {
     result_ = {};
     result_.file_bytes = file_.size();
+    cycle_count_ = {};
     in_summary_ = false;
     gaps_seen_ = damage_seen_ = 0;
     bool data_is_right = false;
@@ -144,6 +161,7 @@ class Recovery {
       }
     }
     result_.cut_at = salvage.cut_at();
+    if (result_.cycles && !result_.cut_at) result_.cycles->missing_at_end = 0;
     for (const auto& damage : salvage.damage()) {
       result_.damage.push_back({damage.from, damage.to, damage.what});
       result_.unreadable_bytes += damage.to - damage.from;
@@ -180,6 +198,7 @@ class Recovery {
     channel.met = true;
     channel.sequence = sequence;
     channel.log_ns = stamp.log_ns;
+    note_cycle(channel, in.rest());
     channel.damage_before = damage_seen_;
     channel.gaps_before = gaps_seen_;
     result_.first_ns = result_.saved() == 0 ? stamp.log_ns : std::min(result_.first_ns, stamp.log_ns);
@@ -194,6 +213,55 @@ class Recovery {
     ++result_.gaps;
     result_.lost_in_gaps += gap.lost;
     if (gap.cause == LossCause::write_failed) ++gaps_seen_;
+  }
+
+  void note_cycle(SavedChannel& channel, Bytes data) {
+    if (!channel.has_schema_of_cycle) return;
+    Cursor in(data);
+    in.take<std::uint32_t>();  // CDR's head
+    const auto own_ns = in.take<std::int64_t>();
+    if (!in.ok) return;
+    channel.with_own_ns = own_ns == channel.own_ns ? channel.with_own_ns + 1 : 1;
+    channel.own_ns = own_ns;
+    SensorFrame frame;
+    if (channel.topic == topic::kFrame && cdr::decode(data, frame)) cycle_count_.see(frame, result_);
+  }
+
+  std::uint64_t restored() const { return result_.cycles ? result_.cycles->restored : 0; }
+
+  // What the cut log lacks of the newest cycles, in the order in which the logger would have written it.
+  void restore_end(mcap::Writer& writer, std::span<const FreezeCycle> newest) {
+    if (newest.empty() || !result_.cut_at || !result_.cycles) return;
+    const auto channel_of = [&](std::string_view topic) -> SavedChannel* {
+      for (auto& [number, channel] : channels_)
+        if (channel.topic == topic && channel.has_schema_of_cycle) return &channel;
+      return nullptr;
+    };
+    const std::array channels{channel_of(topic::kFrame), channel_of(topic::kOutput),
+                              channel_of(topic::kEvent)};
+    if (std::ranges::count(channels, nullptr) > 0) return;
+    auto& cycles = *result_.cycles;
+    const std::int64_t offset_ns = channels[0]->log_ns - channels[0]->own_ns;
+    for (const FreezeCycle& cycle : newest) {
+      if (cycle.frame.time_ns < cycles.last_ns) continue;
+      const mcap::Stamp stamp{cycle.frame.time_ns + offset_ns, cycle.frame.time_ns + offset_ns};
+      const auto put = [&](std::size_t i, const auto& record) {
+        writer.write(channels[i]->number_in_copy, stamp, record);
+        ++result_.topics[channels[i]->topic].saved;
+        result_.last_ns = std::max(result_.last_ns, stamp.log_ns);
+      };
+      if (cycle.frame.time_ns > channels[0]->own_ns) {
+        if (cycles.restored++ == 0)
+          cycles.missing_at_end = cycle_count_.missing_until(cycle.frame, cycles.last);
+        put(0, cycle.frame);
+      }
+      if (cycle.frame.time_ns > channels[1]->own_ns) put(1, cycle.output);
+      const auto events = cycle.seen_events();
+      const bool begun = channels[2]->own_ns == cycle.frame.time_ns;
+      for (std::size_t i = begun ? channels[2]->with_own_ns : 0; i < events.size(); ++i) put(2, events[i]);
+    }
+    // The ring's last cycle is the log's: nothing was missing.
+    if (newest.back().frame.cycle == cycles.last) cycles.missing_at_end = 0;
   }
 
   // Each record of this firmware begins with its own time.
@@ -263,6 +331,7 @@ class Recovery {
   std::map<std::uint16_t, std::uint16_t> schema_of_;
   std::map<std::uint16_t, std::string> encoding_of_;
   std::uint16_t gap_channel_ = 0;
+  CycleCount cycle_count_{};
   bool in_summary_ = false;
   std::uint64_t damage_seen_ = 0;
   std::uint64_t gaps_seen_ = 0;
@@ -282,7 +351,13 @@ std::uint64_t LogRecovery::lost() const {
   return sum;
 }
 
-LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to) {
+LogRecovery look_at_mcap(const std::filesystem::path& from) {
+  const MappedFile file(from);
+  return Recovery(file.bytes(), from.filename().string()).look();
+}
+
+LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to,
+                         std::span<const FreezeCycle> newest) {
   const MappedFile file(from);
   Recovery recovery(file.bytes(), from.filename().string());
   LogRecovery found = recovery.look();
@@ -291,7 +366,7 @@ LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesyste
     throw mcap::Error(from.string() +
                       ": nothing can be read of it; it is no MCAP log, or was cut before its first record");
   try {
-    return recovery.copy(to);
+    return recovery.copy(to, newest);
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::file_exists) {
       std::error_code ignored;

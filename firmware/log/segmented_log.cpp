@@ -48,20 +48,21 @@ void SegmentedLog::attach(std::string_view name, std::string_view media_type, st
     if (!finished_) throw;
     trouble(fmt::format("{} is not in the log: {}", name, error.what()));
   }
-  if (!finished_) attachments_.push_back({std::string(name), std::string(media_type), std::string(text)});
+  if (finished_) return;
+  description_.attachments.push_back({std::string(name), std::string(media_type), std::string(text)});
 }
 
 void SegmentedLog::add_metadata(std::string_view name, const std::map<std::string, std::string>& entries) {
   writer_->add_metadata(name, entries);
-  metadata_.emplace_back(name, entries);
+  description_.metadata.emplace_back(name, entries);
 }
 
 // A file of its own begins with what the first one begins with.
 void SegmentedLog::describe(mcap::Writer& writer, std::uint32_t number) const {
   for (const Topic& topic : topics_) topic.add(writer, topic.name);
-  for (const Attachment& a : attachments_)
+  for (const auto& a : description_.attachments)
     writer.attach(a.name, a.media_type, options_.created_ns, mcap::bytes_of(a.text));
-  for (const auto& [name, entries] : metadata_) writer.add_metadata(name, entries);
+  for (const auto& [name, entries] : description_.metadata) writer.add_metadata(name, entries);
   writer.add_metadata("segment", {{"number", std::to_string(number)},
                                   {"first_file", options_.file.filename().string()},
                                   {"previous_file", file_of(number - 1).filename().string()}});

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/log/log_description.hpp"
 #include "firmware/log/mcap_writer.hpp"
 #include "firmware/log/topics.hpp"
 
@@ -47,6 +48,9 @@ class SegmentedLog {
   void attach(std::string_view name, std::string_view media_type, std::string_view text);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
 
+  // What was attached and added before finish().
+  const LogDescription& description() const { return description_; }
+
   std::uint16_t gap_channel() const { return gap_channel_; }
 
   // The file a record of this time goes to.
@@ -77,11 +81,6 @@ class SegmentedLog {
     std::string name;
     AddChannel add;
   };
-  struct Attachment {
-    std::string name;
-    std::string media_type;
-    std::string text;
-  };
   struct Segment {
     std::filesystem::path file;
     std::uint64_t bytes;
@@ -107,8 +106,7 @@ class SegmentedLog {
   std::uint32_t number_ = 1;
   std::unique_ptr<mcap::Writer> writer_;
   std::vector<Topic> topics_;
-  std::vector<Attachment> attachments_;
-  std::vector<std::pair<std::string, std::map<std::string, std::string>>> metadata_;
+  LogDescription description_;
   std::uint16_t gap_channel_ = 0;
   std::vector<Segment> older_;
   std::uint64_t next_segment_bytes_ = 0;

@@ -13,6 +13,10 @@ void describe_trial(TrialLogger& logger, const RobotConfig& robot, std::string_v
                                      {"rows", "one /frame and one /output per cycle"}});
 }
 
+void describe_start(TrialLogger& logger, const StartState& start) {
+  logger.attach(kStartAttachment, "application/toml", to_toml(to_node(start)));
+}
+
 void describe_devices(TrialLogger& logger, const LinuxBoardConfig& devices) {
   logger.attach(kBoardAttachment, "application/toml", to_toml(to_node(devices)));
 }

@@ -28,7 +28,7 @@ struct LogTopic {
 };
 
 struct TrialLogOptions {
-  std::filesystem::path mcap_file;
+  std::filesystem::path mcap_file;      // empty: nothing is logged
   std::filesystem::path candump_file;   // empty: CAN traffic is not logged
   std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; stamps what is attached
   std::int64_t realtime_offset_ns = 0;  // realtime_offset_ns(), or a fixed date for repeatable files
@@ -69,6 +69,9 @@ class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the ri
   std::size_t add_can_interface(std::string name);
   void attach(std::string_view name, std::string_view media_type, std::string_view text);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
+
+  // What was attached and added so far.
+  const LogDescription& description() const { return log_.description(); }
 
   void start();
 

@@ -16,6 +16,9 @@ class BusCheck {
     const auto grown = [](std::uint32_t now, std::uint32_t before) {
       return static_cast<double>(now - before);
     };
+    // No matter when: a frame refused before the first cycle counts, too.
+    findings.add_if(bus.refused.count > 0, Fault::transmit_refused, static_cast<double>(bus.refused.rule),
+                    bus.refused.can_id);
     findings.add_if(bus.state == BusState::off, Fault::bus_off, 1.0, 0.0);
     const double unheard = grown(bus.no_acknowledge, last_.no_acknowledge);
     findings.add_if(bus.state == BusState::passive || unheard > 0.0, Fault::bus_passive, unheard, 0.0);

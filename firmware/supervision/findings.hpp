@@ -6,6 +6,21 @@
 
 namespace sandhopper {
 
+// Of two faults the harsher one is obeyed: the one with the harsher reaction or, of equal ones, with the
+// stricter latch. Of equals the first stays.
+constexpr bool is_harsher(Fault fault, Fault than) noexcept {
+  const FaultEntry &a = entry_of(fault), &b = entry_of(than);
+  return a.reaction != b.reaction ? a.reaction > b.reaction : a.latch > b.latch;
+}
+
+// So a harsher fault never loosens a latch.
+constexpr bool strict_latches_are_limp() {
+  for (const auto& entry : kFaults)
+    if (entry.latch > Latch::until_disarmed && entry.reaction != Reaction::limp) return false;
+  return true;
+}
+static_assert(strict_latches_are_limp());
+
 struct FaultFound {
   Fault fault = Fault::none;
   std::array<double, 2> values{};  // what was seen and what was allowed
@@ -15,14 +30,14 @@ struct FaultFound {
 // sets one.
 using DetectorMask = std::bitset<kFaultCount>;
 
-// What the checks of one cycle found. The harshest reaction is kept; of equal ones the first.
+// What the checks of one cycle found: the harshest fault.
 class Findings {
  public:
   explicit Findings(const DetectorMask& off) noexcept : off_(off) {}
 
   void add(Fault fault, double seen, double allowed) noexcept {
     if (off_[static_cast<std::size_t>(fault)]) return;
-    if (worst_.fault != Fault::none && entry_of(worst_.fault).reaction >= entry_of(fault).reaction) return;
+    if (worst_.fault != Fault::none && !is_harsher(fault, worst_.fault)) return;
     worst_ = {fault, {seen, allowed}};
   }
   void add_if(bool broken, Fault fault, double seen, double allowed) noexcept {

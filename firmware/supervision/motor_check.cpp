@@ -30,8 +30,8 @@ void MotorCheck::see(const MotorSample& sample, const Context& context, Findings
   see_replies(sample, context, findings);
   see_torque(sample, context, findings);
   if (sample.fresh) {
-    see_motion(sample, context, findings);
-    see_limits(sample, context, findings);
+    // A reply that cannot be true says nothing else either.
+    if (see_motion(sample, context, findings)) see_limits(sample, context, findings);
     last_ = sample;
     answered_ = true;
   }
@@ -53,14 +53,14 @@ void MotorCheck::see_replies(const MotorSample& sample, const Context& context, 
   findings.add_if(late_.see(age_s > s.motor_reply_age_s) >= kLate, Fault::motor_reply_late, number(), age_s);
 }
 
-void MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings& findings) noexcept {
+bool MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings& findings) noexcept {
   const double dt_s = to_s(sample.time_ns - last_.time_ns);
-  if (!answered_ || dt_s <= 0.0) return;
+  if (!answered_ || dt_s <= 0.0) return true;
   const double moved = sample.position_rad - last_.position_rad;
   const double allowed = config_.limits.motor_speed_radps * dt_s + config_.supervision.motor_jump_rad;
   const bool possible = std::abs(moved) <= allowed;  // false for NaN
   findings.add_if(!possible, Fault::motor_position_jump, number(), moved);
-  if (!possible) return;
+  if (!possible) return false;
   const double mean_radps = 0.5 * (sample.velocity_radps + last_.velocity_radps);
   velocity_error_radps_ = followed(velocity_error_radps_, mean_radps - moved / dt_s, dt_s);
   // Fast to and fro, as against an end stop, leaves more of a difference between the two than steady turning.
@@ -70,6 +70,7 @@ void MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings&
   velocity_wrong_ = wrong ? velocity_wrong_ + 1 : 0;
   findings.add_if(velocity_wrong_ >= kErrorCycles, Fault::motor_velocity_implausible, number(),
                   velocity_error_radps_);
+  return true;
 }
 
 void MotorCheck::see_torque(const MotorSample& sample, const Context& context, Findings& findings) noexcept {
@@ -99,8 +100,7 @@ void MotorCheck::see_limits(const MotorSample& m, const Context& context, Findin
   const auto& s = config_.supervision;
   const bool turning = std::abs(m.velocity_radps) <= limits.motor_speed_radps;  // false for NaN
   findings.add_if(!turning, Fault::motor_speed_limit, number(), m.velocity_radps);
-  // A reply that cannot be true says nothing else either.
-  if (!turning || findings.worst().fault == Fault::motor_position_jump) return;
+  if (!turning) return;
   findings.add_if(m.error_code != 0, Fault::drive_error, number(), m.error_code);
   const bool reachable =
       m.position_rad >= limits.leg_angle_min_rad && m.position_rad <= limits.leg_angle_max_rad;

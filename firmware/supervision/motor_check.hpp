@@ -16,7 +16,11 @@ namespace sandhopper {
 class MotorCheck {
  public:
   MotorCheck(const CycleConfig& config, std::size_t motor) noexcept
-      : config_(config), motor_(motor), thermal_(config.supervision) {}
+      : config_(config), motor_(motor), thermal_(config.supervision) {
+    if (config.start.temperatures_known)
+      thermal_ =
+          ThermalModel(config.supervision, config.start.winding_C[motor], config.start.housing_C[motor]);
+  }
 
   struct Context {
     std::int64_t time_ns;
@@ -27,11 +31,12 @@ class MotorCheck {
     const MotorCommand& command;  // likewise
   };
   void see(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
-  double winding_C() const noexcept { return thermal_.winding_C(); }
+  const ThermalModel& thermal() const noexcept { return thermal_; }
 
  private:
   void see_replies(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
-  void see_motion(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
+  // False: the position cannot be true.
+  bool see_motion(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_torque(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_limits(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   double number() const noexcept { return static_cast<double>(motor_); }

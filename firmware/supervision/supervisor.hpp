@@ -26,12 +26,12 @@ class Supervisor {
     double phase_time_s;  // in flight, compression or extension; of a soft stop what is beyond its own time
     bool estimating;      // the estimate belongs to this frame
     bool energised;       // drives are on and checked
-    std::uint32_t touchdowns;  // since start
+    std::uint32_t touchdowns;  // since the leg was inspected
     const Command& command;    // of the last cycle
   };
   FaultFound check(const SensorFrame& frame, const Estimate& estimate, const Context& context) noexcept;
 
-  double winding_C(Side side) const noexcept { return motor_[static_cast<std::size_t>(side)].winding_C(); }
+  const ThermalModel& thermal(std::size_t motor) const noexcept { return motor_[motor].thermal(); }
 
   // For tests of the tests: without this fault's detector.
   void switch_off(Fault detector) noexcept { off_.set(static_cast<std::size_t>(detector)); }

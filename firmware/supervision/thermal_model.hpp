@@ -6,25 +6,27 @@ namespace sandhopper {
 // Winding and housing of one motor as two heat capacities:
 //   C_w dT_w/dt = 1.5 R i^2 - (T_w - T_h) / R_wh,   C_h dT_h/dt = (T_w - T_h) / R_wh - (T_h - T_a) / R_ha
 // with the q-axis current i [A] (amplitude-invariant, so 1.5 R i^2 in three phases of resistance R).
-// Temperatures [deg C], at ambient when the daemon starts. A drive's own temperature is that of its board,
+// Temperatures [deg C], at first ambient or as given. A drive's own temperature is that of its board,
 // not of the winding. Explicit steps: valid for steps far below R_wh C_w (40 s with the shipped constants).
 class ThermalModel {
  public:
   explicit ThermalModel(const SupervisionConfig& config) noexcept
-      : config_(config), winding_C_(config.ambient_C), housing_C_(config.ambient_C) {}
+      : ThermalModel(config, config.ambient_C, config.ambient_C) {}
+  ThermalModel(const SupervisionConfig& config, double winding_C, double housing_C) noexcept
+      : config_(&config), winding_C_(winding_C), housing_C_(housing_C) {}
 
   void step(double current_A, double dt_s) noexcept {
-    const double across_W = (winding_C_ - housing_C_) / config_.winding_resistance_K_per_W;
-    const double out_W = (housing_C_ - config_.ambient_C) / config_.housing_resistance_K_per_W;
-    const double loss_W = 1.5 * config_.phase_resistance_Ohm * current_A * current_A;
-    winding_C_ += dt_s * (loss_W - across_W) / config_.winding_capacity_J_per_K;
-    housing_C_ += dt_s * (across_W - out_W) / config_.housing_capacity_J_per_K;
+    const double across_W = (winding_C_ - housing_C_) / config_->winding_resistance_K_per_W;
+    const double out_W = (housing_C_ - config_->ambient_C) / config_->housing_resistance_K_per_W;
+    const double loss_W = 1.5 * config_->phase_resistance_Ohm * current_A * current_A;
+    winding_C_ += dt_s * (loss_W - across_W) / config_->winding_capacity_J_per_K;
+    housing_C_ += dt_s * (across_W - out_W) / config_->housing_capacity_J_per_K;
   }
   double winding_C() const noexcept { return winding_C_; }
   double housing_C() const noexcept { return housing_C_; }
 
  private:
-  const SupervisionConfig& config_;
+  const SupervisionConfig* config_;
   double winding_C_;
   double housing_C_;
 };

@@ -3,18 +3,45 @@
 
 #include "drivers/can/torque_cut.hpp"
 #include "drivers/unique_fd.hpp"
+#include "firmware/watchdog/heartbeat.hpp"
+#include "firmware/watchdog/last_act.hpp"
+#include "firmware/watchdog/watchdog_config.hpp"
 
 namespace sandhopper {
 
-// A process that does nothing but wait for this one to die, however it does: killed, crashed, out of memory.
-// It then takes the torque away for a tenth of a second and ends. Ended in order, it is sent home unused.
+// A child process that cuts the torque when this process dies (crash, SIGKILL, out of memory) or stands still
+// as a whole (SIGSTOP, Ctrl-Z, a debugger), where the torque watchdog's thread stands still with the cycle.
+//   - Death: within a millisecond, then every millisecond for 100 ms; then the last act, and the child ends.
+//   - Standstill: the cycle has beaten and then misses its beat for 1.5 cycle_stall_s. The child looks every
+//     quarter of cycle_stall_s, leaves a trip in the heartbeat and cuts at each look until the cycle beats
+//     again and has taken the trip, so that it ends in the fault watchdog_tripped.
+//   - Not dismissed 0.5 s after the cycle's end: it cuts at each look until it is dismissed.
+// It sends nothing but the frames of TorqueCut: zero torque, leave motor mode. It ignores every signal that
+// can be ignored, has a session of its own (no Ctrl-C or Ctrl-Z reaches it), runs with SCHED_FIFO at the
+// watchdog's priority and locks its memory, as far as the machine grants that.
 class GuardProcess {
  public:
-  // Forks; throws std::system_error when that fails. `cut` is used in the child only.
-  explicit GuardProcess(TorqueCut& cut);
+  struct Setup {
+    TorqueCut& cut;               // used in the child only
+    Heartbeat& heart;             // in memory shared with the child: Shared<Heartbeat>
+    WatchdogConfig config;        // cycle_stall_s, priority
+    LastAct* last_act = nullptr;  // may be null
+  };
+
+  // Forks; throws std::system_error when that fails.
+  explicit GuardProcess(const Setup& setup);
+  // Dismisses the child unless abandon() was called, and waits for its end.
   ~GuardProcess();
   GuardProcess(const GuardProcess&) = delete;
   GuardProcess& operator=(const GuardProcess&) = delete;
+
+  // For drives that were not confirmed off: the child does what it does at a death of this process.
+  void abandon() noexcept { line_ = UniqueFd(); }
+
+  // False after the child has ended, for example killed by somebody: nobody would cut the torque. Reaps it.
+  bool alive() noexcept;
+
+  pid_t process_id() const noexcept { return child_; }
 
  private:
   UniqueFd line_;  // the child reads its other end: a byte dismisses it, the end of the line is a death

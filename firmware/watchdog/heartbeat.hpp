@@ -8,7 +8,7 @@
 namespace sandhopper {
 
 // What the cycle and those who watch it share: beats one way, the watchdog's trip the other. Nothing here
-// waits.
+// waits. It may lie in memory shared by processes: its atomics take no lock.
 class Heartbeat {
  public:
   // The cycle's, once a turn.
@@ -24,6 +24,7 @@ class Heartbeat {
 
   // The watchers'.
   std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_acquire); }
+  bool ended() const noexcept { return beats() == kEnded; }
   bool beating() const noexcept { return beats() != 0 && beats() != kEnded; }
   State state() const noexcept { return state_.load(std::memory_order_relaxed); }
   Fault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
@@ -34,6 +35,9 @@ class Heartbeat {
 
  private:
   static constexpr std::uint64_t kEnded = std::numeric_limits<std::uint64_t>::max();
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free &&
+                std::atomic<std::int64_t>::is_always_lock_free && std::atomic<State>::is_always_lock_free &&
+                std::atomic<Fault>::is_always_lock_free);
   std::atomic<std::uint64_t> beats_{0};
   std::atomic<std::int64_t> stall_ns_{0};
   std::atomic<State> state_{State::idle};

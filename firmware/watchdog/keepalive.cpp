@@ -5,6 +5,7 @@
 #include <systemd/sd-daemon.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "drivers/clock.hpp"
 
@@ -22,8 +23,8 @@ std::int64_t period_of(const KernelWatchdog& kernel, std::uint64_t service_us) {
 
 }  // namespace
 
-Keepalive::Keepalive(const WatchdogConfig& config, const Heartbeat& heart)
-    : heart_(heart), kernel_(config.device, config.device_timeout_s) {
+Keepalive::Keepalive(const WatchdogConfig& config, const Heartbeat& heart, std::function<void()> also)
+    : heart_(heart), also_(std::move(also)), kernel_(config.device, config.device_timeout_s) {
   if (::sd_watchdog_enabled(0, &service_period_us_) <= 0) service_period_us_ = 0;
   period_ns_ = period_of(kernel_, service_period_us_);
   thread_ = std::thread([this] { run(); });
@@ -43,6 +44,7 @@ void Keepalive::run() {
   std::int64_t next_ns = 0;
   while (!stopping_.load(std::memory_order_acquire)) {
     sleep_ns(std::min(kStep_ns, period_ns_));
+    if (also_) also_();
     const bool beats = heart_.beating() && heart_.beats() != last_beats;
     if (!beats || (ready && monotonic_ns() < next_ns)) continue;
     next_ns = monotonic_ns() + period_ns_;

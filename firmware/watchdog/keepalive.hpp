@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,7 +19,8 @@ namespace sandhopper {
 // computer.
 class Keepalive {
  public:
-  Keepalive(const WatchdogConfig& config, const Heartbeat& heart);
+  // `also` is called on the same thread every 10 ms or a little later, whether the cycle beats or not.
+  Keepalive(const WatchdogConfig& config, const Heartbeat& heart, std::function<void()> also = {});
   // Says that the service stops and disarms the kernel's watchdog.
   ~Keepalive();
   Keepalive(const Keepalive&) = delete;
@@ -31,6 +33,7 @@ class Keepalive {
   void tell_state();
 
   const Heartbeat& heart_;
+  std::function<void()> also_;
   KernelWatchdog kernel_;
   std::uint64_t service_period_us_ = 0;  // 0: no service manager asks for it
   std::int64_t period_ns_;

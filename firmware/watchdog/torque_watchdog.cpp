@@ -16,7 +16,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::int64_t kLooks = 4;
+constexpr std::int64_t kLooksPerStall = 4;
 
 void sleep_until(std::int64_t time_ns) noexcept {
   const timespec until{time_ns / kNanosecondsPerSecond, time_ns % kNanosecondsPerSecond};
@@ -49,7 +49,7 @@ void TorqueWatchdog::watch() noexcept {
   bool tripped = false;
   auto next_ns = monotonic_ns();
   while (!stopping_.load(std::memory_order_acquire)) {
-    next_ns = std::max(next_ns + stall_ns_ / kLooks, monotonic_ns());
+    next_ns = std::max(next_ns + stall_ns_ / kLooksPerStall, monotonic_ns());
     sleep_until(next_ns);
     const auto stall_ns = detector.see(heart_, monotonic_ns());
     longest_stall_ns_.store(std::max(longest_stall_ns_.load(std::memory_order_relaxed), stall_ns),

@@ -18,7 +18,8 @@ set_tests_properties(bench.can_playback PROPERTIES LABELS bench SKIP_RETURN_CODE
 add_test(NAME bench.agreement COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/agreement)
 set_tests_properties(bench.agreement PROPERTIES LABELS bench TIMEOUT 2400 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 
-add_executable(bench_tests tests/bench/linux_board_test.cpp tests/bench/gpio_test.cpp tests/unit/allocation_guard.cpp)
+add_executable(bench_tests tests/bench/linux_board_test.cpp tests/bench/gpio_test.cpp
+  tests/bench/guard_process_test.cpp tests/unit/allocation_guard.cpp)
 target_link_libraries(bench_tests PRIVATE sandhopper_firmware GTest::gmock GTest::gtest_main)
 target_compile_definitions(bench_tests PRIVATE SANDHOPPER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(bench_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
@@ -31,18 +32,20 @@ set_tests_properties(bench.linux_board PROPERTIES LABELS bench TIMEOUT 1200 ENVI
 add_executable(spi_probe tests/bench/spi_probe.cpp)
 target_link_libraries(spi_probe PRIVATE sandhopper_options)
 set_target_properties(spi_probe PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
-foreach(name boot devices determinism calibrate watchdog)
+foreach(name boot devices determinism calibrate watchdog guard)
   add_test(NAME bench.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/${name})
   set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 2400 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 endforeach()
 
 # hopperd as a process, where it has a bus.
-add_test(NAME daemon.on_the_bus
-  COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 900 ${PROJECT_SOURCE_DIR}/tests/daemon/on_the_bus
-          ${CMAKE_BINARY_DIR}
-  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(daemon.on_the_bus PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+foreach(name on_the_bus remembers)
+  add_test(NAME daemon.${name}
+    COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 900 ${PROJECT_SOURCE_DIR}/tests/daemon/${name}
+            ${CMAKE_BINARY_DIR}
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(daemon.${name} PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
+endforeach()
 
 set_tests_properties(bench.can_playback bench.agreement bench.linux_board bench.boot bench.devices bench.determinism
-  bench.calibrate bench.watchdog daemon.on_the_bus
+  bench.calibrate bench.watchdog bench.guard daemon.on_the_bus daemon.remembers
   PROPERTIES FIXTURES_REQUIRED bench_kernel)

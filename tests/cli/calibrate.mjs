@@ -118,7 +118,8 @@ const blind = spawnSync(hop, ['calibrate', 'tof', '--config', believed, '--outpu
 expect(blind.status === 2 && blind.stderr.includes('--from'), `without a terminal: ${blind.stderr}`);
 
 // A drive whose velocity field has half the range that is configured.
-change(join(real, 'robot.toml'), ['velocity_range_radps = 50.0', 'velocity_range_radps = 25.0']);
+change(join(real, 'robot.toml'), ['velocity_range_radps = 50.0', 'velocity_range_radps = 25.0'],
+  ['motor_speed_radps = 40.0', 'motor_speed_radps = 20.0']);
 const robot = text_of('robot.toml');
 const ranged = calibrate('encoders');
 const refused = ranged.result.refusals?.[0] ?? {};

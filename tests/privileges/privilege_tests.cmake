@@ -13,3 +13,5 @@ endif()
 # What the package sets on the robot's computer, on a folder that stands in for it.
 add_test(NAME privileges.real_time COMMAND ${PROJECT_SOURCE_DIR}/tests/privileges/real_time)
 set_tests_properties(privileges.real_time PROPERTIES LABELS privileges TIMEOUT 60)
+add_test(NAME privileges.can_up COMMAND ${PROJECT_SOURCE_DIR}/tests/privileges/can_up)
+set_tests_properties(privileges.can_up PROPERTIES LABELS privileges TIMEOUT 60)

@@ -11,3 +11,6 @@ set_tests_properties(report.study_in_browser PROPERTIES LABELS report TIMEOUT 30
 add_test(NAME report.diagnosis_in_browser
          COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/diagnosis_test.mjs ${CMAKE_BINARY_DIR})
 set_tests_properties(report.diagnosis_in_browser PROPERTIES LABELS report TIMEOUT 300 SKIP_RETURN_CODE 77)
+add_test(NAME report.explain_in_browser
+         COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/explain_test.mjs ${CMAKE_BINARY_DIR})
+set_tests_properties(report.explain_in_browser PROPERTIES LABELS report TIMEOUT 300 SKIP_RETURN_CODE 77)

@@ -167,6 +167,13 @@ TEST(TofSample, WarningsErrorsAndImpossibleRangesAreNoMeasurement) {
     EXPECT_EQ(sample.status, status);
     EXPECT_TRUE(sample.fresh);
   }
+  for (const int quality : {0, 2, 100}) {
+    m.quality = static_cast<std::uint8_t>(quality);
+    EXPECT_DOUBLE_EQ(to_sample(m, TofConfig{}, 5).height_m, 0.4) << "quality " << quality;
+  }
+  m.quality = 1;  // the sensor's own verdict
+  EXPECT_TRUE(std::isnan(to_sample(m, TofConfig{}, 5).height_m));
+  m.quality = 100;
   for (const double range : {-0.1, 0.0, 5.0}) {
     m.range_m = range;
     EXPECT_TRUE(std::isnan(to_sample(m, TofConfig{}, 5).height_m)) << range;

@@ -84,5 +84,17 @@ TEST(BusCheck, OneAnswerTooManyIsNothingFiveAreASecondDrive) {
   }
 }
 
+TEST(BusCheck, AFrameThatTheTransmitGuardRefusedIsAFaultWheneverItWas) {
+  BusCheck check;
+  BusSample bus;
+  bus.refused = {.count = 1, .rule = transmit::Rule::torque, .can_id = 2};
+  for (int i = 0; i < 3; ++i) {
+    const auto found = see(check, bus);
+    EXPECT_EQ(found.fault, Fault::transmit_refused) << "also when it was before the first cycle";
+    EXPECT_EQ(found.values[0], static_cast<double>(transmit::Rule::torque));
+    EXPECT_EQ(found.values[1], 2.0);
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper

@@ -160,6 +160,14 @@ TEST(RobotConfigRules, NeutralLengthsMustBeWithinReach) {
       AllOf(HasSubstr("'controller.extension_length_m' does not fit"), HasSubstr("0.1260 to 0.3580 m")));
 }
 
+TEST(RobotConfigRules, TheTorqueThatProvesMotorModeMustShowInARepliesFieldAndBeWithinTheLimit) {
+  EXPECT_THAT(problem_when("0.03", "arming", "confirm_torque_Nm"),
+              AllOf(HasSubstr("'arming.confirm_torque_Nm' does not fit: expected at least four steps"),
+                    HasSubstr("4 x 2 x 18 / 4095 x gear_ratio = 0.035 N m")));
+  EXPECT_THAT(problem_when("2.9", "arming", "confirm_torque_Nm"),
+              HasSubstr("expected at most limits.motor_torque_Nm (2.8)"));
+}
+
 TEST(RobotConfigRules, ExtensionMustNotPull) {
   EXPECT_THAT(problem_when("0.29", "controller", "extension_length_m"),
               HasSubstr("'controller.extension_length_m' does not fit: expected at least"));

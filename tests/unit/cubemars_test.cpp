@@ -253,33 +253,5 @@ TEST(CanTraceDecoder, ATraceOfRepliesAloneKeepsItsOwnTimes) {
   EXPECT_EQ(decoder.decode(reply_of(0x01, 1), 7 * kMs, FrameDirection::received)->sample.time_ns, 6 * kMs);
 }
 
-std::vector<DriveAction> actions(DriveSequence& sequence, DriveRequest request, int cycles) {
-  std::vector<DriveAction> out;
-  out.reserve(static_cast<std::size_t>(cycles));
-  for (int i = 0; i < cycles; ++i) out.push_back(sequence.next(request));
-  return out;
-}
-
-TEST(DriveSequence, EntersOnceAfterClearingAndLeavesAfterZeroTorque) {
-  using enum DriveAction;
-  DriveSequence sequence(3);
-  EXPECT_THAT(actions(sequence, DriveRequest::off, 4), ::testing::ElementsAre(leave, zero, zero, leave));
-  EXPECT_FALSE(sequence.energised());
-  EXPECT_THAT(actions(sequence, DriveRequest::run, 7),
-              ::testing::ElementsAre(zero, zero, zero, leave, enter, zero, run));
-  EXPECT_TRUE(sequence.energised());
-  EXPECT_THAT(actions(sequence, DriveRequest::enable, 2), ::testing::ElementsAre(zero, zero));
-  EXPECT_THAT(actions(sequence, DriveRequest::off, 7),
-              ::testing::ElementsAre(zero, zero, zero, leave, zero, zero, leave));
-  EXPECT_FALSE(sequence.energised());
-}
-
-TEST(DriveSequence, OffWhileSwitchingOnNeverEnters) {
-  DriveSequence sequence(100);
-  actions(sequence, DriveRequest::enable, 2);
-  EXPECT_THAT(actions(sequence, DriveRequest::off, 20),
-              ::testing::Not(::testing::Contains(DriveAction::enter)));
-}
-
 }  // namespace
 }  // namespace sandhopper

@@ -1,4 +1,6 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -43,7 +45,9 @@ struct Run {
 // A whole trial of three strides with its logging and what an operator watches, every turn of the cycle under
 // the guard.
 Run run_trial(std::uint64_t plant_at) {
-  const auto log = std::filesystem::temp_directory_path() / "sandhopper_allocation_test.mcap";
+  // Of this process alone: the tests of this file run side by side.
+  const auto log =
+      std::filesystem::temp_directory_path() / fmt::format("sandhopper_allocation_test.{}.mcap", ::getpid());
   std::filesystem::remove(log);
   Run run;
   {
@@ -57,7 +61,8 @@ Run run_trial(std::uint64_t plant_at) {
     LeakyBoard board(sim, plant_at);
     Controller controller(CycleConfig{});
     Aftermath aftermath(StiffnessConfig{}, logger, topics, {});
-    Cycle cycle({board, controller, logger, topics, aftermath});
+    FreezeRing freeze({.file = log.string() + ".freeze.memory"});
+    Cycle cycle({board, controller, logger, topics, aftermath, &freeze});
     LatencyHistogram latency;
     Latest<LiveStatus> status;
     Request request = Request::arm;
@@ -77,6 +82,7 @@ Run run_trial(std::uint64_t plant_at) {
     }
     logger.stop();
     logger.close();
+    freeze.remove();
   }
   std::filesystem::remove(log);
   return run;

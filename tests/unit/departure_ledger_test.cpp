@@ -62,5 +62,17 @@ TEST(DepartureLedger, EchoesOfOthersAndTooManyFramesAreNothing) {
   EXPECT_EQ(ledger.waiting(), 0U);
 }
 
+TEST(DepartureLedger, IsSettledOnlyOnceALaterFrameHasLeft) {
+  DepartureLedger ledger;
+  EXPECT_TRUE(ledger.settled());
+  ledger.sent(1, 0);
+  EXPECT_FALSE(ledger.settled());
+  EXPECT_FALSE(ledger.holds(100 * kMs)) << "its echo is not waited for any more";
+  EXPECT_FALSE(ledger.settled()) << "but it may still leave";
+  ledger.sent(1, 100 * kMs);
+  ledger.departed(1);
+  EXPECT_TRUE(ledger.settled());
+}
+
 }  // namespace
 }  // namespace sandhopper

@@ -4,13 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "config/files.hpp"
 #include "firmware/log/mcap_reader.hpp"
+#include "firmware/log/trial_description.hpp"
+#include "firmware/operator_channel.hpp"
 #include "tools/plant/sim_board.hpp"
+#include "tools/trial/replay.hpp"
 
 // The session in a test's time: what holds the cycle up is planted, and must be in the log and in the
 // summary.
@@ -35,15 +41,22 @@ struct Plan {
   std::map<int, std::int64_t> sleep_ns;
   std::map<int, std::int64_t> step_ns;
   std::map<int, Quit> quit;
+  std::map<int, std::vector<Word>> words;  // one read of the operator's pipe
   int trip_at = 0;
+  StartState start{};
   int turns = 1000;
 };
 
 // The simulated robot, and things that happen to the cycle.
 class PlannedBoard : public Board {
  public:
-  PlannedBoard(TestTime& time, const Plan& plan, Heartbeat& heart)
-      : time_(time), plan_(plan), heart_(heart), world_(WorldConfig{}, {}, 0), sim_(world_) {}
+  PlannedBoard(TestTime& time, const Plan& plan, Heartbeat& heart, RequestBox& requests)
+      : time_(time),
+        plan_(plan),
+        heart_(heart),
+        requests_(requests),
+        world_(WorldConfig{}, {}, 0),
+        sim_(world_) {}
 
   void read(SensorFrame& frame) noexcept override { sim_.read(frame); }
   void write(const Command& command) noexcept override {
@@ -53,6 +66,8 @@ class PlannedBoard : public Board {
       time_.pass(sleep->second);
     if (const auto step = plan_.step_ns.find(turn); step != plan_.step_ns.end()) offset_ns += step->second;
     if (const auto how = plan_.quit.find(turn); how != plan_.quit.end()) quit = how->second;
+    if (const auto said = plan_.words.find(turn); said != plan_.words.end())
+      post_words(said->second, time_.now_ns(), requests_, quit);
     if (turn == plan_.trip_at) heart_.trip(25'000'000);
     if (turn == plan_.turns) quit = Quit::softly;
   }
@@ -65,6 +80,7 @@ class PlannedBoard : public Board {
   TestTime& time_;
   const Plan& plan_;
   Heartbeat& heart_;
+  RequestBox& requests_;
   World world_;
   SimBoard sim_;
 };
@@ -75,19 +91,27 @@ struct Recorded {
   std::uint64_t missed = 0;         // grid points that no frame in the log has
   std::vector<std::uint64_t> gaps;  // their lengths, in order
   std::vector<Event> events;
+  std::vector<RequestRecord> requests;
+  std::map<std::uint64_t, Request> inputs;  // of the cycles that had one
+  std::optional<ReplayMismatch> mismatch;
+  StateSample state{};  // the last one published
 };
 
 void read_log(const std::filesystem::path& file, Recorded& out) {
   mcap::Reader log(file);
   TopicOf<SensorFrame> frames(topic::kFrame);
   TopicOf<Event> events(topic::kEvent);
+  TopicOf<RequestRecord> requests(topic::kRequest);
   mcap::Message message;
+  RequestRecord request;
   SensorFrame frame;
   Event event;
   std::uint64_t last = 0;
   while (log.next(message)) {
     if (events.take(message, event)) out.events.push_back(event);
+    if (requests.take(message, request)) out.requests.push_back(request);
     if (!frames.take(message, frame)) continue;
+    if (frame.request != Request::none) out.inputs[frame.cycle] = frame.request;
     if (frame.cycle > last + 1) out.gaps.push_back(frame.cycle - last - 1);
     out.missed += frame.cycle - last - 1;
     last = frame.cycle;
@@ -110,19 +134,26 @@ Recorded run(const Plan& plan) {
     TrialLogger logger(options);
     TestTime time;
     Heartbeat heart;
-    PlannedBoard board(time, plan, heart);
-    HopSession session(robot, board, logger, {});
     RequestBox requests;
+    PlannedBoard board(time, plan, heart, requests);
+    describe_trial(logger, robot, "sim");
+    describe_start(logger, plan.start);
+    HopSession session(robot, board, logger, {}, plan.start);
+    Latest<StateSample> state;
     out.result = session.run({.quit = board.quit,
                               .requests = requests,
                               .heart = heart,
                               .say = {},
                               .time = time,
-                              .wall_clock = WallClock([&board] { return board.offset_ns; })});
+                              .wall_clock = WallClock([&board] { return board.offset_ns; }),
+                              .status = nullptr,
+                              .state = &state});
+    state.take(out.state);
     EXPECT_FALSE(heart.beating()) << "the end was not told to the watchdog";
     logger.close();
   }
   read_log(file, out);
+  out.mismatch = replay_log(file).mismatch;
   std::filesystem::remove(file);
   return out;
 }
@@ -212,6 +243,102 @@ TEST(HopSession, AskedTwiceToQuitItDoesNotWaitForTheRobot) {
   at_once.quit = {{505, Quit::at_once}};
   EXPECT_GT(run(softly).result.cycles, 519U) << "the drives' last commands are sent and logged";
   EXPECT_EQ(run(at_once).result.cycles, 506U) << "one turn more";
+}
+
+// A robot that hopped on after the operator's stop: arm, release, then both words in one write.
+std::vector<std::string> answers_of(const Recorded& seen) {
+  std::vector<std::string> answers;
+  for (const auto& r : seen.requests) {
+    answers.push_back(std::string(name_of(r.word)) + " " + std::string(name_of(r.outcome)));
+    if (r.outcome == RequestOutcome::overruled) answers.back() += " " + std::string(name_of(r.overruled_by));
+  }
+  return answers;
+}
+
+bool happened(const Recorded& seen, EventKind kind) {
+  return std::ranges::any_of(seen.events, [&](const Event& event) { return event.kind == kind; });
+}
+
+using ::testing::ElementsAre;
+
+TEST(HopSession, StopAndReleaseInOneWriteAreAStop) {
+  for (const auto& write : {std::vector{Word::stop, Word::release}, std::vector{Word::release, Word::stop}}) {
+    Plan plan;
+    plan.words = {{10, {Word::arm}}, {400, write}};
+    plan.turns = 900;
+    const auto seen = run(plan);
+    EXPECT_FALSE(happened(seen, EventKind::released)) << "the robot was let go";
+    EXPECT_THAT(answers_of(seen), ElementsAre("arm served", "stop served", "release overruled stop"));
+    EXPECT_EQ(seen.result.last_state, State::idle);
+    EXPECT_FALSE(seen.mismatch) << seen.mismatch->field;
+  }
+}
+
+TEST(HopSession, StopAndArmInOneWriteInFlightEndTheHop) {
+  Plan plan;
+  plan.words = {{10, {Word::arm}}, {400, {Word::release}}, {520, {Word::stop, Word::arm}}};
+  plan.turns = 8000;
+  const auto seen = run(plan);
+  EXPECT_TRUE(happened(seen, EventKind::released));
+  EXPECT_TRUE(happened(seen, EventKind::stopped));
+  EXPECT_FALSE(happened(seen, EventKind::liftoff)) << "it hopped on";
+  EXPECT_THAT(answers_of(seen),
+              ElementsAre("arm served", "release served", "stop served", "arm overruled stop"));
+  EXPECT_FALSE(seen.mismatch) << seen.mismatch->field;
+}
+
+TEST(HopSession, AnUnknownWordStopsARobotThatHopsAndNotOneWhoseDrivesAreOff) {
+  Plan plan;
+  plan.words = {{5, {Word::unknown}}, {10, {Word::arm}}, {400, {Word::release}}, {520, {Word::unknown}}};
+  plan.turns = 8000;
+  const auto seen = run(plan);
+  EXPECT_TRUE(happened(seen, EventKind::stopped));
+  EXPECT_FALSE(happened(seen, EventKind::liftoff)) << "it hopped on";
+  EXPECT_THAT(answers_of(seen),
+              ElementsAre("unknown no_effect", "arm served", "release served", "unknown served"));
+}
+
+TEST(HopSession, EveryWordIsInTheLogWithTheTimesItWasReceivedAndServed) {
+  Plan plan;
+  plan.words = {{10, {Word::release}}, {20, {Word::arm, Word::release}}};
+  const auto seen = run(plan);
+  EXPECT_THAT(answers_of(seen), ElementsAre("release no_effect", "arm served", "release no_effect"));
+  EXPECT_THAT(seen.inputs,
+              ElementsAre(::testing::Pair(11, Request::release), ::testing::Pair(21, Request::arm),
+                          ::testing::Pair(22, Request::release), ::testing::Pair(1001, Request::stop)));
+  ASSERT_EQ(seen.requests.size(), 3U);
+  // The first cycle is at 2 ms.
+  for (const auto& [index, received, served] : {std::tuple{0U, 10, 11}, {1U, 20, 21}, {2U, 20, 22}}) {
+    EXPECT_EQ(seen.requests[index].number, index + 1);
+    EXPECT_EQ(seen.requests[index].received_ns, (received + 1) * kMs);
+    EXPECT_EQ(seen.requests[index].time_ns, (served + 1) * kMs);
+  }
+  EXPECT_EQ(seen.requests[2].state, State::armed);
+}
+
+TEST(HopSession, AfterQuitNothingArmsAndEveryWordIsAnswered) {
+  Plan plan;
+  plan.words = {{100, {Word::arm, Word::quit, Word::disarm}}, {103, {Word::release}}, {121, {Word::arm}}};
+  const auto seen = run(plan);
+  EXPECT_THAT(answers_of(seen), ElementsAre("quit served", "arm overruled quit", "disarm served",
+                                            "release overruled quit", "arm overruled quit"));
+  EXPECT_FALSE(happened(seen, EventKind::armed));
+  EXPECT_LT(seen.result.cycles, 130U);
+}
+
+// Without the start state in the log a replay would begin with cold motors and find no fault.
+TEST(HopSession, StartsFromTheStateItIsGivenAndItsLogReplaysFromTheSame) {
+  Plan plan;
+  plan.start = {
+      .temperatures_known = true, .winding_C = {111.0, 60.0}, .housing_C = {100.0, 50.0}, .touchdowns = 40};
+  const auto seen = run(plan);
+  EXPECT_EQ(seen.result.last_fault, Fault::motor_winding_hot);
+  EXPECT_FALSE(seen.mismatch) << seen.mismatch->field;
+  EXPECT_NEAR(seen.state.winding_C[1], 60.0, 0.5);
+  EXPECT_NEAR(seen.state.housing_C[0], 100.0, 0.5);
+  EXPECT_EQ(seen.state.touchdowns, 40U);
+  EXPECT_EQ(seen.state.fault, Fault::motor_winding_hot);
+  EXPECT_TRUE(std::isfinite(seen.state.position_rad[0]));
 }
 
 }  // namespace

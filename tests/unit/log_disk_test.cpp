@@ -17,6 +17,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr int kFramesOfAChunk = 39;  // in the 16 kB of options()
 
 struct Found {
   std::vector<std::uint64_t> cycles;
@@ -90,12 +91,13 @@ class LogDisk : public ::testing::Test {
 };
 
 TEST_F(LogDisk, OnAFullDiskTheLogIsClosedAndSaysWhatIsMissing) {
+  constexpr int kLast = 145 * kFramesOfAChunk + 13;  // the last chunk is small enough to fit after all
   TrialLogger logger(options());
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   logger.start();
   push_cycles(logger, frames, 0, 500);
-  disk_.capacity_bytes = 400'000;           // from now on: less than is allocated already, no more can be had
-  push_cycles(logger, frames, 500, 5'990);  // chunks hold 43 frames: a last one of 13 still fits
+  disk_.capacity_bytes = 400'000;  // from now on: less than is allocated already, no more can be had
+  push_cycles(logger, frames, 500, kLast);
   logger.stop();
   logger.attach("wake_latency_us.json", "application/json", "[]");
   logger.close();
@@ -104,7 +106,7 @@ TEST_F(LogDisk, OnAFullDiskTheLogIsClosedAndSaysWhatIsMissing) {
   EXPECT_TRUE(found.closed);
   ASSERT_EQ(found.gaps.size(), 1U);
   EXPECT_EQ(found.gaps[0].cause, LossCause::write_failed);
-  EXPECT_EQ(found.cycles.size() + found.gaps[0].lost, 5'990U);
+  EXPECT_EQ(found.cycles.size() + found.gaps[0].lost, std::size_t{kLast});
   EXPECT_EQ(found.gaps[0].lost, logger.lost_records());
   expect_gap_in_its_place(found);
   ASSERT_GE(said_.size(), 1U);
@@ -160,18 +162,19 @@ TEST_F(LogDisk, GapRecordsThatAreLostAreSaidAgain) {
 
 // Nothing of a piece that failed half-way is in the file, where room cannot be allocated beforehand.
 TEST_F(LogDisk, AFileSystemThatCannotAllocateLeavesWholeChunks) {
+  constexpr int kAll = 24 * kFramesOfAChunk + 36;  // a last chunk of 36 frames fits no more than a whole one
   disk_.can_allocate = false;
   TrialLogger logger(options());
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   logger.start();
   disk_.capacity_bytes = 100'000;
-  push_cycles(logger, frames, 0, 1'025);  // a last chunk of 36 frames fits no more than a whole one
+  push_cycles(logger, frames, 0, kAll);
   logger.stop();
   disk_.capacity_bytes = 110'000;  // someone makes a little room
   logger.close();
   EXPECT_GT(logger.lost_records(), 100U);
   const Found found = read();
-  EXPECT_EQ(found.cycles.size() + logger.lost_records(), 1'025U);
+  EXPECT_EQ(found.cycles.size() + logger.lost_records(), std::size_t{kAll});
   for (std::size_t i = 0; i < found.cycles.size(); ++i) ASSERT_EQ(found.cycles[i], i);
 }
 

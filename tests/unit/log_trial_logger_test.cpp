@@ -143,6 +143,22 @@ TEST_F(TrialLog, ATapLogsBothDirectionsOfItsSocket) {
             "(1700000000.000005) can1 123#00AB T\n(1700000000.000006) can1 00000868#00AB R\n");
 }
 
+// A tool that plays the text must not send what was kept back.
+TEST_F(TrialLog, AFrameRefusedByTheTransmitGuardIsAComment) {
+  TrialLogger logger(options("a", false));
+  CanLogTap tap(logger, "can1");
+  can_frame frame{};
+  frame.can_id = 0x001;
+  frame.can_dlc = 2;
+  frame.data[1] = 0xAB;
+  tap.on_refused(frame, 5'000);
+  tap.on_frame(frame, 6'000, true);
+  logger.stop();
+  EXPECT_EQ(content("a.can.log"),
+            "# refused by the transmit guard: (1700000000.000005) can1 001#00AB\n"
+            "(1700000000.000006) can1 001#00AB T\n");
+}
+
 TEST_F(TrialLog, WhatDoesNotFitLeavesAGapRecordInItsPlace) {
   auto small = options("a", true);
   small.slots = 8;

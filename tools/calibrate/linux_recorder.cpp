@@ -6,6 +6,7 @@
 #include "firmware/instance_lock.hpp"
 #include "firmware/linux_board.hpp"
 #include "firmware/watchdog/guard_process.hpp"
+#include "firmware/watchdog/shared.hpp"
 #include "firmware/watchdog/torque_watchdog.hpp"
 #include "tools/calibrate/board_run.hpp"
 #include "tools/virtual_bench/control_client.hpp"
@@ -28,7 +29,7 @@ class LinuxRecorder : public Recorder {
  public:
   explicit LinuxRecorder(const RecorderSetup& setup)
       : setup_(setup), lock_(setup.board.can.interface), board_(setup.board) {
-    board_.heed(heart_);
+    board_.heed(*heart_);
   }
 
   Recording record(const Step& step, const std::filesystem::path& log) override {
@@ -36,16 +37,16 @@ class LinuxRecorder : public Recorder {
     BoardRun run{.setup = setup_, .board = board_, .time = monotonic_time(), .board_name = "linux"};
     if (!step.torque_Nm) return run_board(run, step, log);
     TorqueCut cut(setup_.board.can);
-    const GuardProcess guard(cut);
-    const TorqueWatchdog watchdog(setup_.robot.watchdog, heart_, [&cut] { cut.cut(); });
-    run.heart = &heart_;
+    const GuardProcess guard({.cut = cut, .heart = *heart_, .config = setup_.robot.watchdog});
+    const TorqueWatchdog watchdog(setup_.robot.watchdog, *heart_, [&cut] { cut.cut(); });
+    run.heart = &*heart_;
     return run_board(run, step, log);
   }
 
  private:
   RecorderSetup setup_;
   InstanceLock lock_;
-  Heartbeat heart_;
+  Shared<Heartbeat> heart_;
   LinuxBoard board_;
 };
 

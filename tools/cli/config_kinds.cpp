@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/robot_config.hpp"
 #include "firmware/linux_board_config.hpp"
@@ -18,11 +19,19 @@ ConfigNode load(const std::string& path) {
   return to_node(load_file<T>(path, missing));
 }
 
+ConfigNode check_robot(const std::string& path, const RobotConfig*) { return to_node(load_robot_file(path)); }
+
+ConfigNode check_board(const std::string& path, const RobotConfig* robot) {
+  if (robot == nullptr) return to_node(load_file<LinuxBoardConfig>(path));
+  return to_node(load_linux_board(path, *robot));
+}
+
 constexpr std::array kKinds{
-    ConfigKind{"robot", "the robot and its cycle", load<RobotConfig, MissingKeys::error>},
-    ConfigKind{"linux", "the robot's device nodes", load<LinuxBoardConfig, MissingKeys::error>},
-    ConfigKind{"bench", "the virtual bench's device nodes", load<LinuxBoardConfig, MissingKeys::error>},
-    ConfigKind{"world", "the simulated world", load<WorldConfig, MissingKeys::use_default>},
+    ConfigKind{"robot", "the robot and its cycle", load<RobotConfig, MissingKeys::error>, check_robot},
+    ConfigKind{"linux", "the robot's device nodes", load<LinuxBoardConfig, MissingKeys::error>, check_board},
+    ConfigKind{"bench", "the virtual bench's device nodes", load<LinuxBoardConfig, MissingKeys::error>,
+               check_board},
+    ConfigKind{"world", "the simulated world", load<WorldConfig, MissingKeys::use_default>, nullptr},
 };
 
 }  // namespace

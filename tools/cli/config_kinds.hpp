@@ -2,6 +2,7 @@
 #include <string>
 
 #include "config/node.hpp"
+#include "config/robot_config.hpp"
 
 namespace sandhopper::cli {
 
@@ -11,6 +12,9 @@ struct ConfigKind {
   std::string_view about;
   // Reads the file strictly and gives it back as the program understood it. Throws ConfigError.
   ConfigNode (*load)(const std::string& path);
+  // The same, and refuses values that contradict each other or, for a device file, the robot. Null: such a
+  // file has no rules of this kind.
+  ConfigNode (*check)(const std::string& path, const RobotConfig* robot);
 };
 
 // Throws ConfigError for a name that starts like no kind.

@@ -39,6 +39,10 @@ std::vector<Finding> examine_identities(const LinuxBoardConfig& board, const std
 // What calibrations left in the configuration, and values that were edited since.
 std::vector<Finding> examine_calibrations(const RobotConfig& robot, const LinuxBoardConfig& board);
 
+// What the robot remembers of earlier runs: temperatures as a start now would take them, touchdowns, the last
+// fault, positions.
+std::vector<Finding> examine_state(const RobotConfig& robot);
+
 // A configuration that cannot be read.
 std::vector<Finding> examine_problems(const ConfigError& error);
 

@@ -4,8 +4,10 @@
 #include <net/if.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <set>
 
+#include "drivers/can/can_coalescing.hpp"
 #include "drivers/can/can_link.hpp"
 #include "drivers/device_error.hpp"
 #include "drivers/unique_fd.hpp"
@@ -55,14 +57,41 @@ Finding queue(const std::string& what, const std::string& name, const CanLink& l
           fmt::format("ip link set {} txqueuelen 4 (drivers/README.md says why)", name)};
 }
 
+Finding coalescing(const std::string& what, const std::string& name) {
+  const auto settings = can_coalescing(name);
+  if (!settings) return {Health::ok, what, "this interface's driver collects no frames", ""};
+  const auto text = [](const CanCoalescing::Direction& d) {
+    return d.waits() ? fmt::format("up to {} us or {} frames", d.usecs, d.frames) : std::string("at once");
+  };
+  const auto found = fmt::format("interrupts for received frames {}, for sent frames {}",
+                                 text(settings->receive), text(settings->transmit));
+  if (!settings->receive.waits() && !settings->transmit.waits()) return {Health::ok, what, found, ""};
+  return {
+      Health::warn, what, found,
+      fmt::format("ip link set {0} down; ethtool -C {0} rx-usecs-irq 0 rx-frames-irq 1; ethtool -C {0} "
+                  "tx-usecs-irq 0 tx-frames-irq 1; ip link set {0} up (can-up does this if ethtool is there)",
+                  name)};
+}
+
+// Kernel threads and /sys know an interface by its own name only.
+Finding interface_name(const std::string& what, const std::string& name) {
+  std::array<char, IF_NAMESIZE> own{};
+  ::if_indextoname(::if_nametoindex(name.c_str()), own.data());
+  if (name == own.data()) return {Health::ok, what, name, ""};
+  return {Health::warn, what, fmt::format("{} is another name of {}", name, own.data()),
+          fmt::format("set can.interface = \"{}\" in linux.toml, so that interrupt threads are found by it",
+                      own.data())};
+}
+
 }  // namespace
 
 std::vector<Finding> examine_bus(const std::string& name) {
   try {
     const auto link = can_link(name);
     if (!link || !link->up) return {};  // examine_devices() says so
-    return {bitrate("can bit rate", name, *link), error_state("can error state", name, *link),
-            queue("can queue", name, *link)};
+    return {interface_name("can name", name), bitrate("can bit rate", name, *link),
+            error_state("can error state", name, *link), queue("can queue", name, *link),
+            coalescing("can coalescing", name)};
   } catch (const DeviceError& error) {
     return {{Health::warn, "can bit rate", error.cause(), error.cure()}};
   }

@@ -83,7 +83,8 @@ std::vector<Finding> examine_devices(const LinuxBoardConfig& board) {
           gpio_line("imu_foot.data_ready", board.imu_foot.data_ready),
           gpio_line("load_cell.ready", board.load_cell.ready),
           gpio_line("estop", board.estop),
-          gpio_line("catch", board.body_catch)};
+          gpio_line("catch", board.body_catch),
+          gpio_line("drive_enable", board.drive_enable)};
 }
 
 }  // namespace sandhopper::cli

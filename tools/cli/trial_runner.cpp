@@ -6,6 +6,7 @@
 #include <ctime>
 #include <memory>
 
+#include "config/consistency.hpp"
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "tools/cli/failure.hpp"
@@ -24,10 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 
 RobotConfig load_robot(Session& session, const TrialOptions& options) {
-  auto robot = load_file<RobotConfig>(session.config_file("robot.toml"));
+  const auto file = session.config_file("robot.toml");
+  auto robot = load_robot_file(file);
   robot.limits.strides = options.strides;
   if (options.compression_stiffness_N_per_m > 0.0)
     robot.controller.compression_stiffness_N_per_m = options.compression_stiffness_N_per_m;
+  refuse(contradictions(robot), {fmt::format("{} with the options of the command line", file), {}});
   return robot;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "config/files.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/cli/progress.hpp"
@@ -55,7 +56,7 @@ ExitCode check(Session& session, const Options& options) {
 
 ExitCode make(Session& session, const Options& options) {
   CampaignMakerSetup setup;
-  setup.robot = load_file<RobotConfig>(session.config_file("robot.toml"));
+  setup.robot = load_robot_file(session.config_file("robot.toml"));
   setup.world = load_world(session.config_directory(), setup.robot);
   setup.folder = options.output;
   setup.trials = options.trials;

@@ -1,8 +1,12 @@
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "config/dump.hpp"
 #include "config/json.hpp"
+#include "config/load.hpp"
 #include "config/problem.hpp"
+#include "config/robot_config.hpp"
 #include "tools/cli/config_kinds.hpp"
 #include "tools/cli/verb.hpp"
 
@@ -31,12 +35,35 @@ std::size_t count_keys(const ConfigNode& node) {
   return count;
 }
 
+// Whose limits the devices must carry: the robot file among these, else that beside the first, else the
+// configuration directory's. None where that file cannot be read; its own problems are told in its own turn.
+std::optional<RobotConfig> robot_for(Session& session, const std::vector<std::string>& files) {
+  namespace fs = std::filesystem;
+  try {
+    const auto named = std::ranges::find_if(
+        files, [](const std::string& file) { return kind_of_file(file).name == "robot"; });
+    auto file =
+        named != files.end() ? fs::path(*named) : fs::path(files.front()).parent_path() / "robot.toml";
+    if (!fs::exists(file)) file = session.config_file("robot.toml");
+    return load_file<RobotConfig>(file.string());
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
+
+ConfigNode checked(const std::string& file, const RobotConfig* robot) {
+  const auto& kind = kind_of_file(file);
+  return kind.check == nullptr ? kind.load(file) : kind.check(file, robot);
+}
+
 ExitCode check(Session& session, const std::vector<std::string>& named) {
   std::vector<ConfigProblem> problems;
   std::vector<std::pair<std::string, std::size_t>> right;
-  for (const auto& file : files_to_read(session, named)) {
+  const auto files = files_to_read(session, named);
+  const auto robot = robot_for(session, files);
+  for (const auto& file : files) {
     try {
-      right.emplace_back(file, count_keys(kind_of_file(file).load(file)));
+      right.emplace_back(file, count_keys(checked(file, robot ? &*robot : nullptr)));
     } catch (const ConfigError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -63,7 +63,10 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
   try {
     robot = load_robot(directory);
     configuration = {{Health::ok, "configuration", directory.string() + ": right", ""}};
-    if (board == "linux") devices = examine_board(robot, load_linux_board(directory / board_file(), robot));
+    if (board == "linux") {
+      devices = examine_board(robot, load_linux_board(directory / board_file(), robot));
+      append(devices, examine_state(robot));
+    }
   } catch (const ConfigError& error) {
     configuration = examine_problems(error);
   }

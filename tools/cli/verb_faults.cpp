@@ -4,6 +4,7 @@
 #include <map>
 
 #include "config/files.hpp"
+#include "tools/cli/faults_pairs.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/faults/run_cell.hpp"
@@ -17,6 +18,9 @@ using namespace faults;
 struct Options {
   std::string only;
   std::string without;
+  bool pairs = false;
+  int sample = 0;
+  std::uint64_t seed = 1;
 };
 
 class Folder {
@@ -57,15 +61,7 @@ void say_cell(Session& session, const Cell& cell, const CellResult& r) {
                                      {"problem", r.problem}});
 }
 
-ExitCode run_matrix(Session& session, const Options& options) {
-  const auto directory = session.config_directory();
-  const Folder folder;
-  MatrixSetup setup;
-  setup.robot = load_robot(directory);
-  setup.world = load_world(directory, setup.robot);
-  setup.folder = folder.path();
-  if (!options.without.empty()) setup.without = fault_named(options.without);
-
+ExitCode run_matrix(Session& session, const MatrixSetup& setup, const Options& options) {
   const auto cells = all_cells();
   std::map<Fault, int> slowest;
   int run = 0, wrong = 0, unseen = 0;
@@ -96,12 +92,33 @@ ExitCode run_matrix(Session& session, const Options& options) {
   return wrong == 0 ? ExitCode::ok : ExitCode::no;
 }
 
+ExitCode run_faults(Session& session, const Options& options) {
+  const auto directory = session.config_directory();
+  const Folder folder;
+  MatrixSetup setup;
+  setup.robot = load_robot(directory);
+  setup.world = load_world(directory, setup.robot);
+  setup.folder = folder.path();
+  if (!options.without.empty()) setup.without = fault_named(options.without);
+  if (!options.pairs) return run_matrix(session, setup, options);
+  return run_pairs(session, setup, {.only = options.only, .sample = options.sample, .seed = options.seed});
+}
+
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.add_option("--only", options->only, "cells whose name or fault contains this text");
+  arguments.add_option("--only", options->only,
+                       "cells whose name or fault, pairs whose name contains this text");
   arguments.add_option("--without", options->without,
                        "with this fault's detector switched off: the matrix must fail");
-  return [options](Session& session) { return run_matrix(session, *options); };
+  const auto pairs = arguments.add_flag("--pairs", options->pairs,
+                                        "pairs of faults: a second one during the reaction to the first");
+  const auto sample =
+      arguments
+          .add_option("--sample", options->sample, "of the pairs, so many drawn at random (default: all)")
+          .non_negative()
+          .needs(pairs);
+  arguments.add_option("--seed", options->seed, "of the draw").show_default().needs(sample);
+  return [options](Session& session) { return run_faults(session, *options); };
 }
 
 const VerbRegistration kFaults("faults", set_up);

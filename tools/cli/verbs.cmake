@@ -37,14 +37,15 @@ sandhopper_verb(diagnose "find the physics that a simulation lacks against recor
   LIBRARIES sandhopper_diagnose)
 sandhopper_verb(doctor "say whether this machine can run the robot, and what to do if not"
   SOURCES doctor_bus.cpp doctor_config.cpp doctor_devices.cpp doctor_identity.cpp doctor_interrupts.cpp
-          doctor_machine.cpp
+          doctor_machine.cpp doctor_state.cpp
   LIBRARIES sandhopper_firmware)
 sandhopper_verb(experiment "many simulated trials and what they say together"
   SOURCES experiment_paper.cpp experiment_strides.cpp LIBRARIES sandhopper_experiment)
-sandhopper_verb(explain "what a fault means and how to cure it" LIBRARIES sandhopper_firmware)
+sandhopper_verb(explain "what a fault means and how to cure it, or what was measured around one"
+  LIBRARIES sandhopper_explain)
 sandhopper_verb(export "write a log as CSV, one row per cycle" LIBRARIES sandhopper_firmware sandhopper_trial)
 sandhopper_verb(faults "break every device of the simulated robot in every phase, and judge the reaction"
-  LIBRARIES sandhopper_faults)
+  SOURCES faults_pairs.cpp LIBRARIES sandhopper_faults)
 sandhopper_verb(recover "save what can be read of a cut or damaged log" LIBRARIES sandhopper_firmware)
 sandhopper_verb(replay "run the cycle again on a log's frames and compare every output" LIBRARIES sandhopper_trial)
 sandhopper_verb(report "make a trial's report page from its log" LIBRARIES sandhopper_report)

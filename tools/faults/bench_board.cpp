@@ -1,20 +1,68 @@
 #include "tools/faults/bench_board.hpp"
 
+#include <utility>
+
+#include "firmware/transmit_limits.hpp"
+
 namespace sandhopper::faults {
+namespace {
+
+// One session's way to a bus that outlives it.
+class SessionPort : public CanPort {
+ public:
+  explicit SessionPort(EmulatedBus& bus) : bus_(bus) {}
+  void begin_cycle() noexcept override { bus_.begin_cycle(); }
+  std::optional<std::int64_t> send(const can_frame& frame) noexcept override { return bus_.send(frame); }
+  std::span<const ReceivedFrame> receive(bool& more) noexcept override { return bus_.receive(more); }
+  bool settled() const noexcept override { return bus_.settled(); }
+  void pause(std::int64_t duration_ns) noexcept override { bus_.pause(duration_ns); }
+  bool wait(std::int64_t timeout_ns) noexcept override { return bus_.wait(timeout_ns); }
+  const CanCounters& counters() const noexcept override { return bus_.counters(); }
+  void set_tap(CanTap* tap) noexcept override { bus_.set_tap(tap); }
+
+ private:
+  EmulatedBus& bus_;
+};
+
+}  // namespace
 
 CanConfig can_of(const RobotConfig& robot) {
   CanConfig can;
   can.motor = robot.motor;
+  can.motor_torque_Nm = robot.limits.motor_torque_Nm;
   can.motor_count = robot.robot.motor_count;
   return can;
 }
 
-BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed)
-    : world_(world), imu_body_(seed + 1), imu_foot_(seed + 2), tof_(seed + 3), load_cell_(seed + 4) {
-  const auto can = can_of(robot);
-  auto bus = std::make_unique<EmulatedBus>(world, can, seed);
-  bus_ = bus.get();
-  drives_ = std::make_unique<CubeMarsDrives>(can, std::move(bus));
+BenchBoard::BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed, const BenchStages& stages)
+    : world_(world),
+      can_(can_of(robot)),
+      limits_(transmit_limits(can_, robot.limits)),
+      stages_(stages),
+      bus_(std::make_unique<EmulatedBus>(world, can_, seed)),
+      drives_(make_driver()),
+      imu_body_(seed + 1),
+      imu_foot_(seed + 2),
+      tof_(seed + 3),
+      load_cell_(seed + 4) {}
+
+std::unique_ptr<CubeMarsDrives> BenchBoard::make_driver() {
+  const auto pass = [](const BenchStages::Stage& stage, std::unique_ptr<CanPort> port) {
+    return stage ? stage(std::move(port)) : std::move(port);
+  };
+  auto guard =
+      std::make_unique<GuardedPort>(pass(stages_.behind_guard, std::make_unique<SessionPort>(*bus_)), limits_);
+  guard_ = guard.get();
+  auto miscoding = std::make_unique<MiscodingPort>(std::move(guard));
+  miscoding_ = miscoding.get();
+  return std::make_unique<CubeMarsDrives>(can_, pass(stages_.before_guard, std::move(miscoding)));
+}
+
+void BenchBoard::restart_driver() {
+  drives_.reset();
+  bus_->reopen();
+  drives_ = make_driver();
+  drives_->probe();
 }
 
 void BenchBoard::read(SensorFrame& frame) noexcept {
@@ -29,11 +77,14 @@ void BenchBoard::read(SensorFrame& frame) noexcept {
   tof_.pass(world_.tof(), frame.time_ns, frame.tof);
   load_cell_.pass(world_.load_cell(), frame.time_ns, frame.load_cell);
   frame.bus = drives_->bus_sample();
-  frame.emergency_stop = stop_level_ || stop_edge_;
+  frame.bus.refused = guard_->refused();
+  frame.emergency_stop = emergency_stop_ = stop_level_ || stop_edge_;
   stop_edge_ = false;
 }
 
 void BenchBoard::write(const Command& command) noexcept {
+  guard_->begin(
+      {.now_ns = world_.now_ns(), .allowance = allowance_of(latched_), .emergency_stop = emergency_stop_});
   drives_->command(command.motor, command.drive, world_.now_ns());
   if (command.open_catch) world_.open_catch();
 }
@@ -44,6 +95,7 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
     case Device::motor_left:
     case Device::motor_right:
     case Device::bus:
+      miscoding_->set(kind == Kind::miscoded);
       bus_->set(device, kind);
       return;
     case Device::imu_body:

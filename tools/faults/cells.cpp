@@ -60,6 +60,7 @@ void add_motors(Cells& cells) {
       cells.add(motor, Kind::drifting, phase,
                 phase == Phase::idle ? Fault::motor_velocity_implausible : Fault::encoders_disagree);
     cells.in_every_phase(motor, Kind::error, Fault::drive_error);
+    cells.in_every_phase(motor, Kind::announced_loss, Fault::drive_error);
     cells.in_every_phase(motor, Kind::hot, Fault::motor_temperature);
     cells.in_every_phase(motor, Kind::current, Fault::motor_torque_implausible);
     cells.in_every_phase(motor, Kind::overcurrent, Fault::motor_current_limit);
@@ -132,6 +133,7 @@ void add_bus(Cells& cells) {
   cells.in_every_phase(bus, Kind::malformed, Fault::motor_reply_foreign);
   cells.in_every_phase(bus, Kind::overflow, Fault::bus_overflow);
   cells.in_every_phase(bus, Kind::protocol_error, Fault::bus_fault);
+  cells.in_every_phase(bus, Kind::miscoded, Fault::transmit_refused);
 }
 
 void add_system(Cells& cells) {

@@ -11,8 +11,9 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kExtraDelay_ns = 1'500'000;
 constexpr std::int64_t kErrorDelay_ns = 300'000;  // until an unheard controller has become passive
-constexpr double kNoTorque_Nm = 0.02;             // half a count of the torque field, rounded up
 constexpr double kDrift_radps = 8.0;
+constexpr std::int64_t kAnnounced_ns = 3 * kMs;  // between the first report and the loss
+constexpr std::uint8_t kUnderVoltage = 4;        // error code of a drive
 
 std::uint8_t random_byte(Random& random) { return static_cast<std::uint8_t>(256.0 * random.uniform()); }
 
@@ -32,7 +33,7 @@ EmulatedBus::EmulatedBus(World& world, const CanConfig& drives, std::uint64_t se
                                 most_torque_Nm_ = std::max(most_torque_Nm_, torque);
                                 const bool stale = world_.now_ns() - delivering_sent_ns_ > kMs;
                                 stale_torques_ += stale && torque > kNoTorque_Nm;
-                                world_.command(static_cast<Side>(i), command, enabled);
+                                world_.command(static_cast<Side>(i), command, enabled && !m.dead);
                               }});
 }
 
@@ -44,9 +45,11 @@ void EmulatedBus::set(Device device, std::optional<Kind> kind) {
     if (kind == Kind::no_acknowledge) put_error(CAN_ERR_ACK, 0);
     if (kind == Kind::overflow) put_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW);
     if (kind == Kind::protocol_error) put_error(CAN_ERR_PROT, 0);
-    if (kind) return;
+    if (holds_frames()) return;
+    if (kind == Kind::bus_off) queue_.clear();  // a controller that is off sends nothing
     for (const auto& queued : queue_) deliver(queued);
     queue_.clear();
+    left_over_ = 0;
     return;
   }
   const auto i = device == Device::motor_left ? std::size_t{0} : std::size_t{1};
@@ -56,8 +59,34 @@ void EmulatedBus::set(Device device, std::optional<Kind> kind) {
   m.fault = kind;
   m.since_ns = world_.now_ns();
   m.asked = 0;
-  if (kind == Kind::off) world_.command(static_cast<Side>(i), {}, false);
+  if (kind == Kind::off) take_power(i);
 }
+
+void EmulatedBus::take_power(std::size_t i) {
+  motor_[i].told = {};
+  motor_[i].enabled = false;
+  world_.command(static_cast<Side>(i), {}, false);
+}
+
+void EmulatedBus::reopen() noexcept {
+  counters_ = {};
+  on_the_way_.clear();
+  left_over_ = queue_.size();
+  holding_ = false;
+}
+
+bool EmulatedBus::without_power(const Motor& m) const {
+  return m.fault == Kind::off ||
+         (m.fault == Kind::announced_loss && world_.now_ns() - m.since_ns >= kAnnounced_ns);
+}
+
+// A node without power does not acknowledge; one that has it acknowledges for all.
+bool EmulatedBus::nobody_acknowledges() const {
+  return fault_ == Kind::cable_off ||
+         std::ranges::all_of(motor_, [this](const Motor& m) { return without_power(m); });
+}
+
+bool EmulatedBus::holds_frames() const { return fault_ == Kind::blocked || nobody_acknowledges(); }
 
 // What the drive's sensors tell its firmware.
 MotorSample EmulatedBus::felt(std::size_t i) const {
@@ -81,6 +110,9 @@ MotorSample EmulatedBus::felt(std::size_t i) const {
     case Kind::error:
       s.error_code = 5;
       break;
+    case Kind::announced_loss:
+      s.error_code = kUnderVoltage;
+      break;
     case Kind::hot:
       s.temperature_C = 120.0;
       break;
@@ -100,13 +132,13 @@ MotorSample EmulatedBus::felt(std::size_t i) const {
 }
 
 void EmulatedBus::begin_cycle() noexcept {
-  holding_ = !queue_.empty();
+  holding_ = queue_.size() > left_over_;
   if (holding_) ++counters_.send_failures;
 }
 
 std::optional<std::int64_t> EmulatedBus::send(const can_frame& frame) noexcept {
   if (holding_) return std::nullopt;
-  if (fault_ == Kind::refused || counters_.state == BusState::off) {
+  if (fault_ == Kind::refused || fault_ == Kind::bus_off || counters_.state == BusState::off) {
     ++counters_.send_failures;
     return std::nullopt;
   }
@@ -114,8 +146,8 @@ std::optional<std::int64_t> EmulatedBus::send(const can_frame& frame) noexcept {
   ++counters_.sent;
   if (tap_ != nullptr) tap_->on_frame(frame, now_ns, true);
   const Queued queued{frame, now_ns};
-  if (fault_ == Kind::cable_off || fault_ == Kind::blocked) {
-    if (fault_ == Kind::cable_off && queue_.empty()) {
+  if (holds_frames()) {
+    if (nobody_acknowledges() && queue_.size() == left_over_) {
       can_frame error{};
       error.can_id = CAN_ERR_FLAG | CAN_ERR_CRTL | CAN_ERR_ACK;
       error.can_dlc = CAN_ERR_DLC;
@@ -125,7 +157,7 @@ std::optional<std::int64_t> EmulatedBus::send(const can_frame& frame) noexcept {
     queue_.push_back(queued);
     return now_ns;
   }
-  deliver(queued);
+  if (!lost_ || !lost_(frame)) deliver(queued);
   return now_ns;
 }
 
@@ -137,7 +169,7 @@ void EmulatedBus::deliver(const Queued& queued) {
 
 void EmulatedBus::ask(std::size_t i, const Queued& queued) {
   auto& m = motor_[i];
-  if (m.fault == Kind::off) return;
+  if (without_power(m)) return;
   const auto now_ns = world_.now_ns();
   const auto reply = m.drive->receive(queued.frame, now_ns);
   if (!reply || motor_lost(m)) return;
@@ -175,13 +207,18 @@ void EmulatedBus::put_error(canid_t error_class, std::uint8_t controller) {
 
 void EmulatedBus::advance() {
   const auto now_ns = world_.now_ns();
+  if (now_ns >= heal_ns_) {
+    heal_ns_ = INT64_MAX;
+    set(Device::bus, {});
+  }
   delivering_sent_ns_ = now_ns;
   for (std::size_t i = 0; i < motor_.size(); ++i) {
     auto& m = motor_[i];
+    if (without_power(m) && m.enabled) take_power(i);
     while (m.drive->next_own_ns() <= now_ns) {
       const auto at_ns = std::max(m.drive->next_own_ns(), now_ns - kMs);
       const auto own = m.drive->act(now_ns);
-      if (own && m.fault != Kind::off && !motor_lost(m)) answer(i, *own, at_ns);
+      if (own && !without_power(m) && !motor_lost(m)) answer(i, *own, at_ns);
     }
   }
   if (fault_ != Kind::foreign) return;

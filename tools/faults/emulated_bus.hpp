@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +14,9 @@
 
 namespace sandhopper::faults {
 
+// A torque no larger than this is none: half a count of the field of a command, rounded up.
+inline constexpr double kNoTorque_Nm = 0.02;
+
 // A CAN bus in the world's time with the emulated drives on it: what the driver of the robot is put on when
 // there is no kernel. Frames arrive at once, answers 0.22 ms later; error frames are those of
 // linux/can/error.h. Every fault of the bus and of the drives' frames is made here.
@@ -22,6 +26,16 @@ class EmulatedBus : public CanPort {
   EmulatedBus(World& world, const CanConfig& drives, std::uint64_t seed);
 
   void set(Device device, std::optional<Kind> kind);
+
+  // Frames to the drives that a one-shot controller loses: sent, and never on the wire.
+  void lose(std::function<bool(const can_frame&)> lost) { lost_ = std::move(lost); }
+  // This drive obeys and answers, but makes no torque: its power stage is dead.
+  void ignore_torque(Side side) { motor_[static_cast<std::size_t>(side)].dead = true; }
+  // The fault of the bus ends at this time of the world.
+  void heal_at(std::int64_t time_ns) { heal_ns_ = time_ns; }
+  // A new session opens its socket: counters begin anew, nothing received earlier is seen. Frames of the old
+  // session that have not left stay in the controller.
+  void reopen() noexcept;
 
   // Lets drives act and answer until the world's time.
   void advance();
@@ -38,6 +52,7 @@ class EmulatedBus : public CanPort {
   void begin_cycle() noexcept override;
   std::optional<std::int64_t> send(const can_frame& frame) noexcept override;
   std::span<const ReceivedFrame> receive(bool& more) noexcept override;
+  bool settled() const noexcept override { return queue_.empty(); }
   void pause(std::int64_t duration_ns) noexcept override;
   bool wait(std::int64_t timeout_ns) noexcept override;
   const CanCounters& counters() const noexcept override { return counters_; }
@@ -52,6 +67,7 @@ class EmulatedBus : public CanPort {
     int asked = 0;  // since the fault came
     MotorCommand told{};
     bool enabled = false;
+    bool dead = false;
   };
   struct Queued {
     can_frame frame;
@@ -59,19 +75,26 @@ class EmulatedBus : public CanPort {
   };
 
   MotorSample felt(std::size_t i) const;
+  void take_power(std::size_t i);
   void deliver(const Queued& queued);
   void ask(std::size_t i, const Queued& queued);
   void answer(std::size_t i, can_frame frame, std::int64_t at_ns);
   void put(const can_frame& frame, std::int64_t at_ns);
   void put_error(canid_t error_class, std::uint8_t controller);
   bool motor_lost(Motor& motor);
+  bool without_power(const Motor& motor) const;
+  bool nobody_acknowledges() const;
+  bool holds_frames() const;
 
   World& world_;
   CanConfig config_;
   Random random_;
   std::vector<Motor> motor_;
   std::optional<Kind> fault_;
+  std::function<bool(const can_frame&)> lost_;
+  std::int64_t heal_ns_ = INT64_MAX;
   std::deque<Queued> queue_;              // taken and not yet on the wire
+  std::size_t left_over_ = 0;             // of them from an earlier session
   std::deque<ReceivedFrame> on_the_way_;  // in the order of their times
   std::array<ReceivedFrame, 32> batch_{};
   CanCounters counters_{};

@@ -57,6 +57,7 @@ enum class Kind : std::uint8_t {
   malformed,  // replies of a wrong length
   overflow,
   protocol_error,
+  miscoded,  // the driver codes commands with full torque
   // E-stop.
   pressed,
   tapped,  // pressed and released between two cycles
@@ -69,7 +70,12 @@ enum class Kind : std::uint8_t {
   tilting,
   lifted,  // both IMUs feel a push upward that is not there
   biased,  // the same, weak: their zeros moved
-  limit
+  limit,
+  // For pairs of faults.
+  announced_loss,  // of a drive: it reports under-voltage, then it is gone
+  clock_step,      // of the computer's date, by an hour
+  disk_full,       // nothing more can be written, not even what was reserved
+  restart          // a new session of the program while what is broken stays broken
 };
 
 }  // namespace sandhopper::faults
@@ -84,13 +90,51 @@ struct EnumNames<faults::Device> {
 };
 template <>
 struct EnumNames<faults::Kind> {
-  static constexpr std::array<std::string_view, 40> value{
-      "off",       "stuck",          "garbage",      "wrong",     "slow",       "delayed",     "intermittent",
-      "saturated", "drifting",       "error",        "hot",       "current",    "overcurrent", "undervoltage",
-      "future",    "backward",       "not_a_number", "cable_off", "blocked",    "refused",     "bus_off",
-      "passive",   "no_acknowledge", "lost",         "late",      "duplicated", "foreign",     "malformed",
-      "overflow",  "protocol_error", "pressed",      "tapped",    "wire_cut",   "stalled",     "overruns",
-      "watchdog",  "tilting",        "lifted",       "biased",    "limit"};
+  static constexpr std::array<std::string_view, 45> value{"off",
+                                                          "stuck",
+                                                          "garbage",
+                                                          "wrong",
+                                                          "slow",
+                                                          "delayed",
+                                                          "intermittent",
+                                                          "saturated",
+                                                          "drifting",
+                                                          "error",
+                                                          "hot",
+                                                          "current",
+                                                          "overcurrent",
+                                                          "undervoltage",
+                                                          "future",
+                                                          "backward",
+                                                          "not_a_number",
+                                                          "cable_off",
+                                                          "blocked",
+                                                          "refused",
+                                                          "bus_off",
+                                                          "passive",
+                                                          "no_acknowledge",
+                                                          "lost",
+                                                          "late",
+                                                          "duplicated",
+                                                          "foreign",
+                                                          "malformed",
+                                                          "overflow",
+                                                          "protocol_error",
+                                                           "miscoded",
+                                                          "pressed",
+                                                          "tapped",
+                                                          "wire_cut",
+                                                          "stalled",
+                                                          "overruns",
+                                                          "watchdog",
+                                                          "tilting",
+                                                          "lifted",
+                                                          "biased",
+                                                          "limit",
+                                                          "announced_loss",
+                                                          "clock_step",
+                                                          "disk_full",
+                                                          "restart"};
 };
 
 }  // namespace sandhopper

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "firmware/freeze/freeze_ring.hpp"
 #include "tools/faults/cell.hpp"
 #include "tools/plant/world_config.hpp"
 
@@ -14,6 +16,9 @@ struct MatrixSetup {
   std::filesystem::path folder;    // for the cells' logs; each is removed again
   std::optional<Fault> without{};  // this detector switched off: some cell must fail
   std::uint64_t seed = 1;
+  // Given the robot's file of the cell: the ring that its cycles go to, and the trial then runs on for the
+  // second after the fault. May be empty.
+  std::function<FreezeRing*(const RobotConfig& robot)> freeze{};
 };
 
 struct CellResult {

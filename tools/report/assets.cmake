@@ -20,7 +20,8 @@ function(sandhopper_embed_report_assets target)
   endif()
 
   foreach(asset "kPage|${page}/page.html" "kStyle|${page}/page.css" "kStudyPage|${page}/study.html"
-                "kStudyStyle|${page}/study.css" "kPlotStyle|${DYGRAPHS_DIR}/dygraph.min.css"
+                "kStudyStyle|${page}/study.css" "kExplainPage|${page}/explain.html"
+                "kExplainStyle|${page}/explain.css" "kPlotStyle|${DYGRAPHS_DIR}/dygraph.min.css"
                 "kPlotScript|${DYGRAPHS_DIR}/dygraph.min.js")
     string(REPLACE "|" ";" asset "${asset}")
     list(GET asset 0 name)
@@ -32,6 +33,8 @@ function(sandhopper_embed_report_assets target)
   endforeach()
   sandhopper_join_scripts(kScript ${page} data theme legend svg panels time_plots force_depth stiffness_chart tables main)
   sandhopper_join_scripts(kStudyScript ${page} data theme legend svg study_figure math answers study)
+
+  sandhopper_join_scripts(kExplainScript ${page} data theme legend explain_panels time_plots tables explain)
 
   configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
                  ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)

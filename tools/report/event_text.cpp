@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware/refusal_text.hpp"
+
 namespace sandhopper {
 
 std::string values_of(const Event& event) {
@@ -9,6 +11,7 @@ std::string values_of(const Event& event) {
   switch (event.kind) {
     case EventKind::zero_check:
     case EventKind::arming_refused:
+      if (event.reason == Reason::drives_not_confirmed) return refusal_text(event);
       return fmt::format("left {:.4f} rad, right {:.4f} rad, expected {:.4f} rad, moved by {:.4f} rad", v[0],
                          v[1], v[2], v[3]);
     case EventKind::released:

@@ -53,6 +53,9 @@ class Operator {
     }
     if (message.contains("warning")) setup_.say("warning: " + message["warning"].get<std::string>());
     if (message.contains("error")) error_ = message["error"].get<std::string>();
+    if (message.contains("freeze_frame"))
+      setup_.say(fmt::format("  what was measured around it: hop explain {}",
+                             message["freeze_frame"].get<std::string>()));
     if (message.contains("ready")) prepare();
     if (message.contains("event")) hear_event(message);
     if (message.contains("end")) {
@@ -79,7 +82,8 @@ class Operator {
   void hear_event(const nlohmann::json& message) {
     const auto kind = message["event"].get<std::string>();
     if (kind == "armed") daemon_.write_line("release");
-    if (kind == "arming_refused") setup_.say("  arming refused: " + message["reason"].get<std::string>());
+    if (kind == "arming_refused")
+      setup_.say("  arming refused: " + message.value("text", message["reason"].get<std::string>()));
     if (kind == "stopped" || kind == "fault_raised" || kind == "arming_refused") daemon_.write_line("quit");
   }
 

@@ -32,6 +32,24 @@ RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file)
                     ", so the cycle's configuration is not known; was it made by hopperd or `hop trial`?");
 }
 
+// Of a log without it the cycle started anew.
+StartState start_of(const mcap::Reader& log, const std::filesystem::path& file) {
+  for (const auto& attachment : log.attachments()) {
+    if (attachment.name != kStartAttachment) continue;
+    const std::string_view text(reinterpret_cast<const char*>(attachment.data.data()),
+                                attachment.data.size());
+    return load_text<StartState>(file.string() + ": " + std::string(kStartAttachment), text,
+                                 MissingKeys::use_default);
+  }
+  return {};
+}
+
+CycleConfig config_of(const mcap::Reader& log, const RobotConfig& robot, const std::filesystem::path& file) {
+  auto config = cycle_config(robot);
+  config.start = start_of(log, file);
+  return config;
+}
+
 // trial.mcap, trial.part0002.mcap, trial.part0003.mcap, ... (firmware/log/segmented_log.hpp)
 std::filesystem::path next_segment(const std::filesystem::path& file) {
   constexpr std::size_t kDigits = 4;
@@ -97,7 +115,7 @@ class Replay {
       : file_(file),
         log_(std::make_unique<mcap::Reader>(file)),
         robot_(robot_of(*log_, file)),
-        controller_(cycle_config(robot_)),
+        controller_(config_of(*log_, robot_, file)),
         progress_(progress) {}
 
   ReplayResult run() {

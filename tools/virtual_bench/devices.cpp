@@ -58,7 +58,7 @@ std::string only(const ControlSocket::Words& words, const std::string& choices) 
 }  // namespace
 
 Devices::Devices(EventLoop& loop, BenchWorld& world, const LinuxBoardConfig& board,
-                 const std::string& control_path)
+                 const DeviceOptions& options)
     : loop_(loop),
       world_(world),
       board_(board),
@@ -75,10 +75,10 @@ Devices::Devices(EventLoop& loop, BenchWorld& world, const LinuxBoardConfig& boa
       imu_foot_node_(loop, node_name(board.imu_foot.device), imu_foot_),
       load_cell_node_(loop, node_name(board.load_cell.device)),
       can_(loop, board.can.interface),
-      control_(loop, control_path) {
+      control_(loop, options.control_path) {
   load_cell_node_.connect(board.load_cell.address, load_cell_);
   connect_sensors();
-  connect_drives();
+  connect_drives(options.drive_timeout_s);
   connect_control();
   press_emergency_stop(false);
   gpio_.line(board_.body_catch).drive(!board_.body_catch.active_low);  // holds while nobody drives it
@@ -98,12 +98,13 @@ void Devices::connect_sensors() {
   connect(world_.load_cell, load_cell_, board_.load_cell.latency_s);
 }
 
-void Devices::connect_drives() {
+void Devices::connect_drives(double drive_timeout_s) {
   // Before the drives: what one cycle does to catch and drives is seen in one go.
   can_.connect([this](const can_frame&) { look_at_catch(); });
   for (std::size_t i = 0; i < static_cast<std::size_t>(board_.can.motor_count); ++i) {
-    drives_.push_back(std::make_unique<DriveNode>(DriveNode::Place{loop_, world_, can_}, static_cast<Side>(i),
-                                                  board_.can.motor[i]));
+    drives_.push_back(
+        std::make_unique<DriveNode>(DriveNode::Place{loop_, world_, can_, to_ns(drive_timeout_s)},
+                                    static_cast<Side>(i), board_.can.motor[i]));
     can_.connect([drive = drives_.back().get()](const can_frame& frame) { drive->receive(frame); });
   }
 }

@@ -18,15 +18,20 @@
 
 namespace sandhopper::bench {
 
+struct DeviceOptions {
+  std::string control_path;
+  double drive_timeout_s = 0.0;  // without a frame a drive drops its command; 0: as its dialect's emulation
+};
+
 // Every emulated device of one robot, wired to the lines, buses and the one world.
 class Devices {
  public:
   // Throws std::exception with what cannot be made.
-  Devices(EventLoop& loop, BenchWorld& world, const LinuxBoardConfig& board, const std::string& control_path);
+  Devices(EventLoop& loop, BenchWorld& world, const LinuxBoardConfig& board, const DeviceOptions& options);
 
  private:
   void connect_sensors();
-  void connect_drives();
+  void connect_drives(double drive_timeout_s);
   void connect_control();
   void press_emergency_stop(bool pressed);
   void look_at_catch();

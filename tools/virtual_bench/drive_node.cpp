@@ -4,19 +4,19 @@ namespace sandhopper::bench {
 
 DriveNode::DriveNode(const Place& place, Side side, const CubeMarsConfig& config)
     : place_(place),
-      drive_(make_drive(config, {.sample =
-                                     [this, side,
-                                      share = place.world.config().motor.torque_constant_Nm_per_A /
-                                              config.torque_constant_Nm_per_A] {
-                                       // The plant has one torque constant for both motors.
-                                       auto sample = place_.world.now().read_motor(side);
-                                       sample.current_A *= share;
-                                       return sample;
-                                     },
-                                 .command =
-                                     [this, side](const MotorCommand& command, bool enabled) {
-                                       place_.world.command(side, command, enabled);
-                                     }})) {
+      drive_(make_drive(
+          config, {.sample =
+                       [this, side,
+                        share = place.world.config().motor.torque_constant_Nm_per_A /
+                                config.torque_constant_Nm_per_A] {
+                         // The plant has one torque constant for both motors.
+                         auto sample = place_.world.now().read_motor(side);
+                         sample.current_A *= share;
+                         return sample;
+                       },
+                   .command = [this, side](const MotorCommand& command,
+                                           bool enabled) { place_.world.command(side, command, enabled); },
+                   .timeout_ns = place.drive_timeout_ns})) {
   wake_for_own();
 }
 

@@ -15,6 +15,7 @@ class DriveNode {
     EventLoop& loop;
     BenchWorld& world;
     CanBus& bus;
+    std::int64_t drive_timeout_ns = 0;  // EmulatedDrive::Wiring::timeout_ns
   };
   DriveNode(const Place& place, Side side, const CubeMarsConfig& config);
 

@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string config, world, ready, tell;
-  std::string control = kControlPath;
+  DeviceOptions devices{.control_path = kControlPath};
   TrialSetup setup;
 };
 
@@ -35,7 +35,7 @@ void become_hardware() {
 
 int run(const Options& options) {
   if (!options.tell.empty()) {
-    const auto answer = tell_bench(options.tell, options.control);
+    const auto answer = tell_bench(options.tell, options.devices.control_path);
     if (!answer.empty()) std::puts(answer.c_str());
     return 0;
   }
@@ -50,7 +50,7 @@ int run(const Options& options) {
   become_hardware();
   EventLoop loop;
   BenchWorld world(loop, world_config, options.setup);
-  Devices devices(loop, world, board, options.control);
+  Devices devices(loop, world, board, options.devices);
   if (!options.ready.empty()) std::ofstream(options.ready) << "ready\n";
   loop.run();
   return 0;
@@ -65,7 +65,11 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--seed", options.setup.seed, "of the trial's random draws");
   app.add_option("--height", options.setup.release_height_m, "release height of the foot [m]");
   app.add_option("--noise", noise, "on or off")->check(CLI::IsMember({"on", "off"}));
-  app.add_option("--control", options.control, "path of the control socket");
+  app.add_option("--control", options.devices.control_path, "path of the control socket");
+  app.add_option(
+         "--drive-timeout", options.devices.drive_timeout_s,
+         "a drive drops its command after so many seconds without a frame; 0: 25 ms (MIT), 1 s (servo)")
+      ->check(CLI::Range(0.0, 60.0));
   app.add_option("--ready", options.ready, "written to when all devices are there");
   app.add_option("--tell", options.tell, "sends one command to running devices and prints the answer");
   try {

@@ -2,6 +2,8 @@
 class TimePlots {
   static kMaxRows = 20000;  // more are drawn as least and greatest of groups, finer where the view is
 
+  static kShaded = ['compression', 'extension', 'fault'];
+
   static kGapRows = 30;     // a line ends where a channel has nothing for longer
 
   constructor(data, container, folded, onHover, onView) {
@@ -12,12 +14,12 @@ class TimePlots {
     this.rowIndex = this.groupRows(data.time[0], data.time[data.time.length - 1]);
     this.busy = false;
     this.plots = [];
-    for (const panel of PANELS) {
+    for (const panel of data.panels || PANELS) {
       const series = panel.series.filter(entry => data.columns[entry.channel]);
       if (series.length) this.plots.push(this.makePlot(panel, series, panel.folded ? folded : container));
     }
     for (const part of [container, folded]) {
-      if (part.childElementCount) part.append(element('div', { className: 'axis-label' }, 'time since release, s'));
+      if (part.childElementCount) part.append(element('div', { className: 'axis-label' }, data.time_label || 'time since release, s'));
       else part.parentElement.hidden = true;
     }
     theme.redraw.push(() => this.redraw());
@@ -172,11 +174,12 @@ class TimePlots {
     context.rect(box.x, box.y, box.w, box.h);
     context.clip();
     for (const phase of this.data.phases) {
-      if (phase.name !== 'compression' && phase.name !== 'extension') continue;
+      if (!TimePlots.kShaded.includes(phase.name)) continue;
       const left = graph.toDomXCoord(phase.from_s);
       context.fillStyle = theme.color(phase.name);
       context.fillRect(left, box.y, graph.toDomXCoord(phase.to_s) - left, box.h);
     }
+    this.drawMarks(context, box, graph, plot);
     context.strokeStyle = context.fillStyle = theme.color('quiet');
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
     context.setLineDash([2, 3]);
@@ -191,6 +194,28 @@ class TimePlots {
         context.stroke();
         if (width > 140 && (this.plots[0] || plot) === plot) context.fillText(name, x + 3, box.y + 9);
       }
+    }
+    context.restore();
+  }
+
+  // Instants of the data's own, named in the first panel, and the limits of a panel.
+  drawMarks(context, box, graph, plot) {
+    context.save();
+    context.strokeStyle = context.fillStyle = theme.color('bad');
+    context.font = '10px system-ui, "DejaVu Sans", sans-serif';
+    for (const mark of this.data.marks || []) {
+      const x = Math.round(graph.toDomXCoord(mark.time_s)) + 0.5;
+      context.fillRect(x - 0.5, box.y, 1, box.h);
+      if ((this.plots[0] || plot) === plot) context.fillText(mark.name, x + 4, box.y + 9);
+    }
+    context.setLineDash([6, 4]);
+    for (const value of plot.panel.lines || []) {
+      const y = Math.round(graph.toDomYCoord(value * plot.panel.scale)) + 0.5;
+      context.beginPath();
+      context.moveTo(box.x, y);
+      context.lineTo(box.x + box.w, y);
+      context.stroke();
+      context.fillText('limit', box.x + box.w - 28, y - 3);
     }
     context.restore();
   }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -80,7 +81,10 @@ SimulatedLink::~SimulatedLink() {
   teller_.join();
 }
 
-void SimulatedLink::send(std::string_view word) { take_word(word, requests_, quit_); }
+// The cycle's clock is its own: it stamps the word when it takes it.
+void SimulatedLink::send(std::string_view word) {
+  post_words(std::array{word_named(word)}, 0, requests_, quit_);
+}
 
 bool SimulatedLink::take(std::vector<std::string>& lines) {
   std::uint64_t count = 0;
@@ -124,7 +128,8 @@ void SimulatedLink::run(const SimTrialSetup& setup, double speed) {
   WitnessedBoard board(world, logger);
   HopSession session(robot, board, logger,
                      {.event = [this](const Event& event) { say(operator_text(event)); },
-                      .stride = [this](const StrideResult& result) { say(operator_text(result)); }});
+                      .stride = [this](const StrideResult& result) { say(operator_text(result)); },
+                      .request = [this](const RequestRecord& answer) { say(operator_text(answer)); }});
   Heartbeat heart;
   PacedTime time(speed);
   say(operator_text("ready", "arm"));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "firmware/request_box.hpp"
 #include "tools/trial/trial_text.hpp"
 
 namespace sandhopper {
@@ -88,7 +89,7 @@ std::string event_text(EventKind kind, const Json& json, Fault fault) {
     case EventKind::disarmed:
       return "disarmed: the drives are off";
     case EventKind::arming_refused:
-      return "arming refused: " + readable(json.at("reason").get<std::string>());
+      return "arming refused: " + json.value("text", readable(json.at("reason").get<std::string>()));
     case EventKind::disarm_refused:
       return fmt::format("disarming refused: {} must end first", name_of(fault));
     case EventKind::clock_stepped:
@@ -136,11 +137,18 @@ void take_end(TrialModel& model, const Json& end) {
   if (const auto trouble = end.at("log_error").get<std::string>(); !trouble.empty()) model.error = trouble;
 }
 
+// The events say what a word that was served did.
+void take_answer(TrialModel& model, const Json& answer) {
+  if (answer.at("outcome") != name_of(RequestOutcome::served))
+    model.say(answer.at("text").get<std::string>());
+}
+
 void take_json(TrialModel& model, const Json& json) {
   if (json.contains("status")) return take_status(model, json["status"]);
   if (json.contains("event")) return take_event(model, json);
   if (json.contains("stiffness_N_per_m")) return model.strides.push_back(stride_of(json));
   if (json.contains("end")) return take_end(model, json["end"]);
+  if (json.contains("request")) return take_answer(model, json["request"]);
   if (json.contains("ready")) {
     model.ready = true;
     return model.say("the cycle runs, the drives are off");

@@ -20,6 +20,8 @@ class EmulatedDrive {
   struct Wiring {
     std::function<MotorSample()> sample;
     std::function<void(const MotorCommand& command, bool enabled)> command;
+    // Without a frame for so long a drive drops its command; 0: as the dialect's own emulation has it.
+    std::int64_t timeout_ns = 0;
   };
   static constexpr std::int64_t kReplyDelay_ns = 220'000;
   static constexpr std::int64_t kNever_ns = INT64_MAX;

@@ -12,7 +12,9 @@ constexpr std::int64_t kZeroing_ns = 1'000'000'000;
 }  // namespace
 
 MitDrive::MitDrive(const CubeMarsConfig& config, Wiring wiring)
-    : config_(config), wiring_(std::move(wiring)) {}
+    : config_(config),
+      wiring_(std::move(wiring)),
+      timeout_ns_(wiring_.timeout_ns > 0 ? wiring_.timeout_ns : kWatchdog_ns) {}
 
 OutputState MitDrive::state() const {
   auto now = output_state(config_, wiring_.sample());
@@ -93,7 +95,7 @@ void MitDrive::obey(const can_frame& frame, std::int64_t now_ns) {
   }
 }
 
-std::int64_t MitDrive::next_own_ns() const { return commanded_ ? last_frame_ns_ + kWatchdog_ns : kNever_ns; }
+std::int64_t MitDrive::next_own_ns() const { return commanded_ ? last_frame_ns_ + timeout_ns_ : kNever_ns; }
 
 std::optional<can_frame> MitDrive::act(std::int64_t now_ns) {
   if (now_ns < next_own_ns()) return std::nullopt;

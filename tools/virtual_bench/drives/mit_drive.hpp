@@ -7,7 +7,8 @@ namespace sandhopper::bench {
 //   - answers every frame for its id, once, with the state at the instant of the frame
 //   - FF..FC enters motor mode, FF..FD leaves it, FF..FE makes the present position zero and is silent for
 //     a second
-//   - makes torque in motor mode only; without a frame for 25 ms it drops the command but stays in motor mode
+//   - makes torque in motor mode only; without a frame for 25 ms (Wiring::timeout_ns) it drops the command
+//   but stays in motor mode
 class MitDrive : public EmulatedDrive {
  public:
   MitDrive(const CubeMarsConfig& config, Wiring wiring);
@@ -23,6 +24,7 @@ class MitDrive : public EmulatedDrive {
 
   CubeMarsConfig config_;
   Wiring wiring_;
+  std::int64_t timeout_ns_;
   bool motor_mode_ = false;
   bool commanded_ = false;  // since the watchdog last acted
   double zero_rad_ = 0.0;   // of the drive's output, as set by FF..FE

@@ -27,7 +27,9 @@ void put(can_frame& frame, int at, std::int16_t value) {
 }  // namespace
 
 ServoDrive::ServoDrive(const CubeMarsConfig& config, Wiring wiring)
-    : config_(config), wiring_(std::move(wiring)) {}
+    : config_(config),
+      wiring_(std::move(wiring)),
+      timeout_ns_(wiring_.timeout_ns > 0 ? wiring_.timeout_ns : kTimeout_ns) {}
 
 can_frame ServoDrive::status() const {
   const auto now = output_state(config_, wiring_.sample());
@@ -111,12 +113,12 @@ void ServoDrive::obey_mit(std::uint64_t bits) {
 }
 
 std::int64_t ServoDrive::next_own_ns() const {
-  const auto timeout_ns = commanded_ ? last_frame_ns_ + kTimeout_ns : kNever_ns;
+  const auto timeout_ns = commanded_ ? last_frame_ns_ + timeout_ns_ : kNever_ns;
   return v3() ? timeout_ns : std::min(timeout_ns, next_status_ns_);
 }
 
 std::optional<can_frame> ServoDrive::act(std::int64_t now_ns) {
-  if (commanded_ && now_ns >= last_frame_ns_ + kTimeout_ns) {
+  if (commanded_ && now_ns >= last_frame_ns_ + timeout_ns_) {
     commanded_ = false;
     wiring_.command({}, false);
   }

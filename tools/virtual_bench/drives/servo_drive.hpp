@@ -28,6 +28,7 @@ class ServoDrive : public EmulatedDrive {
 
   CubeMarsConfig config_;
   Wiring wiring_;
+  std::int64_t timeout_ns_;
   bool commanded_ = false;
   std::int64_t last_frame_ns_ = 0;
   std::int64_t next_status_ns_ = 0;

@@ -1,0 +1,21 @@
+#pragma once
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sandhopper {
+
+// What a log carries in front of its records: configuration and other texts as attachments, build and board
+// as metadata. A freeze frame of the same trial carries the same.
+struct LogDescription {
+  struct Attachment {
+    std::string name;
+    std::string media_type;
+    std::string text;
+  };
+  std::vector<Attachment> attachments{};
+  std::vector<std::pair<std::string, std::map<std::string, std::string>>> metadata{};
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,28 @@
+#pragma once
+#include "drivers/can/can_config.hpp"
+#include "drivers/transmit_guard/transmit_guard.hpp"
+#include "firmware/controller_config.hpp"
+#include "firmware/fault.hpp"
+
+namespace sandhopper {
+
+// The robot's configuration as the transmit guard takes it.
+transmit::Limits transmit_limits(const CanConfig& can, const LimitsConfig& limits) noexcept;
+
+// What a latched fault's reaction still allows the drives to be told.
+constexpr transmit::Allowance allowance_of(Fault latched) noexcept {
+  switch (entry_of(latched).reaction) {
+    case Reaction::none:
+    case Reaction::stop:
+      return transmit::Allowance::motion;
+    case Reaction::hold:
+      return transmit::Allowance::holding;
+    case Reaction::damp:
+      return transmit::Allowance::damping;
+    case Reaction::limp:
+      break;
+  }
+  return transmit::Allowance::no_torque;
+}
+
+}  // namespace sandhopper

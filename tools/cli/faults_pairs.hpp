@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+#include "tools/cli/failure.hpp"
+#include "tools/cli/session.hpp"
+#include "tools/faults/run_cell.hpp"
+
+namespace sandhopper::cli {
+
+struct PairOptions {
+  std::string only;  // in the pair's name
+  int sample = 0;    // so many drawn; 0: all
+  std::uint64_t seed = 1;
+};
+
+// `hop faults --pairs`: runs pairs of faults, prints those that are wrong and a table of all.
+ExitCode run_pairs(Session& session, const faults::MatrixSetup& setup, const PairOptions& options);
+
+}  // namespace sandhopper::cli

@@ -1,0 +1,20 @@
+#pragma once
+#include <exception>
+#include <string>
+
+#include "config/files.hpp"
+#include "config/robot_config.hpp"
+#include "tools/cli/session.hpp"
+
+namespace sandhopper::cli {
+
+// log.freeze_folder of the configuration; empty where there is none that can be read.
+inline std::string configured_freeze_folder(Session& session) {
+  try {
+    return load_robot(session.config_directory()).log.freeze_folder;
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+}  // namespace sandhopper::cli

@@ -1,0 +1,322 @@
+#include "tools/faults/run_pair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/supervision/findings.hpp"
+#include "tools/faults/evidence.hpp"
+#include "tools/faults/trial_rig.hpp"
+
+namespace sandhopper::faults {
+namespace {
+
+constexpr std::uint64_t kLongestPair_cycles = 9000;
+constexpr std::uint64_t kWatched_cycles = 600;  // of watching for what cannot be seen
+constexpr std::uint64_t kQuiet_cycles = 30;     // of watching drives that are off: longer than their time-out
+
+// One of the two faults. Times are counts of cycles that ran: when it was set, when its cell calls it
+// visible, and when there is evidence, too.
+struct Planted {
+  explicit Planted(const Cell& of) : cell(of), evidence(of) {}
+  Cell cell;  // a copy: `visible` may remember
+  Evidence evidence;
+  Injected before{};
+  std::uint64_t set_at = 0, shown_at = 0, visible_at = 0;
+
+  bool is_limit() const { return cell.kind == Kind::limit; }
+  void see(const TrialRig& rig, const RobotConfig& robot) {
+    if (visible_at != 0 || (set_at == 0 && !is_limit()) || rig.turns() < set_at) return;
+    if (shown_at == 0 && (!cell.visible || cell.visible(rig.frame(), rig.output(), before)))
+      shown_at = rig.turns();
+    evidence.see(rig.frame(), before.frame, rig.output(), robot);
+    if (shown_at != 0 && evidence.complete())
+      visible_at =
+          std::max(shown_at, rig.turns() - static_cast<std::uint64_t>(std::max(0, evidence.cycles_shown())));
+  }
+  // The cycle after which nothing more is expected of it.
+  std::uint64_t deadline() const {
+    const auto allowed = static_cast<std::uint64_t>(entry_of(cell.expected).cycles);
+    return visible_at != 0 ? visible_at + allowed : set_at + kWatched_cycles;
+  }
+};
+
+// What is gone when the next session begins.
+bool is_over_at_once(const Cell& cell) {
+  switch (cell.kind) {
+    case Kind::tapped:
+    case Kind::stalled:
+    case Kind::watchdog:
+    case Kind::passive:
+    case Kind::no_acknowledge:
+    case Kind::overflow:
+    case Kind::protocol_error:
+    case Kind::limit:  // a sound robot, which need not meet it again
+      return true;
+    default:
+      return false;
+  }
+}
+
+// What a new session cannot know, in words; empty: it must find the fault that is still there.
+std::string lost_with_a_restart(const Cell& cell) {
+  if (cell.kind == Kind::biased || (cell.device == Device::load_cell && cell.kind == Kind::wrong))
+    return "an offset that is there before arming is taken for zero";
+  if (cell.device == Device::load_cell && cell.kind == Kind::stuck)
+    return "its noise was never seen, and its constant value is taken for zero";
+  return {};
+}
+
+class PairTrial {
+ public:
+  PairTrial(const Pair& pair, const MatrixSetup& setup, const RobotConfig& robot)
+      : pair_(pair),
+        robot_(robot),
+        rig_(setup, robot, pair.first.phase, setup.folder / "pair.mcap"),
+        first_(pair.first),
+        second_(pair.second) {}
+
+  PairResult run(Fault first_alone, Fault second_alone) {
+    result_.first_alone = first_alone;
+    result_.second_alone = second_alone;
+    while (rig_.turns() < kLongestPair_cycles && !over()) turn();
+    finish();
+    return result_;
+  }
+
+ private:
+  void wrong(std::string text) {
+    if (result_.problem.empty()) result_.problem = std::move(text);
+  }
+
+  bool over() const {
+    if (!refusal_.empty()) return true;
+    if (second_.set_at == 0) return false;
+    const auto watched = std::max({first_.deadline(), second_.deadline(), second_.set_at + kQuiet_cycles});
+    if (rig_.turns() <= watched) return ended_;
+    return ended_ || (off_cycles_ > kQuiet_cycles && rig_.output().state == State::fault);
+  }
+
+  void turn() {
+    rig_.turn();
+    for (const auto& event : rig_.events()) see(event);
+    first_.see(rig_, robot_);
+    second_.see(rig_, robot_);
+    see_command();
+    plant();
+  }
+
+  void see(const Event& event) {
+    events_.push_back(event);
+    if (event.kind == EventKind::fault_raised) {
+      if (!result_.raised.empty() && !is_harsher(event.fault, result_.raised.back()))
+        wrong(fmt::format("{} took the place of {}", name_of(event.fault), name_of(result_.raised.back())));
+      result_.raised.push_back(event.fault);
+      raised_at_.push_back(rig_.turns());
+    }
+    if (event.kind == EventKind::armed) armed_ = true;
+    if (event.kind == EventKind::stopped || event.kind == EventKind::arming_refused)
+      ended_ = second_.set_at != 0;
+    if (event.kind == EventKind::arming_refused)
+      refusal_ = fmt::format("arming refused: {}", name_of(event.reason));
+  }
+
+  // The law of every fault: no torque is commanded beside the drives' own damping, and of a limp one the
+  // drives are off.
+  void see_command() {
+    const auto& output = rig_.output();
+    const bool off = output.command.drive == DriveRequest::off;
+    off_cycles_ = off ? off_cycles_ + 1 : 0;
+    if (output.state != State::fault) return;
+    if (output.fault == Fault::none) wrong("state fault without a fault");
+    if (entry_of(output.fault).reaction == Reaction::limp && !off) wrong("drives on after a limp fault");
+    for (const auto& motor : output.command.motor)
+      if (motor.torque_Nm != 0.0) wrong("a torque was commanded in state fault");
+  }
+
+  void plant() {
+    if (first_.set_at == 0 && !first_.is_limit() && rig_.ready_to_break()) {
+      set(first_);
+      if (pair_.delay_cycles == kTogether) set(second_);
+    }
+    if (second_.set_at != 0) return;
+    const bool raises = pair_.first.expected != Fault::none;
+    const auto begin = !raises ? first_.set_at : raised_at_.empty() ? 0 : raised_at_.front();
+    if (begin == 0 || rig_.turns() + 1 < begin + static_cast<std::uint64_t>(pair_.delay_cycles)) return;
+    set(second_);
+  }
+
+  void set(Planted& fault) {
+    fault.before.frame = rig_.frame();
+    if (fault.cell.kind == Kind::restart) return restart();
+    fault.set_at = rig_.turns() + 1;
+    rig_.set(fault.cell.device, fault.cell.kind);
+  }
+
+  // The first session ends as it is; what follows is judged by itself, but for the fault that is still there.
+  void restart() {
+    see_log();
+    first_raised_ = result_.raised;
+    result_.raised.clear();
+    raised_at_.clear();
+    events_.clear();
+    armed_ = false;
+    rig_.board().bus().reset_torque();
+    if (const auto refusal = rig_.restart(Phase::extension)) refusal_ = "start refused: " + *refusal;
+    second_.set_at = 1;  // of the new session
+  }
+
+  void finish();
+  void see_log();
+  void judge_end();
+  void judge_restart();
+  void judge_harshness();
+  bool note_hidden(const Planted& fault);
+  void judge_times();
+  void judge_drives();
+  bool covers(Fault alone) const { return alone == Fault::none || !is_harsher(alone, result_.together); }
+
+  const Pair& pair_;
+  const RobotConfig& robot_;
+  TrialRig rig_;
+  Planted first_, second_;
+  PairResult result_;
+  std::vector<Event> events_;
+  std::vector<std::uint64_t> raised_at_;
+  std::vector<Fault> first_raised_;  // in the session before the restart
+  std::uint64_t off_cycles_ = 0;
+  std::string refusal_;
+  bool armed_ = false;
+  bool ended_ = false;
+};
+
+void PairTrial::finish() {
+  result_.state = rig_.output().state;
+  result_.together = rig_.output().fault;
+  result_.time_s = rig_.time_s();
+  result_.end = refusal_.empty() ? std::string(name_of(result_.state)) : refusal_;
+  if (second_.set_at == 0) return wrong("the second fault's moment was not reached");
+  if (pair_.second.kind == Kind::restart)
+    judge_restart();
+  else
+    judge_end();
+  judge_drives();
+  see_log();
+  result_.raised.insert(result_.raised.begin(), first_raised_.begin(), first_raised_.end());
+}
+
+void PairTrial::judge_end() {
+  if (result_.first_alone == Fault::none && result_.second_alone == Fault::none) {
+    if (result_.together != Fault::none) wrong("a fault where neither raises one");
+    return;
+  }
+  if (result_.together == Fault::none) return wrong("silent");
+  if (result_.state != State::fault) wrong(fmt::format("ended in state {}", name_of(result_.state)));
+  judge_harshness();
+  judge_times();
+}
+
+// Notes why there was no evidence of it; false when there was.
+bool PairTrial::note_hidden(const Planted& fault) {
+  if (fault.visible_at != 0) return false;
+  result_.hidden = fault.evidence.wanted();
+  return true;
+}
+
+void PairTrial::judge_harshness() {
+  if (!covers(result_.first_alone) && !note_hidden(first_))
+    wrong(fmt::format("ended in {}, alone the first ends in {}", name_of(result_.together),
+                      name_of(result_.first_alone)));
+  if (!covers(result_.second_alone) && !note_hidden(second_))
+    wrong(fmt::format("ended in {}, alone the second ends in {}", name_of(result_.together),
+                      name_of(result_.second_alone)));
+}
+
+// The first within its cycles, unless both came at once and the other was raised before; the second where it
+// is harsher.
+void PairTrial::judge_times() {
+  const auto late = [&](const Planted& fault, std::size_t raised) {
+    const auto found = result_.raised[raised];
+    const int cycles = static_cast<int>(raised_at_[raised]) -
+                       static_cast<int>(fault.visible_at == 0 ? fault.set_at : fault.visible_at);
+    if (cycles > entry_of(found).cycles)
+      wrong(
+          fmt::format("{} after {} cycles, allowed are {}", name_of(found), cycles, entry_of(found).cycles));
+    return cycles;
+  };
+  if (result_.raised.empty()) return;
+  if (pair_.delay_cycles != kTogether && pair_.first.expected != Fault::none) {
+    if (!pair_.first.names(result_.raised.front()))
+      wrong(fmt::format("the first was found as {}", name_of(result_.raised.front())));
+    late(first_, 0);
+  }
+  for (std::size_t i = 0; i < result_.raised.size(); ++i)
+    if (pair_.second.names(result_.raised[i]) && raised_at_[i] >= second_.set_at)
+      result_.cycles = late(second_, i);
+}
+
+// Whatever the new session did, it did not make torque before it was armed; and when it armed and hopped, it
+// found the fault.
+void PairTrial::judge_restart() {
+  if (!armed_ && rig_.board().bus().most_torque_Nm() > kNoTorque_Nm)
+    wrong("torque before the new session was armed");
+  if (!refusal_.empty()) return;
+  if (result_.together != Fault::none) return;
+  if (!ended_)
+    wrong(fmt::format("without a fault the new session stayed in state {}", name_of(result_.state)));
+  if (is_over_at_once(pair_.first)) return;
+  result_.hidden = lost_with_a_restart(pair_.first);
+  if (result_.hidden.empty()) wrong("silent after the restart");
+}
+
+void PairTrial::judge_drives() {
+  if (refusal_.empty() && result_.together == Fault::none) return;
+  for (const auto side : {Side::left, Side::right}) {
+    const auto& told = rig_.board().bus().told(side);
+    const double gains = told.kp_Nm_per_rad + told.kd_Nm_s_per_rad;
+    if (std::abs(told.torque_Nm) > kNoTorque_Nm || gains > 0.01)
+      wrong(fmt::format("the {} drive was left with {:.2f} N m, kp {:.1f}, kd {:.2f}",
+                        side == Side::left ? "left" : "right", told.torque_Nm, told.kp_Nm_per_rad,
+                        told.kd_Nm_s_per_rad));
+  }
+}
+
+// Each fault, and each step of the date, is in the log; or the logger names the disk's trouble.
+void PairTrial::see_log() {
+  const auto trouble = rig_.close_log();
+  const bool disk_full = pair_.first.kind == Kind::disk_full || pair_.second.kind == Kind::disk_full;
+  if (disk_full != !trouble.empty()) wrong("the log's trouble: '" + trouble + "'");
+  if (disk_full) return;
+  const auto logged = events_in(rig_.log());
+  for (const auto& event : events_)
+    if (std::ranges::none_of(logged, [&](const Event& found) {
+          return found.kind == event.kind && found.time_ns == event.time_ns && found.fault == event.fault;
+        }))
+      wrong(fmt::format("not in the log: {}", name_of(event.kind)));
+  const bool clock = pair_.first.kind == Kind::clock_step || pair_.second.kind == Kind::clock_step;
+  if (clock &&
+      std::ranges::none_of(logged, [](const Event& e) { return e.kind == EventKind::clock_stepped; }))
+    wrong("the step of the date is not in the log");
+}
+
+}  // namespace
+
+Fault PairRunner::alone(const Cell& cell) {
+  if (cell.expected == Fault::none && cell.device == Device::computer) return Fault::none;
+  const auto key = fmt::format("{} {}", cell.name(), name_of(cell.phase));
+  const auto known = alone_.find(key);
+  if (known != alone_.end()) return known->second;
+  auto complete = setup_;
+  complete.without.reset();
+  return alone_[key] = run_cell(cell, complete).at_end;
+}
+
+PairResult PairRunner::run(const Pair& pair) {
+  RobotConfig robot = setup_.robot;
+  for (const auto* cell : {&pair.first, &pair.second})
+    if (cell->change) cell->change(robot);
+  return PairTrial(pair, setup_, robot).run(alone(pair.first), alone(pair.second));
+}
+
+}  // namespace sandhopper::faults

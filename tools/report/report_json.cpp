@@ -1,0 +1,79 @@
+#include "tools/report/report_json.hpp"
+
+#include <cmath>
+
+#include "tools/report/base64.hpp"
+
+namespace sandhopper {
+namespace {
+
+using Json = nlohmann::json;
+
+// JSON has no NaN; the page takes null for "none".
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json stiffness(const ReportStiffness& fit) {
+  return {{"value_N_per_m", number(fit.value_N_per_m)},
+          {"ci95_N_per_m", {number(fit.ci95_low_N_per_m), number(fit.ci95_high_N_per_m)}},
+          {"intercept_N", number(fit.intercept_N)},
+          {"samples", fit.samples},
+          {"valid", fit.valid},
+          {"reason", fit.reason}};
+}
+
+Json stride_json(const ReportStride& stride) {
+  return {{"number", stride.number},
+          {"contact_s", number(stride.contact_s)},
+          {"touchdown_s", number(stride.touchdown_s)},
+          {"switch_s", number(stride.switch_s)},
+          {"liftoff_s", number(stride.liftoff_s)},
+          {"touchdown_speed_mps", number(stride.touchdown_speed_mps)},
+          {"peak_force_N", number(stride.peak_force_N)},
+          {"max_depth_m", number(stride.max_depth_m)},
+          {"qs_ols", stiffness(stride.quasi_static_ols)},
+          {"mo_ols", stiffness(stride.observer_ols)},
+          {"mo_wls", stiffness(stride.observer_wls)},
+          {"joint", stiffness(stride.joint)}};
+}
+
+Json columns_json(const std::vector<ReportColumn>& columns) {
+  Json result = Json::object();
+  for (const ReportColumn& column : columns) {
+    const std::vector<float> values(column.values.begin(), column.values.end());
+    result[column.name] = base64_numbers<float>(values);
+  }
+  return result;
+}
+
+}  // namespace
+
+nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
+  Json json{{"title", data.title},
+            {"facts", data.facts},
+            {"notes", data.notes},
+            {"time_s", base64_numbers<double>(data.time_s)},
+            {"columns", columns_json(data.columns)},
+            {"envelope_rows", envelope_run},
+            {"configuration", data.configuration}};
+  json["phases"] = Json::array();
+  for (const ReportPhase& phase : data.phases) {
+    json["phases"].push_back({{"from_s", phase.from_s}, {"to_s", phase.to_s}, {"name", phase.name}});
+  }
+  json["events"] = Json::array();
+  for (const ReportEvent& event : data.events) {
+    json["events"].push_back({{"time_s", event.time_s},
+                              {"stride", event.stride},
+                              {"name", event.name},
+                              {"reason", event.reason},
+                              {"values", event.values}});
+  }
+  json["strides"] = Json::array();
+  for (const ReportStride& stride : data.strides) json["strides"].push_back(stride_json(stride));
+  return json;
+}
+
+std::string page_text(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace sandhopper
