@@ -91,7 +91,7 @@ class LogDisk : public ::testing::Test {
 };
 
 TEST_F(LogDisk, OnAFullDiskTheLogIsClosedAndSaysWhatIsMissing) {
-  constexpr int kLast = 145 * kFramesOfAChunk + 13;  // the last chunk is small enough to fit after all
+  constexpr int kLast = 145 * kFramesOfAChunk + 4;  // the last chunk is small enough to fit after all
   TrialLogger logger(options());
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   logger.start();
