@@ -50,11 +50,12 @@ std::unique_ptr<CubeMarsDrives> BenchBoard::make_driver() {
   const auto pass = [](const BenchStages::Stage& stage, std::unique_ptr<CanPort> port) {
     return stage ? stage(std::move(port)) : std::move(port);
   };
-  auto guard =
-      std::make_unique<GuardedPort>(pass(stages_.behind_guard, std::make_unique<SessionPort>(*bus_)), limits_);
+  auto guard = std::make_unique<GuardedPort>(pass(stages_.behind_guard, std::make_unique<SessionPort>(*bus_)),
+                                             limits_);
   guard_ = guard.get();
   auto miscoding = std::make_unique<MiscodingPort>(std::move(guard));
   miscoding_ = miscoding.get();
+  miscoding_->set(is_miscoded_);
   return std::make_unique<CubeMarsDrives>(can_, pass(stages_.before_guard, std::move(miscoding)));
 }
 
@@ -95,7 +96,8 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
     case Device::motor_left:
     case Device::motor_right:
     case Device::bus:
-      miscoding_->set(kind == Kind::miscoded);
+      if (device == Device::bus) is_miscoded_ = kind == Kind::miscoded;
+      miscoding_->set(is_miscoded_);
       bus_->set(device, kind);
       return;
     case Device::imu_body:

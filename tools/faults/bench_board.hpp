@@ -50,6 +50,7 @@ class BenchBoard : public Board {
   std::unique_ptr<EmulatedBus> bus_;
   GuardedPort* guard_ = nullptr;  // the drives own it, and
   MiscodingPort* miscoding_ = nullptr;
+  bool is_miscoded_ = false;
   std::unique_ptr<CubeMarsDrives> drives_;
   SensorFault<ImuSample> imu_body_;
   SensorFault<ImuSample> imu_foot_;

@@ -38,6 +38,10 @@ bool Evidence::shows(const SensorFrame& frame, const SensorFrame& before, const 
     case Fault::motor_velocity_implausible:
       return any_motor(
           frame, [](const MotorSample& m) { return m.fresh && std::abs(m.velocity_radps) > kFast_radps; });
+    case Fault::encoder_stuck: {
+      const auto& other = frame.motor[device_ == Device::motor_left ? 1 : 0];
+      return std::abs(other.position_rad - other_began_rad_) > robot.supervision.encoder_stuck_rad;
+    }
     case Fault::motor_reply_late: {
       const bool previous_ran = frame.cycle == last_cycle_ + 1;
       return previous_ran && any_motor(frame, [&](const MotorSample& m) {
@@ -62,6 +66,7 @@ bool Evidence::shows(const SensorFrame& frame, const SensorFrame& before, const 
 
 void Evidence::see(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
                    const RobotConfig& robot) {
+  if (last_cycle_ == 0) other_began_rad_ = before.motor[device_ == Device::motor_left ? 1 : 0].position_rad;
   in_a_row_ = shows(frame, before, output, robot) ? in_a_row_ + 1 : 0;
   complete_ = complete_ || in_a_row_ >= needed(robot);
   last_cycle_ = frame.cycle;

@@ -30,6 +30,7 @@ class Evidence {
   Fault fault_;
   Device device_;
   std::uint64_t last_cycle_ = 0;
+  double other_began_rad_ = 0.0;  // of a stuck encoder: where the other side stood when it stuck
   int in_a_row_ = 0;
   bool complete_ = false;
 };

@@ -11,11 +11,11 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::uint64_t kLongest_cycles = 8000;
-constexpr std::uint64_t kUnseen_cycles = 600;  // of watching for what cannot be seen
-constexpr std::uint64_t kAfter_cycles = 20;    // of watching the reaction
+constexpr std::uint64_t kUnseen_cycles = 600;   // of watching for what cannot be seen
+constexpr std::uint64_t kAfter_cycles = 20;     // of watching the reaction
 constexpr std::uint64_t kFrozen_cycles = 1010;  // of the second after a fault that a freeze frame shows
-constexpr std::uint64_t kSoft_cycles = 3000;   // of watching a soft stop
-constexpr int kZeroWithin_cycles = 2;          // limp: no torque commanded any more
+constexpr std::uint64_t kSoft_cycles = 3000;    // of watching a soft stop
+constexpr int kZeroWithin_cycles = 2;           // limp: no torque commanded any more
 constexpr double kLimpTorque_Nm = 1e-9;
 
 class CellTrial {

@@ -238,8 +238,9 @@ void PairTrial::judge_harshness() {
 void PairTrial::judge_times() {
   const auto late = [&](const Planted& fault, std::size_t raised) {
     const auto found = result_.raised[raised];
-    const int cycles = static_cast<int>(raised_at_[raised]) -
-                       static_cast<int>(fault.visible_at == 0 ? fault.set_at : fault.visible_at);
+    // What was found before it had shown all it must is not late.
+    const int cycles =
+        fault.visible_at == 0 ? 0 : static_cast<int>(raised_at_[raised]) - static_cast<int>(fault.visible_at);
     if (cycles > entry_of(found).cycles)
       wrong(
           fmt::format("{} after {} cycles, allowed are {}", name_of(found), cycles, entry_of(found).cycles));
@@ -256,10 +257,11 @@ void PairTrial::judge_times() {
       result_.cycles = late(second_, i);
 }
 
-// Whatever the new session did, it did not make torque before it was armed; and when it armed and hopped, it
-// found the fault.
+// Whatever the new session did, before it was armed it made no more than the small torque that tries the
+// drives; and when it armed and hopped, it found the fault.
 void PairTrial::judge_restart() {
-  if (!armed_ && rig_.board().bus().most_torque_Nm() > kNoTorque_Nm)
+  const double tried_Nm = robot_.arming.confirm_torque_Nm + kNoTorque_Nm;
+  if (!armed_ && rig_.board().bus().most_torque_Nm() > tried_Nm)
     wrong("torque before the new session was armed");
   if (!refusal_.empty()) return;
   if (result_.together != Fault::none) return;
