@@ -10,10 +10,6 @@ namespace {
 constexpr double kCycle_s = 1e-3;
 // Explicit steps of the thermal model stay within 5 % of a time constant.
 constexpr double kThermalSteps = 20.0;
-// Beyond this share of its range a position is an error (drivers/can/cubemars.cpp).
-constexpr double kUsablePosition = 0.88;
-constexpr double kServoCurrent_A = 60.0;    // of a servo-mode current frame (drivers/can/servo_protocol.cpp)
-constexpr double kKatzBusVoltage_V = 40.0;  // full scale of reply = "bus_voltage"
 
 // The MIT fields of a drive against what the cycle commands and supervises, both on the drive's side.
 void check_mit_fields(ContradictionList& list, const CubeMarsConfig& m, const std::string& key,
@@ -62,7 +58,7 @@ void check_mit_fields(ContradictionList& list, const CubeMarsConfig& m, const st
 
 void check_position_range(ContradictionList& list, const CubeMarsConfig& m, const std::string& key,
                           const LimitsConfig& limits) {
-  const double usable = kUsablePosition * m.position_range_rad;
+  const double usable = kUsablePositionShare * m.position_range_rad;
   for (const auto& [name, angle] : {std::pair{"limits.leg_angle_min_rad", limits.leg_angle_min_rad},
                                     std::pair{"limits.leg_angle_max_rad", limits.leg_angle_max_rad}}) {
     const double drive_rad = std::abs(angle - m.zero_offset_rad) * m.gear_ratio;
@@ -85,8 +81,8 @@ void check_motor(ContradictionList& list, const RobotConfig& c, std::size_t i) {
   if (m.dialect == Dialect::servo) {
     list.carries({key + "torque_constant_Nm_per_A",
                   fmt::format("{:g} with the {:g} A of a servo-mode frame", m.torque_constant_Nm_per_A,
-                              kServoCurrent_A),
-                  kServoCurrent_A * m.torque_constant_Nm_per_A * m.gear_ratio,
+                              kServoCurrentRange_A),
+                  kServoCurrentRange_A * m.torque_constant_Nm_per_A * m.gear_ratio,
                   {"limits.motor_torque_Nm", c.limits.motor_torque_Nm},
                   c.limits.motor_torque_Nm,
                   "N m",
@@ -107,7 +103,7 @@ void check_motor(ContradictionList& list, const RobotConfig& c, std::size_t i) {
                             current_A / m.gear_ratio)});
   if (m.dialect == Dialect::mit && m.reply == ReplyFlavour::bus_voltage)
     list.below({"supervision.bus_voltage_max_V", c.supervision.bus_voltage_max_V},
-               {key + "reply = \"bus_voltage\", full scale", kKatzBusVoltage_V},
+               {key + "reply = \"bus_voltage\", full scale", kBusVoltageRange_V},
                "a supply over the limit would not be seen");
   const double turns = m.gear_ratio * m.drive_reduction;
   list.add_if(

@@ -243,7 +243,7 @@ FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log
           .told = [&channel](const auto& frame) { channel.tell_text("freeze_frame", frame.string()); }};
 }
 
-// What the robot remembers, told to the operator.
+// Reads the robot's memory and tells the operator of it.
 StartState remembered_start(const Options& options, const StatePlaces& places, const RobotConfig& robot,
                             OperatorChannel& channel) {
   auto memory =

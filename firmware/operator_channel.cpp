@@ -84,7 +84,7 @@ void OperatorChannel::take_signal(RequestBox& requests, std::atomic<Quit>& quit)
   }
 }
 
-// What one read gives belongs together: a stop in it overrules an arm or release in it (RequestBox). False at
+// Words of one read belong together: a stop in it overrules an arm or release in it (RequestBox). False at
 // the end of input.
 bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<Quit>& quit) {
   std::array<char, 4096> buffer{};

@@ -18,7 +18,7 @@ namespace sandhopper {
 // of the drives switches them off.
 enum class Quit : std::uint8_t { no, softly, at_once };
 
-// What an operator can send. The first five stop the robot: a word that nobody knows may have been meant as
+// Words of the operator. The first five stop the robot: a word that nobody knows may have been meant as
 // `stop`.
 enum class Word : std::uint8_t { quit, end_of_input, signal, stop, unknown, disarm, arm, release };
 template <>

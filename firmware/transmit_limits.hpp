@@ -9,7 +9,7 @@ namespace sandhopper {
 // The robot's configuration as the transmit guard takes it.
 transmit::Limits transmit_limits(const CanConfig& can, const LimitsConfig& limits) noexcept;
 
-// What a latched fault's reaction still allows the drives to be told.
+// Commands that the latched fault's reaction still allows.
 constexpr transmit::Allowance allowance_of(Fault latched) noexcept {
   switch (entry_of(latched).reaction) {
     case Reaction::none:

@@ -87,6 +87,12 @@ constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
   return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
 }
 
+// Facts of the protocols (HARDWARE 1.2 to 1.5) that limits of the robot are held against, too.
+inline constexpr double kServoCurrentRange_A = 60.0;  // of a current command, servo dialect
+inline constexpr double kBusVoltageRange_V = 40.0;    // full scale of reply = "bus_voltage"
+// Part of the position range beyond which a reply counts as near its end: 11 rad of 12.5.
+inline constexpr double kUsablePositionShare = 0.88;
+
 // The drive works out position and velocity gains itself, from what it measures at that instant; else the
 // host does, from the newest sample.
 constexpr bool law_in_drive(const CubeMarsConfig& motor) noexcept { return motor.dialect != Dialect::servo; }

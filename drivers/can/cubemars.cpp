@@ -13,7 +13,6 @@ namespace sandhopper {
 
 namespace {
 
-constexpr double kNearRangeEnd = 0.88;  // of the position range: 11 rad of 12.5
 // Kernel stamps of vcan and of the clock read before sending may swap within this.
 constexpr std::int64_t kReplyStampSlack_ns = 1000;
 // A reply that has not come after one and a half cycles is lost.
@@ -83,7 +82,7 @@ MotorSample CubeMarsCodec::to_sample(const MitReply& reply, std::int64_t time_ns
   out.temperature_C = reply.temperature_C;
   out.bus_voltage_V = reply.bus_voltage_V;
   out.error_code = reply.error_code;
-  if (reply.error_code == 0 && std::abs(reply.position_rad) > kNearRangeEnd * ranges_.position_rad)
+  if (reply.error_code == 0 && std::abs(reply.position_rad) > kUsablePositionShare * ranges_.position_rad)
     out.error_code = kErrorPositionNearRangeEnd;
   out.fresh = true;
   return out;

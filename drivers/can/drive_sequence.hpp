@@ -8,7 +8,7 @@ namespace sandhopper {
 // What is sent to a drive in one cycle; zero: a command without gains and torque.
 enum class DriveAction : std::uint8_t { none, zero, enter, leave, run };
 
-// What the drives' own frames show, of all of them together.
+// State of both drives together, read from their own frames.
 struct DriveFeedback {
   bool still = false;  // slow enough to enter motor mode
   bool left = false;   // motor mode is left: LeaveConfirmation

@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// Whether a drive has left motor mode, from what it sends after leave frames have left for it. A reply is as
+// Confirms that a drive has left motor mode, by its frames after the first leave frame. A reply is as
 // old as the command it answers, so replies from the time of the first leave frame on answer leave frames:
 // the drive has received them. Servo drives answer nothing; there the status is from after the first one.
 // Confirmed after kQuiet such samples in a row without torque. No dialect reports the mode itself, so a drive

@@ -14,7 +14,6 @@ struct Field {
 
 constexpr std::uint32_t k12 = 0xFFF;
 constexpr std::uint32_t k16 = 0xFFFF;
-constexpr double kBusVoltageRange_V = 40.0;
 
 constexpr Field symmetric(double range, std::uint32_t max) { return {-range, range, max}; }
 constexpr Field from_zero(double range, std::uint32_t max) { return {0.0, range, max}; }

@@ -7,8 +7,6 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kMostCurrent_A = 60.0;
-
 double signed16(std::uint8_t high, std::uint8_t low) noexcept {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(high << 8U | low));
 }
@@ -17,7 +15,7 @@ double signed16(std::uint8_t high, std::uint8_t low) noexcept {
 
 std::array<std::uint8_t, 4> pack_servo_current(double current_A) noexcept {
   const double limited =
-      std::isfinite(current_A) ? std::clamp(current_A, -kMostCurrent_A, kMostCurrent_A) : 0.0;
+      std::isfinite(current_A) ? std::clamp(current_A, -kServoCurrentRange_A, kServoCurrentRange_A) : 0.0;
   const auto milli = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(1000.0 * limited)));
   return {low_byte(milli >> 24U), low_byte(milli >> 16U), low_byte(milli >> 8U), low_byte(milli)};
 }

@@ -8,7 +8,7 @@
 
 namespace sandhopper::transmit {
 
-// What a drive does with a frame.
+// Effect of a frame on the drive that receives it.
 enum class Meaning : std::uint8_t {
   zero,     // a command without torque and gains: answered, and energises nothing
   damping,  // only a damping gain: the drive's own law takes energy out
@@ -77,7 +77,7 @@ class FrameDecoder {
   double zero_offset_rad_;
   Counts count_{};
   State state_count_{};
-  // Of a status frame's integers.
+  // Scales of the integers in a status frame.
   double rad_per_position_, radps_per_speed_;
   can_frame zero_{};
 };

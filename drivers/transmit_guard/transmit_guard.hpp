@@ -10,7 +10,7 @@
 
 namespace sandhopper::transmit {
 
-// What a latched fault still allows; each level includes the following ones.
+// Commands that a latched fault still allows; each level includes the following ones.
 enum class Allowance : std::uint8_t {
   motion,    // no fault, or one that ends in a soft stop
   holding,   // stiffness and damping, no feed-forward torque
@@ -18,7 +18,7 @@ enum class Allowance : std::uint8_t {
   no_torque  // commands without torque and gains, leave
 };
 
-// What the guard is told before each cycle's frames.
+// Input of the guard before each cycle's frames.
 struct CycleState {
   std::int64_t now_ns = 0;
   Allowance allowance = Allowance::motion;

@@ -11,7 +11,7 @@
 
 namespace sandhopper {
 
-// What one cycle consumed and made.
+// Record of one cycle: its input, output and events.
 struct FreezeCycle {
   SensorFrame frame{};
   StepOutput output{};

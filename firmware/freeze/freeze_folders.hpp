@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-// Where freeze frames lie and how their files are named.
+// Folders and file names of freeze frames.
 namespace sandhopper::freeze {
 
 inline constexpr std::string_view kFrameEnding = ".freeze.mcap";

@@ -11,7 +11,7 @@ namespace sandhopper {
 // Metadata of a freeze frame's file: cause, fault, time_ns, cycle, log, start_ns, process.
 inline constexpr std::string_view kFreezeMetadata = "freeze";
 
-// What a freeze frame holds around its instant.
+// Time that a freeze frame holds before and after its instant.
 inline constexpr std::int64_t kFreezeBefore_ns = 5'000'000'000;
 inline constexpr std::int64_t kFreezeAfter_ns = 1'000'000'000;
 

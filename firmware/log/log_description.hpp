@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// What a log carries in front of its records: configuration and other texts as attachments, build and board
+// Head of a log, in front of its records: configuration and other texts as attachments, build and board
 // as metadata. A freeze frame of the same trial carries the same.
 struct LogDescription {
   struct Attachment {

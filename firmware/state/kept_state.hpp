@@ -58,7 +58,7 @@ StateRead read_state_file(const std::filesystem::path& file);
 // In one step: after a power cut there is the old file or the new one. Throws std::system_error.
 void write_state_file(const std::filesystem::path& file, const KeptState& state);
 
-// Where a robot's state is kept: `boot` for this boot of the computer, written often, in memory; `lasting`
+// Files of the robot's state: `boot` for this boot of the computer, written often, in memory; `lasting`
 // for all boots, written seldom.
 struct StatePlaces {
   std::filesystem::path boot;

@@ -39,7 +39,7 @@ std::optional<Age> age_across_boots(const KeptState& state, const StateClock& no
   return Age{elapsed_s, "by the date"};
 }
 
-// What a run that did not end in order may have done to its motors after it wrote the state.
+// Heats both capacities as a run that did not end in order may have done after its last write.
 void heat(const RobotConfig& robot, std::size_t motor, double time_s, double& winding_C, double& housing_C) {
   ThermalModel model(robot.supervision, winding_C, housing_C);
   const auto& m = robot.motor[motor];

@@ -17,7 +17,7 @@ struct StateClock {
 };
 StateClock state_clock();
 
-// What is remembered at a start, and what is assumed where that cannot be trusted.
+// State remembered at a start; assumed hot where the memory cannot be trusted.
 struct Recollection {
   StartState start{};
   bool trusted = false;   // the temperatures

@@ -8,7 +8,7 @@
 
 namespace sandhopper {
 
-// What the cycle starts from when it does not start anew. An input: it is kept in the trial's log
+// State of the motors and the last fault with which the cycle starts. An input: it is kept in the trial's log
 // (start.toml), and a replay begins with the same.
 struct StartState {
   bool temperatures_known = false;  // false: every motor is at supervision.ambient_C
@@ -27,7 +27,7 @@ struct StartState {
   }
 };
 
-// What the cycle hands to the keeper of the state each turn.
+// Sample of the robot's state that the cycle hands to StateKeeper each turn.
 struct StateSample {
   std::array<double, kMotorCount> winding_C{};
   std::array<double, kMotorCount> housing_C{};

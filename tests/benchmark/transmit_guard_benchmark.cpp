@@ -1,6 +1,6 @@
-// What the transmit guard costs a frame: a cycle's two frames and two answers through a port that does
-// nothing, with and without the guard around it, each dialect. The two halves run in turn; the guard's price is
-// their difference over the frames sent.
+// Price of the transmit guard for a frame: a cycle's two frames and two answers through a port that does
+// nothing, with and without the guard around it, each dialect. The two halves run in turn; the guard's price
+// is their difference over the frames sent.
 #include <benchmark/benchmark.h>
 
 #include <ctime>

@@ -227,14 +227,18 @@ double work_after_fault_J(Trial& trial, int cycles) {
   return work_J;
 }
 
+void hop_into_extension(Trial& trial) {
+  trial.ask(Request::arm);
+  ASSERT_NE(trial.until(EventKind::armed), nullptr);
+  trial.ask(Request::release);
+  ASSERT_TRUE(trial.until_state(State::extension));
+  trial.run(8);
+}
+
 TEST(Reactions, WithoutStatusFramesNoWorkIsDoneOnTheLeg) {
   for (const auto dialect : kDialects) {
     Trial trial(dialect);
-    trial.ask(Request::arm);
-    ASSERT_NE(trial.until(EventKind::armed), nullptr);
-    trial.ask(Request::release);
-    ASSERT_TRUE(trial.until_state(State::extension));
-    trial.run(8);
+    ASSERT_NO_FATAL_FAILURE(hop_into_extension(trial));
     trial.board().set(Device::bus, Kind::lost);
     const auto* fault = trial.until(EventKind::fault_raised, 20);
     ASSERT_NE(fault, nullptr);
@@ -249,11 +253,7 @@ TEST(Reactions, WithoutStatusFramesNoWorkIsDoneOnTheLeg) {
 TEST(Reactions, AFreshVelocityStillDamps) {
   for (const auto dialect : kDialects) {
     Trial trial(dialect);
-    trial.ask(Request::arm);
-    ASSERT_NE(trial.until(EventKind::armed), nullptr);
-    trial.ask(Request::release);
-    ASSERT_TRUE(trial.until_state(State::extension));
-    trial.run(8);
+    ASSERT_NO_FATAL_FAILURE(hop_into_extension(trial));
     trial.board().set(Device::imu_body, Kind::future);
     ASSERT_NE(trial.until(EventKind::fault_raised, 20), nullptr);
     const double work_J = work_after_fault_J(trial, 500);

@@ -16,7 +16,7 @@ using transmit::enter;
 using transmit::mit_law;
 using transmit::mit_reply;
 
-// What was sent, and answers to be received.
+// A port that keeps the frames sent and delivers planned answers.
 class Wire final : public CanPort {
  public:
   Wire() { sent.reserve(1000); }

@@ -12,7 +12,7 @@
 #include "firmware/state/recollection.hpp"
 #include "firmware/state/state_keeper.hpp"
 
-// What a robot remembers from run to run, and what it assumes where it cannot.
+// The robot's memory from run to run, and its assumptions where that is missing or wrong.
 namespace sandhopper {
 namespace {
 

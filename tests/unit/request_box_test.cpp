@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-// Which of the words that wait is served, and what is answered to the others.
+// The request box serves the most urgent word first and answers every other one.
 namespace sandhopper {
 namespace {
 

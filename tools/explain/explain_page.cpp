@@ -18,7 +18,7 @@ std::string verdict(const Explanation& e) {
                      reading.quantity, reading.value_text, reading.limit_text);
 }
 
-// How the fault ends, as far as the file shows.
+// Sentence about the fault's end, as far as the file shows it.
 std::string ending(const Explanation& e) {
   if (e.faults.empty()) return "The guard process switched the drives off, where there was one.";
   const auto& entry = entry_of(e.faults.back().fault);

@@ -9,10 +9,10 @@
 
 namespace sandhopper {
 
-// What the first value of a fault's event numbers, if anything.
+// Kind of device whose number stands first in a fault's event.
 enum class FaultDevice : std::uint8_t { none, motor, sensor, imu_pair };
 
-// How to read the two values of a fault's event (the calls of Findings::add in firmware/supervision).
+// Meaning of the two values of a fault's event (the calls of Findings::add in firmware/supervision).
 struct FaultCheck {
   Fault fault = Fault::none;
   FaultDevice device = FaultDevice::none;

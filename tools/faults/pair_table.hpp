@@ -7,7 +7,7 @@
 
 namespace sandhopper::faults {
 
-// How many pairs there are of each first fault with each class of second fault, and how they ended.
+// Counts pairs and their ends by the first fault and the class of the second.
 class PairTable {
  public:
   struct Count {

@@ -42,7 +42,7 @@ struct Planted {
   }
 };
 
-// What is gone when the next session begins.
+// Faults that are gone when the next session begins.
 bool is_over_at_once(const Cell& cell) {
   switch (cell.kind) {
     case Kind::tapped:

@@ -8,7 +8,7 @@
 
 namespace sandhopper::faults {
 
-// How a pair ended.
+// Result of a pair.
 struct PairResult {
   // The harshest fault of each alone, in the pair's phase, and of the pair at its end.
   Fault first_alone = Fault::none;

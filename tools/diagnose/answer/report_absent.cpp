@@ -21,8 +21,8 @@ std::vector<Set> fitted_parts(const Search& search, const Set& set) {
   return parts;
 }
 
-// How large an effect may be, in typical sizes, where it stands in place of some of what was found, or beside
-// it: a name that was given may be the wrong one, and the right one then has all of its size to hide.
+// Largest size of each effect, in typical sizes, in place of some of what was found or beside it: a name that
+// was given may be the wrong one, and the right one then has all of its size to hide.
 std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& search, double quantile) {
   std::map<std::size_t, double> largest;
   const auto consider = [&](std::size_t candidate, double typicals) {
