@@ -16,6 +16,11 @@ bool hopping(State state) noexcept {
 // beyond the accelerometers' range leaves it wrong by half a metre a second.
 constexpr double kSupported_mps2 = 3.0;
 
+StrideRecorder::Foot foot_in_flight(const CycleConfig& config, const Leg& leg) {
+  const double angle_rad = leg.angle_at_length(config.controller.compression_length_m);
+  return {config.robot.foot_radius_m, leg.dynamics(angle_rad).reduced_mass_kg};
+}
+
 }  // namespace
 
 Controller::Controller(const CycleConfig& config)
@@ -23,7 +28,7 @@ Controller::Controller(const CycleConfig& config)
       leg_(config_.robot),
       estimator_(config_, leg_),
       arming_(config_, leg_),
-      recorder_(config_.stiffness, config_.robot.foot_radius_m),
+      recorder_(config_.stiffness, foot_in_flight(config_, leg_)),
       supervisor_(config_, leg_),
       reaction_(config_) {
   if (config_.start.fault == Fault::none) return;

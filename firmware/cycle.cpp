@@ -30,7 +30,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
 
 Aftermath::Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics,
                      Listener listener)
-    : config_(config), logger_(logger), topics_(topics), listener_(std::move(listener)) {}
+    : config_(config), profile_(config), logger_(logger), topics_(topics), listener_(std::move(listener)) {}
 
 Aftermath::~Aftermath() { stop(); }
 
@@ -63,6 +63,9 @@ void Aftermath::serve() {
     const StrideResult result = solve_stride(*sums, config_);
     logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
     if (listener_.stride) listener_.stride(result);
+    profile_.add(sums->profile, sums->summary.stride);
+    logger_.push(topics_.profile, sums->summary.liftoff_ns, profile_.profile());
+    if (listener_.profile) listener_.profile(profile_.profile());
     strides_.pop();
   }
 }

@@ -11,6 +11,7 @@
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/trial_logger.hpp"
 #include "firmware/request_box.hpp"
+#include "terrain/strength_profile.hpp"
 
 namespace sandhopper {
 
@@ -22,11 +23,13 @@ struct TrialTopics {
       : frame(logger.add_topic<SensorFrame>(topic::kFrame)),
         output(logger.add_topic<StepOutput>(topic::kOutput)),
         event(logger.add_topic<Event>(topic::kEvent)),
-        stride(logger.add_topic<StrideResult>(topic::kStride, Lane::background)) {}
+        stride(logger.add_topic<StrideResult>(topic::kStride, Lane::background)),
+        profile(logger.add_topic<StrengthProfile>(topic::kProfile, Lane::background)) {}
   LogTopic<SensorFrame> frame;
   LogTopic<StepOutput> output;
   LogTopic<Event> event;
   LogTopic<StrideResult> stride;
+  LogTopic<StrengthProfile> profile;
 };
 
 // What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
@@ -37,6 +40,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   struct Listener {
     std::function<void(const Event&)> event{};
     std::function<void(const StrideResult&)> stride{};
+    std::function<void(const StrengthProfile&)> profile{};
     std::function<void(const RequestRecord&)> request{};
   };
   Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics, Listener listener);
@@ -53,6 +57,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
 
  private:
   StiffnessConfig config_;
+  ProfileSolver profile_;
   TrialLogger& logger_;
   const TrialTopics& topics_;
   Listener listener_;

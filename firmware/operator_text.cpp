@@ -60,6 +60,10 @@ std::string operator_text(const StrideResult& r) {
                      stiffness(r.observer_wls), stiffness(r.joint));
 }
 
+std::string operator_text(const StrengthProfile& p) {
+  return nlohmann::ordered_json{{"profile", to_json(p)}}.dump();
+}
+
 std::string operator_text(const RequestRecord& r) {
   auto json = to_json(r);
   json["text"] = in_words(r);

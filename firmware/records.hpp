@@ -6,6 +6,7 @@
 #include "firmware/command.hpp"
 #include "firmware/event.hpp"
 #include "terrain/joint_fit.hpp"
+#include "terrain/profile_sums.hpp"
 #include "terrain/stiffness_fit.hpp"
 
 // What a cycle and a stride produce; together with SensorFrame and Event these are the log's records.
@@ -132,6 +133,7 @@ struct StrideSums {
   RegressionSums observer_ols{};
   RegressionSums observer_wls{};
   JointSums joint{};
+  ProfileSums profile{};
 };
 
 // A stride's result: its summary and the stiffness by the three treatments and by the joint fit.

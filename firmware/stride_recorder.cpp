@@ -4,8 +4,10 @@
 
 namespace sandhopper {
 
-StrideRecorder::StrideRecorder(const StiffnessConfig& config, double foot_radius_m)
-    : config_(config), joint_(config.joint, foot_radius_m) {}
+StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
+    : config_(config),
+      joint_(config.joint, foot.radius_m),
+      profile_(config, foot.radius_m, foot.reduced_mass_kg) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
@@ -38,6 +40,7 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   if (config_.window == SampleWindow::whole_stance) commit();
   done_ = committed_;
   done_.summary = current_;
+  done_.profile = profile_.sums();
   crater_depth_m_ = deepest_m_;
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
   begin_flight(now_ns);
@@ -107,17 +110,21 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
 }
 
 void StrideRecorder::accumulate_joint(const Estimate& e, double depth_m) noexcept {
-  joint_.add({.depth_m = depth_m,
-              .speed_mps = e.force_velocity_mps,
-              .accel_mps2 = -e.foot_accel_mps2,
-              .force_N = e.direct_force_N,
-              .leg_rate_mps = e.leg_rate_mps,
-              .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
-              .duration_s = sample_duration_s_});
+  const JointSample sample{.depth_m = depth_m,
+                           .speed_mps = e.force_velocity_mps,
+                           .accel_mps2 = -e.foot_accel_mps2,
+                           .force_N = e.direct_force_N,
+                           .leg_rate_mps = e.leg_rate_mps,
+                           .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
+                           .duration_s = sample_duration_s_};
+  joint_.add(sample);
+  profile_.add(sample, e.quasi_static_force_N);
 }
 
 void StrideRecorder::restart_sums() noexcept {
-  committed_ = {};
+  committed_.quasi_static_ols = committed_.observer_ols = committed_.observer_wls = {};
+  committed_.joint = {};
+  profile_.reset();
   quasi_static_.reset();
   observer_.reset();
   weighted_.reset();

@@ -9,7 +9,11 @@ namespace sandhopper {
 // is.
 class StrideRecorder {
  public:
-  StrideRecorder(const StiffnessConfig& config, double foot_radius_m);
+  struct Foot {
+    double radius_m;
+    double reduced_mass_kg;  // with its leg, in flight
+  };
+  StrideRecorder(const StiffnessConfig& config, const Foot& foot);
 
   void on_release(std::int64_t now_ns) noexcept;
   void on_touchdown(std::int64_t now_ns) noexcept;
@@ -38,6 +42,7 @@ class StrideRecorder {
   RecursiveRegression observer_;
   RecursiveRegression weighted_;
   JointRegression joint_;
+  ProfileRegression profile_;
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};

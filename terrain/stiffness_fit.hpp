@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "config/fields.hpp"
 #include "terrain/joint_config.hpp"
+#include "terrain/profile_config.hpp"
 
 // Stiffness of the ground from force and depth: F = F0 + k z by (weighted) least squares, accumulated
 // recursively in bounded memory so that the cycle can do it, solved afterwards. The standard error respects
@@ -57,6 +59,9 @@ struct StiffnessConfig {
   double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
   WeightConfig weights{};
   JointConfig joint{};
+  std::optional<ProfileConfig> profile{};  // its defaults where it is left out
+
+  ProfileConfig profile_or_default() const noexcept { return profile ? *profile : ProfileConfig{}; }
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -69,6 +74,7 @@ struct StiffnessConfig {
     visit("max_depth_m", self.max_depth_m, Range{0.001, 1.0});
     visit("weights", self.weights);
     visit("joint", self.joint);
+    visit("profile", self.profile);
   }
 };
 

@@ -20,7 +20,7 @@ RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_
   Controller controller(cycle);
   SensorFrame frame;
   RecordedStride stride;
-  stride.foot_radius_m = cycle.robot.foot_radius_m;
+  stride.foot = foot_in_flight(controller.config(), Leg(cycle.robot));
   PlantTruth truth{};
   Request request = Request::arm;
   int cycles_left = watch.cycles_after_liftoff;
@@ -76,7 +76,7 @@ RecordedStride paired_by_row(const RecordedStride& stride) {
 }
 
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {
-  StrideRecorder recorder(config, stride.foot_radius_m);
+  StrideRecorder recorder(config, stride.foot);
   State state = State::armed;
   for (const auto& sample : stride.samples) {
     const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;

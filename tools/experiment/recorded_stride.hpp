@@ -6,6 +6,7 @@
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
 #include "firmware/sensor_frame.hpp"
+#include "firmware/stride_recorder.hpp"
 #include "tools/plant/world.hpp"
 
 namespace sandhopper {
@@ -26,7 +27,7 @@ struct StrideSample {
 // liftoff.
 struct RecordedStride {
   std::vector<StrideSample> samples;
-  double foot_radius_m = 0.0;
+  StrideRecorder::Foot foot{};
   bool complete = false;  // liftoff was reached without a fault
 };
 

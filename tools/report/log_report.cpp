@@ -29,12 +29,14 @@ struct Feed {
   TopicOf<StepOutput> outputs{topic::kOutput};
   TopicOf<Event> events{topic::kEvent};
   TopicOf<StrideResult> strides{topic::kStride};
+  TopicOf<StrengthProfile> profiles{topic::kProfile};
   TopicOf<PlantTruth> truths{topic::kTruth};
   TopicOf<LogGap> gaps{topic::kGap};
   SensorFrame frame{};
   StepOutput output{};
   Event event{};
   StrideResult stride{};
+  StrengthProfile profile{};
   PlantTruth truth{};
   LogGap gap{};
   std::uint64_t lost = 0;
@@ -42,7 +44,7 @@ struct Feed {
   void take(const mcap::Message& message, ReportBuilder& builder) {
     if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
         pass_on(events, message, event, builder) || pass_on(strides, message, stride, builder) ||
-        pass_on(truths, message, truth, builder))
+        pass_on(profiles, message, profile, builder) || pass_on(truths, message, truth, builder))
       return;
     if (gaps.take(message, gap)) lost += gap.lost;
   }

@@ -174,7 +174,14 @@ void ReportBuilder::add(const Event& event) {
   }
 }
 
-void ReportBuilder::add(const StrideResult& stride) { strides_.push_back(stride); }
+void ReportBuilder::add(const StrideResult& stride) {
+  strides_.push_back(stride);
+  profiles_.emplace_back();
+}
+
+void ReportBuilder::add(const StrengthProfile& profile) {
+  if (!profiles_.empty()) profiles_.back() = profile;
+}
 
 double ReportBuilder::seconds(std::int64_t time_ns) const {
   if (time_ns == 0) return kNone;
@@ -237,7 +244,8 @@ ReportData ReportBuilder::data() const {
           fmt::format("Fault at {:.3f} s: {}. {}", seconds(event.time_ns), entry.meaning, entry.cure));
     }
   }
-  for (const StrideResult& result : strides_) {
+  for (std::size_t i = 0; i < strides_.size(); ++i) {
+    const StrideResult& result = strides_[i];
     const StrideSummary& summary = result.summary;
     data.strides.push_back({.number = summary.stride,
                             .contact_s = seconds(summary.contact_ns),
@@ -250,7 +258,8 @@ ReportData ReportBuilder::data() const {
                             .quasi_static_ols = stiffness(result.quasi_static_ols),
                             .observer_ols = stiffness(result.observer_ols),
                             .observer_wls = stiffness(result.observer_wls),
-                            .joint = stiffness(result.joint)});
+                            .joint = stiffness(result.joint),
+                            .profile = profiles_[i]});
   }
   return data;
 }

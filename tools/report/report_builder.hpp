@@ -21,6 +21,7 @@ class ReportBuilder {
   void add(const PlantTruth& truth);
   void add(const Event& event);
   void add(const StrideResult& stride);
+  void add(const StrengthProfile& profile);  // after the stride that it ends with
 
   // The records so far; title, facts, notes beyond faults, and configuration are the caller's.
   ReportData data() const;
@@ -42,6 +43,7 @@ class ReportBuilder {
   std::vector<Point> points_;
   std::vector<Event> events_;
   std::vector<StrideResult> strides_;
+  std::vector<StrengthProfile> profiles_;  // as many
   std::int64_t zero_ns_ = 0;
   bool released_ = false;
   std::int64_t newest_force_ns_ = 0;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "terrain/strength_profile.hpp"
+
 // What a trial's report shows, whatever it was read from.
 namespace sandhopper {
 
@@ -55,6 +57,7 @@ struct ReportStride {
   ReportStiffness observer_ols{};
   ReportStiffness observer_wls{};
   ReportStiffness joint{};
+  StrengthProfile profile{};  // of all strides up to this one; stride 0 where the log has none
 };
 
 // Times are relative to the release, or to the first row where nothing was released.

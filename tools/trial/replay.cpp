@@ -116,6 +116,7 @@ class Replay {
         log_(std::make_unique<mcap::Reader>(file)),
         robot_(robot_of(*log_, file)),
         controller_(config_of(*log_, robot_, file)),
+        profile_(robot_.stiffness),
         progress_(progress) {}
 
   ReplayResult run() {
@@ -140,6 +141,8 @@ class Replay {
       report_missing(outputs_);
       report_missing(events_);
       report_missing(strides_);
+      // Logs of before the strength profile have no such topic.
+      if (profiles_.count() > 0) report_missing(profiles_);
     }
     return result_;
   }
@@ -154,6 +157,7 @@ class Replay {
     outputs_.begin_file();
     events_.begin_file();
     strides_.begin_file();
+    profiles_.begin_file();
     return true;
   }
 
@@ -165,7 +169,7 @@ class Replay {
       return;
     }
     if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
-        strides_.take(message, result_.mismatch))
+        strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch))
       return;
     LogGap gap;
     if (gaps_.take(message, gap)) result_.gaps += gap.lost;
@@ -177,7 +181,13 @@ class Replay {
     outputs_.expect(controller_.step(frame_));
     for (const auto& event : controller_.events()) events_.expect(event);
     if (controller_.stride_finished())
-      strides_.expect(solve_stride(controller_.stride_sums(), robot_.stiffness));
+      expect_stride(controller_.stride_sums());
+  }
+
+  void expect_stride(const StrideSums& sums) {
+    strides_.expect(solve_stride(sums, robot_.stiffness));
+    profile_.add(sums.profile, sums.summary.stride);
+    profiles_.expect(profile_.profile());
   }
 
   template <class Record>
@@ -191,12 +201,14 @@ class Replay {
   std::unique_ptr<mcap::Reader> log_;
   RobotConfig robot_;
   Controller controller_;
+  ProfileSolver profile_;
   std::function<void(double)> progress_;
   TopicOf<SensorFrame> frames_{topic::kFrame};
   TopicOf<LogGap> gaps_{topic::kGap};
   Comparison<StepOutput> outputs_{topic::kOutput};
   Comparison<Event> events_{topic::kEvent};
   Comparison<StrideResult> strides_{topic::kStride};
+  Comparison<StrengthProfile> profiles_{topic::kProfile};
   SensorFrame frame_{};
   ReplayResult result_{};
   bool salvaged_ = false;

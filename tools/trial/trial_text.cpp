@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "terrain/joint_fit.hpp"
+#include "tools/trial/profile_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -46,6 +47,7 @@ std::vector<std::string> stride_lines(const ReportData& data) {
                     s.number, s.touchdown_speed_mps, s.touchdown_s, s.switch_s, s.liftoff_s, s.peak_force_N,
                     1e3 * s.max_depth_m));
     for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s.*t.member));
+    for (auto& line : profile_lines(s.profile)) lines.push_back("    " + line);
   }
   return lines;
 }
@@ -63,7 +65,8 @@ nlohmann::ordered_json stride_json(const ReportStride& s) {
   return {{"stride", s.number},           {"touchdown_speed_mps", s.touchdown_speed_mps},
           {"touchdown_s", s.touchdown_s}, {"switch_s", s.switch_s},
           {"liftoff_s", s.liftoff_s},     {"peak_force_N", s.peak_force_N},
-          {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness}};
+          {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness},
+          {"profile", profile_json(s.profile)}};
 }
 
 PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConfig& config) {

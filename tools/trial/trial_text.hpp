@@ -15,7 +15,7 @@ std::string readable(std::string name);
 std::vector<std::string> stride_lines(const ReportData& data);
 
 // The same for programs: touchdown_speed_mps, times, peak force, depth,
-// stiffness_N_per_m.{qs_ols,mo_ols,mo_wls}.
+// stiffness_N_per_m.{qs_ols,mo_ols,mo_wls,joint}, profile (profile_text.hpp).
 nlohmann::ordered_json stride_json(const ReportStride& stride);
 
 // The joint fit of all valid strides together; empty text and null where there are fewer than two.

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terrain/strength_profile.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::size_t kN = kProfileCells;
+constexpr std::size_t kTerms = ProfileSolver::kTerms;
+
+constexpr ProfilePoint kNowhere{std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::quiet_NaN()};
+
+bool within(double depth_m) { return depth_m >= 0.0 && depth_m <= kProfileDepth_m; }
+
+}  // namespace
+
+// Mean tangent stiffness of a cell.
+ProfilePoint ProfileSolver::tangent_N_per_m(std::size_t cell) const noexcept {
+  const auto& c = posterior_.covariance;
+  const double b = intercept_N_per_m_[cell];
+  const double variance = c[cell * kTerms + cell] + 2.0 * b * c[cell * kTerms + kIntercept] +
+                          b * b * c[kIntercept * kTerms + kIntercept];
+  return {believed_N_per_m_[cell] + posterior_.mean[cell] + b * posterior_.mean[kIntercept],
+          std::sqrt(std::max(variance, 0.0))};
+}
+
+// Expected square of the change of slope across a cell, beyond the believed bed's.
+double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
+  const std::size_t a = cell > 0 ? cell - 1 : 0, b = std::min(cell + 1, kN - 1);
+  const double scale = 1.0 / static_cast<double>(b - a);
+  const auto& c = posterior_.covariance;
+  const double change = posterior_.mean[b] - posterior_.mean[a];
+  const double variance = c[a * kTerms + a] + c[b * kTerms + b] - 2.0 * c[a * kTerms + b];
+  return scale * scale * (change * change + std::max(variance, 0.0));
+}
+
+ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
+  ProfilePoint point;
+  if (!within(depth_m)) return kNowhere;
+  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
+  const double share = depth_m / kProfileCell_m - static_cast<double>(cell);
+  point.value = believed_force_N(config_, depth_m);
+  Vector<kTerms> x{};
+  for (std::size_t i = 0; i <= cell; ++i) x[i] = kProfileCell_m * (i < cell ? 1.0 : share);
+  x[kIntercept] = prior_.believed_stiffness_N_per_m * intercept_growth(config_.joint, depth_m);
+  double variance = 0.0, gain = 0.0;
+  for (std::size_t j = 0; j < kTerms; ++j) {
+    point.value += x[j] * posterior_.mean[j];
+    double row = 0.0;
+    for (std::size_t i = 0; i < kShared; ++i) row += x[i] * posterior_.covariance[i * kTerms + j];
+    variance += row * x[j];
+    gain += row * response_[cell][j];
+  }
+  // The bed's fluctuation is part of its curve. The estimate follows it by `gain`, which the variance counts as
+  // an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
+  const double fluctuation = config_.joint.fluctuation_relative * point.value;
+  const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 0.5));
+  // What the curve does within a cell: its scatter there, and the change of slope between its neighbours.
+  const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kN - 1);
+  const double nearer = std::abs(share - 0.5);
+  const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);
+  const double bend = 0.5 * kProfileCell_m * share * (1.0 - share);
+  const double depth_N = prior_.depth_noise_m * slope_N_per_m_[cell];
+  point.sd = std::sqrt(std::max(variance, 0.0) + depth_N * depth_N + fluctuation_N2 + unresolved +
+                       bend * bend * slope_change_squared(cell));
+  return point;
+}
+
+ProfilePoint force_at(const StrengthProfile& p, double depth_m) noexcept {
+  if (!within(depth_m)) return kNowhere;
+  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
+  const double share = depth_m / kProfileCell_m - static_cast<double>(cell);
+  const double above = cell > 0 ? p.force_N[cell - 1] : 0.0, above_sd = cell > 0 ? p.force_sd_N[cell - 1] : 0.0;
+  return {above + share * (p.force_N[cell] - above), above_sd + share * (p.force_sd_N[cell] - above_sd)};
+}
+
+ProfilePoint tangent_at(const StrengthProfile& p, double depth_m) noexcept {
+  if (!within(depth_m)) return kNowhere;
+  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
+  return {p.tangent_N_per_m[cell], p.tangent_sd_N_per_m[cell]};
+}
+
+void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexcept {
+  StrengthProfile& p = profile_;
+  const bool first = p.stride == 0;
+  p.stride = stride;
+  p.samples = sums.samples;
+  if (sums.samples > 0) {
+    p.depth_min_m = first ? sums.depth_min_m : std::min(p.depth_min_m, sums.depth_min_m);
+    p.depth_max_m = std::max(p.depth_max_m, sums.depth_max_m);
+  }
+  double residual = 0.0, observations = 0.0;
+  for (std::size_t j = 0; j < kN; ++j) {
+    const ProfilePoint force = force_N(static_cast<double>(j + 1) * kProfileCell_m);
+    p.force_N[j] = static_cast<float>(force.value);
+    p.force_sd_N[j] = static_cast<float>(force.sd);
+    const ProfilePoint tangent = tangent_N_per_m(j);
+    p.tangent_N_per_m[j] = static_cast<float>(tangent.value);
+    p.tangent_sd_N_per_m[j] = static_cast<float>(tangent.sd);
+    p.observations[j] += static_cast<float>(sums.cells[j].observations);
+    residual += residual_squared(sums, j);
+    observations += sums.cells[j].observations;
+  }
+  const auto& m = posterior_.mean;
+  p.added_mass_factor = m[kAddedMass];
+  p.added_mass_factor_sd = std::sqrt(std::max(posterior_.covariance[kAddedMass * kTerms + kAddedMass], 0.0));
+  p.smoothness_m = posterior_.smoothness_m;
+  p.spread_relative = posterior_.spread;
+  p.surface_m = m[kSurface];
+  p.depth_drift_mps = m[kDrift];
+  p.depth_lag_s = m[kLag];
+  p.joint_friction_N = m[kFriction];
+  p.chi_squared = observations > 0.0 ? residual / observations : 0.0;
+}
+
+}  // namespace sandhopper

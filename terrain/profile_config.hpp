@@ -1,0 +1,26 @@
+#pragma once
+#include "config/fields.hpp"
+
+namespace sandhopper {
+
+// Prior of the strength profile (strength_profile.hpp); noise and nuisances are those of the joint fit.
+struct ProfileConfig {
+  // Tangent stiffness of the bed that is expected, and the standard deviation of the real one relative to it:
+  // the credible range of loose to compacted glass beads is 1000 to 3600 N/m.
+  double believed_stiffness_N_per_m = 1500.0;
+  double stiffness_spread_relative = 0.7;
+  // Error of the time between force and depth, as a depth error in proportion to speed: half a cycle.
+  double depth_lag_sd_s = 0.0005;
+  // Error of the estimated depth that is neither an offset nor a drift.
+  double depth_noise_m = 0.0003;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
+    visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
+    visit("depth_lag_sd_s", self.depth_lag_sd_s, Range{1e-6, 0.01});
+    visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
+  }
+};
+
+}  // namespace sandhopper

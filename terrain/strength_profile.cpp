@@ -1,0 +1,346 @@
+#include "terrain/strength_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terrain/small_gaussian.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::size_t kN = kProfileCells;
+constexpr std::size_t kTerms = ProfileSolver::kTerms;
+constexpr std::size_t kShared = ProfileSolver::kShared;
+
+// Grid of the smoothness length and the spread: half a cell to several times the profile; the stated spread
+// and up to eight times it, which a crust needs.
+constexpr std::array<double, 6> kSmoothness_m{0.003, 0.008, 0.02, 0.05, 0.12, 0.3};
+constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
+constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
+constexpr int kPasses = 4;
+constexpr double kDegrees = 1.0;  // of Student's distribution: Cauchy
+
+struct Column {
+  ProfileFeature feature;
+  double scale;
+  std::size_t term;
+};
+
+}  // namespace
+
+ProfileSolver::ProfileSolver(const StiffnessConfig& config)
+    : config_(config), prior_(config.profile_or_default()) {
+  for (std::size_t j = 0; j < kN; ++j) {
+    const double top_m = static_cast<double>(j) * kProfileCell_m;
+    believed_N_per_m_[j] =
+        (believed_force_N(config, top_m + kProfileCell_m) - believed_force_N(config, top_m)) / kProfileCell_m;
+    const double dz0 = config.joint.intercept_growth_depth_m;
+    intercept_N_per_m_[j] = prior_.believed_stiffness_N_per_m *
+                            (std::exp(-top_m / dz0) - std::exp(-(top_m + kProfileCell_m) / dz0)) /
+                            kProfileCell_m;
+  }
+  restart();
+}
+
+void ProfileSolver::restart() noexcept {
+  kept_normal_ = {};
+  kept_moment_ = {};
+  posterior_ = {};
+  profile_ = {};
+  response_ = {};
+  slope_N_per_m_ = believed_N_per_m_;
+}
+
+// Normal equations of a stride with the slopes of the posterior before. A sample in cell s sees every cell
+// above it in full and its own up to its place.
+ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums) const noexcept {
+  using F = ProfileFeature;
+  Information info;
+  for (std::size_t s = 0; s < kN; ++s) {
+    const ProfileCell& cell = sums.cells[s];
+    const double slope = slope_N_per_m_[s];
+    const std::array<Column, 8> own{{{F::place, kProfileCell_m, s},
+                                     {F::added_mass, 1.0, kAddedMass},
+                                     {F::motor, 1.0, kScale},
+                                     {F::intercept, prior_.believed_stiffness_N_per_m, kIntercept},
+                                     {F::one, slope, kSurface},
+                                     {F::time, slope, kDrift},
+                                     {F::speed, slope, kLag},
+                                     {F::friction, 1.0, kFriction}}};
+    if (cell.observations == 0.0) continue;
+    const double weight = 1.0 / noise_factor_[s];
+    const auto product = [&](F a, F b) { return weight * cell.product(a, b); };
+    for (const Column& a : own) {
+      info.moment[a.term] += a.scale * product(a.feature, F::force);
+      for (const Column& b : own)
+        info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
+    }
+    for (std::size_t i = 0; i < s; ++i) {
+      info.moment[i] += kProfileCell_m * product(F::one, F::force);
+      for (const Column& b : own) {
+        const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
+        info.normal[i * kTerms + b.term] += value;
+        info.normal[b.term * kTerms + i] += value;
+      }
+      for (std::size_t j = 0; j < s; ++j)
+        info.normal[i * kTerms + j] += kProfileCell_m * kProfileCell_m * product(F::one, F::one);
+    }
+  }
+  info.moment[kAddedMass] += sums.response;
+  info.normal[kAddedMass * kTerms + kAddedMass] += sums.response_squared;
+  return info;
+}
+
+void ProfileSolver::add_stride_prior(Information& info) const noexcept {
+  const auto& joint = config_.joint;
+  const std::array<std::pair<std::size_t, double>, 4> priors{{{kSurface, joint.surface_sd_m},
+                                                              {kDrift, joint.depth_drift_sd_mps},
+                                                              {kLag, prior_.depth_lag_sd_s},
+                                                              {kFriction, joint.joint_friction_sd_N}}};
+  for (const auto& [term, sd] : priors) info.normal[term * kTerms + term] += 1.0 / (sd * sd);
+  for (std::size_t i = 0; i < kShared; ++i) {
+    info.moment[i] += kept_moment_[i];
+    for (std::size_t j = 0; j < kShared; ++j) info.normal[i * kTerms + j] += kept_normal_[i * kShared + j];
+  }
+}
+
+// What kappa does from a cell to the next, in units of the prior: here * kappa_j + above * kappa_j-1.
+ProfileSolver::Innovation ProfileSolver::innovation(std::size_t j, double keep, double fresh,
+                                                    double spread) const noexcept {
+  if (j == 0) return {1.0 / (spread * believed_N_per_m_[0]), 0.0};
+  return {1.0 / (fresh * spread * believed_N_per_m_[j]), -keep / (fresh * spread * believed_N_per_m_[j - 1])};
+}
+
+// Expectation maximisation for innovations with Student's distribution: E[1/precision] of each given its
+// square.
+void ProfileSolver::take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
+                               const Vector<kTerms>& mean) noexcept {
+  const double keep = std::exp(-kProfileCell_m / smoothness_m);
+  const double fresh = std::sqrt(1.0 - keep * keep);
+  for (std::size_t j = 0; j < kN; ++j) {
+    const Innovation r = innovation(j, keep, fresh, spread);
+    double value = r.here * mean[j];
+    double square = r.here * r.here * covariance[j * kTerms + j];
+    if (j > 0) {
+      value += r.above * mean[j - 1];
+      square += 2.0 * r.here * r.above * covariance[j * kTerms + j - 1] +
+                r.above * r.above * covariance[(j - 1) * kTerms + j - 1];
+    }
+    jump_[j] = (kDegrees + value * value + square) / (kDegrees + 1.0);
+  }
+}
+
+// Prior of kappa, c and e at one point of the grid; returns the logarithm of its determinant's root.
+double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, double spread) const noexcept {
+  const double keep = std::exp(-kProfileCell_m / smoothness_m);
+  const double fresh = std::sqrt(1.0 - keep * keep);
+  double log_root = 0.0;
+  for (std::size_t j = 0; j < kN; ++j) {
+    const Innovation r = innovation(j, keep, fresh, spread);
+    const double precision = 1.0 / jump_[j];
+    log_root += std::log(r.here) - 0.5 * std::log(jump_[j]);
+    info.normal[j * kTerms + j] += precision * r.here * r.here;
+    if (j == 0) continue;
+    info.normal[(j - 1) * kTerms + j - 1] += precision * r.above * r.above;
+    info.normal[(j - 1) * kTerms + j] += precision * r.above * r.here;
+    info.normal[j * kTerms + j - 1] += precision * r.above * r.here;
+  }
+  const auto& joint = config_.joint;
+  const double mass = 1.0 / (joint.added_mass_factor_sd * joint.added_mass_factor_sd);
+  info.normal[kAddedMass * kTerms + kAddedMass] += mass;
+  info.moment[kAddedMass] += mass * joint.added_mass_factor;
+  const double scale_sd = std::max(joint.force_scale_relative, 1e-6);
+  info.normal[kScale * kTerms + kScale] += 1.0 / (scale_sd * scale_sd);
+  info.normal[kIntercept * kTerms + kIntercept] +=
+      1.0 / (joint.intercept_depth_sd_m * joint.intercept_depth_sd_m);
+  return log_root;
+}
+
+// Mean at one point of the grid, its precision in place of its covariance; returns the log evidence.
+double ProfileSolver::solve_at(std::size_t point, const Information& data, Posterior& p) const noexcept {
+  Information info = data;
+  p.smoothness_m = kSmoothness_m[point / kSpreadFactor.size()];
+  p.spread = prior_.stiffness_spread_relative * kSpreadFactor[point % kSpreadFactor.size()];
+  const double log_prior = add_shared_prior(info, p.smoothness_m, p.spread);
+  const Cholesky<kTerms> root(info.normal);
+  p.mean = root.solve(info.moment);
+  p.covariance = info.normal;
+  double fit = 0.0;
+  for (std::size_t i = 0; i < kTerms; ++i) fit += info.moment[i] * p.mean[i];
+  return log_prior - root.half_log_determinant() + 0.5 * fit;
+}
+
+// Posterior over the grid as one mean and, in the last pass, one covariance.
+void ProfileSolver::integrate(const Information& data, bool last) noexcept {
+  constexpr double kNegligible = 0.01;
+  std::array<Vector<kTerms>, kGrid> means{};
+  std::array<double, kGrid> weight{};
+  Posterior p;
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < kGrid; ++g) {
+    weight[g] = solve_at(g, data, p);
+    means[g] = p.mean;
+    best = std::max(best, weight[g]);
+  }
+  double total = 0.0;
+  for (double& w : weight) {
+    w = std::exp(w - best);
+    total += w = w < kNegligible ? 0.0 : w;
+  }
+  posterior_ = {};
+  for (std::size_t g = 0; g < kGrid; ++g) {
+    weight[g] /= total;
+    for (std::size_t i = 0; i < kTerms; ++i) posterior_.mean[i] += weight[g] * means[g][i];
+  }
+  if (!last) {
+    const auto g = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
+    solve_at(g, data, p);
+    take_jumps(p.smoothness_m, p.spread, Cholesky<kTerms>(p.covariance).inverse(), p.mean);
+    return;
+  }
+  for (std::size_t g = 0; g < kGrid; ++g) {
+    if (weight[g] == 0.0) continue;
+    solve_at(g, data, p);
+    const Matrix<kTerms> covariance = Cholesky<kTerms>(p.covariance).inverse();
+    posterior_.smoothness_m += weight[g] * p.smoothness_m;
+    posterior_.spread += weight[g] * p.spread;
+    for (std::size_t i = 0; i < kTerms; ++i)
+      for (std::size_t j = 0; j < kTerms; ++j)
+        posterior_.covariance[i * kTerms + j] +=
+            weight[g] * (covariance[i * kTerms + j] +
+                         (p.mean[i] - posterior_.mean[i]) * (p.mean[j] - posterior_.mean[j]));
+  }
+}
+
+void ProfileSolver::take_slopes() noexcept {
+  for (std::size_t j = 0; j < kN; ++j)
+    slope_N_per_m_[j] = std::max(0.0, believed_N_per_m_[j] + posterior_.mean[j] +
+                                          intercept_N_per_m_[j] * posterior_.mean[kIntercept]);
+}
+
+// Coefficients by which a cell's features give what the posterior mean leaves of the force.
+std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_t s) const noexcept {
+  const auto& m = posterior_.mean;
+  const double slope = slope_N_per_m_[s];
+  double above = slope * m[kSurface];
+  for (std::size_t j = 0; j < s; ++j) above += kProfileCell_m * m[j];
+  return {-above,           -kProfileCell_m * m[s], -prior_.believed_stiffness_N_per_m * m[kIntercept],
+          -m[kAddedMass], -slope * m[kDrift], -slope * m[kLag], -m[kFriction], -m[kScale], 1.0};
+}
+
+// Sum of the weighted squares of what the posterior mean leaves in a cell.
+double ProfileSolver::residual_squared(const ProfileSums& sums, std::size_t s) const noexcept {
+  const auto x = residual_features(s);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kProfileFeatures; ++i) sum += x[i] * sums.cells[s].product_with(i, x);
+  return std::max(sum, 0.0);
+}
+
+// The same beside the best straight line through the cell's own residuals.
+double ProfileSolver::scatter_squared(const ProfileSums& sums, std::size_t s) const noexcept {
+  const ProfileCell& cell = sums.cells[s];
+  const auto x = residual_features(s);
+  using F = ProfileFeature;
+  const double one = cell.product(F::one, F::one);
+  const double place = cell.product(F::one, F::place);
+  const double square = cell.product(F::place, F::place);
+  const double residual = cell.product_with(static_cast<std::size_t>(F::one), x);
+  const double tilt = cell.product_with(static_cast<std::size_t>(F::place), x) - residual * place / one;
+  const double spread = square - place * place / one;
+  const double line = residual * residual / one + (spread > 1e-6 * one ? tilt * tilt / spread : 0.0);
+  return std::max(residual_squared(sums, s) - line, 0.0);
+}
+
+// Variance that the weights give a sample of this cell.
+double ProfileSolver::cell_variance_N2(const ProfileSums& sums, std::size_t s) const noexcept {
+  const double n = sums.cells[s].observations;
+  const double force_N = n > 0.0 ? sums.cells[s].weighted_force / n : 0.0;
+  const double fluctuation = config_.joint.fluctuation_relative * force_N;
+  return config_.joint.force_noise_N * config_.joint.force_noise_N + fluctuation * fluctuation;
+}
+
+// Chi-squared per degree of freedom that is exceeded with a probability of 1 % (Wilson & Hilferty 1931).
+double chi_squared_99(double degrees) noexcept {
+  const double n = std::max(degrees, 0.5), a = 2.0 / (9.0 * n);
+  const double root = 1.0 - a + 2.326348 * std::sqrt(a);
+  return root * root * root;
+}
+
+// Errors of the depth become errors of the force by the slope. What is left beyond them, at a level of 1 %, is
+// what the curve does within a cell.
+void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
+  for (std::size_t s = 0; s < kN; ++s) {
+    const double n = sums.cells[s].observations;
+    if (n == 0.0) continue;
+    const double own = cell_variance_N2(sums, s);
+    const double depth = prior_.depth_noise_m * slope_N_per_m_[s];
+    const double expected = own + depth * depth;
+    const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
+    unresolved_N2_[s] = found > chi_squared_99(n) * expected ? found - expected : 0.0;
+    noise_factor_[s] = (expected + unresolved_N2_[s]) / own;
+  }
+}
+
+void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept {
+  if (stride <= 1) restart();
+  noise_factor_.fill(1.0);
+  unresolved_N2_.fill(0.0);
+  jump_.fill(1.0);
+  Information info;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    info = information_of(sums);
+    add_stride_prior(info);
+    integrate(info, pass + 1 == kPasses);
+    take_slopes();
+    if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
+  }
+  take_responses(sums);
+  keep(info);
+  report(sums, stride);
+}
+
+// Change of the moment by one newton more in every sample of a cell.
+void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
+  using F = ProfileFeature;
+  for (std::size_t s = 0; s < kN; ++s) {
+    auto& response = response_[s];
+    for (std::size_t i = kShared; i < kTerms; ++i) response[i] = 0.0;
+    const double weight = 1.0 / noise_factor_[s];
+    const auto sum = [&](F feature) { return weight * sums.cells[s].product(F::one, feature); };
+    for (std::size_t i = 0; i < s; ++i) response[i] += kProfileCell_m * sum(F::one);
+    response[s] += kProfileCell_m * sum(F::place);
+    response[kAddedMass] += sum(F::added_mass);
+    response[kScale] += sum(F::motor);
+    response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
+    response[kSurface] += slope_N_per_m_[s] * sum(F::one);
+    response[kDrift] += slope_N_per_m_[s] * sum(F::time);
+    response[kLag] += slope_N_per_m_[s] * sum(F::speed);
+    response[kFriction] += sum(F::friction);
+  }
+}
+
+// Integrates out what belongs to this stride alone: the Schur complement of its four terms.
+void ProfileSolver::keep(const Information& info) noexcept {
+  constexpr std::size_t kOwn = kTerms - kShared;
+  Matrix<kOwn> own{};
+  for (std::size_t i = 0; i < kOwn; ++i)
+    for (std::size_t j = 0; j < kOwn; ++j)
+      own[i * kOwn + j] = info.normal[(kShared + i) * kTerms + kShared + j];
+  const Matrix<kOwn> inverse = Cholesky<kOwn>(own).inverse();
+  for (std::size_t i = 0; i < kShared; ++i) {
+    Vector<kOwn> gain{};
+    for (std::size_t a = 0; a < kOwn; ++a)
+      for (std::size_t b = 0; b < kOwn; ++b)
+        gain[a] += info.normal[i * kTerms + kShared + b] * inverse[b * kOwn + a];
+    kept_moment_[i] = info.moment[i];
+    for (std::size_t a = 0; a < kOwn; ++a) kept_moment_[i] -= gain[a] * info.moment[kShared + a];
+    for (std::size_t j = 0; j < kShared; ++j) {
+      double value = info.normal[i * kTerms + j];
+      for (std::size_t a = 0; a < kOwn; ++a) value -= gain[a] * info.normal[(kShared + a) * kTerms + j];
+      kept_normal_[i * kShared + j] = value;
+    }
+  }
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,156 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "config/fields.hpp"
+#include "terrain/profile_sums.hpp"
+
+// Quasi-static force of the ground over depth, F(z), from the strides of one trial, with a pointwise 95 % band.
+// The curve starts at zero and is linear in cells of 2.5 mm, beside the believed bed's own shape m(z):
+//   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
+//   kappa_j the tangent stiffness of cell j beyond the believed one
+//   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
+//   force = F(z) + (d + r t + l v) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
+// with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
+// torque constant and l a lag between force and depth. The smoothness length L and the spread s are integrated
+// over a grid by their marginal likelihood, so the band knows that they are not known (Rasmussen & Williams
+// 2006, section 5.2). The depth is in error itself: F' is that of the posterior before, three times.
+// A measured force and the acceleration beside it are one measurement, F = M_f (a + g) + ..., so the likelihood of
+// c has the Jacobian prod (1 + c m_a / M_f): without it a rough curve would pass for little added mass.
+// A boundary is a jump of kappa, a crust an outlier: innovations of kappa have Student's distribution (their
+// variances by expectation maximisation), and a cell that the curve does not fit at a level of 1 % counts less and
+// has a wider band. The band holds the bed's own fluctuation and the depth's noise.
+// Between strides the information on kappa, c and e is kept and d, r, l and f are integrated out: the posterior
+// of a stride is the prior of the next. Everything is bounded; nothing is allocated.
+namespace sandhopper {
+
+struct StrengthProfile {
+  std::uint32_t stride = 0;  // the last that is in it; 0: none
+  std::int32_t samples = 0;  // of this stride
+  double depth_min_m = 0.0;  // visited by the trial so far
+  double depth_max_m = 0.0;
+  std::array<float, kProfileCells> force_N{};  // at the lower end of each cell
+  std::array<float, kProfileCells> force_sd_N{};
+  std::array<float, kProfileCells> tangent_N_per_m{};  // mean over each cell
+  std::array<float, kProfileCells> tangent_sd_N_per_m{};
+  std::array<float, kProfileCells> observations{};  // independent ones in each cell, all strides
+  double added_mass_factor = 0.0;
+  double added_mass_factor_sd = 0.0;
+  double smoothness_m = 0.0;     // posterior mean of L
+  double spread_relative = 0.0;  // and of s
+  double surface_m = 0.0;        // d
+  double depth_drift_mps = 0.0;  // r
+  double depth_lag_s = 0.0;
+  double joint_friction_N = 0.0;
+  double chi_squared = 0.0;  // per independent observation
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("stride", self.stride);
+    visit("samples", self.samples);
+    visit("depth_min_m", self.depth_min_m);
+    visit("depth_max_m", self.depth_max_m);
+    visit("force_N", self.force_N);
+    visit("force_sd_N", self.force_sd_N);
+    visit("tangent_N_per_m", self.tangent_N_per_m);
+    visit("tangent_sd_N_per_m", self.tangent_sd_N_per_m);
+    visit("observations", self.observations);
+    visit("added_mass_factor", self.added_mass_factor);
+    visit("added_mass_factor_sd", self.added_mass_factor_sd);
+    visit("smoothness_m", self.smoothness_m);
+    visit("spread_relative", self.spread_relative);
+    visit("surface_m", self.surface_m);
+    visit("depth_drift_mps", self.depth_drift_mps);
+    visit("depth_lag_s", self.depth_lag_s);
+    visit("joint_friction_N", self.joint_friction_N);
+    visit("chi_squared", self.chi_squared);
+  }
+};
+
+// A value and its standard deviation.
+struct ProfilePoint {
+  double value = 0.0;
+  double sd = 0.0;
+  double low() const noexcept { return value - 1.959964 * sd; }
+  double high() const noexcept { return value + 1.959964 * sd; }
+};
+
+// Between the ends of cells as the solver gives it there, linear in between; NaN beyond the last.
+ProfilePoint force_at(const StrengthProfile& profile, double depth_m) noexcept;
+// Of the cell that holds this depth.
+ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept;
+
+// What a trial has shown so far.
+class ProfileSolver {
+ public:
+  static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
+  static constexpr std::size_t kTerms = kShared + 4;         // d, r, l, f
+
+  static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
+                               kIntercept = kProfileCells + 2, kSurface = kProfileCells + 3,
+                               kDrift = kProfileCells + 4, kLag = kProfileCells + 5,
+                               kFriction = kProfileCells + 6;
+
+  explicit ProfileSolver(const StiffnessConfig& config);
+
+  void restart() noexcept;  // a new trial on other ground
+  void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
+  const StrengthProfile& profile() const noexcept { return profile_; }
+
+  // NaN beyond the last cell.
+  ProfilePoint force_N(double depth_m) const noexcept;
+
+  template <std::size_t N>
+  using Matrix = std::array<double, N * N>;
+  template <std::size_t N>
+  using Vector = std::array<double, N>;
+
+ private:
+  struct Information {
+    Matrix<kTerms> normal{};
+    Vector<kTerms> moment{};
+  };
+  struct Posterior {
+    Vector<kTerms> mean{};
+    Matrix<kTerms> covariance{};
+    double smoothness_m = 0.0, spread = 0.0;
+  };
+  Information information_of(const ProfileSums& sums) const noexcept;
+  void add_stride_prior(Information& information) const noexcept;
+  double add_shared_prior(Information& information, double smoothness_m, double spread) const noexcept;
+  struct Innovation {
+    double here, above;
+  };
+  Innovation innovation(std::size_t cell, double keep, double fresh, double spread) const noexcept;
+  void take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
+                  const Vector<kTerms>& mean) noexcept;
+  void integrate(const Information& information, bool last) noexcept;
+  double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
+  void take_responses(const ProfileSums& sums) noexcept;
+  void keep(const Information& information) noexcept;
+  void take_slopes() noexcept;
+  void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
+  void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
+  double cell_variance_N2(const ProfileSums& sums, std::size_t cell) const noexcept;
+  std::array<double, kProfileFeatures> residual_features(std::size_t cell) const noexcept;
+  double scatter_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
+  ProfilePoint tangent_N_per_m(std::size_t cell) const noexcept;
+  double slope_change_squared(std::size_t cell) const noexcept;
+  double residual_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
+
+  StiffnessConfig config_;
+  ProfileConfig prior_;
+  std::array<double, kProfileCells> believed_N_per_m_{};  // mean tangent stiffness of each cell
+  std::array<double, kProfileCells> intercept_N_per_m_{};  // slope of k (1 - exp(-z/dz0))
+  std::array<double, kProfileCells> slope_N_per_m_{};     // tangent stiffness of the posterior before
+  std::array<double, kProfileCells> noise_factor_{};      // variance of a cell's samples, of the weights' own
+  std::array<double, kProfileCells> unresolved_N2_{};     // what the curve does within a cell
+  std::array<double, kProfileCells> jump_{};              // variance of each innovation, of the prior's
+  std::array<Vector<kTerms>, kProfileCells> response_{};
+  Matrix<kShared> kept_normal_{};
+  Vector<kShared> kept_moment_{};
+  Posterior posterior_{};
+  StrengthProfile profile_{};
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,17 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "terrain/strength_profile.hpp"
+
+namespace sandhopper {
+
+// What a strength profile says, for people; nothing where there is none.
+std::vector<std::string> profile_lines(const StrengthProfile& profile);
+
+// The same for programs: depths at which the ground is known, and depth_m, force_N, ci95_N, secant_N_per_m,
+// tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell; null where there is none.
+nlohmann::ordered_json profile_json(const StrengthProfile& profile);
+
+}  // namespace sandhopper
