@@ -69,7 +69,8 @@ BedFamilyCurve::BedFamilyCurve(const BedFamilyParameters& parameters, double foo
                                double plain_reference_N)
     : p_(parameters),
       plain_(p_.family != BedFamily::power_law && p_.strength_factor == 1.0 &&
-             p_.deep_strength_ratio == 1.0 && p_.crust_shear_strength_Pa == 0.0 && p_.cohesion_Pa == 0.0),
+             p_.deep_strength_ratio == 1.0 && p_.crust_shear_strength_Pa == 0.0 && p_.cohesion_Pa == 0.0 &&
+             p_.floor_depth_m == 0.0),
       area_m2_(std::numbers::pi * foot_radius_m * foot_radius_m),
       rupture_N_(2.0 * std::numbers::pi * foot_radius_m * p_.crust_thickness_m * p_.crust_shear_strength_Pa),
       plain_reference_N_(plain_reference_N) {}
@@ -97,6 +98,8 @@ double BedFamilyCurve::force_N(double plain_N, double depth_m) const noexcept {
   if (p_.deep_strength_ratio != 1.0) force_N *= 1.0 + (p_.deep_strength_ratio - 1.0) * deep_share(depth_m);
   if (p_.cohesion_Pa > 0.0)
     force_N += kBearingFactor * p_.cohesion_Pa * area_m2_ * (1.0 - std::exp(-depth_m / p_.cohesion_depth_m));
+  if (p_.floor_depth_m > 0.0)
+    force_N += p_.floor_stiffness_N_per_m * std::max(0.0, depth_m - p_.floor_depth_m);
   return force_N + crust_N(depth_m);
 }
 

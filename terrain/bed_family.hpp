@@ -8,7 +8,7 @@
 // Families of beds whose quasi-static force over depth is not the plain bed's line. With the plain curve
 // F_p(z) = k [z + z0 (1 - exp(-z/dz0))] of terrain/bed.hpp, foot area A and foot radius R:
 //
-//   F(z) = s B(z) [1 + (q - 1) w(z)] + F_c(z) + N_c c A (1 - exp(-z/z_c))
+//   F(z) = s B(z) [1 + (q - 1) w(z)] + F_c(z) + N_c c A (1 - exp(-z/z_c)) + k_f max(0, z - z_f)
 //
 //   B   the plain curve; in the power-law family F_p(z_r) (z/z_r)^n, which equals it at z_r.
 //       Bekker's pressure-sinkage law p = k z^n; n is 0.5 for clay, 0.7 for loam, 1.1 for dry sand, 1.6 for
@@ -22,6 +22,7 @@
 //   F_c a brittle crust, thickness t, top at z_t: shear on the rim of the plug that the foot punches out,
 //       2 pi R t tau at the rupture (Meyerhof 1974). It rises linearly over the deflection d, and then decays
 //       as exp(-(z - z_t - d)/l_c). Strength of dried soil crusts: 20 to 150 kPa (Richards 1953).
+//   z_f the floor of the box that holds the bed, elastic with stiffness k_f.
 //   c   capillary cohesion, bearing-capacity factor N_c = 6.2 of a round shallow foot (Skempton 1951),
 //       mobilised over z_c (Vesic 1973: 5 to 10 % of the foot's diameter).
 //
@@ -72,10 +73,12 @@ struct BedFamilyParameters {
   double crust_breakage_length_m = 0.0005;  // l_c
   double cohesion_Pa = 0.0;                 // c
   double cohesion_depth_m = 0.002;          // z_c
+  double floor_depth_m = 0.0;               // z_f; 0: no floor
+  double floor_stiffness_N_per_m = 40e3;    // k_f
   double suction_Pa = 0.0;                  // sigma
   double suction_distance_m = 0.006;        // L
   double strength_spread_relative = 0.0;    // of q - 1, tau, c and sigma
-  double depth_spread_m = 0.0;              // of h and z_t
+  double depth_spread_m = 0.0;              // of h, z_t and z_f
   double exponent_spread = 0.0;
 
   template <class Self, class Visitor>
@@ -97,6 +100,8 @@ struct BedFamilyParameters {
     visit("crust_breakage_length_m", self.crust_breakage_length_m, Range{1e-4, 0.05});
     visit("cohesion_Pa", self.cohesion_Pa, Range{0.0, 1e6});
     visit("cohesion_depth_m", self.cohesion_depth_m, Range{1e-4, 0.1});
+    visit("floor_depth_m", self.floor_depth_m, Range{0.0, 1.0});
+    visit("floor_stiffness_N_per_m", self.floor_stiffness_N_per_m, Range{0.0, 1e7});
     visit("suction_Pa", self.suction_Pa, Range{0.0, 1e5});
     visit("suction_distance_m", self.suction_distance_m, Range{1e-4, 0.1});
     visit("strength_spread_relative", self.strength_spread_relative, Range{0.0, 0.3});

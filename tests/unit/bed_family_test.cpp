@@ -188,6 +188,14 @@ TEST(BedFamily, CompactedAndDenserBedsAreStiffer) {
   EXPECT_GT(tangent_N_per_m(denser, 0.040), 1.5 * tangent_N_per_m(denser, 0.010));
 }
 
+TEST(BedFamily, FloorOfTheBoxStopsTheFoot) {
+  BedFamilyParameters p;
+  p.floor_depth_m = 0.030;
+  const Bed boxed({}, kRadius_m, {}, p), open({}, kRadius_m);
+  EXPECT_EQ(boxed.quasi_static_force_N(0.030), open.quasi_static_force_N(0.030));
+  EXPECT_NEAR(boxed.quasi_static_force_N(0.032) - open.quasi_static_force_N(0.032), 80.0, 1e-9);
+}
+
 // A foot that falls, stands and is lifted: the plant's own memory of the deepest point, in every family.
 TEST(BedFamily, StridesInTheCraterStartAtItsFloor) {
   for (const auto family : all_families()) {

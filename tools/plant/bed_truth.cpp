@@ -39,6 +39,7 @@ BedTruth bed_truth_of(const Bed& bed) {
   if (family.crust_shear_strength_Pa > 0.0) truth.rupture_depth_m = family.rupture_depth_m();
   if (family.deep_strength_ratio != 1.0 && family.densification_depth_m == 0.0)
     truth.boundary_depth_m = family.boundary_depth_m;
+  if (family.floor_depth_m > 0.0) truth.floor_depth_m = family.floor_depth_m;
   if (family.suction_Pa > 0.0) truth.suction_N = bed.greatest_suction_N();
   for (int i = 0; i < kPoints; ++i) {
     truth.depth_m.push_back(i * kSpacing_m);
@@ -54,6 +55,7 @@ std::string bed_truth_text(const Bed& bed) {
                   {"unloading_stiffness_N_per_m", truth.unloading_stiffness_N_per_m},
                   {"rupture_depth_m", json_of(truth.rupture_depth_m)},
                   {"boundary_depth_m", json_of(truth.boundary_depth_m)},
+                  {"floor_depth_m", json_of(truth.floor_depth_m)},
                   {"suction_N", json_of(truth.suction_N)},
                   {"depth_m", truth.depth_m},
                   {"force_N", truth.force_N},
@@ -71,6 +73,7 @@ BedTruth read_bed_truth(std::string_view text) {
     truth.unloading_stiffness_N_per_m = json.at("unloading_stiffness_N_per_m").get<double>();
     truth.rupture_depth_m = number_of(json.at("rupture_depth_m"));
     truth.boundary_depth_m = number_of(json.at("boundary_depth_m"));
+    truth.floor_depth_m = number_of(json.at("floor_depth_m"));
     truth.suction_N = number_of(json.at("suction_N"));
     truth.depth_m = json.at("depth_m").get<std::vector<double>>();
     truth.force_N = json.at("force_N").get<std::vector<double>>();

@@ -17,6 +17,7 @@ struct BedTruth {
   double unloading_stiffness_N_per_m = 0.0;  // of the line on which a foot leaves and returns to its crater
   std::optional<double> rupture_depth_m{};   // of a crust
   std::optional<double> boundary_depth_m{};  // between two layers
+  std::optional<double> floor_depth_m{};     // of the box
   std::optional<double> suction_N{};         // greatest pull on a foot that leaves
   std::vector<double> depth_m{};
   std::vector<double> force_N{};

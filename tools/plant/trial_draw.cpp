@@ -77,6 +77,9 @@ BedFamilyParameters TrialDraw::bed_family() const {
     *strength *= spread();
   for (double* depth : {&family.boundary_depth_m, &family.crust_depth_m})
     *depth = std::max(0.0, *depth + family.depth_spread_m * limited_normal(random));
+  if (family.floor_depth_m > 0.0)
+    family.floor_depth_m =
+        std::max(kLeastFloor_m, family.floor_depth_m + family.depth_spread_m * limited_normal(random));
   family.exponent =
       std::max(kLeastExponent, family.exponent + family.exponent_spread * limited_normal(random));
   return family;

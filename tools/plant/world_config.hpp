@@ -221,7 +221,7 @@ struct WorldConfig {
  private:
   template <class Report>
   void check_bed(Report&& report) const {
-    if (bed_family.family == BedFamily::line) return;
+    if (bed_family.family == BedFamily::line && bed_family.floor_depth_m == 0.0) return;
     constexpr double kDeepest_m = 0.1;
     const Bed bed(terrain, robot.leg.foot_radius_m, {}, bed_family);
     const double steepest = bed.greatest_stiffness_N_per_m(kDeepest_m);
