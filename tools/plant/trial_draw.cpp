@@ -30,6 +30,7 @@ enum Stream : std::uint64_t {
 };
 
 constexpr double kLeastExponent = 0.1;       // as the configuration's
+constexpr double kLeastFloor_m = 1e-3;       // zero would be no floor
 constexpr double kQuietPhase_periods = 0.5;  // of every sample clock when nothing is random
 
 double limited_normal(Random& random) { return std::clamp(random.normal(), -3.0, 3.0); }
