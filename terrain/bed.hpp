@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "config/fields.hpp"
+#include "terrain/bed_family.hpp"
 
 // Vertical force of a granular bed on a flat round foot, given depth, speed and the deepest point so far: an
 // elastic- plastic depth law with the inertial terms of a stagnant cone of grains that grows under the foot.
@@ -14,6 +15,8 @@
 //   elsewhere in the crater: with E = F_d(z_max) - r k (z_max - z) and c_u = 2 zeta sqrt(r k M),
 //     F = E + c_u v clip(E / 5 N, 0, 1) where E > 0, else 0
 //   and never below 0: dry grains cannot pull.
+// A bed of another family (terrain/bed_family.hpp) has its own F_d and, where it is wet, pulls a foot that
+// leaves; everything else is the same.
 //
 // Sources: Kang et al. 2018 (depth law), Aguilar & Goldman 2016 (cone), Katsuragi & Durian 2013 (steady
 // drag).
@@ -106,7 +109,8 @@ class BedExtension {
 
 class Bed {
  public:
-  Bed(const BedParameters& parameters, double foot_radius_m, const BedFluctuation& fluctuation = {});
+  Bed(const BedParameters& parameters, double foot_radius_m, const BedFluctuation& fluctuation = {},
+      const BedFamilyParameters& family = {});
 
   // `extension` must outlive this bed; null for none.
   void extend(const BedExtension* extension) noexcept { extension_ = extension; }
@@ -117,14 +121,23 @@ class Bed {
   double added_mass_gradient_kg_per_m(double depth_m) const noexcept;
   BedReaction reaction(const BedContact& contact) const noexcept;
 
+  // Slope of the curve between 0.1 mm and this depth where it is greatest, over steps of 0.1 mm.
+  double greatest_stiffness_N_per_m(double to_depth_m) const noexcept;
+  double unloading_line_N_per_m() const noexcept;
+  // Of a wet bed, where the crater is deep enough for its full length.
+  double greatest_suction_N() const noexcept { return family_.parameters().suction_Pa * area_m2_; }
+
   // Depth at which a foot that unloads from `max_depth_m` at rest loses contact: the crater's floor.
   double crater_floor_m(double max_depth_m) const noexcept;
 
   const BedParameters& parameters() const noexcept { return p_; }
+  const BedFamilyParameters& family() const noexcept { return family_.parameters(); }
+  double foot_radius_m() const noexcept { return radius_m_; }
 
  private:
+  double plain_curve_N(double depth_m) const noexcept;  // without family and fluctuation
+  double suction_N(const BedContact& contact, double above_floor_m) const noexcept;
   double stiffness_N_per_m() const noexcept;
-  double unloading_line_N_per_m() const noexcept;
   // Without an extension's laws, but for what `bears_N` holds of them: the quasi-static force at the depth.
   BedReaction going_deeper(const BedContact& contact, double bears_N) const noexcept;
   BedReaction unloading(const BedContact& contact) const noexcept;
@@ -133,6 +146,7 @@ class Bed {
   const BedExtension* extension_ = nullptr;
   BedParameters p_;
   BedFluctuation fluctuation_;
+  BedFamilyCurve family_;
   double radius_m_;
   double area_m2_;
   double cone_slope_;                // kap

@@ -85,13 +85,14 @@ TEST(ConfigFiles, BenchDiffersFromTheRobotOnlyInTheCanInterfaceAndAges) {
   expect_same(bench, robot);
 }
 
-TEST(ConfigFiles, WorldFileLeavesOutOnlyWhatFollowsFromTheRobot) {
+TEST(ConfigFiles, WorldFileLeavesOutOnlyWhatFollowsFromRobotAndFamily) {
   const auto path = (kConfig / "world.toml").string();
   const auto in_file = keys_of(parse_config_file(path).root);
   for (const auto& key : keys_of(to_node(WorldConfig{}))) {
     const bool of_the_leg = keys_of(to_node(LegParameters{})).contains(key.substr(key.find('.') + 1));
-    const bool follows =
-        of_the_leg || key.starts_with("controller.") || key == "motor.torque_constant_Nm_per_A";
+    const bool follows = of_the_leg || key.starts_with("controller.") ||
+                         key == "motor.torque_constant_Nm_per_A" ||
+                         (key.starts_with("bed_family.") && key != "bed_family.family");
     EXPECT_NE(in_file.contains(key), follows) << key;
   }
 }

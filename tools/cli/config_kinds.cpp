@@ -9,7 +9,7 @@
 #include "config/load.hpp"
 #include "config/robot_config.hpp"
 #include "firmware/linux_board_config.hpp"
-#include "tools/plant/world_config.hpp"
+#include "tools/plant/load_world.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -18,6 +18,8 @@ template <class T, MissingKeys missing>
 ConfigNode load(const std::string& path) {
   return to_node(load_file<T>(path, missing));
 }
+
+ConfigNode load_world_keys(const std::string& path) { return to_node(load_world_file(path, WorldConfig{})); }
 
 ConfigNode check_robot(const std::string& path, const RobotConfig*) { return to_node(load_robot_file(path)); }
 
@@ -31,7 +33,7 @@ constexpr std::array kKinds{
     ConfigKind{"linux", "the robot's device nodes", load<LinuxBoardConfig, MissingKeys::error>, check_board},
     ConfigKind{"bench", "the virtual bench's device nodes", load<LinuxBoardConfig, MissingKeys::error>,
                check_board},
-    ConfigKind{"world", "the simulated world", load<WorldConfig, MissingKeys::use_default>, nullptr},
+    ConfigKind{"world", "the simulated world", load_world_keys, nullptr},
 };
 
 }  // namespace

@@ -11,7 +11,11 @@ namespace sandhopper {
 // simulated robot another one than the firmware believes. Throws ConfigError.
 WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig& robot);
 
-// As above from any file.
+// What `file` leaves out is as in `base`; but a key of [bed_family] has the value of the family named there.
+// Throws ConfigError.
+WorldConfig load_world_file(const std::filesystem::path& file, WorldConfig base);
+
+// As the first, from any file.
 WorldConfig load_world_file(const std::filesystem::path& file, const RobotConfig& robot);
 
 }  // namespace sandhopper

@@ -26,8 +26,11 @@ enum Stream : std::uint64_t {
   kMocap,
   kMocapSpread,
   kCable,
+  kBedFamily,
 };
 
+constexpr double kLeastExponent = 0.1;       // as the configuration's
+constexpr double kLeastFloor_m = 1e-3;       // zero would be no floor
 constexpr double kQuietPhase_periods = 0.5;  // of every sample clock when nothing is random
 
 double limited_normal(Random& random) { return std::clamp(random.normal(), -3.0, 3.0); }
@@ -62,7 +65,25 @@ Bed TrialDraw::bed() const {
     Random along_depth(setup_.seed, kBedFluctuation);
     for (auto& knot : fluctuation.knots) knot = limited_normal(along_depth);
   }
-  return {terrain, config_.robot.leg.foot_radius_m, fluctuation};
+  return {terrain, config_.robot.leg.foot_radius_m, fluctuation, bed_family()};
+}
+
+BedFamilyParameters TrialDraw::bed_family() const {
+  BedFamilyParameters family = config_.bed_family;
+  if (!setup_.noise) return family;
+  Random random(setup_.seed, kBedFamily);
+  const auto spread = [&] { return 1.0 + family.strength_spread_relative * limited_normal(random); };
+  family.deep_strength_ratio = 1.0 + (family.deep_strength_ratio - 1.0) * spread();
+  for (double* strength : {&family.crust_shear_strength_Pa, &family.cohesion_Pa, &family.suction_Pa})
+    *strength *= spread();
+  for (double* depth : {&family.boundary_depth_m, &family.crust_depth_m})
+    *depth = std::max(0.0, *depth + family.depth_spread_m * limited_normal(random));
+  if (family.floor_depth_m > 0.0)
+    family.floor_depth_m =
+        std::max(kLeastFloor_m, family.floor_depth_m + family.depth_spread_m * limited_normal(random));
+  family.exponent =
+      std::max(kLeastExponent, family.exponent + family.exponent_spread * limited_normal(random));
+  return family;
 }
 
 // The torque constant's error is that of the magnets and of the convention: the same in both motors.

@@ -29,6 +29,7 @@ class TrialDraw {
   double cable_force_N() const;
 
   Bed bed() const;
+  BedFamilyParameters bed_family() const;
   Drive drive(Side side) const;
   Imu imu_body() const;
   Imu imu_foot() const;

@@ -4,6 +4,7 @@
 #include "config/fields.hpp"
 #include "estimation/leg.hpp"
 #include "terrain/bed.hpp"
+#include "terrain/bed_family.hpp"
 
 // What the simulated world is made of: the tables and keys of a campaign's nominal.toml, with the default
 // robot, bed, sensors and spread. Every default is a figure of that default set; zero means "no such effect".
@@ -180,6 +181,7 @@ struct WorldConfig {
   WorldMotorConfig motor{};
   NominalControllerConfig controller{};
   BedParameters terrain{};
+  BedFamilyParameters bed_family{};
   SensorConfig sensors{};
   SpreadConfig spread{};
 
@@ -190,11 +192,13 @@ struct WorldConfig {
     visit("motor", self.motor);
     visit("controller", self.controller);
     visit("terrain", self.terrain);
+    visit("bed_family", self.bed_family);
     visit("sensors", self.sensors);
     visit("spread", self.spread);
   }
 
-  // What one key alone cannot show: the leg must not lock, and must reach the lengths asked of it.
+  // What one key alone cannot show: the leg must not lock, and must reach the lengths asked of it; the bed
+  // must not give back more work than it took.
   template <class Report>
   void check(Report&& report) const {
     const auto& leg = robot.leg;
@@ -211,6 +215,22 @@ struct WorldConfig {
     if (controller.extension_length_m >= reach_m)
       report("controller.extension_length_m",
              "expected less than both links' lengths together" + got(controller.extension_length_m));
+    check_bed(report);
+  }
+
+ private:
+  template <class Report>
+  void check_bed(Report&& report) const {
+    if (bed_family.family == BedFamily::line && bed_family.floor_depth_m == 0.0) return;
+    constexpr double kDeepest_m = 0.1;
+    const Bed bed(terrain, robot.leg.foot_radius_m, {}, bed_family);
+    const double steepest = bed.greatest_stiffness_N_per_m(kDeepest_m);
+    const double unloading = bed.unloading_line_N_per_m();
+    if (steepest > unloading)
+      report("bed_family.unloading_stiffness_factor",
+             "expected an unloading line steeper than the bed's curve, which rises by " +
+                 std::to_string(steepest) + " N/m where it is steepest; raise this or " +
+                 "terrain.unloading_stiffness_ratio; got a line of " + std::to_string(unloading) + " N/m");
   }
 };
 

@@ -85,7 +85,7 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
   BedParameters parameters = draw.bed().parameters();
   const double size = 0.5 * what.diameter_m / world.robot.leg.foot_radius_m;
   parameters.stiffness_N_per_m *= size * size;  // the believed bed has one pressure at one depth
-  const Bed bed(parameters, 0.5 * what.diameter_m);
+  const Bed bed(parameters, 0.5 * what.diameter_m, {}, draw.bed_family());
   Random noise(seed, 77);
   const double bias_mps2 = world.spread.imu_bias_mps2 * noise.normal();
   LoadCell cell_of_trial = draw.load_cell();

@@ -5,7 +5,9 @@
 #include "config/dump.hpp"
 #include "firmware/cycle.hpp"
 #include "firmware/log/trial_description.hpp"
+#include "tools/plant/bed_truth.hpp"
 #include "tools/plant/sim_board.hpp"
+#include "tools/plant/trial_draw.hpp"
 
 namespace sandhopper {
 namespace {
@@ -50,9 +52,12 @@ TrialLogOptions log_options(const SimTrialSetup& setup) {
 void describe_simulated_trial(TrialLogger& logger, const SimTrialSetup& setup) {
   describe_trial(logger, setup.robot, "sim");
   logger.attach("world.toml", "application/toml", to_toml(to_node(setup.world)));
+  const TrialDraw draw(setup.world, {.seed = setup.trial.seed, .noise = setup.trial.noise, .start_ns = 0});
+  logger.attach(kBedTruthAttachment, "application/json", bed_truth_text(draw.bed()));
   logger.add_metadata("simulated trial",
                       {{"seed", std::to_string(setup.trial.seed)},
                        {"noise", setup.trial.noise ? "on" : "off"},
+                       {"bed_family", std::string(name_of(setup.world.bed_family.family))},
                        {"release_height_m", std::to_string(setup.trial.release_height_m)}});
   if (setup.sheet) add_sheet(logger, *setup.sheet);
 }

@@ -7,6 +7,7 @@
 #include "config/json.hpp"
 #include "config/load.hpp"
 #include "drivers/clock.hpp"
+#include "tools/plant/bed_truth.hpp"
 
 namespace sandhopper::bench {
 namespace {
@@ -141,6 +142,7 @@ void Devices::connect_control() {
     return std::string("ok");
   });
   control_.on("truth", [this](const auto&) { return "ok " + to_json(world_.now().truth()).dump(); });
+  control_.on("bed", [this](const auto&) { return "ok " + bed_truth_text(world_.now().plant().bed()); });
 }
 
 }  // namespace sandhopper::bench
