@@ -156,7 +156,7 @@ TEST(Ism330dhcx, StartErrorsNameDeviceCauseAndCure) {
 }
 
 TEST(Ism330dhcx, AChipThatAnswersNothingAtFirstIsReadAgainAndThenReset) {
-  for (const std::uint8_t silence : {0x00, 0xFF}) {
+  for (const std::uint8_t silence : std::initializer_list<std::uint8_t>{0x00, 0xFF}) {
     FakeSensor slow;
     slow.silence = silence;
     slow.bad_identities = 1;
