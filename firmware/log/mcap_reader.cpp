@@ -4,6 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include "firmware/log/mcap_unpack.hpp"
+
 namespace sandhopper::mcap {
 Reader::Reader(const std::filesystem::path& file, ReaderOptions options)
     : name_(file.string()), options_(options), map_(file), file_(map_.bytes()) {
@@ -19,10 +21,13 @@ void Reader::open() {
   const std::size_t seen = std::min(file_.size(), kMagic.size());
   if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(seen), file_.begin()))
     throw Error(name_ + ": not an MCAP log (its first bytes are not MCAP's)");
+  file_bytes_ = file_.size();
   if (seen < kMagic.size()) {
     cut_at(0);
     return;
   }
+  unpacked_ = unpack(file_);
+  if (unpacked_) file_ = *unpacked_;
   closed_ =
       file_.size() >= 2 * kMagic.size() &&
       std::equal(kMagic.begin(), kMagic.end(), file_.end() - static_cast<std::ptrdiff_t>(kMagic.size()));
@@ -117,8 +122,8 @@ void Reader::enter_chunk(Bytes content, std::uint64_t offset, std::uint64_t leng
   }
   if (!in.ok) fail(offset, "a chunk without a head; the file is damaged");
   if (!compression.empty())
-    fail(offset, "chunks are compressed with " + std::string(compression) +
-                     "; unpack the file first: mcap decompress IN.mcap -o OUT.mcap");
+    fail(offset,
+         "a chunk is compressed with " + std::string(compression) + ", which is neither zstd nor lz4");
   chunk_is_cut_ = content.size() < length;
   if (!chunk_is_cut_ && records > in.rest().size()) fail(offset, "a chunk's records reach beyond it");
   const std::uint64_t present = std::min<std::uint64_t>(records, in.rest().size());

@@ -85,6 +85,7 @@ export const commands = [
   command('report of another file', ['report', '/etc/passwd'], 'not an MCAP log', 'name the .mcap file of a trial'),
   command('trace that is none', ['replay', '--can', '/etc/passwd'], 'holds no CAN frame', 'name a trace as `candump -L` writes it'),
   command('interface without a trace', ['replay', '--interface', 'vcan0'], '--interface', '--can'),
+  command('export of another file', ['export', '/etc/passwd', '--output', 'table.csv'], 'not an MCAP log', 'name the .mcap file of a trial'),
   command('export of nothing', ['export'], 'LOG is required', "a trial's .mcap file"),
   command('experiment misspelt', ['experiment', 'papr'], "unknown verb 'papr'", "did you mean 'paper'?"),
   command('experiment without a hop', ['experiment', 'paper', '--seeds', '0'], 'Value 0 not in range 1 to 1000', 'repetitions of the 75 hops'),

@@ -49,7 +49,7 @@ Failure no_trace(const std::string& file, const std::string& what) {
   return {ExitCode::usage, what, "name a trace as `candump -L` writes it"};
 }
 
-CanReplayResult run(Session& session, const ReplayTraceOptions& options, const CanReplaySetup& setup) {
+CanReplayResult run(const ReplayTraceOptions& options, const CanReplaySetup& setup) {
   if (const auto format = trace::recognise_format(options.trace)) throw no_trace(options.trace, "");
   Progress progress("reading frames", 0.0);
   try {
@@ -140,7 +140,7 @@ void tell(Session& session, const CanReplayResult& result, const ReplayTraceOpti
 
 ExitCode replay_trace(Session& session, const ReplayTraceOptions& options) {
   const auto setup = setup_of(session, options);
-  const auto result = run(session, options, setup);
+  const auto result = run(options, setup);
   if (!options.output.empty()) write_readings(result, options.output);
   tell(session, result, options, setup.config);
   session.result = as_json(result, setup.config);
