@@ -67,7 +67,7 @@ export const commands = [
   command('no verb', [], "choose one of those 'hop --help' lists"),
   command('verb misspelt', ['docter'], "unknown verb 'docter'", "did you mean 'doctor'?"),
   command('verb of a verb misspelt', ['config', 'chekc'], "did you mean 'check'?"),
-  command('verb of a verb missing', ['config'], 'needs one of: check, show'),
+  command('verb of a verb missing', ['config'], 'needs one of: check, show, motor'),
   command('option misspelt', ['doctor', '--bord', 'sim'], "unknown option '--bord'", "did you mean '--board'?"),
   command('option without its value', ['doctor', '--board'], '--board', "'hop doctor --help'"),
   command('value not among those', ['doctor', '--board', 'moon'], 'moon not in {linux,sim}', "'hop doctor --help'"),
@@ -102,6 +102,7 @@ export const commands = [
   command('configuration not there', ['doctor', '--config', 'nowhere'],
     '--config must name a directory with robot.toml; this is not there'),
   command('configuration is a file', ['doctor', '--config', '/etc/passwd'], '--config must name a directory', 'this is a file'),
+  command('motor there is not', ['config', 'motor', 'AK81-9'], "no preset 'AK81-9'", 'name one of AK60-6'),
   command('file of no known kind', ['config', 'check', '/etc/passwd'], 'name it robot*.toml'),
   command('file to check not there', ['config', 'check', 'robto.toml'], 'robto.toml: cannot be read'),
 ];

@@ -82,5 +82,21 @@ TEST(CanTraceClock, TimesTooCoarseForTheCommandsAreSaid) {
   EXPECT_THAT(text_of(trace.report(), "coarse_times"), HasSubstr("resolution of 1 ms"));
 }
 
+TEST(CanTraceClock, FramesOfTwoClocksAreToldAsThat) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply - 6.0, 1);
+  EXPECT_THAT(text_of(trace.report(), "several_clocks"), HasSubstr("of several clocks"));
+}
+
+TEST(CanTraceClock, AFullSecondAsOldAsc2logWritesItIsNoTenth) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(0.980 + i * kMs, 1).reply(0.980 + i * kMs + kReply, 1);
+  trace.raw("(1700000000.1000000) can0 001#80008000A3199800\n").reply(1.0 + kReply, 1);
+  for (int i = 21; i < 40; ++i) trace.command(0.980 + i * kMs, 1).reply(0.980 + i * kMs + kReply, 1);
+  const auto report = trace.report();
+  EXPECT_TRUE(report.clock.steps_back.empty());
+  EXPECT_EQ(report.motors[0].missed, 0U);
+}
+
 }  // namespace
 }  // namespace sandhopper::trace

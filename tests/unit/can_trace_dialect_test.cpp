@@ -130,6 +130,8 @@ TEST_F(Formats, Utf16IsConvertedByTheLineGiven) {
 TEST_F(Formats, OtherProgramsFilesAreNamedWithTheirConverter) {
   EXPECT_THAT(of("date Fri Nov 27 07:00:00 2026\nbase hex  timestamps absolute\n")->cure,
               HasSubstr("asc2log"));
+  EXPECT_THAT(of("date Mon Dec 6 11:21:13 am 2021\nbase hex  no internal events logged\n")->cure,
+              AllOf(HasSubstr("can.logconvert"), Not(HasSubstr("asc2log"))));
   EXPECT_THAT(of("LOGG\x90")->cure, HasSubstr("can.logconvert"));
   EXPECT_THAT(of(";$FILEVERSION=2.1\n")->what, HasSubstr("PEAK"));
   EXPECT_THAT(of("timestamp,arbitration_id,extended,remote,error,dlc,data\n")->what, HasSubstr("python-can"));

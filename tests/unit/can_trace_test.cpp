@@ -222,5 +222,23 @@ TEST(CanTrace, LinesThatAreNoFrameAreCountedAndATornEndIsNot) {
   EXPECT_FALSE(report.trusted());
 }
 
+TEST(CanTrace, ZeroBytesOfAPowerCutDoNotHideTheFrameBehindThem) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  trace.raw(std::string(300, '\0')).command(20 * kMs, 1).reply(20 * kMs + kReply, 1);
+  const auto report = trace.report();
+  EXPECT_EQ(report.motors[0].commands, 21U);
+  EXPECT_THAT(text_of(report, "zero_bytes"), HasSubstr("300 bytes"));
+  EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTrace, LinesOfOtherProgramsBetweenTheFramesAreShown) {
+  TraceText trace;
+  trace.raw("# a comment\n\nEnabling Logfile 'candump.log'\n");
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  EXPECT_THAT(text_of(trace.report(), "other_lines"),
+              AllOf(HasSubstr("1 lines"), HasSubstr("Enabling Logfile")));
+}
+
 }  // namespace
 }  // namespace sandhopper::trace

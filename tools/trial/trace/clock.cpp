@@ -101,7 +101,14 @@ Findings clock_findings(const ClockReport& report, const Trace& trace, std::int6
                    "record with absolute times: candump -L, without -t", false});
     return out;
   }
-  if (!report.steps_back.empty())
+  // One clock is not set so often: can-utils issue 233.
+  constexpr std::size_t kManySteps = 3;
+  if (report.steps_back.size() > kManySteps)
+    out.push_back({"several_clocks",
+                   fmt::format("times jump to and fro {} times, as of several clocks: {}",
+                               report.steps_back.size(), places(report.steps_back)),
+                   "record one interface on one computer, with the kernel's stamps: candump -L can0", false});
+  else if (!report.steps_back.empty())
     out.push_back({"clock_step",
                    fmt::format("the clock was set back {} times: {}", report.steps_back.size(),
                                places(report.steps_back)),

@@ -65,6 +65,8 @@ struct Pattern {
   const char* cure;
 };
 constexpr std::array kPatterns{
+    // asc2log misreads these (can-utils issue 348).
+    Pattern{R"(^\s*base\s+(hex|dec)\s+no internal events logged.*)", "an ASC log of BUSMASTER", kPythonCan},
     Pattern{R"(^\s*base\s+(hex|dec)\s+timestamps\s+(absolute|relative).*)", "a Vector ASC log",
             "asc2log -I '{0}' -O '{1}' (Debian: can-utils), or python3 -m can.logconvert '{0}' '{1}'"},
     Pattern{R"(^\s*\([0-9]+\.[0-9]+\)\s+\S+\s.*\[[0-9]+\].*)", "candump's output without -L", kLongCandump},

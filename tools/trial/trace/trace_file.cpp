@@ -10,6 +10,8 @@
 namespace sandhopper::trace {
 namespace {
 
+constexpr std::size_t kShownCharacters = 60;
+
 // The number in hopperd's "# 12 frames lost: why" (CandumpWriter::comment_lost).
 std::uint64_t lost_frames(std::string_view line) {
   std::uint64_t count = 0;
@@ -26,11 +28,14 @@ class TraceBuilder {
 
   void take(std::string_view line, std::uint64_t number) {
     forget_torn_line();
+    const auto zeros = std::min(line.find_first_not_of('\0'), line.size());
+    trace_.zero_bytes += zeros;
+    line.remove_prefix(zeros);
     try {
       if (const auto parsed = parse_candump(line))
         keep(*parsed, number);
       else
-        trace_.lost_by_recorder += lost_frames(line);
+        pass_over(line, number);
     } catch (const CandumpError& error) {
       if (line.find("##") != std::string_view::npos)
         ++trace_.fd_frames;
@@ -56,6 +61,15 @@ class TraceBuilder {
     if (found == trace_.interfaces.end()) trace_.interfaces.emplace_back(line.interface);
     const auto& f = line.frame;
     trace_.frames.push_back({f.time_ns, number, f.id, place, f.length, f.direction, f.data});
+  }
+
+  void pass_over(std::string_view line, std::uint64_t number) {
+    trace_.lost_by_recorder += lost_frames(line);
+    if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string_view::npos) return;
+    auto& passed = trace_.passed_over;
+    if (passed.count++ > 0) return;
+    passed.first_line = number;
+    for (const char c : line.substr(0, kShownCharacters)) passed.first += c >= ' ' && c <= '~' ? c : '?';
   }
 
   // A line that could not be read counts as unreadable once another line follows it.

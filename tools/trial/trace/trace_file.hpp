@@ -39,7 +39,9 @@ struct Trace {
   std::vector<Frame> frames;  // in the order of the file
   BadLines unreadable;        // without the last line
   bool last_line_torn = false;
-  std::uint64_t fd_frames = 0;         // CAN FD and CAN XL: passed over
+  BadLines passed_over;          // neither a frame nor a comment nor blank, as every CAN tool passes over
+  std::uint64_t zero_bytes = 0;  // as a power cut leaves them
+  std::uint64_t fd_frames = 0;   // CAN FD and CAN XL: passed over
   std::uint64_t lost_by_recorder = 0;  // by its own comments, "# 12 frames lost: …"
 };
 

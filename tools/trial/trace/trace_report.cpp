@@ -72,6 +72,16 @@ Findings file_findings(const Trace& trace) {
                    fmt::format("{} lines are no frame; line {}: {}", trace.unreadable.count,
                                trace.unreadable.first_line, trace.unreadable.first),
                    "each may be a lost frame: see what wrote them", false});
+  if (trace.zero_bytes > 0)
+    out.push_back(
+        {"zero_bytes",
+         fmt::format("{} bytes are zero, as after a power cut while it was recorded", trace.zero_bytes),
+         "frames are lost there: replay the parts before and after as traces of their own", false});
+  if (trace.passed_over.count > 0)
+    out.push_back(
+        {"other_lines",
+         fmt::format("{} lines begin with no time and are passed over; line {}: \"{}\"",
+                     trace.passed_over.count, trace.passed_over.first_line, trace.passed_over.first)});
   if (trace.last_line_torn)
     out.push_back({"torn_end", "the last line is torn, as after a power cut, and left out"});
   if (trace.fd_frames > 0)
