@@ -168,6 +168,15 @@ std::optional<CandumpLine> parse_candump(std::string_view line) {
   return result;
 }
 
+std::uint64_t frames_lost_in(std::string_view line) {
+  std::uint64_t frames = 0;
+  if (!line.starts_with("# ")) return 0;
+  line.remove_prefix(2);
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), frames);
+  const std::string_view rest = line.substr(static_cast<std::size_t>(end - line.data()));
+  return error == std::errc{} && rest.starts_with(" frames lost: ") ? frames : 0;
+}
+
 CandumpWriter::CandumpWriter(const std::filesystem::path& file, CandumpFormat format, const CandumpDisk& disk)
     : file_(file, disk.reserve_bytes, disk.calls), format_(format), keep_going_(disk.keep_going) {
   buffer_.reserve(kBufferBytes + 256);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -11,16 +10,6 @@ namespace sandhopper::trace {
 namespace {
 
 constexpr std::size_t kShownCharacters = 60;
-
-// The number in hopperd's "# 12 frames lost: why" (CandumpWriter::comment_lost).
-std::uint64_t lost_frames(std::string_view line) {
-  std::uint64_t count = 0;
-  if (!line.starts_with("# ")) return 0;
-  line.remove_prefix(2);
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), count);
-  const std::string_view rest(end, static_cast<std::size_t>(line.data() + line.size() - end));
-  return error == std::errc{} && rest.starts_with(" frames lost") ? count : 0;
-}
 
 class TraceBuilder {
  public:
@@ -64,7 +53,7 @@ class TraceBuilder {
   }
 
   void pass_over(std::string_view line, std::uint64_t number) {
-    trace_.lost_by_recorder += lost_frames(line);
+    trace_.lost_by_recorder += frames_lost_in(line);
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string_view::npos) return;
     auto& passed = trace_.passed_over;
     if (passed.count++ > 0) return;
