@@ -183,6 +183,16 @@ CubeMarsCodec::Match CubeMarsCodec::match(const can_frame& frame) const noexcept
   return right ? Match::reply : Match::malformed;
 }
 
+bool CubeMarsCodec::is_command_id(canid_t id) const noexcept {
+  const auto drive = static_cast<canid_t>(config_.can_id);
+  if (config_.dialect == Dialect::mit) return id == drive;
+  if ((id & ~CAN_EFF_MASK) != CAN_EFF_FLAG || (id & 0xFFU) != drive) return false;
+  constexpr canid_t kLastServoMode = 6;
+  const auto mode = (id & CAN_EFF_MASK) >> 8U;
+  return config_.dialect == Dialect::v3 ? mode == static_cast<canid_t>(ServoMode::mit)
+                                        : mode <= kLastServoMode;
+}
+
 MotorSample CubeMarsCodec::sample_of(const can_frame& frame, std::int64_t time_ns) const noexcept {
   if (config_.dialect != Dialect::mit)
     return to_sample(unpack_servo_status(payload_of(frame)).value_or(ServoStatus{}), time_ns);
@@ -260,9 +270,10 @@ std::optional<MotorReading> CanTraceDecoder::decode(const can_frame& frame, std:
   if (direction != FrameDirection::received) {
     for (std::size_t i = 0; i < bus_.motor_count(); ++i) {
       const auto side = static_cast<Side>(i);
-      const auto can_id = static_cast<canid_t>(bus_.codec(side).config().can_id);
-      if (frame.can_id != can_id) continue;
-      if (direction == FrameDirection::unknown && frame.data[0] == can_id) continue;
+      const auto& codec = bus_.codec(side);
+      if (!codec.is_command_id(frame.can_id)) continue;
+      const bool may_be_reply = codec.match(frame) == CubeMarsCodec::Match::reply;
+      if (direction == FrameDirection::unknown && may_be_reply) continue;
       bus_.command_sent(side, time_ns);
       return std::nullopt;
     }

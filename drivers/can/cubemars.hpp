@@ -52,6 +52,10 @@ class CubeMarsCodec {
   enum class Match : std::uint8_t { other, reply, malformed, foreign };
   Match match(const can_frame& frame) const noexcept;
 
+  // Identifier, with its flags, of commands to this drive in its dialect: servo has modes 0 to 6. In the MIT
+  // dialect a drive may answer on it, too.
+  bool is_command_id(canid_t id) const noexcept;
+
   // Of a frame that is a reply.
   MotorSample sample_of(const can_frame& frame, std::int64_t time_ns) const noexcept;
 

@@ -16,6 +16,10 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kResetWait_ns = 50 * kMillisecond_ns;
 constexpr std::int64_t kSettle_ns = 100 * kMillisecond_ns;
 constexpr int kResetTries = 20;
+// After power comes on the chip answers within 10 ms (HARDWARE 3.6): its identity is read once a millisecond.
+constexpr int kIdentityTries = 10;
+
+bool no_answer(std::uint8_t identity) { return identity == 0x00 || identity == 0xFF; }
 
 std::string hex(std::uint8_t value) {
   std::array<char, 8> text{};
@@ -42,20 +46,39 @@ void Ism330dhcx::start() {
   sleep_ns(kSettle_ns);
 }
 
-void Ism330dhcx::identify() {
-  const auto who = read_register(kWhoAmI);
-  if (who != kWhoAmIValue)
-    throw DeviceError(
-        role_, "WHO_AM_I reads " + hex(who) + " instead of 0x6B",
-        who == 0x00 || who == 0xFF
-            ? "Nothing answers: check power, chip select, and that it is this sensor's spidev node"
-            : "Another part is on this chip select: check imu device names and wiring");
+std::uint8_t Ism330dhcx::read_identity() {
+  std::uint8_t who = read_register(kWhoAmI);
+  for (int i = 1; no_answer(who) && i < kIdentityTries; ++i) {
+    sleep_ns(kMillisecond_ns);
+    who = read_register(kWhoAmI);
+  }
+  return who;
 }
 
-void Ism330dhcx::reset() {
+// A restart of the host or of the supply may leave the chip in a state that answers nothing but a reset.
+void Ism330dhcx::identify() {
+  auto who = read_identity();
+  if (no_answer(who)) {
+    begin_reset();
+    sleep_ns(kResetWait_ns);
+    who = read_identity();
+  }
+  if (who != kWhoAmIValue)
+    throw DeviceError(
+        role_,
+        "WHO_AM_I reads " + hex(who) + " instead of 0x6B" + (no_answer(who) ? ", after a reset, too" : ""),
+        no_answer(who) ? "Nothing answers: check power, chip select, and that it is this sensor's spidev node"
+                       : "Another part is on this chip select: check imu device names and wiring");
+}
+
+void Ism330dhcx::begin_reset() {
   write_register(kFuncCfgAccess, 0x00);
   write_register(kFifoCtrl4, 0x00);
   write_register(kCtrl3C, kSoftwareReset);
+}
+
+void Ism330dhcx::reset() {
+  begin_reset();
   for (int i = 0; (read_register(kCtrl3C) & kSoftwareReset) != 0; ++i) {
     if (i == kResetTries)
       throw DeviceError(role_, "software reset does not finish", "Power-cycle the sensor");

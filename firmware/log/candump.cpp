@@ -82,6 +82,9 @@ std::int64_t parse_time(std::string_view token) {
   if (place != end) {
     std::int64_t unit_ns = kNanoseconds;
     if (*place++ != '.') bad("not a time", token);
+    // Old asc2log writes a full second so (can-utils pull request 286).
+    if (std::string_view(place, static_cast<std::size_t>(end - place)) == "1000000")
+      return (seconds + 1) * kNanoseconds;
     for (; place != end; ++place) {
       if (*place < '0' || *place > '9') bad("not a time", token);
       unit_ns /= 10;
@@ -163,6 +166,15 @@ std::optional<CandumpLine> parse_candump(std::string_view line) {
     if (extra == "T") result.frame.direction = CanDirection::sent;
   }
   return result;
+}
+
+std::uint64_t frames_lost_in(std::string_view line) {
+  std::uint64_t frames = 0;
+  if (!line.starts_with("# ")) return 0;
+  line.remove_prefix(2);
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), frames);
+  const std::string_view rest = line.substr(static_cast<std::size_t>(end - line.data()));
+  return error == std::errc{} && rest.starts_with(" frames lost: ") ? frames : 0;
 }
 
 CandumpWriter::CandumpWriter(const std::filesystem::path& file, CandumpFormat format, const CandumpDisk& disk)

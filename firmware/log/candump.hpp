@@ -51,6 +51,9 @@ struct CandumpLine {
 // it.
 std::optional<CandumpLine> parse_candump(std::string_view line);
 
+// The number in CandumpWriter's comment "# 12 frames lost: why"; 0 of any other line.
+std::uint64_t frames_lost_in(std::string_view line);
+
 struct CandumpDisk {
   bool keep_going = false;          // drop what cannot be written
   std::uint64_t reserve_bytes = 0;  // kept for the last comment

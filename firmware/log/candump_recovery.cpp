@@ -1,4 +1,3 @@
-#include <charconv>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -12,20 +11,10 @@
 namespace sandhopper {
 namespace {
 
-// The number in CandumpWriter's "# 12 frames lost: …"; 0 for any other comment.
-std::uint64_t frames_lost(std::string_view comment) {
-  std::uint64_t frames = 0;
-  if (!comment.starts_with("# ")) return 0;
-  comment.remove_prefix(2);
-  const auto [end, error] = std::from_chars(comment.data(), comment.data() + comment.size(), frames);
-  const std::string_view rest = comment.substr(static_cast<std::size_t>(end - comment.data()));
-  return error == std::errc{} && rest.starts_with(" frames lost: ") ? frames : 0;
-}
-
 // A line as the writer makes it: a frame, or text that CAN tools pass over. A CR before the end is no harm.
 bool is_sound(std::string_view line, LogRecovery& result) {
   if (line.find('\0') != std::string_view::npos) return false;
-  if (const std::uint64_t lost = frames_lost(line); lost > 0) {
+  if (const std::uint64_t lost = frames_lost_in(line); lost > 0) {
     ++result.gaps;
     result.lost_in_gaps += lost;
   }

@@ -1,10 +1,36 @@
 #include "firmware/log/mcap_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <utility>
 
+#include "firmware/log/mcap_unpack.hpp"
+
 namespace sandhopper::mcap {
+namespace {
+
+// Other recordings that are taken for MCAP, by their first bytes.
+struct OtherFormat {
+  std::string_view begins;
+  const char* what;
+};
+using namespace std::string_view_literals;
+constexpr std::array kOtherFormats{
+    OtherFormat{"\x28\xb5\x2f\xfd"sv, "it is compressed with zstd as a whole: zstd -d FILE -o OTHER.mcap"},
+    OtherFormat{"\x04\x22\x4d\x18"sv, "it is compressed with lz4 as a whole: lz4 -d FILE OTHER.mcap"},
+    OtherFormat{"\x1f\x8b"sv, "it is compressed with gzip as a whole: gunzip FILE"},
+    OtherFormat{"SQLite format 3"sv, "it is a rosbag2 of the sqlite3 kind: mcap convert FILE OTHER.mcap"},
+    OtherFormat{"#ROSBAG V2"sv, "it is a bag of ROS 1: mcap convert FILE OTHER.mcap"}};
+
+std::string first_bytes_are(Bytes file) {
+  for (const auto& other : kOtherFormats)
+    if (text_of(file).starts_with(other.begins)) return other.what;
+  return file.empty() ? "it is empty" : "its first bytes are not MCAP's";
+}
+
+}  // namespace
+
 Reader::Reader(const std::filesystem::path& file, ReaderOptions options)
     : name_(file.string()), options_(options), map_(file), file_(map_.bytes()) {
   open();
@@ -18,11 +44,14 @@ Reader::Reader(Bytes data, std::string name, ReaderOptions options)
 void Reader::open() {
   const std::size_t seen = std::min(file_.size(), kMagic.size());
   if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(seen), file_.begin()))
-    throw Error(name_ + ": not an MCAP log (its first bytes are not MCAP's)");
+    throw Error(name_ + ": not an MCAP log (" + first_bytes_are(file_) + ")");
+  file_bytes_ = file_.size();
   if (seen < kMagic.size()) {
     cut_at(0);
     return;
   }
+  unpacked_ = unpack(file_);
+  if (unpacked_) file_ = *unpacked_;
   closed_ =
       file_.size() >= 2 * kMagic.size() &&
       std::equal(kMagic.begin(), kMagic.end(), file_.end() - static_cast<std::ptrdiff_t>(kMagic.size()));
@@ -117,8 +146,8 @@ void Reader::enter_chunk(Bytes content, std::uint64_t offset, std::uint64_t leng
   }
   if (!in.ok) fail(offset, "a chunk without a head; the file is damaged");
   if (!compression.empty())
-    fail(offset, "chunks are compressed with " + std::string(compression) +
-                     "; unpack the file first: mcap decompress IN.mcap -o OUT.mcap");
+    fail(offset,
+         "a chunk is compressed with " + std::string(compression) + ", which is neither zstd nor lz4");
   chunk_is_cut_ = content.size() < length;
   if (!chunk_is_cut_ && records > in.rest().size()) fail(offset, "a chunk's records reach beyond it");
   const std::uint64_t present = std::min<std::uint64_t>(records, in.rest().size());

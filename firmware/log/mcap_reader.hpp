@@ -61,9 +61,10 @@ struct ReaderOptions {
 
 // Reads an MCAP file front to back, as written, without its summary: a file cut at any byte gives every whole
 // record before the cut, whole messages of a cut chunk included, and then says where it ends (truncated_at).
-// The file is mapped, not loaded. Unknown records are passed over. Compressed chunks are refused with the
-// command that unpacks them. Throws Error, with file and byte, on damage that is not a cut; std::system_error
-// when the file cannot be opened. The file must not shrink while it is read.
+// The file is mapped, not loaded; one with compressed chunks is unpacked into memory, and bytes then count in
+// the unpacked file (mcap_unpack.hpp). Unknown records are passed over. Throws Error, with file and byte, on
+// damage that is not a cut; std::system_error when the file cannot be opened. The file must not shrink while
+// it is read.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file, ReaderOptions options = {});
@@ -82,7 +83,7 @@ class Reader {
   const Channel* find(std::string_view topic) const;
   const std::vector<Attachment>& attachments() const { return attachments_; }
   const std::vector<Metadata>& metadata() const { return metadata_; }
-  std::uint64_t file_bytes() const { return file_.size(); }
+  std::uint64_t file_bytes() const { return file_bytes_; }
 
   // After next() said false: where the last whole record ends, if the file does not end as a closed log does.
   std::optional<std::uint64_t> truncated_at() const { return truncated_at_; }
@@ -112,6 +113,8 @@ class Reader {
   std::string name_;
   ReaderOptions options_;
   MappedFile map_;
+  std::uint64_t file_bytes_ = 0;
+  std::optional<std::vector<std::byte>> unpacked_;
   Bytes file_;
   bool closed_ = false;  // ends with the magic
   bool ended_ = false;

@@ -9,6 +9,7 @@
 #include "firmware/log/mapped_file.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_salvage.hpp"
+#include "firmware/log/mcap_unpack.hpp"
 #include "firmware/log/mcap_writer.hpp"
 #include "firmware/log/topics.hpp"
 
@@ -41,7 +42,9 @@ struct SavedChannel {
 // Goes through the file, twice when there is something to write: first only to see what is there.
 class Recovery {
  public:
-  Recovery(Bytes file, std::string name) : file_(file), name_(std::move(name)) {}
+  // `file` outlives this.
+  Recovery(Bytes file, std::string name)
+      : unpacked_(mcap::unpack(file)), file_(unpacked_ ? Bytes(*unpacked_) : file), name_(std::move(name)) {}
 
   bool has_channels() const { return !channels_.empty(); }
 
@@ -153,8 +156,9 @@ class Recovery {
         save(piece.content, writer);
       } else if (piece.op == Op::data_end) {
         const auto crc = Cursor(piece.content).take<std::uint32_t>();
-        data_is_right =
-            crc == 0 || crc == mcap::crc32(0, file_.first(static_cast<std::size_t>(piece.offset)));
+        // A CRC of packed bytes is not looked at: each chunk has its own.
+        data_is_right = crc == 0 || unpacked_ ||
+                        crc == mcap::crc32(0, file_.first(static_cast<std::size_t>(piece.offset)));
         in_summary_ = true;
       } else if (writer != nullptr && !in_summary_) {
         keep(piece, *writer);
@@ -187,7 +191,9 @@ class Recovery {
     }
     SavedChannel& channel = found->second;
     note_gap(channel, in.rest());
-    const std::uint32_t expected = channel.met ? channel.sequence + 1 : 0;
+    // Other recorders begin to count where they like.
+    const bool begins_here = !channel.met && damage_seen_ == 0 && gaps_seen_ == 0;
+    const std::uint32_t expected = channel.met ? channel.sequence + 1 : begins_here ? sequence : 0;
     const std::uint32_t missing = sequence - expected;
     const bool is_damage = damage_seen_ > channel.damage_before || gaps_seen_ == channel.gaps_before;
     auto& topic = result_.topics[channel.topic];
@@ -323,6 +329,7 @@ class Recovery {
     }
   }
 
+  std::optional<std::vector<std::byte>> unpacked_;  // of a file with compressed chunks
   Bytes file_;
   std::string name_;
   LogRecovery result_;

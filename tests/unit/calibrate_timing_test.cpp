@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -141,6 +142,25 @@ TEST(CalibrateTiming, OtherTapsThanOursAreRefused) {
   auto foreign = foreign_of({.rate_Hz = 1000.0, .offset_s = 0.0, .drift = 0.0, .seed = 1});
   for (auto& t : foreign.signal.time_s) t *= 1.2;
   EXPECT_EQ(reasons(fit(tap(1), foreign).outcome), "taps_differ");
+}
+
+// The clock of the other computer is set by `step_s` at `at_s` of its time.
+ForeignRecording with_step(const Recording& recording, double at_s, double step_s) {
+  auto foreign = foreign_of({1000.0, 3.2174, 5e-5, 1, 1e-9 * static_cast<double>(recording.begin_ns)});
+  for (auto& t : foreign.signal.time_s)
+    if (t > at_s - 3.2174) t += step_s;
+  return foreign;
+}
+
+TEST(CalibrateTiming, AForeignClockThatStepsIsRefusedWithItsStep) {
+  const auto recording = tap(1);
+  for (const double step_s : {0.004, 0.2, 37.0, -0.004})
+    for (const double at_s : {1.35, 2.85, 4.35}) {
+      const auto outcome = fit(recording, with_step(recording, at_s, step_s)).outcome;
+      ASSERT_EQ(reasons(outcome), "clock_steps") << step_s << " at " << at_s;
+      const auto& text = outcome.refusals.front().text;
+      EXPECT_NEAR(std::stod(text.substr(text.find(" by ") + 4)), std::abs(step_s), 0.002) << text;
+    }
 }
 
 }  // namespace

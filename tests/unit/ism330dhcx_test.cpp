@@ -21,6 +21,10 @@ class FakeSensor : public SpiBus {
   bool transfer(std::span<const std::uint8_t> out, std::span<std::uint8_t> in) noexcept override {
     if (dead) return false;
     const auto first = static_cast<std::uint8_t>(out[0] & 0x7FU);
+    if ((out[0] & kReadFlag) != 0 && first == kWhoAmI && (asleep || bad_identities-- > 0)) {
+      in[1] = silence;
+      return true;
+    }
     for (std::size_t i = 1; i < out.size(); ++i) {
       const auto address = static_cast<std::uint8_t>(first + i - 1);
       if ((out[0] & kReadFlag) != 0) {
@@ -28,6 +32,7 @@ class FakeSensor : public SpiBus {
       } else if (!read_only) {
         registers[address] = out[i];
         written.push_back({address, out[i]});
+        asleep = asleep && !(address == kCtrl3C && (out[i] & kSoftwareReset) != 0);
         if (address == kCtrl3C) registers[address] &= static_cast<std::uint8_t>(~(kSoftwareReset | kReboot));
       }
     }
@@ -38,6 +43,9 @@ class FakeSensor : public SpiBus {
   std::vector<RegisterValue> written;
   bool dead = false;
   bool read_only = false;
+  bool asleep = false;     // its identity reads as `silence` until a software reset
+  int bad_identities = 0;  // so many reads of the identity give `silence`
+  std::uint8_t silence = 0x00;
 };
 
 TEST(Ism330dhcx, SettingsSpellTheDatasheetsCodes) {
@@ -145,6 +153,28 @@ TEST(Ism330dhcx, StartErrorsNameDeviceCauseAndCure) {
   FakeSensor deaf;
   deaf.read_only = true;
   EXPECT_THAT(start_error(deaf), AllOf(HasSubstr("0x12"), HasSubstr("MOSI")));
+}
+
+TEST(Ism330dhcx, AChipThatAnswersNothingAtFirstIsReadAgainAndThenReset) {
+  for (const std::uint8_t silence : std::initializer_list<std::uint8_t>{0x00, 0xFF}) {
+    FakeSensor slow;
+    slow.silence = silence;
+    slow.bad_identities = 1;
+    EXPECT_EQ(start_error(slow), "");
+    slow.bad_identities = 8;
+    EXPECT_EQ(start_error(slow), "");
+    FakeSensor asleep;
+    asleep.silence = silence;
+    asleep.asleep = true;
+    EXPECT_EQ(start_error(asleep), "");
+  }
+}
+
+TEST(Ism330dhcx, AnotherPartIsNotResetBeforeItIsNamed) {
+  FakeSensor other;
+  other.registers[kWhoAmI] = 0x33;
+  EXPECT_THAT(start_error(other), ::testing::HasSubstr("Another part"));
+  EXPECT_TRUE(other.written.empty());
 }
 
 }  // namespace

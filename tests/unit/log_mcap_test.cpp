@@ -223,24 +223,6 @@ TEST_F(McapLog, UnknownRecordsArePassedOver) {
   EXPECT_EQ(read(store("unknown.mcap", bytes)).cycles.size(), 5U);
 }
 
-TEST_F(McapLog, CompressedChunksAreRefusedWithTheCure) {
-  mcap::Buffer out;
-  out.put(mcap::Bytes(mcap::kMagic));
-  const auto content = out.open_record(mcap::Op::chunk);
-  out.grow(28);
-  out.put_text("zstd");
-  out.put(std::uint64_t{0});
-  out.close_record(content);
-  const auto file = store("zstd.mcap", std::string(mcap::text_of(out.bytes)));
-  try {
-    const mcap::Reader reader(file);
-    FAIL() << "accepted";
-  } catch (const mcap::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("zstd"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("mcap decompress"), std::string::npos);
-  }
-}
-
 TEST_F(McapLog, OtherFilesAreRefused) {
   EXPECT_THROW(mcap::Reader{store("text.csv", "t_s,phase\n0,1\n")}, mcap::Error);
   EXPECT_THROW(mcap::Reader{path("missing.mcap")}, std::system_error);

@@ -9,6 +9,7 @@
 
 #include "drivers/adc/ads1115.hpp"
 #include "terrain/trial_statistics.hpp"
+#include "tools/calibrate/clock_step.hpp"
 #include "tools/calibrate/devices.hpp"
 #include "tools/calibrate/line.hpp"
 #include "tools/calibrate/taps.hpp"
@@ -151,6 +152,16 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
   const auto& foreign = *setup.foreign;
   const auto their_taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, out.refusals);
   if (!out.refusals.empty()) return;
+  const auto refuse_step = [&](const ClockStep& step) {
+    out.refusals.push_back(
+        {"clock_steps",
+         fmt::format("the clock of {} was set {} by {:.3f} s between {:.3f} and {:.3f} s of its time",
+                     foreign.name, step.step_s > 0.0 ? "forward" : "back", std::abs(step.step_s),
+                     step.before_s, step.after_s),
+         "stop time synchronisation on that computer while it records; or give the part before or after it "
+         "alone"});
+  };
+  if (const auto step = step_between_taps(taps, their_taps)) return refuse_step(*step);
   const auto offset = coarse_offset(taps, their_taps);
   if (!offset) {
     out.refusals.push_back({"taps_differ", fmt::format("{} has taps at other intervals", foreign.name),
@@ -170,6 +181,7 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
     theirs.push_back(common[i] + delays.delay_s[i]);
     offsets.push_back(-delays.delay_s[i]);
   }
+  if (const auto step = step_in_offsets(theirs, offsets, setup.max_foreign_ci95_s)) return refuse_step(*step);
   const auto mean = mean_over_trials(theirs);
   std::vector<double> centred = theirs;
   for (auto& t : centred) t -= mean.value;

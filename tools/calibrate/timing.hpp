@@ -41,8 +41,8 @@ struct ForeignClock {
 //
 // Refused: fewer than five taps (too_few_points), a tap right after another (double_tap), a sensor at its end
 // (saturated), a signal that does not have the reference's shape (residual_too_large), a foreign recording
-// with other taps (taps_differ), delays that scatter (interval_too_wide), a latency below zero
-// (negative_latency).
+// with other taps (taps_differ) or whose clock is set in between (clock_steps), delays that scatter
+// (interval_too_wide), a latency below zero (negative_latency).
 Outcome calibrate_timing(const Recording& taps, const LinuxBoardConfig& board, const TimingSetup& setup,
                          std::optional<ForeignClock>& clock);
 

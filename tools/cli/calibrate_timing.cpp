@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "firmware/log/csv_import.hpp"
+#include "tools/calibrate/foreign_table.hpp"
 #include "tools/calibrate/timing.hpp"
 #include "tools/cli/calibration.hpp"
 #include "tools/cli/failure.hpp"
@@ -27,22 +28,12 @@ TapSensor sensor_of(const std::string& name) {
   return name == "imu_foot" ? TapSensor::imu_foot : TapSensor::load_cell;
 }
 
-calibrate::ForeignRecording read_foreign(const Options& options) {
-  const auto table = read_csv(std::filesystem::path(options.foreign));
-  const auto* time = table.find("t_s");
-  const auto* column = table.find(options.foreign_column);
-  if (time == nullptr || column == nullptr)
-    throw Failure(
-        ExitCode::usage,
-        fmt::format("{} has no column {}", options.foreign, time == nullptr ? "t_s" : options.foreign_column),
-        "name the column that shows the taps with --foreign-column; time is t_s");
-  calibrate::ForeignRecording out{std::filesystem::path(options.foreign).filename().string(), {}};
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (std::isnan((*column)[i])) continue;
-    out.signal.time_s.push_back((*time)[i]);
-    out.signal.value.push_back((*column)[i]);
+calibrate::ForeignTable read_foreign(const Options& options) {
+  try {
+    return calibrate::read_foreign_table(options.foreign, options.foreign_column);
+  } catch (const calibrate::ForeignTableError& error) {
+    throw Failure(ExitCode::usage, error.what(), error.cure);
   }
-  return out;
 }
 
 // The foreign table once more, its times on the recording's clock.
@@ -78,7 +69,8 @@ std::vector<calibrate::Step> steps(const Options& options) {
   step.during = fmt::format("tap along the leg {} times, half a second apart, at once", options.taps);
   step.fixture.taps = options.taps;
   step.seconds = 0.5 * options.taps + 1.0;
-  if (options.foreign.empty()) step.seconds += 2.0;  // a person begins late
+  if (!options.foreign.empty()) read_foreign(options);  // a table that cannot be used is said before the taps
+  if (options.foreign.empty()) step.seconds += 2.0;     // a person begins late
   return {step};
 }
 
@@ -88,12 +80,16 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   setup.reference = sensor_of(options.reference);
   for (const auto& name : options.sensors)
     if (name != options.reference) setup.others.push_back(sensor_of(name));
+  std::vector<std::string> notes;
   if (!options.foreign.empty()) {
     setup.others.clear();
-    setup.foreign = read_foreign(options);
+    auto table = read_foreign(options);
+    setup.foreign = std::move(table.recording);
+    notes = std::move(table.notes);
   }
   std::optional<calibrate::ForeignClock> clock;
   auto outcome = calibrate_timing(recordings.front(), input.board, setup, clock);
+  outcome.notes.insert(outcome.notes.begin(), notes.begin(), notes.end());
   if (clock && outcome.refusals.empty() && !options.aligned.empty()) {
     write_aligned(options, *clock);
     outcome.notes.push_back(options.aligned + " has its rows with times of the recording");

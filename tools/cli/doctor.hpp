@@ -22,6 +22,9 @@ struct Finding {
 // Kernel, priorities, memory locking, processors, clocks, disk space.
 std::vector<Finding> examine_machine(const RobotConfig& robot);
 
+// Of these, disk space and date.
+std::vector<Finding> examine_storage();
+
 // CAN interface, device nodes and GPIO lines of the board's file: looked up, not opened for use.
 std::vector<Finding> examine_devices(const LinuxBoardConfig& board);
 

@@ -169,6 +169,8 @@ Finding disk_space() {
 
 }  // namespace
 
+std::vector<Finding> examine_storage() { return {date(), disk_space()}; }
+
 std::vector<Finding> examine_machine(const RobotConfig& robot) {
   const auto& wanted = robot.real_time;
   return {kernel(),

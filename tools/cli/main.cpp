@@ -1,7 +1,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "config/program.hpp"
 #include "tools/cli/program.hpp"
@@ -18,11 +21,25 @@ Run become(const std::string& name, char** argv) {
   };
 }
 
+// `hop help` is `hop --help`, `hop help VERB…` is `hop VERB… --help`.
+std::vector<char*> without_help_verb(int argc, char** argv) {
+  static std::string option = "--help";
+  std::vector<char*> words(argv, argv + argc);
+  if (argc < 2 || std::string_view(argv[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  words.push_back(option.data());
+  return words;
+}
+
 }  // namespace
 }  // namespace sandhopper::cli
 
-int main(int argc, char** argv) {
+int main(int argument_count, char** arguments) {
   using namespace sandhopper::cli;
+  auto words = without_help_verb(argument_count, arguments);
+  const auto argc = static_cast<int>(words.size());
+  words.push_back(nullptr);
+  char** const argv = words.data();
   auto verbs = all_verbs();
   for (auto& verb : verbs)
     verb.set_up = [name = verb.name, argv](Arguments& arguments) {

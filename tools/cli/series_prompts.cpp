@@ -37,7 +37,9 @@ bool ask_text(const std::string& question, std::string& value) {
   return true;
 }
 
-// In millimetres, as a ruler shows it; Enter keeps what was there.
+bool is_quit(const std::string& answer) { return answer == "q" || answer == "Q"; }
+
+// In millimetres, as a ruler shows it; Enter keeps what was there. False: q, or the end of the input.
 bool ask_height(TrialSheet& sheet) {
   while (true) {
     std::string answer;
@@ -45,13 +47,13 @@ bool ask_height(TrialSheet& sheet) {
     const auto question =
         known ? fmt::format("  release height of the sole over the bed, mm [{:g}]: ", 1e3 * *known)
               : std::string("  release height of the sole over the bed, mm: ");
-    if (!ask(question, answer)) return false;
+    if (!ask(question, answer) || is_quit(answer)) return false;
     if (answer.empty() && known) return true;
     if (const auto height_mm = number_in(answer, 0.5, 1000.0)) {
       sheet.release_height_m = *height_mm * 1e-3;
       return true;
     }
-    std::cout << "  a number from 0.5 to 1000, in millimetres, without its unit\n";
+    std::cout << "  a number from 0.5 to 1000, in millimetres, without its unit; q ends the series\n";
   }
 }
 
@@ -114,9 +116,9 @@ bool prepare_next(Session& session, int number, int trials, TrialSheet& sheet) {
   session.say("  4. nobody within the robot's reach, e-stop released and at hand");
   if (!ask_height(sheet)) return false;
   sheet.notes.clear();
-  if (!ask("  notes on this trial [none]: ", sheet.notes)) return false;
+  if (!ask("  notes on this trial [none]: ", sheet.notes) || is_quit(sheet.notes)) return false;
   std::string go;
-  return ask("  Enter when all is ready, q ends the series: ", go) && go != "q" && go != "Q";
+  return ask("  Enter when all is ready, q ends the series: ", go) && !is_quit(go);
 }
 
 }  // namespace sandhopper::cli

@@ -5,6 +5,7 @@
 #include "config/dump.hpp"
 #include "config/json.hpp"
 #include "config/load.hpp"
+#include "config/motor_presets.hpp"
 #include "config/problem.hpp"
 #include "config/robot_config.hpp"
 #include "tools/cli/config_kinds.hpp"
@@ -86,14 +87,35 @@ ExitCode show(Session& session, const std::vector<std::string>& named) {
   return ExitCode::ok;
 }
 
+// Without a name: those there are.
+ExitCode motor(Session& session, const std::string& name) {
+  std::string names;
+  session.result["presets"] = nlohmann::ordered_json::object();
+  for (const auto& preset : motor_presets()) {
+    names += (names.empty() ? "" : ", ") + std::string(preset.name);
+    if (!name.empty() && name != preset.name) continue;
+    if (!name.empty()) session.say_line(to_toml(preset));
+    session.result["presets"][std::string(preset.name)] = to_toml(preset);
+  }
+  if (name.empty()) session.say("{}", names);
+  if (session.result["presets"].empty())
+    throw Failure(ExitCode::usage, fmt::format("no preset '{}'", name), "name one of " + names);
+  return ExitCode::ok;
+}
+
 Run set_up(Arguments& arguments) {
+  auto preset = std::make_shared<std::string>();
   auto files = std::make_shared<std::vector<std::string>>();
   arguments.require_verb();
   auto checking = arguments.add_verb("check", "say whether the files are right, and what is wrong where");
   auto showing = arguments.add_verb("show", "print every key as the program understands it");
   for (auto sub : {checking, showing})
     sub.add_option("FILES", *files, "TOML files; default: all of the configuration directory");
-  return [files, checking](Session& session) {
+  auto presets =
+      arguments.add_verb("motor", "print the keys of a motor that follow from its make, with their sources");
+  presets.add_option("NAME", *preset, "AK60-6, AK80-6, AK80-9, AK10-9 or \"R80 KV110\"; default: list them");
+  return [files, preset, checking, presets](Session& session) {
+    if (presets.parsed()) return motor(session, *preset);
     return checking.parsed() ? check(session, *files) : show(session, *files);
   };
 }

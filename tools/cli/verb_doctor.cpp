@@ -79,14 +79,36 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
   return findings;
 }
 
+// A computer that only reads recordings: what it does not need is not looked at.
+std::vector<Finding> examine_for_analysis(Session& session) {
+  auto findings = examine_storage();
+  const auto& directory = session.config_directory();
+  try {
+    load_robot(directory);
+    findings.push_back({Health::ok, "configuration", directory.string() + ": right", ""});
+  } catch (const ConfigError& error) {
+    append(findings, examine_problems(error));
+  }
+  return findings;
+}
+
 Run set_up(Arguments& arguments) {
+  auto purpose = std::make_shared<std::string>("robot");
+  arguments
+      .add_option("--for", *purpose,
+                  "robot: the computer that runs it; analysis: one that only reads its recordings")
+      .one_of({"robot", "analysis"})
+      .show_default();
   auto board = std::make_shared<std::string>("linux");
   arguments
       .add_option("--board", *board,
                   "linux: machine and device nodes; sim: only what the simulated robot needs")
       .one_of({"linux", "sim"})
       .show_default();
-  return [board](Session& session) { return report(session, examine(session, *board)); };
+  return [board, purpose](Session& session) {
+    if (*purpose == "analysis") return report(session, examine_for_analysis(session));
+    return report(session, examine(session, *board));
+  };
 }
 
 const VerbRegistration kDoctor("doctor", set_up);

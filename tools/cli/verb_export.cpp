@@ -51,9 +51,23 @@ void write_layouts(Session& session, const std::filesystem::path& folder) {
   session.result["layouts"] = names;
 }
 
+// The table must not be written over what it is made of, nor a file be emptied for a log that is none.
+void check_log(const std::filesystem::path& log, const std::filesystem::path& csv) {
+  std::error_code error;
+  if (std::filesystem::equivalent(log, csv, error))
+    throw Failure(ExitCode::usage, "the table would be written over its source, " + log.string(),
+                  "name the .mcap file of a trial, and another file with --output");
+  try {
+    const mcap::Reader reader(log, {.check_crc = false});
+  } catch (const mcap::Error& problem) {
+    throw Failure(ExitCode::usage, problem.what(), "name the .mcap file of a trial");
+  }
+}
+
 ExitCode export_log(Session& session, const Options& options) {
   std::filesystem::path path = options.output;
   if (path.empty()) path = std::filesystem::path(options.log).replace_extension(".csv");
+  check_log(options.log, path);
   std::ofstream out(path);
   if (!out)
     throw Failure(ExitCode::usage, "cannot write " + path.string(),

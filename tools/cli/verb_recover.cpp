@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -62,18 +63,26 @@ Recovered recover_log(Session& session, const Options& options, const std::files
   return result;
 }
 
+// By its ending, or as `candump -L` text begins.
+bool is_candump(const std::filesystem::path& file) {
+  const int first = std::ifstream(file, std::ios::binary).peek();
+  return file.extension() == ".candump" || first == '(' || first == '#';
+}
+
 Recovered recover(Session& session, const Options& options, const std::filesystem::path& output) {
   if (std::filesystem::exists(output))
     throw Failure(ExitCode::usage, output.string() + " exists and is not overwritten",
                   "name another file with --output");
-  const bool is_can = std::filesystem::path(options.log).extension() == ".candump";
+  const bool is_can = is_candump(options.log);
   try {
     return is_can ? Recovered{recover_candump(options.log, output), "", {}}
                   : recover_log(session, options, output);
   } catch (const mcap::Error& error) {
-    throw Failure(ExitCode::no, error.what(), "name a trial's .mcap or .candump file");
+    throw Failure(ExitCode::no, error.what(),
+                  "name a trial's .mcap file, or CAN text (.candump, candump -L)");
   } catch (const CandumpError& error) {
-    throw Failure(ExitCode::no, error.what(), "name a trial's .mcap or .candump file");
+    throw Failure(ExitCode::no, error.what(),
+                  "name a trial's .mcap file, or CAN text (.candump, candump -L)");
   } catch (const std::system_error& error) {
     throw Failure(ExitCode::fault, error.what(), "name a file you may write, with free space, with --output");
   }

@@ -1,14 +1,7 @@
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-
-#include "config/load.hpp"
-#include "config/robot_config.hpp"
-#include "firmware/log/candump.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/replay_trace.hpp"
 #include "tools/cli/verb.hpp"
-#include "tools/trial/can_replay.hpp"
 #include "tools/trial/replay.hpp"
 
 namespace sandhopper::cli {
@@ -16,9 +9,7 @@ namespace {
 
 struct Options {
   std::string log;
-  std::string trace;
-  std::string interface;
-  std::string output;
+  ReplayTraceOptions can;
 };
 
 ExitCode replay(Session& session, const Options& options) {
@@ -53,76 +44,30 @@ ExitCode replay(Session& session, const Options& options) {
   return identical ? ExitCode::ok : ExitCode::no;
 }
 
-void write_readings(const CanReplayResult& result, const std::string& path) {
-  std::ofstream out(path);
-  out << "t_s,motor,position_rad,velocity_radps,current_A,temperature_C,error_code\n";
-  for (const auto& [trace_ns, reading] : result.decoded) {
-    const auto& s = reading.sample;
-    out << fmt::format(
-        "{}.{:09},{},{},{},{},{},{}\n", trace_ns / 1'000'000'000, trace_ns % 1'000'000'000,
-        reading.side == Side::left ? "left" : "right", s.position_rad, s.velocity_radps, s.current_A,
-        std::isnan(s.temperature_C) ? std::string{} : fmt::format("{}", s.temperature_C), s.error_code);
-  }
-  if (!out.flush())
-    throw Failure(ExitCode::fault, "cannot write " + path, "check the folder and the free space");
-}
-
-ExitCode replay_trace(Session& session, const Options& options) {
-  CanConfig config;
-  config.motor = load_file<RobotConfig>(session.config_file("robot.toml")).motor;
-  Progress progress("playing frames", 0.0);
-  std::optional<std::string> interface;
-  if (!options.interface.empty()) interface = options.interface;
-  CanReplayResult result;
-  try {
-    result = replay_can(options.trace, config, interface,
-                        [&](std::uint64_t frames) { progress.at(static_cast<double>(frames)); });
-  } catch (const CandumpError& error) {
-    throw Failure(ExitCode::usage, error.what(), "name a trace as `candump -L` writes it");
-  }
-  if (result.frames == 0)
-    throw Failure(ExitCode::usage, options.trace + " holds no CAN frame",
-                  "name a trace as `candump -L` writes it");
-  if (!options.output.empty()) write_readings(result, options.output);
-  session.say("{}: {} frames, {} motor replies decoded, {} that do not look like the configured dialect",
-              options.trace, result.frames, result.decoded.size(), result.rejected);
-  if (result.driven)
-    session.say("driver on {}: {} replies, {} lost, {} different, {} dropped by the kernel",
-                options.interface, result.driven->size(), result.decoded.size() - result.driven->size(),
-                result.different, result.overflows);
-  session.result = {{"identical", result.identical()},
-                    {"frames", result.frames},
-                    {"decoded", result.decoded.size()},
-                    {"rejected", result.rejected}};
-  if (result.driven) {
-    session.result["driven"] = result.driven->size();
-    session.result["different"] = result.different;
-  }
-  if (result.decoded.empty())
-    throw Failure(ExitCode::no, "no frame of the trace is a reply of the configured motors",
-                  "compare the trace's identifiers and byte 0 with can_id and master_id in robot.toml");
-  return result.identical() ? ExitCode::ok : ExitCode::no;
-}
-
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
   auto trace = arguments
-                   .add_option("--can", options->trace,
-                               "a candump -L trace instead of a log: decode its motor replies")
+                   .add_option("--can", options->can.trace,
+                               "a candump -L trace instead of a log: decode its motor replies, and say what "
+                               "else it contains")
                    .existing_file()
                    .excludes(log);
   arguments
       .add_option(
-          "--interface", options->interface,
+          "--interface", options->can.interface,
           "also play the trace's replies on this CAN interface (vcan0) into the robot's driver, and compare")
       .needs(trace);
-  arguments.add_option("--output", options->output, "write the decoded replies as CSV").needs(trace);
+  arguments.add_option("--bus", options->can.bus, "interface of the trace to take, where it has several")
+      .needs(trace);
+  arguments.add_option("--output", options->can.output, "write the decoded replies as CSV").needs(trace);
   arguments.footer(
+      "With --can: exit status 1 where figures taken from the trace cannot be trusted. Error frames are in a "
+      "trace only if\nthey were asked for: candump -L can0,0:0,#FFFFFFFF > my_trace.log\n"
       "In CI, a lab's own trace through the real driver on a virtual bus:\n"
       "  tools/bench --no-devices tools/hop replay --can my_trace.log --interface vcan0 --json");
   return [options](Session& session) {
-    if (!options->trace.empty()) return replay_trace(session, *options);
+    if (!options->can.trace.empty()) return replay_trace(session, options->can);
     if (options->log.empty())
       throw Failure(ExitCode::usage, "nothing to replay", "name a log, or a trace with --can");
     return replay(session, *options);

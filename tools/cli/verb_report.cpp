@@ -25,6 +25,10 @@ ExitCode report(Session& session, const Options& options) {
   const std::filesystem::path log = options.log;
   std::filesystem::path page = options.output;
   if (page.empty()) page = std::filesystem::path(log).replace_extension(".html");
+  std::error_code error;
+  if (std::filesystem::equivalent(log, page, error))
+    throw Failure(ExitCode::usage, "the page would be written over its source, " + log.string(),
+                  "name the .mcap file of a trial, and another file with --output");
   const ReportData data = read(log);
   write_trial_report(data, page);
   for (const std::string& note : data.notes) session.say_line(note);

@@ -47,7 +47,8 @@ sandhopper_verb(export "write a log as CSV, one row per cycle" LIBRARIES sandhop
 sandhopper_verb(faults "break every device of the simulated robot in every phase, and judge the reaction"
   SOURCES faults_pairs.cpp LIBRARIES sandhopper_faults)
 sandhopper_verb(recover "save what can be read of a cut or damaged log" LIBRARIES sandhopper_firmware)
-sandhopper_verb(replay "run the cycle again on a log's frames and compare every output" LIBRARIES sandhopper_trial)
+sandhopper_verb(replay "run the cycle again on a log's frames and compare every output"
+  SOURCES replay_trace.cpp LIBRARIES sandhopper_trial)
 sandhopper_verb(report "make a trial's report page from its log" LIBRARIES sandhopper_report)
 sandhopper_verb(terrain "say what a campaign of recordings tells about the ground"
   LIBRARIES sandhopper_terrain_analysis)

@@ -8,30 +8,12 @@
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/device_error.hpp"
 #include "firmware/log/candump.hpp"
+#include "tools/trial/trace/trace_file.hpp"
 
 namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kPatience_ns = 200'000'000;
-
-can_frame as_can_frame(const CandumpFrame& frame) {
-  can_frame out{};
-  out.can_id = frame.id;
-  out.can_dlc = frame.length;
-  std::copy_n(frame.data.begin(), frame.length, out.data);
-  return out;
-}
-
-FrameDirection direction_of(const CandumpFrame& frame) {
-  switch (frame.direction) {
-    case CanDirection::sent:
-      return FrameDirection::sent;
-    case CanDirection::received:
-      return FrameDirection::received;
-    default:
-      return FrameDirection::unknown;
-  }
-}
 
 // The robot's driver on the interface, and beside it a plain socket that puts the trace's frames there.
 class Stage {
@@ -64,44 +46,31 @@ bool same_values(const MotorReading& a, const MotorReading& b) {
 
 std::uint64_t count_different(const CanReplayResult& result) {
   std::uint64_t different = 0;
-  const auto both = std::min(result.decoded.size(), result.driven->size());
+  const auto both = std::min(result.trace.decoded.size(), result.driven->size());
   for (std::size_t i = 0; i < both; ++i)
-    different += !same_values(result.decoded[i].reading, (*result.driven)[i]);
+    different += !same_values(result.trace.decoded[i].reading, (*result.driven)[i]);
   return different;
 }
 
 }  // namespace
 
-CanReplayResult replay_can(const std::filesystem::path& trace, const CanConfig& config,
-                           const std::optional<std::string>& interface,
+CanReplayResult replay_can(const std::filesystem::path& file, const CanReplaySetup& setup,
                            const std::function<void(std::uint64_t frames)>& progress) {
-  CandumpReader reader(trace);
-  CanTraceDecoder decoder(config);
-  CanReplayResult result;
   std::unique_ptr<Stage> stage;
-  if (interface) {
-    CanConfig on_interface = config;
-    on_interface.interface = *interface;
+  if (setup.interface) {
+    CanConfig on_interface = setup.config;
+    on_interface.interface = *setup.interface;
     stage = std::make_unique<Stage>(on_interface);
-    result.driven.emplace();
   }
-  CandumpFrame line;
-  std::string_view name;
-  while (reader.next(line, name)) {
-    ++result.frames;
-    const can_frame frame = as_can_frame(line);
-    if (const auto reading = decoder.decode(frame, line.time_ns, direction_of(line))) {
-      result.decoded.push_back({line.time_ns, *reading});
-      if (stage) stage->play(frame, *result.driven);
-    }
-    if (progress && result.frames % 1024 == 0) progress(result.frames);
-  }
-  for (std::size_t i = 0; i < decoder.bus().motor_count(); ++i)
-    result.rejected += decoder.bus().counters(static_cast<Side>(i)).rejected;
-  if (stage) {
-    result.overflows = stage->overflows();
-    result.different = count_different(result);
-  }
+  auto recorded = trace::read_trace(file, setup.bus, progress);
+  if (recorded.frames.empty() && recorded.unreadable.count > 0) throw CandumpError(recorded.unreadable.first);
+  CanReplayResult result;
+  result.trace = trace::examine_trace(std::move(recorded), setup.config, setup.limits);
+  if (!stage) return result;
+  result.driven.emplace();
+  for (const auto& reading : result.trace.decoded) stage->play(reading.frame, *result.driven);
+  result.overflows = stage->overflows();
+  result.different = count_different(result);
   return result;
 }
 

@@ -18,6 +18,8 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
+// A log grows by 1 MB/s: an operator who has gone leaves 30 MB after the trial, not a full disk.
+constexpr std::int64_t kOverShown_ns = 30'000'000'000;
 
 class LiveTrial {
  public:
@@ -30,6 +32,7 @@ class LiveTrial {
       hear_signals();
       hear_link();
       hear_keys();
+      close_after_trial();
       draw();
     }
     return connection_lost_;
@@ -69,6 +72,15 @@ class LiveTrial {
     model_.quitting = true;
   }
 
+  void close_after_trial() {
+    if (!model_.over || model_.state() != State::idle || model_.quitting) {
+      over_since_ns_ = 0;
+      return;
+    }
+    if (over_since_ns_ == 0) over_since_ns_ = monotonic_ns();
+    if (monotonic_ns() - over_since_ns_ > kOverShown_ns) quit();
+  }
+
   void hear_link() {
     std::vector<std::string> lines;
     link_ended_ = !link_.take(lines);
@@ -83,6 +95,7 @@ class LiveTrial {
   }
 
   void press(char32_t typed) {
+    over_since_ns_ = 0;
     const auto* key = operator_key(typed);
     if (key == nullptr) {
       model_.refusal = "no such key; the keys are on the line below";
@@ -107,6 +120,7 @@ class LiveTrial {
   LiveTerminal terminal_;
   std::array<pollfd, 4> fds_{};
   std::int64_t next_frame_ns_ = 0;
+  std::int64_t over_since_ns_ = 0;  // 0: it is not over, or somebody did something since
   bool link_ended_ = false;
   bool connection_lost_ = false;
 };

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/can_trace_text.hpp"
+
+namespace sandhopper::trace {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kMs = 1e-3;
+constexpr double kReply = 0.26e-3;
+
+TEST(CanTraceClock, AStepBackIsFoundWithItsSize) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  for (int i = 20; i < 40; ++i) trace.command(i * kMs - 0.5, 1).reply(i * kMs + kReply - 0.5, 1);
+  const auto report = trace.report();
+  ASSERT_EQ(report.clock.steps_back.size(), 1U);
+  EXPECT_EQ(report.clock.steps_back.front().line, 41U);
+  EXPECT_THAT(text_of(report, "clock_step"), AllOf(HasSubstr("line 41"), HasSubstr("0.499 s")));
+  EXPECT_EQ(report.motors[0].missed, 0U) << "a step is no lost reply";
+  EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTraceClock, AClockSetForwardOrAPauseIsFound) {
+  for (const double jump_s : {0.021, 3600.0, 1.7e9}) {
+    TraceText trace(jump_s > 1e9 ? 10.0 : 1.7e9);
+    for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+    for (int i = 20; i < 40; ++i) trace.command(i * kMs + jump_s, 1).reply(i * kMs + kReply + jump_s, 1);
+    const auto report = trace.report();
+    EXPECT_EQ(report.clock.pauses.size(), 1U) << jump_s;
+    EXPECT_THAT(text_of(report, "pause"), HasSubstr("clock was set forward"));
+    EXPECT_FALSE(report.trusted());
+  }
+}
+
+TEST(CanTraceClock, ASlowLoopIsNoPause) {
+  TraceText trace;
+  for (int i = 0; i < 40; ++i) trace.command(i * 50 * kMs, 1).reply(i * 50 * kMs + kReply, 1);
+  EXPECT_THAT(kinds(trace.report()), Not(Contains("pause")));
+}
+
+TEST(CanTraceClock, SwappedFramesGoBackToTheirPlace) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) {
+    if (i % 5 == 2)
+      trace.reply(i * kMs + kReply, 1).command(i * kMs, 1);
+    else
+      trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  }
+  const auto report = trace.report();
+  EXPECT_EQ(report.clock.swapped, 4U);
+  EXPECT_EQ(report.motors[0].missed, 0U);
+  EXPECT_EQ(report.motors[0].unasked, 0U);
+  EXPECT_TRUE(report.trusted());
+}
+
+TEST(CanTraceClock, EveryPairSwappedIsNotMistakenForTimeDifferences) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.reply(i * kMs + kReply, 1).command(i * kMs, 1);
+  const auto report = trace.report();
+  EXPECT_FALSE(report.clock.differences);
+  EXPECT_EQ(report.clock.swapped, 20U);
+}
+
+TEST(CanTraceClock, TimesThatAreDifferencesAreNamed) {
+  TraceText trace(0.0);
+  for (int i = 0; i < 30; ++i) trace.command(0.74e-3, 1).reply(kReply, 1);
+  const auto report = trace.report();
+  EXPECT_TRUE(report.clock.differences);
+  EXPECT_THAT(text_of(report, "times_are_differences"), HasSubstr("candump -L"));
+  EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTraceClock, TimesTooCoarseForTheCommandsAreSaid) {
+  TraceText trace;
+  for (int i = 0; i < 40; ++i) trace.command(i * kMs, 1).reply(i * kMs, 1);
+  EXPECT_THAT(text_of(trace.report(), "coarse_times"), HasSubstr("resolution of 1 ms"));
+}
+
+TEST(CanTraceClock, FramesOfTwoClocksAreToldAsThat) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply - 6.0, 1);
+  EXPECT_THAT(text_of(trace.report(), "several_clocks"), HasSubstr("of several clocks"));
+}
+
+TEST(CanTraceClock, AFullSecondAsOldAsc2logWritesItIsNoTenth) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(0.980 + i * kMs, 1).reply(0.980 + i * kMs + kReply, 1);
+  trace.raw("(1700000000.1000000) can0 001#80008000A3199800\n").reply(1.0 + kReply, 1);
+  for (int i = 21; i < 40; ++i) trace.command(0.980 + i * kMs, 1).reply(0.980 + i * kMs + kReply, 1);
+  const auto report = trace.report();
+  EXPECT_TRUE(report.clock.steps_back.empty());
+  EXPECT_EQ(report.motors[0].missed, 0U);
+}
+
+}  // namespace
+}  // namespace sandhopper::trace

@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/can_trace_text.hpp"
+#include "tools/trial/trace/foreign_format.hpp"
+
+namespace sandhopper::trace {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kMs = 1e-3;
+
+CanReplaySetup dialect_of(Dialect dialect) {
+  CanReplaySetup setup;
+  for (auto& motor : setup.config.motor) motor.dialect = dialect;
+  return setup;
+}
+
+TEST(CanTraceDialect, StatusFramesAreToldAsServoOrV3) {
+  TraceText trace;
+  for (int i = 0; i < 5; ++i) trace.line(i * 2 * kMs, "00002901#FE99000000401B00");
+  EXPECT_THAT(
+      text_of(trace.report(), "another_dialect"),
+      AllOf(HasSubstr("drive 1"), HasSubstr("servo or v3"), HasSubstr("2901"), HasSubstr("set dialect")));
+  auto v3 = trace;
+  v3.line(0.1, "00000801#0006667FFF8F57FF");
+  EXPECT_THAT(text_of(v3.report(), "another_dialect"), HasSubstr("dialect = \"v3\""));
+  trace.line(0.1, "00000101#00000FA0");
+  EXPECT_THAT(text_of(trace.report(), "another_dialect"), HasSubstr("dialect = \"servo\""));
+}
+
+TEST(CanTraceDialect, MitRepliesAreToldWhereServoIsConfigured) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).reply(i * kMs + 0.26 * kMs, 1);
+  const auto report = trace.report(dialect_of(Dialect::servo));
+  EXPECT_TRUE(report.decoded.empty());
+  EXPECT_THAT(text_of(report, "another_dialect"), AllOf(HasSubstr("speaks mit"), HasSubstr("\"servo\"")));
+  EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTraceDialect, DrivesThatAreNotConfiguredAreNamed) {
+  TraceText trace;
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 5).reply(i * kMs + 0.26 * kMs, 5, 0x8000, 0x15);
+  const auto report = trace.report();
+  EXPECT_THAT(text_of(report, "unknown_drives"),
+              AllOf(HasSubstr("drive 5"), HasSubstr("015"), HasSubstr("1 and 2")));
+  EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTraceDialect, V3CommandsPairWithTheirStatusFrames) {
+  TraceText trace;
+  for (int i = 0; i < 30; ++i) {
+    trace.line(i * kMs, "00000801#0000007FFF7FF7FF");
+    if (i != 7) trace.line(i * kMs + 0.3 * kMs, "00002901#FE99000000401B00");
+  }
+  const auto report = trace.report(dialect_of(Dialect::v3));
+  EXPECT_EQ(report.decoded.size(), 29U);
+  EXPECT_EQ(report.motors[0].commands, 30U);
+  EXPECT_EQ(report.motors[0].missed, 1U);
+  EXPECT_TRUE(report.trusted());
+}
+
+TEST(CanTraceDialect, AServoDrivesMissingStatusFramesAreCountedByTheirRate) {
+  TraceText trace;
+  for (int i = 0; i < 60; ++i)
+    if (i != 20 && i != 21) trace.line(i * 2 * kMs, "00002901#FE99000000401B00");
+  const auto report = trace.report(dialect_of(Dialect::servo));
+  EXPECT_EQ(report.motors[0].missed, 2U);
+  EXPECT_THAT(kinds(report), Not(Contains("unasked_replies")));
+}
+
+class Formats : public ::testing::Test {
+ protected:
+  std::optional<ForeignFormat> of(const std::string& text, const std::string& name = "my trace.txt") {
+    const auto folder = std::filesystem::temp_directory_path() / fmt::format("formats_{}", ::getpid());
+    std::filesystem::create_directories(folder);
+    file_ = folder / name;
+    std::ofstream(file_, std::ios::binary) << text;
+    return recognise_format(file_);
+  }
+  // Runs the cure, a shell line, in the file's folder; gives the converted text.
+  std::string converted(const ForeignFormat& format) {
+    const auto folder = file_.parent_path();
+    const auto command = fmt::format("cd '{}' && {}", folder.string(), format.cure);
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(concurrency-mt-unsafe)
+    std::ifstream in(folder / "my trace.log");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::filesystem::path file_;
+};
+
+constexpr const char* kOneFrame = "(1700000000.000260) can0 011#0180006668384600\n";
+
+TEST_F(Formats, CandumpTextIsNotForeign) {
+  EXPECT_FALSE(of(kOneFrame));
+  EXPECT_FALSE(of("# a comment\n"));
+}
+
+TEST_F(Formats, CandumpWithoutLIsConvertedByTheLineGiven) {
+  for (const char* text : {" (1700000000.000260)  can0  011   [8]  01 80 00 66 68 38 46 00\n",
+                           " (1700000000.000260)  can0  RX - -  011   [8]  01 80 00 66 68 38 46 00\n",
+                           " (1700000000.000260)  can0  011   [8]  01 80 00 66 68 38 46 00   '...fh8F.'\n",
+                           "(1700000000.000260)  can0       011   [8]  01 80 00 66 68 38 46 00\n"}) {
+    const auto format = of(text);
+    ASSERT_TRUE(format) << text;
+    EXPECT_EQ(converted(*format), kOneFrame) << text;
+  }
+}
+
+TEST_F(Formats, PythonCansPrintedMessagesAreConvertedByTheLineGiven) {
+  const auto format = of(
+      "Timestamp: 1700000000.000260    ID: 011    S Rx                DL:  8    01 80 00 66 68 38 46 00     "
+      "Channel: can0\n");
+  ASSERT_TRUE(format);
+  EXPECT_EQ(converted(*format), kOneFrame);
+}
+
+TEST_F(Formats, Utf16IsConvertedByTheLineGiven) {
+  std::string text = "\xff\xfe";
+  for (const char* c = kOneFrame; *c != '\0'; ++c) text += std::string{*c, '\0'};
+  const auto format = of(text);
+  ASSERT_TRUE(format);
+  EXPECT_EQ(converted(*format), kOneFrame);
+}
+
+TEST_F(Formats, OtherProgramsFilesAreNamedWithTheirConverter) {
+  EXPECT_THAT(of("date Fri Nov 27 07:00:00 2026\nbase hex  timestamps absolute\n")->cure,
+              HasSubstr("asc2log"));
+  EXPECT_THAT(of("date Mon Dec 6 11:21:13 am 2021\nbase hex  no internal events logged\n")->cure,
+              AllOf(HasSubstr("can.logconvert"), Not(HasSubstr("asc2log"))));
+  EXPECT_THAT(of("LOGG\x90")->cure, HasSubstr("can.logconvert"));
+  EXPECT_THAT(of(";$FILEVERSION=2.1\n")->what, HasSubstr("PEAK"));
+  EXPECT_THAT(of("timestamp,arbitration_id,extended,remote,error,dlc,data\n")->what, HasSubstr("python-can"));
+  EXPECT_THAT(of("Time Stamp,ID,Extended,Dir,Bus,LEN,D1\n")->what, HasSubstr("SavvyCAN"));
+  EXPECT_THAT(of("  can0  011   [8]  01 80 00 66 68 38 46 00\n")->what, HasSubstr("without times"));
+  EXPECT_THAT(of(std::string("\x89MCAP0\r\n"))->cure, HasSubstr("without --can"));
+}
+
+}  // namespace
+}  // namespace sandhopper::trace

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "drivers/can/can_config.hpp"
+#include "tools/trial/trace/findings.hpp"
+#include "tools/trial/trace/roles.hpp"
+#include "tools/trial/trace/trace_file.hpp"
+
+namespace sandhopper::trace {
+
+// What the identifiers of a trace say about its drives, whatever is configured: HARDWARE 1.0 to 1.5.
+struct DialectsSeen {
+  std::map<int, std::uint64_t> status;           // frames 29xx, servo or v3, by drive
+  std::map<int, std::uint64_t> mit_replies;      // standard frames that look like replies, by drive
+  std::map<int, std::uint32_t> mit_reply_id;     // their identifier
+  std::set<int> servo_commands, v3_commands;     // drives
+  std::map<std::uint32_t, std::uint64_t> other;  // identifiers that belong to no configured motor, frames
+};
+
+// Frames of identifier X look like MIT replies of drive n if all of at least ten begin with byte n (1 to 7E),
+// have 6 to 8 bytes, and those with 8 end with an error code.
+DialectsSeen examine_dialects(const std::vector<Frame>& frames, const Roles& roles, const CanConfig& config);
+
+// `replies`: of each motor, decoded.
+Findings dialect_findings(const DialectsSeen& seen, const CanConfig& config,
+                          const std::vector<std::uint64_t>& replies);
+
+}  // namespace sandhopper::trace

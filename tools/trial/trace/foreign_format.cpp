@@ -1,0 +1,124 @@
+#include "tools/trial/trace/foreign_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <regex>
+#include <string_view>
+#include <system_error>
+
+namespace sandhopper::trace {
+namespace {
+
+constexpr std::size_t kSeen = 4096;  // bytes looked at
+
+using namespace std::string_view_literals;
+
+struct Magic {
+  std::string_view bytes;
+  const char* what;
+  const char* cure;  // {0} the file, {1} the file with the ending .log
+};
+
+// python-can reads ASC, BLF, TRC, MF4, CSV and its own database, and writes candump text by the ending .log.
+constexpr const char* kPythonCan = "python3 -m can.logconvert '{0}' '{1}' (Debian: python3-can)";
+constexpr const char* kCapture =
+    "tshark -r '{0}' -T fields -e frame.time_epoch -e can.id -e data.data shows its frames; better record "
+    "again "
+    "with candump -L can0";
+
+constexpr std::array kMagics{
+    Magic{"LOGG"sv, "a Vector BLF log", kPythonCan},
+    Magic{"MDF     "sv, "an ASAM MDF file", kPythonCan},
+    Magic{"SQLite format 3"sv, "a database of python-can", kPythonCan},
+    Magic{";$FILEVERSION="sv, "a PEAK trace", kPythonCan},
+    Magic{"\x89MCAP"sv, "an MCAP log", "replay it without --can: hop replay '{0}'"},
+    Magic{"\x0a\x0d\x0d\x0a"sv, "a packet capture (pcapng)", kCapture},
+    Magic{"\xd4\xc3\xb2\xa1"sv, "a packet capture (pcap)", kCapture},
+    Magic{"\x4d\x3c\xb2\xa1"sv, "a packet capture (pcap)", kCapture},
+    Magic{"\x1f\x8b"sv, "compressed with gzip", "gunzip -c '{0}' > '{1}'"},
+    Magic{"\x28\xb5\x2f\xfd"sv, "compressed with zstd", "zstd -dc '{0}' > '{1}'"},
+    Magic{"\xfd"
+          "7zXZ"sv,
+          "compressed with xz", "xz -dc '{0}' > '{1}'"},
+    Magic{"\xff\xfe"sv, "UTF-16 text, as PowerShell's > writes it", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"},
+    Magic{"\xfe\xff"sv, "UTF-16 text", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"}};
+
+// The cells after "[8]" joined: interface and identifier stand before it, whatever options candump had.
+constexpr const char* kLongCandump =
+    "awk '/^ *\\([0-9.]+\\)/ {{ for (i = 3; i <= NF && $i !~ /^\\[/; ++i); d = \"\"; for (j = i + 1; j <= NF "
+    "&& "
+    "$j ~ /^[0-9A-F][0-9A-F]$/; ++j) d = d $j; print $1, $2, $(i - 1) \"#\" d }}' '{0}' > '{1}'";
+constexpr const char* kPrinted =
+    "awk '/^Timestamp:/ {{ d = \"\"; for (i = 1; $i != \"DL:\"; ++i); for (j = i + 2; j < i + 2 + $(i + 1); "
+    "++j) "
+    "d = d $j; id = toupper($4); if (/ S /) id = substr(\"000\" id, length(id) + 1); print \"(\" $2 \") can0 "
+    "\" "
+    "id \"#\" toupper(d) }}' '{0}' > '{1}'";
+
+struct Pattern {
+  const char* regex;  // of a line
+  const char* what;
+  const char* cure;
+};
+constexpr std::array kPatterns{
+    // asc2log misreads these (can-utils issue 348).
+    Pattern{R"(^\s*base\s+(hex|dec)\s+no internal events logged.*)", "an ASC log of BUSMASTER", kPythonCan},
+    Pattern{R"(^\s*base\s+(hex|dec)\s+timestamps\s+(absolute|relative).*)", "a Vector ASC log",
+            "asc2log -I '{0}' -O '{1}' (Debian: can-utils), or python3 -m can.logconvert '{0}' '{1}'"},
+    Pattern{R"(^\s*\([0-9]+\.[0-9]+\)\s+\S+\s.*\[[0-9]+\].*)", "candump's output without -L", kLongCandump},
+    Pattern{R"(^\s*\([0-9]{4}-[0-9]{2}-[0-9]{2} .*\[[0-9]+\].*)", "candump's output with dates (-tA)",
+            "record again with candump -L can0 > '{1}'"},
+    Pattern{R"(^\s+\S+\s+(RX|TX)?.*[0-9A-F]{3,8}\s+\[[0-9]+\].*)",
+            "candump's output without -L and without times: it cannot be paired or timed",
+            "record again with candump -L can0 > '{1}'"},
+    Pattern{R"(^timestamp,arbitration_id,extended,.*)", "a CSV file of python-can", kPythonCan},
+    Pattern{R"(^Timestamp:\s+[0-9.]+\s+ID:\s+[0-9a-fA-F]+.*DL:.*)", "python-can's printed messages",
+            kPrinted},
+    Pattern{R"(^Time Stamp,ID,Extended,.*)", "a CSV file of SavvyCAN",
+            "open it in SavvyCAN and save it as \"Linux candump\" under '{1}'"}};
+
+std::string beginning_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::system_error(errno, std::generic_category(), file.string());
+  std::string text(kSeen, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+std::optional<ForeignFormat> by_lines(const std::string& text, const std::string& file,
+                                      const std::string& log) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const auto end = std::min(text.find('\n', begin), text.size());
+    lines.emplace_back(text, begin, end - begin);
+    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
+    begin = end + 1;
+  }
+  for (const auto& pattern : kPatterns) {
+    const std::regex regex(pattern.regex);
+    for (const auto& line : lines)
+      if (std::regex_match(line, regex))
+        return ForeignFormat{pattern.what, fmt::format(fmt::runtime(pattern.cure), file, log)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ForeignFormat> recognise_format(const std::filesystem::path& file) {
+  const std::string text = beginning_of(file);
+  auto converted = std::filesystem::path(file).replace_extension(".log");
+  if (converted == file) converted = file.stem().string() + ".candump.log";
+  const std::string log = converted.filename().string();
+  for (const auto& magic : kMagics)
+    if (text.starts_with(magic.bytes))
+      return ForeignFormat{magic.what, fmt::format(fmt::runtime(magic.cure), file.string(), log)};
+  return by_lines(text, file.string(), log);
+}
+
+}  // namespace sandhopper::trace

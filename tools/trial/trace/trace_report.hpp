@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "drivers/can/cubemars.hpp"
+#include "tools/trial/trace/bus_errors.hpp"
+#include "tools/trial/trace/clock.hpp"
+#include "tools/trial/trace/dialects.hpp"
+#include "tools/trial/trace/exchange.hpp"
+#include "tools/trial/trace/findings.hpp"
+#include "tools/trial/trace/roles.hpp"
+#include "tools/trial/trace/trace_file.hpp"
+
+namespace sandhopper::trace {
+
+// What a trace is held against, from robot.toml.
+struct TraceLimits {
+  ReplyLimits replies{};
+  int cycle_gap = 20;  // supervision.cycle_gap: periods in which nothing comes
+};
+
+// A reply, in the order of the times.
+struct TimedReading {
+  std::int64_t trace_ns = 0;  // of the frame in the trace
+  std::uint64_t line = 0;
+  can_frame frame{};
+  MotorReading reading{};
+};
+
+struct TraceReport {
+  std::uint64_t frames = 0;
+  std::vector<TimedReading> decoded;
+  std::array<Exchange, kMotorCount> motors{};
+  std::array<std::map<std::uint8_t, std::uint64_t>, kMotorCount> drive_errors{};  // code, replies with it
+  ClockReport clock;
+  BusErrors bus;
+  DialectsSeen dialects;
+  std::uint64_t doubled_others = 0;  // copies of frames that are no replies
+  Findings findings;
+  bool trusted() const { return all_trusted(findings); }
+};
+
+// Everything that a trace says beside the replies' figures. `config.motor_count` motors are looked for.
+// Throws std::invalid_argument for a configuration that is not right.
+TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimits& limits);
+
+}  // namespace sandhopper::trace
