@@ -6,6 +6,7 @@
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/recordings_folder.hpp"
 
 namespace sandhopper {
 namespace {
@@ -70,6 +71,7 @@ class Loader {
              fmt::format("key 'plant' has no such value: expected one of {}", names_of<CampaignPlant>()));
     campaign_.plant = *known;
     campaign_.belief = default_belief(campaign_.plant);
+    find_recordings(root);
     if (const auto* model = root.find("model")) {
       if (model->kind != Kind::text)
         refuse(campaign_.file, model->position, "model",
@@ -83,6 +85,22 @@ class Loader {
                         campaign_.model.string()));
       campaign_.belief = load_belief(campaign_.model, campaign_.plant, campaign_.findings);
     }
+  }
+
+  // `data`: the folder of the recordings where they are kept apart from this file.
+  void find_recordings(const ConfigNode& root) {
+    campaign_.recordings = campaign_.folder;
+    const auto* data = root.find("data");
+    if (data == nullptr) return;
+    if (data->kind != Kind::text || data->text.empty())
+      refuse(campaign_.file, data->position, "data",
+             "key 'data' has the wrong type: expected the name of the recordings' folder in quotes");
+    const auto* source = root.find("source");
+    const auto found = recordings_folder(campaign_.folder, data->text);
+    if (!found)
+      refuse(campaign_.file, data->position, "data",
+             how_to_get_recordings(data->text, source && source->kind == Kind::text ? source->text : ""));
+    campaign_.recordings = *found;
   }
 
   // Channel names to columns; the short form `t_s = "time"` takes the column as it is.
@@ -153,7 +171,7 @@ class Loader {
     }
     CampaignTrial trial;
     trial.name = file->text;
-    trial.file = (campaign_.folder / file->text).lexically_normal();
+    trial.file = (campaign_.recordings / file->text).lexically_normal();
     trial.kind = usual_kind(campaign_.plant);
     trial.position = file->position;
     trial.belief = campaign_.belief;
@@ -218,7 +236,7 @@ class Loader {
           "names no second recording", "write also = { file = \"plate.csv\", columns = { t_s = \"t\" } }");
       return false;
     }
-    CompanionFile companion{(campaign_.folder / file->text).lexically_normal(), {}};
+    CompanionFile companion{(campaign_.recordings / file->text).lexically_normal(), {}};
     if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
     trial.companions.push_back(std::move(companion));
     return true;
@@ -241,7 +259,8 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "every_trial", "trial"};
+    static const std::vector<std::string> kKnown{"name",   "plant",   "model",       "data",
+                                                 "source", "columns", "every_trial", "trial"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));

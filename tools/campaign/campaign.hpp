@@ -68,6 +68,7 @@ struct CampaignTrial {
 struct Campaign {
   std::filesystem::path folder;
   std::filesystem::path file;  // campaign.toml
+  std::filesystem::path recordings;  // the trials' files are relative to it: `folder`, unless `data` is given
   std::string name;
   CampaignPlant plant{};
   Belief belief{};
@@ -82,8 +83,9 @@ struct Campaign {
 //   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
 //   also    = { file = "plate.csv", columns = { t_s = "t" } }                  a second file of the trial
 // and [every_trial] holds keys that each [[trial]] has unless it says otherwise.
-// Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown plant, no
-// trial, a model that is not right in every key.
+// `data` names the folder of recordings that are kept elsewhere (recordings_folder.hpp), `source` says how to
+// get them. Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown
+// plant, no trial, a model that is not right in every key, a `data` folder that is not on this computer.
 Campaign load_campaign(const std::filesystem::path& folder);
 
 }  // namespace sandhopper

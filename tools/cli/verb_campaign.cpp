@@ -3,6 +3,7 @@
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/cli/campaign_keys.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/plant/load_world.hpp"
@@ -17,6 +18,7 @@ struct Options {
   std::string output;
   int trials = 15;
   std::uint64_t seed = 1;
+  bool every_key = false;
 };
 
 nlohmann::ordered_json as_json(const Finding& f) {
@@ -84,6 +86,13 @@ Run set_up(Arguments& arguments) {
       arguments.add_verb("check", "read every recording and say what is wrong, where, and the cure");
   checking.add_option("FOLDER", options->folder, "a campaign: the folder of its campaign.toml, or that file")
       .required();
+  auto keys = arguments.add_verb(
+      "keys", "what a recording and nominal.toml may hold: channels, keys, units, defaults");
+  keys.add_option("PLANT", options->plant, "hopper, intruder, falling_body or rotary_axis")
+      .one_of({"hopper", "intruder", "falling_body", "rotary_axis"})
+      .required();
+  keys.add_flag("--all", options->every_key,
+                "also keys of [sensors] and [spread] that belong to another plant");
   auto making = arguments.add_verb("make", "write a campaign of simulated recordings to try the tools on");
   making.add_option("--plant", options->plant, "hopper: first strides; intruder: a plate moved into the bed")
       .one_of({"hopper", "intruder"})
@@ -94,7 +103,8 @@ Run set_up(Arguments& arguments) {
       .show_default();
   making.add_option("--seed", options->seed, "of the first trial; the next ones count up").show_default();
   making.add_option("--output", options->output, "folder to write").required();
-  return [options, checking](Session& session) {
+  return [options, checking, keys](Session& session) {
+    if (keys.parsed()) return print_campaign_keys(session, options->plant, options->every_key);
     return checking.parsed() ? check(session, *options) : make(session, *options);
   };
 }
