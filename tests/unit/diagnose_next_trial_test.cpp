@@ -20,11 +20,20 @@ Recordings more_drag() {
   return r;
 }
 
+// As more_drag(), and the lab has weights and can throw the body down.
+Recordings more_drag_with_payloads() {
+  auto r = more_drag();
+  r.available["payload_kg"] = {{0.1, 0.2, 0.6}, false, {}};
+  r.available["release_speed_mps"] = {{0.0, 8.0}, true, {}};
+  return r;
+}
+
 TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
-  const auto d = diagnose(more_drag());
+  const auto d = diagnose(more_drag_with_payloads());
   ASSERT_EQ(d.detail, "one_of_class");
   EXPECT_EQ(d.next.kind, "drop");
-  EXPECT_TRUE(d.next.setup.contains("payload_kg"));
+  ASSERT_TRUE(d.next.setup.contains("payload_kg"));
+  EXPECT_THAT(d.next.setup.at("payload_kg"), ::testing::AnyOf(0.1, 0.2, 0.6));
   EXPECT_GT(d.next.settles, 0.8);
   EXPECT_LE(d.next.settles, d.next.splits);
   EXPECT_EQ(d.next.purpose, "split");
@@ -36,6 +45,17 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
     apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
   // Hundreds of samples settle it together; one need not.
   EXPECT_GT(apart, 0.3 * d.next.floor);
+}
+
+// A lab that has no weights is told which set-up would help, not sent to buy one.
+TEST(DiagnoseNextTrial, ProposesNoSetUpThatTheLabDoesNotHave) {
+  const auto d = diagnose(more_drag());
+  ASSERT_EQ(d.detail, "one_of_class");
+  EXPECT_FALSE(d.next.setup.contains("payload_kg"));
+  if (d.next.kind.empty())
+    EXPECT_THAT(d.next.why, HasSubstr("lists under [available]"));
+  else
+    EXPECT_LE(d.next.setup.at("release_height_m"), 7.0);
 }
 
 // Air slows the fall by a third: a planned trial lasts until the body as it is now believed lands, not four
@@ -98,7 +118,7 @@ TEST(DiagnoseNextTrial, PlansAMotionOfAnAxis) {
 }
 
 TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {
-  const auto json = to_json(diagnose(more_drag()));
+  const auto json = to_json(diagnose(more_drag_with_payloads()));
   const auto& setup = json.at("next_trial").at("setup");
   EXPECT_EQ(setup.at("kind"), "drop");
   EXPECT_TRUE(setup.at("release_height_m").is_number());

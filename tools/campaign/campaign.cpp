@@ -51,6 +51,8 @@ class Loader {
     const auto& root = document.root;
     read_head(root);
     if (const auto* columns = root.find("columns")) columns_ = read_columns(*columns);
+    if (const auto* available = root.find("available"))
+      campaign_.available = read_available(*available, campaign_.file.string(), campaign_.findings);
     read_trials(root);
     for (const auto& child : root.children) note_unknown(child);
     return std::move(campaign_);
@@ -259,8 +261,8 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name",   "plant",   "model",       "data",
-                                                 "source", "columns", "every_trial", "trial"};
+    static const std::vector<std::string> kKnown{"name",      "plant",   "model",       "data", "source",
+                                                 "available", "columns", "every_trial", "trial"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/node.hpp"
+#include "tools/campaign/available.hpp"
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/finding.hpp"
 #include "tools/campaign/plant_kind.hpp"
@@ -73,6 +74,7 @@ struct Campaign {
   CampaignPlant plant{};
   Belief belief{};
   std::filesystem::path model{};      // empty: the plant's default
+  Available available;                // [available]: what the lab can set for its next trial
   std::vector<CampaignTrial> trials;  // those that campaign.toml describes well enough to be read
   std::vector<Finding> findings;      // what is wrong with campaign.toml itself; such trials are left out
 };
@@ -82,7 +84,8 @@ struct Campaign {
 //   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
 //   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
 //   also    = { file = "plate.csv", columns = { t_s = "t" } }                  a second file of the trial
-// and [every_trial] holds keys that each [[trial]] has unless it says otherwise.
+// [every_trial] holds keys that each [[trial]] has unless it says otherwise, and [available] what the next
+// trial can be (available.hpp).
 // `data` names the folder of recordings that are kept elsewhere (recordings_folder.hpp), `source` says how to
 // get them. Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown
 // plant, no trial, a model that is not right in every key, a `data` folder that is not on this computer.

@@ -182,6 +182,8 @@ CampaignReport report_on(const CampaignResults& results) {
     if (trials.empty()) continue;
     auto told = analysis->conclude(trials);
     if (!told.json.empty()) conclusions[std::string(analysis->name())] = std::move(told.json);
+    if (told.answer.empty() && !told.lines.empty()) told.answer = told.lines.front();
+    if (!told.answer.empty()) study.verdict += (study.verdict.empty() ? "" : " ") + told.answer;
     std::move(told.lines.begin(), told.lines.end(), std::back_inserter(report.lines));
     std::move(told.sections.begin(), told.sections.end(), std::back_inserter(study.sections));
   }

@@ -220,6 +220,22 @@ StudySection stiffness_section(Results results, const PooledStiffness& pooled) {
   return section;
 }
 
+// The campaign's stiffness in one sentence, or the reason why there is none.
+std::string answer_of(const PooledStiffness& pooled) {
+  if (pooled.strides == 0) return "No stride gives a stiffness of the ground.";
+  if (!std::isfinite(pooled.ci95_low_N_per_m))
+    return fmt::format("One stride gives {} N/m for the ground's stiffness; an interval needs more of them.",
+                       figure_number(pooled.value_N_per_m));
+  const auto interval = interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m);
+  if (pooled.ci95_low_N_per_m <= 0.0)
+    return fmt::format(
+        "No stiffness of the ground can be given: the interval over {} strides, {} N/m, holds "
+        "zero.",
+        pooled.strides, interval);
+  return fmt::format("The ground's stiffness is {} N/m, 95 % interval {} N/m (joint fit, {} strides).",
+                     figure_number(pooled.value_N_per_m), interval, pooled.strides);
+}
+
 }  // namespace
 
 CampaignConclusions conclude_hops(Results results) {
@@ -230,6 +246,7 @@ CampaignConclusions conclude_hops(Results results) {
                                {"ci95_N_per_m", {pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m}},
                                {"between_strides_sd_N_per_m", pooled.between_strides_sd_N_per_m},
                                {"strides", pooled.strides}};
+  told.answer = answer_of(pooled);
   told.lines.push_back(fmt::format("hops: {} trials", results.size()));
   for (const auto& way : stiffness_ways()) {
     const auto mean = stiffness_of(results, way.name, "A");

@@ -11,6 +11,7 @@ namespace sandhopper {
 
 // What the trials of one sort say together.
 struct CampaignConclusions {
+  std::string answer{};              // one sentence, with which the page begins; empty: the first line
   std::vector<std::string> lines{};  // for the terminal
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   std::vector<StudySection> sections{};  // of the page

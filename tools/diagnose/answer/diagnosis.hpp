@@ -30,6 +30,9 @@ struct FoundEffect {
   std::vector<std::string> indistinguishable_from{};
 
   bool is_unknown() const { return id.starts_with("unknown@"); }  // on no list
+  // The 95 % interval of its size, the first parameter (or its change against the belief, which follows it),
+  // holds zero: suspected, not found.
+  bool may_be_zero() const;
 };
 
 struct Where {
@@ -47,6 +50,11 @@ struct Where {
 struct ErrorBeforeAfter {
   double before = 0.0, after = 0.0;
 };
+
+// "5.3 times the noise floor before, 0.70 after".
+std::string times_the_floor(const ErrorBeforeAfter& error, double floor);
+// "0.97 times the noise floor".
+std::string times_the_floor(double error, double floor);
 
 struct ChannelFit {
   std::string channel;

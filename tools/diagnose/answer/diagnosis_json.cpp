@@ -32,6 +32,7 @@ Json to_json(const Diagnosis& d) {
                 {"parameters", parameters},
                 {"probability", e.probability},
                 {"heldout_gain", e.heldout_gain},
+                {"interval_holds_zero", e.may_be_zero()},
                 {"indistinguishable_from", e.indistinguishable_from}};
     if (!e.channel.empty()) effect["channel"] = e.channel;
     json["effects"].push_back(std::move(effect));

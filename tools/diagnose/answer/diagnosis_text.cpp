@@ -23,11 +23,13 @@ std::string joined(const std::vector<std::string>& words) {
 std::string percent(double share) { return fmt::format("{:.0f} %", std::min(99.0, 100.0 * share)); }
 
 std::string effect_text(const FoundEffect& e) {
-  std::string text = fmt::format("what   {} (probability {:.2f}): {}\n       {}\n", e.id, e.probability,
-                                 e.statement, e.equation);
+  std::string text =
+      fmt::format("{} {} (probability {:.2f}): {}\n       {}\n", e.may_be_zero() ? "maybe " : "what  ", e.id,
+                  e.probability, e.statement, e.equation);
   for (const auto& p : e.parameters)
     text +=
         fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}\n", p.name, p.value, p.low, p.high);
+  if (e.may_be_zero()) text += "       suspected, not found: its 95 % interval holds zero\n";
   if (!e.indistinguishable_from.empty())
     text += fmt::format("       cannot be told apart on these recordings from {}\n",
                         joined(e.indistinguishable_from));
@@ -37,10 +39,18 @@ std::string effect_text(const FoundEffect& e) {
 std::string where_text(const Where& w) {
   std::string text = "where  ";
   if (!w.port.empty()) text += w.port + ": ";
-  text += fmt::format("{} during {}, {:.0f} % of the excess", w.channel, w.phase, 100.0 * w.share_of_excess);
+  text += fmt::format("{} during {}, {:.0f} % of the squared error above the noise floor", w.channel, w.phase,
+                      100.0 * w.share_of_excess);
   if (!w.coordinate.empty())
     text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
   return text + fmt::format(", p = {:.1g}\n", w.p_value);
+}
+
+std::string error_text(const ChannelFit& f) {
+  const auto unit = quantity_of(f.channel).unit;
+  return fmt::format("error  {}: {} on held-out trials (rms {:.4g} and {:.4g}, floor {:.4g}{}{})\n",
+                     f.channel, times_the_floor(f.heldout, f.floor), f.heldout.before, f.heldout.after,
+                     f.floor, unit.empty() ? "" : " ", unit);
 }
 
 std::string next_text(const NextTrial& next) {
@@ -62,6 +72,22 @@ std::string absent_text(const std::vector<Bound>& absent) {
 
 }  // namespace
 
+bool FoundEffect::may_be_zero() const {
+  if (parameters.empty()) return false;
+  // A change of what was believed says it better than the value itself.
+  const auto& size = parameters.size() > 1 && parameters[1].derived ? parameters[1] : parameters[0];
+  return size.low <= 0.0 && size.high >= 0.0 && size.low < size.high;
+}
+
+std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {
+  return fmt::format("{:.2g} times the noise floor before, {:.2g} after", error.before / floor,
+                     error.after / floor);
+}
+
+std::string times_the_floor(double error, double floor) {
+  return fmt::format("{:.2g} times the noise floor", error / floor);
+}
+
 std::string headline(const Diagnosis& d) {
   if (d.verdict == "consistent")
     return fmt::format(
@@ -69,14 +95,22 @@ std::string headline(const Diagnosis& d) {
   if (d.verdict == "insufficient_data") return fmt::format("{} trials are too little to say.", d.trials);
   if (d.verdict == "unknown_physics") return "Something is missing that is on no list.";
   std::vector<std::string> names;
+  bool all_suspected = true;
   for (const auto& e : d.effects)
-    if (!e.is_unknown()) names.push_back(e.id);
+    if (!e.is_unknown()) {
+      names.push_back(e.id);
+      all_suspected = all_suspected && e.may_be_zero();
+    }
+  if (!names.empty() && all_suspected)
+    return fmt::format("Something may be missing: {}; its 95 % interval holds zero.", joined(names));
   if (d.detail == "data_fault") return "The physics agrees; the recording has faults.";
   if (d.detail == "one_of_class")
     return "Something is missing; these recordings leave more than one explanation.";
   if (d.detail == "known_and_rest")
-    return fmt::format("Something is missing: {}; that closes {} of the gap, and what is left is on no list.",
-                       joined(names), percent(d.gap_closed));
+    return fmt::format(
+        "Something is missing: {}; that closes {} of the gap between simulation and recording, "
+        "and what is left is on no list.",
+        joined(names), percent(d.gap_closed));
   return "Something is missing: " + joined(names) + ".";
 }
 
@@ -89,10 +123,7 @@ std::string to_text(const Diagnosis& d) {
       fmt::format("verdict: {}{}. {}\n", d.verdict, d.detail == "null" ? "" : ", " + d.detail, headline(d));
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
-  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i)
-    text +=
-        fmt::format("error  {}: {:.4g} before, {:.4g} after on held-out trials, floor {:.4g}\n",
-                    d.fits[i].channel, d.fits[i].heldout.before, d.fits[i].heldout.after, d.fits[i].floor);
+  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);
   text += next_text(d.next) + absent_text(d.absent);
   for (const auto& note : d.notes) text += "note   " + note + "\n";
   text += fmt::format("{} simulations in {:.1f} s ({:.0f} a second)", d.simulations, d.seconds,

@@ -1,7 +1,10 @@
 #pragma once
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "tools/campaign/available.hpp"
 #include "tools/diagnose/fit/problem.hpp"
 
 namespace sandhopper::diagnose {
@@ -12,6 +15,8 @@ struct Recordings {
   Belief belief;
   std::vector<Trial> trials;
   std::vector<Belief> beliefs;  // per trial: the campaign's with the set-up's own values
+  Available available{};        // set-ups of the next trial, as the campaign states them
+  std::map<std::string, std::set<std::string>> words{};  // of the recorded set-ups, by key
 };
 
 struct Prepared {

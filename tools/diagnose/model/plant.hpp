@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/model/context.hpp"
 #include "tools/diagnose/model/edits.hpp"
+#include "tools/diagnose/model/reach.hpp"
 #include "tools/diagnose/model/trial.hpp"
 
 namespace sandhopper::diagnose {
@@ -187,10 +188,10 @@ class PlantModel {
                                                const std::vector<Belief>& /*beliefs*/) const {
     return {};
   }
-  // Trials like the recorded ones and around them; none where planning is not known.
+  // Trials like the recorded ones, with set-ups within `reach`; none where planning is not known.
   virtual std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
-                                          const Edits& edits) const {
-    (void)recorded, (void)belief, (void)edits;
+                                          const Edits& edits, const Reach& reach) const {
+    (void)recorded, (void)belief, (void)edits, (void)reach;
     return {};
   }
 };

@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/evidence/rivals.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
+#include "tools/diagnose/model/quantity.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
@@ -296,17 +297,16 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
                          diagnosis.effects.front().channel);
 }
 
-}  // namespace
-
-void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
-                        const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
-  NextTrial& next = diagnosis.next;
-  if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
+// The trial of most worth within `reach`.
+void propose_within(const Reach& reach, Problem& problem, const Recordings& recordings, Search& search,
+                    const Posterior& belief, const FreeGain* rest, const Diagnosis& diagnosis,
+                    NextTrial& next) {
   const Point& point = search.best().fit.point;
   const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
-  const PlannedTrials planned(problem, problem.plant->doable(recordings.trials, recordings.belief, edits));
+  const PlannedTrials planned(problem,
+                              problem.plant->doable(recordings.trials, recordings.belief, edits, reach));
   if (planned.size() == 0) {
-    next.why = "Trials of this plant cannot be planned.";
+    next.why = "No trial can be planned from the set-ups of this campaign.";
     return;
   }
   const auto rivals = rivals_of(problem, search, belief);
@@ -318,6 +318,24 @@ void propose_next_trial(Problem& problem, const Recordings& recordings, Search& 
     split(problem, planned, search, belief, rivals, next);
   else
     sharpen(problem, planned, search, diagnosis, next);
+}
+
+}  // namespace
+
+void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
+                        const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
+  NextTrial& next = diagnosis.next;
+  if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
+  const Reach reach(recordings.trials, recordings.available, recordings.words);
+  propose_within(reach, problem, recordings, search, belief, rest, diagnosis, next);
+  if (!next.kind.empty() || rivals_of(problem, search, belief).empty()) return;
+  NextTrial beyond;
+  propose_within(Reach::anything(), problem, recordings, search, belief, rest, diagnosis, beyond);
+  if (beyond.kind.empty()) return;
+  next.why += fmt::format(
+      " A set-up that this campaign has neither recorded nor lists under [available] "
+      "would: {}. {}",
+      trial_in_words(beyond.kind, beyond.words, beyond.setup), beyond.why);
 }
 
 }  // namespace sandhopper::diagnose

@@ -7,7 +7,8 @@
 
 namespace sandhopper::diagnose {
 
-// Chooses, among the trials that could be done, the one worth doing next:
+// Chooses the trial worth doing next, among those whose set-up the campaign has recorded or lists under
+// [available]; where none of them tells rivals apart, the reason says which other set-up would:
 //   split    rivals that these recordings leave: xi* = argmax mean_ij log2(1 + min(lambda_ij(xi), enough)) -
 //            cost(xi); none where a session of such trials would not tell one of them
 //   sharpen  one explanation: the largest drop of its parameters' variances

@@ -20,12 +20,15 @@ struct Extent {
 Extent extent_of(const std::vector<Trial>& recorded, const std::string& key, double otherwise);
 
 std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector<Trial>& recorded,
-                                      const Belief& belief, const Edits& edits);
+                                      const Belief& belief, const Edits& edits, const Reach& reach);
+// Motions that take the axis no further and no faster than it went, where the set-up's keys are not in reach.
 std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, const Belief& belief,
-                                        const Edits& edits);
-std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief);
-// Hops of the first stride: release heights and leg stiffnesses.
+                                        const Edits& edits, const Reach& reach);
+std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief,
+                                           const Reach& reach);
+// Hops of the first stride: release heights in reach, and leg stiffnesses, which are only a number in the
+// robot.
 std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const Belief& belief,
-                                     const Edits& edits);
+                                     const Edits& edits, const Reach& reach);
 
 }  // namespace sandhopper::diagnose

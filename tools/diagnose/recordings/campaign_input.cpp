@@ -148,6 +148,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
   CampaignInput input;
   input.recordings.plant = kind_of(campaign.plant);
   input.recordings.belief = flattened(campaign.belief);
+  input.recordings.available = campaign.available;
   input.findings = campaign.findings;
   std::vector<std::vector<TrialRecording::Channel>> at_one_value;
   std::vector<std::optional<bool>> motor_on;
@@ -164,7 +165,10 @@ CampaignInput read_campaign(const Campaign& campaign) {
     trial.name = std::filesystem::path(described.name).stem().string();
     trial.kind = name_of(described.kind);
     for (const auto& entry : described.setup)
-      if (const auto* number = std::get_if<double>(&entry.value)) trial.setup[entry.key] = *number;
+      if (const auto* number = std::get_if<double>(&entry.value))
+        trial.setup[entry.key] = *number;
+      else if (const auto* word = std::get_if<std::string>(&entry.value))
+        input.recordings.words[entry.key].insert(*word);
     trial.time_s = recording.t_s;
     for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
     input.recordings.trials.push_back(std::move(trial));

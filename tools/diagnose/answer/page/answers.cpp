@@ -33,7 +33,8 @@ std::string place_of(const Where& w) {
       fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, in_words(w.phase), w.from_s, w.to_s);
   if (!w.coordinate.empty() && w.coordinate != "t_s")
     text += fmt::format("; {} {} to {} {}", axis.words, number(w.range_low), number(w.range_high), axis.unit);
-  return text + fmt::format("; {:.0f} % of the excess, {}", 100.0 * w.share_of_excess, p_text(w.p_value));
+  return text + fmt::format("; {:.0f} % of the squared error above the noise floor, {}",
+                            100.0 * w.share_of_excess, p_text(w.p_value));
 }
 
 std::vector<std::string> ports_of(const Diagnosis& d) {
@@ -56,9 +57,10 @@ StudyAnswer where(const Diagnosis& d) {
         worst = &e;
     if (worst != nullptr)
       box.lines.emplace_back(
-          Style::text, fmt::format("No channel differs from the simulation in any phase by more than trials "
-                                   "differ among themselves. Most: {}, {}, error {:.2f} of the floor.",
-                                   worst->channel, in_words(worst->phase), worst->before / worst->floor));
+          Style::text,
+          fmt::format("No channel differs from the simulation in any phase by more than trials "
+                      "differ among themselves. Most: {}, {}, {}.",
+                      worst->channel, in_words(worst->phase), times_the_floor(worst->before, worst->floor)));
     return box;
   }
   const auto ports = ports_of(d);
@@ -106,6 +108,8 @@ StudyAnswer what(const Diagnosis& d) {
     const auto& e = d.effects[i];
     box.lines.emplace_back(Style::lead, e.id + (e.channel.empty() ? "" : " on " + e.channel));
     box.lines.emplace_back(Style::text, e.statement);
+    if (e.may_be_zero())
+      box.lines.emplace_back(Style::text, "Suspected, not found: its 95 % interval holds zero.");
     if (d.effects.size() < 3) box.lines.emplace_back(Style::equation, e.equation);
     if (!e.parameters.empty()) box.lines.emplace_back(Style::text, parameters_of(e));
   }
@@ -140,7 +144,7 @@ StudyAnswer how_sure(const Diagnosis& d) {
     box.lines.emplace_back(
         Style::text,
         fmt::format("A free law of {} at {}, which no effect on the list stands for, predicts trials it was "
-                    "not fitted to ({}). It takes {:.0f} % of what can be explained.",
+                    "not fitted to ({}). It takes {:.0f} % of the gap between simulation and recording.",
                     d.unknown.front().curve.variable, d.unknown.front().port,
                     p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
   else if (!classes && d.detail == "known")
@@ -162,18 +166,17 @@ StudyAnswer how_much_better(const Diagnosis& d) {
     box.bars.push_back({label, value / most, number(value) + " " + q.unit, color});
   };
   const bool changed = !nothing_found(d) && d.detail != "data_fault";
-  box.lines.emplace_back(
-      Style::lead, !changed ? fmt::format("{}: {:.2f} of the floor", f.channel, f.heldout.before / f.floor)
-                            : fmt::format("{}: {:.2f} to {:.2f} of the floor", f.channel,
-                                          f.heldout.before / f.floor, f.heldout.after / f.floor));
+  box.lines.emplace_back(Style::lead, fmt::format("{}: held-out error {}", f.channel,
+                                                  changed ? times_the_floor(f.heldout, f.floor)
+                                                          : times_the_floor(f.heldout.before, f.floor)));
   bar(changed ? "before" : "error", f.heldout.before, "orange");
   if (changed) bar("after", f.heldout.after, "blue");
   bar("floor", f.floor, "grey");
   box.lines.emplace_back(
-      Style::quiet, changed
-                        ? "Root mean square on trials held out of the fit; the floor is what trials "
-                          "differ by when nothing is missing."
-                        : "Root mean square; the floor is what trials differ by when nothing is missing.");
+      Style::quiet, changed ? "Root mean square on trials held out of the fit; the noise floor is what "
+                              "trials differ by when nothing is missing."
+                            : "Root mean square; the noise floor is what trials differ by when nothing is "
+                              "missing.");
   return box;
 }
 

@@ -55,9 +55,9 @@ StudySection errors_section(const Diagnosis& d) {
     table.shades.push_back(std::move(shades));
   }
   table.note =
-      "Held-out error over the floor of its channel and phase, before → after what was found is added. 1.00 "
-      "is as "
-      "good as trials repeat; the darker, the more is missing.";
+      "Held-out error as a multiple of the noise floor of its channel and phase, before → after what was "
+      "found "
+      "is added. 1.00 is as good as trials repeat; the darker, the more is missing.";
   return {"Before and after, by channel and phase", {table}};
 }
 
@@ -71,7 +71,7 @@ StudySection effects_section(const Diagnosis& d) {
                    "95 % from",
                    "95 % to",
                    "probability",
-                   "share of the held-out gain",
+                   "share of the fall of the held-out error",
                    "of its typical size",
                    "p"};
   table.text_columns = 4;
@@ -95,10 +95,14 @@ StudySection effects_section(const Diagnosis& d) {
       else
         row.insert(row.end(), 4, "");
       table.rows.push_back(std::move(row));
-      table.row_marks.emplace_back(e.probability >= 0.8 ? "good" : "partly");
+      table.row_marks.emplace_back(e.probability >= 0.8 && !e.may_be_zero() ? "good" : "partly");
     }
   }
   StudySection section{"What was found", {table}};
+  for (const auto& e : d.effects)
+    if (e.may_be_zero())
+      section.items.emplace_back(
+          fmt::format("{} is suspected, not found: its 95 % interval holds zero.", e.id));
   for (const auto& e : d.effects)
     if (!e.indistinguishable_from.empty()) {
       std::string others;
@@ -128,7 +132,9 @@ StudySection unknown_section(const Diagnosis& d) {
 
 StudySection where_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the excess", "p", "trials"};
+  table.columns = {
+      "channel", "phase", "port", "axis", "from", "to", "share of the squared error above the floor",
+      "p",       "trials"};
   table.text_columns = 4;
   for (const auto& w : d.where)
     table.rows.push_back({w.channel, w.phase, w.port, quantity_of(w.coordinate).label(), number(w.range_low),

@@ -66,26 +66,36 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   return trial;
 }
 
+std::vector<double> with_none(std::vector<double> values) {
+  if (std::ranges::count(values, 0.0) == 0) values.insert(values.begin(), 0.0);
+  return values;
+}
+
 }  // namespace
 
 std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector<Trial>& recorded,
-                                      const Belief& belief, const Edits& edits) {
+                                      const Belief& belief, const Edits& edits, const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
   const auto heights = extent_of(recorded, "release_height_m", 2.0);
   const double mass_kg = belief.value("body.mass_kg", 1.0);
-  for (const double height_m :
-       {0.5 * heights.low, heights.low, std::sqrt(heights.low * heights.high), heights.high,
-        2.0 * heights.high, 4.0 * heights.high, 8.0 * heights.high, 16.0 * heights.high})
-    for (const double speed_mps : {0.0, 3.0, 8.0})
-      for (const double payload : {0.0, 0.5, 1.0, 3.0}) {
+  auto release_heights =
+      reach.settings("release_height_m",
+                     {0.5 * heights.low, heights.low, std::sqrt(heights.low * heights.high), heights.high,
+                      2.0 * heights.high, 4.0 * heights.high, 8.0 * heights.high, 16.0 * heights.high});
+  if (release_heights.empty()) release_heights = {heights.high};
+  const auto speeds = with_none(reach.settings("release_speed_mps", {3.0, 8.0}));
+  const auto payloads = with_none(reach.parts("payload_kg", {0.5 * mass_kg, mass_kg, 3.0 * mass_kg}));
+  for (const double height_m : release_heights)
+    for (const double speed_mps : speeds)
+      for (const double payload_kg : payloads) {
         if (height_m > std::max(kHighest_m, heights.high)) continue;
         DoableTrial one;
         one.belief = belief;
-        one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload * mass_kg});
+        one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload_kg});
         one.trial.kind = "drop";
-        one.cost =
-            std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) + payload;
+        one.cost = std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) +
+                   payload_kg / mass_kg;
         if (one.trial.time_s.size() >= 10) trials.push_back(std::move(one));
       }
   return trials;

@@ -65,8 +65,8 @@ class FallingBody final : public PlantModel {
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
-                                  const Edits& edits) const override {
-    return doable_drops(*this, recorded, belief, edits);
+                                  const Edits& edits, const Reach& reach) const override {
+    return doable_drops(*this, recorded, belief, edits, reach);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

@@ -84,7 +84,7 @@ DoableTrial planned(const Trial& sample, const Belief& belief, const Edits& edit
 }  // namespace
 
 std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const Belief& belief,
-                                     const Edits& edits) {
+                                     const Edits& edits, const Reach& reach) {
   std::vector<DoableTrial> trials;
   const auto sample = std::find_if(recorded.begin(), recorded.end(), [](const Trial& trial) {
     return trial.kind == "hop" && trial.setup.contains("release_height_m");
@@ -94,8 +94,10 @@ std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const B
   const auto course = course_of(*sample, Leg(world.robot.leg), world.controller.compression_length_m);
   if (course.hops.empty() || !course.hops.front().at_rest) return trials;
   const auto heights = extent_of(recorded, "release_height_m", 0.05);
+  auto release_heights = reach.settings("release_height_m", {0.01, 0.03, 0.05, 0.08, 0.12});
+  if (release_heights.empty()) release_heights = {heights.high};
   for (const double stiffness : {250.0, 375.0, 500.0})
-    for (const double height_m : {0.01, 0.03, 0.05, 0.08, 0.12}) {
+    for (const double height_m : release_heights) {
       if (stiffness < kSoft_N_per_m && height_m > kHighestForSoft_m) continue;
       trials.push_back(planned(*sample, belief, edits, course.hops.front().state, {height_m, stiffness}));
       trials.back().cost = std::max(0.0, std::log2(height_m / heights.high));

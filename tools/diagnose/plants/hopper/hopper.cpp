@@ -151,8 +151,8 @@ class Hopper final : public PlantModel {
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
-                                  const Edits& edits) const override {
-    return doable_hops(recorded, belief, edits);
+                                  const Edits& edits, const Reach& reach) const override {
+    return doable_hops(recorded, belief, edits, reach);
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {

@@ -60,21 +60,33 @@ PlannedIntrusion motion_of(const std::string& profile, double speed, double dept
 
 }  // namespace
 
-std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief) {
+std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief,
+                                           const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
   const auto depths = extent_of(recorded, "depth_m", 0.04),
              speeds = extent_of(recorded, "impact_speed_mps", 0.3);
   const double radius_m = belief.value("foot.radius_m", 0.04);
+  const auto some = [](std::vector<double> values, double otherwise) {
+    return values.empty() ? std::vector<double>{otherwise} : values;
+  };
+  const auto planned_speeds =
+      some(reach.settings("impact_speed_mps", {0.02, 0.1, 0.3, 0.6, 1.0}), speeds.high);
+  const auto planned_depths = some(reach.settings("depth_m", {0.6 * depths.high, depths.high}), depths.high);
+  const auto own_plate_m = 2.0 * radius_m;
+  auto plates_m = reach.parts("plate_diameter_m", {0.6 * own_plate_m, 1.5 * own_plate_m});
+  std::erase(plates_m, own_plate_m);
+  plates_m.insert(plates_m.begin(), own_plate_m);
   for (const char* profile : {"stop_and_withdraw", "cycles", "through"})
-    for (const double speed : {0.02, 0.1, 0.3, 0.6, 1.0})
-      for (const double depth : {0.6 * depths.high, depths.high})
-        for (const double plate : {1.0, 0.6, 1.5}) {
+    for (const double speed : planned_speeds)
+      for (const double depth : planned_depths)
+        for (const double plate_m : plates_m) {
+          if (!reach.allows("profile", profile)) continue;
           const PlannedIntrusion m = motion_of(profile, speed, depth);
           const double duration_s = kStep_s * static_cast<double>(m.depth_m.size() - 1);
           DoableTrial one;
           one.belief = belief;
-          one.belief.numbers["foot.radius_m"] = plate * radius_m;
+          one.belief.numbers["foot.radius_m"] = 0.5 * plate_m;
           const auto at = [&](const std::vector<double>& values, double t) {
             return values[std::min(values.size() - 1, static_cast<std::size_t>(t / kStep_s + 0.5))];
           };
@@ -86,9 +98,9 @@ std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, c
           });
           one.trial.kind = "intrusion";
           one.trial.setup = {{"impact_speed_mps", speed}, {"depth_m", depth}};
-          if (plate != 1.0) one.trial.setup["plate_diameter_m"] = 2.0 * plate * radius_m;
+          if (plate_m != own_plate_m) one.trial.setup["plate_diameter_m"] = plate_m;
           one.words["profile"] = profile;
-          one.cost = (plate != 1.0 ? 2.0 : 0.0) +
+          one.cost = (plate_m != own_plate_m ? 2.0 : 0.0) +
                      0.5 * std::max(0.0, std::log2(speed / std::max(speeds.high, 1e-3))) +
                      (std::string(profile) == "through" ? 0.5 : 0.0);
           trials.push_back(std::move(one));

@@ -70,8 +70,8 @@ class Intruder final : public PlantModel {
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
-                                  const Edits& /*edits*/) const override {
-    return doable_intrusions(recorded, belief);
+                                  const Edits& /*edits*/, const Reach& reach) const override {
+    return doable_intrusions(recorded, belief, reach);
   }
 
   bool motion_is_prescribed() const override { return true; }

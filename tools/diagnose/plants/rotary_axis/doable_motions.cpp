@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tools/diagnose/model/sign_smooth.hpp"
@@ -67,6 +68,20 @@ PlannedMotion released(const Axis& axis, double duration_s, double from_rad) {
   return m;
 }
 
+// Largest absolute value of a channel; infinite where it is not recorded.
+double largest_of(const std::vector<Trial>& recorded, const char* channel) {
+  double most = -1.0;
+  for (const auto& trial : recorded)
+    if (const auto found = trial.channels.find(channel); found != trial.channels.end())
+      for (const double value : found->second)
+        if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  return most < 0.0 ? std::numeric_limits<double>::infinity() : most;
+}
+
+bool is_within(const std::vector<double>& values, double most) {
+  return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= most; });
+}
+
 struct Wish {
   std::string profile;  // empty: hold
   std::map<std::string, double> setup;
@@ -77,22 +92,33 @@ double triangle(double turns) {  // -1 to 1, from 0 upwards
   return 2.0 / kPi * std::asin(std::sin(2.0 * kPi * turns));
 }
 
-std::vector<Wish> wishes(double duration_s) {
+// Values of a key in reach; the grid itself where nothing is known of the key: the motions are then held
+// against those recorded.
+struct Values {
+  const Reach& reach;
+  std::vector<double> operator()(const char* key, const std::vector<double>& grid) const {
+    const auto values = reach.settings(key, grid);
+    return values.empty() ? grid : values;
+  }
+};
+
+std::vector<Wish> wishes(double duration_s, const Reach& reach) {
+  const Values of{reach};
   std::vector<Wish> all;
-  for (const double angle : {0.5, 1.57, 2.4})
+  for (const double angle : of("position_rad", {0.5, 1.57, 2.4}))
     all.push_back({"", {{"position_rad", angle}}, [=](double) { return angle; }});
-  for (const double angle : {0.6, 1.5, 2.4})
+  for (const double angle : of("release_position_rad", {0.6, 1.5, 2.4}))
     all.push_back({"release", {{"release_position_rad", angle}}, {}});
-  for (const double a : {0.3, 0.8, 1.5})
-    for (const double f : {0.3, 0.8, 1.5})
+  for (const double a : of("amplitude_rad", {0.3, 0.8, 1.5}))
+    for (const double f : of("frequency_Hz", {0.3, 0.8, 1.5}))
       all.push_back({"sine", {{"amplitude_rad", a}, {"frequency_Hz", f}}, [=](double t) {
                        return a * std::sin(2.0 * kPi * f * t);
                      }});
-  for (const double a : {0.4, 1.0})
+  for (const double a : of("amplitude_rad", {0.4, 1.0}))
     all.push_back({"chirp",
                    {{"amplitude_rad", a}, {"frequency_Hz", 0.3}, {"end_frequency_Hz", 2.5}},
                    [=](double t) { return a * std::sin(2.0 * kPi * (0.3 * t + 1.1 * t * t / duration_s)); }});
-  for (const double v : {0.1, 0.5, 2.0})
+  for (const double v : of("speed_radps", {0.1, 0.5, 2.0}))
     all.push_back({"ramp", {{"speed_radps", v}, {"amplitude_rad", 1.2}}, [=](double t) {
                      return 1.2 * triangle(t * v / 4.8);
                    }});
@@ -102,7 +128,7 @@ std::vector<Wish> wishes(double duration_s) {
 }  // namespace
 
 std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, const Belief& belief,
-                                        const Edits& edits) {
+                                        const Edits& edits, const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
   double duration_s = 0.0;
@@ -111,10 +137,18 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   duration_s = std::clamp(duration_s, 2.0, 10.0);
   const Axis axis(belief, edits);
   const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
-  for (const auto& wish : wishes(duration_s)) {
+  const double furthest_rad = largest_of(recorded, "position_rad"),
+               fastest_radps = largest_of(recorded, "velocity_radps");
+  for (const auto& wish : wishes(duration_s, reach)) {
+    if (!wish.profile.empty() && !reach.allows("profile", wish.profile)) continue;
     const PlannedMotion m = wish.target_rad
                                 ? followed(axis, duration_s, wish.target_rad)
                                 : released(axis, duration_s, wish.setup.at("release_position_rad"));
+    const bool is_known = std::ranges::all_of(
+        wish.setup, [&](const auto& entry) { return !reach.settings(entry.first, {}).empty(); });
+    const bool goes_beyond =
+        !is_within(m.angle_rad, furthest_rad) || !is_within(m.speed_radps, fastest_radps);
+    if (!is_known && goes_beyond && !reach.is_anything()) continue;
     double strongest_Nm = 0.0;
     for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));
     if (!(strongest_Nm < 0.8 * range_Nm)) continue;

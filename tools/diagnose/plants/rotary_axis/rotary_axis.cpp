@@ -113,8 +113,8 @@ class RotaryAxis final : public PlantModel {
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
-                                  const Edits& edits) const override {
-    return doable_motions(recorded, belief, edits);
+                                  const Edits& edits, const Reach& reach) const override {
+    return doable_motions(recorded, belief, edits, reach);
   }
 
   std::vector<Balance> balances(const Trial& trial, const Belief& belief) const override {

@@ -1,0 +1,39 @@
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tools/campaign/available.hpp"
+#include "tools/diagnose/model/trial.hpp"
+
+namespace sandhopper::diagnose {
+
+// Set-ups that the lab can make: what the campaign lists under [available], and what it has recorded.
+class Reach {
+ public:
+  // Whatever a plant can plan, whoever has the means for it.
+  static Reach anything();
+  // `words`: the recorded set-ups that are no numbers, by key.
+  Reach(const std::vector<Trial>& recorded, Available available,
+        std::map<std::string, std::set<std::string>> words);
+
+  bool is_anything() const { return anything_; }
+  // Values of a key that can be set to any number: of `grid` those in reach, and the ends of what is in reach.
+  // Empty where the key is neither listed nor recorded.
+  std::vector<double> settings(const std::string& key, const std::vector<double>& grid) const;
+  // Values of a key that stands for a part one has or has not: a plate, a weight.
+  std::vector<double> parts(const std::string& key, const std::vector<double>& grid) const;
+  // True also where no trial says anything under this key.
+  bool allows(const std::string& key, const std::string& word) const;
+
+ private:
+  Reach() = default;
+
+  bool anything_ = false;
+  Available available_;
+  std::map<std::string, std::set<double>> recorded_;
+  std::map<std::string, std::set<std::string>> words_;
+};
+
+}  // namespace sandhopper::diagnose
