@@ -16,11 +16,6 @@ bool hopping(State state) noexcept {
 // beyond the accelerometers' range leaves it wrong by half a metre a second.
 constexpr double kSupported_mps2 = 3.0;
 
-StrideRecorder::Foot foot_in_flight(const CycleConfig& config, const Leg& leg) {
-  const double angle_rad = leg.angle_at_length(config.controller.compression_length_m);
-  return {config.robot.foot_radius_m, leg.dynamics(angle_rad).reduced_mass_kg};
-}
-
 }  // namespace
 
 Controller::Controller(const CycleConfig& config)

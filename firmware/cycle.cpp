@@ -64,8 +64,10 @@ void Aftermath::serve() {
     logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
     if (listener_.stride) listener_.stride(result);
     profile_.add(sums->profile, sums->summary.stride);
+    const GroundSummary ground = summarise(profile_, sums->profile);
     logger_.push(topics_.profile, sums->summary.liftoff_ns, profile_.profile());
-    if (listener_.profile) listener_.profile(profile_.profile());
+    logger_.push(topics_.ground, sums->summary.liftoff_ns, ground);
+    if (listener_.profile) listener_.profile(profile_.profile(), ground);
     strides_.pop();
   }
 }

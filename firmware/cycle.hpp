@@ -11,7 +11,7 @@
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/trial_logger.hpp"
 #include "firmware/request_box.hpp"
-#include "terrain/strength_profile.hpp"
+#include "terrain/ground_summary.hpp"
 
 namespace sandhopper {
 
@@ -24,12 +24,14 @@ struct TrialTopics {
         output(logger.add_topic<StepOutput>(topic::kOutput)),
         event(logger.add_topic<Event>(topic::kEvent)),
         stride(logger.add_topic<StrideResult>(topic::kStride, Lane::background)),
-        profile(logger.add_topic<StrengthProfile>(topic::kProfile, Lane::background)) {}
+        profile(logger.add_topic<StrengthProfile>(topic::kProfile, Lane::background)),
+        ground(logger.add_topic<GroundSummary>(topic::kGround, Lane::background)) {}
   LogTopic<SensorFrame> frame;
   LogTopic<StepOutput> output;
   LogTopic<Event> event;
   LogTopic<StrideResult> stride;
   LogTopic<StrengthProfile> profile;
+  LogTopic<GroundSummary> ground;
 };
 
 // What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
@@ -40,7 +42,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   struct Listener {
     std::function<void(const Event&)> event{};
     std::function<void(const StrideResult&)> stride{};
-    std::function<void(const StrengthProfile&)> profile{};
+    std::function<void(const StrengthProfile&, const GroundSummary&)> profile{};
     std::function<void(const RequestRecord&)> request{};
   };
   Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics, Listener listener);

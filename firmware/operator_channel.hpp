@@ -39,7 +39,7 @@ class OperatorChannel {
 
   void tell(const Event& event);
   void tell(const StrideResult& result);
-  void tell(const StrengthProfile& profile);
+  void tell(const StrengthProfile& profile, const GroundSummary& ground);
   void tell(const RequestRecord& answer);
   void tell(const SessionResult& result);
   void tell_text(const std::string& key, const std::string& text);

@@ -60,8 +60,8 @@ std::string operator_text(const StrideResult& r) {
                      stiffness(r.observer_wls), stiffness(r.joint));
 }
 
-std::string operator_text(const StrengthProfile& p) {
-  return nlohmann::ordered_json{{"profile", to_json(p)}}.dump();
+std::string operator_text(const StrengthProfile& p, const GroundSummary& ground) {
+  return nlohmann::ordered_json{{"profile", to_json(p)}, {"ground", to_json(ground)}}.dump();
 }
 
 std::string operator_text(const RequestRecord& r) {

@@ -11,7 +11,7 @@ StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
-  datum_m_ = deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
+  datum_m_ = deepest_m_ = crater_depth_m_ = crater_force_N_ = surface_z_m_ = 0.0;
   begin_flight(now_ns);
 }
 
@@ -42,6 +42,7 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   done_.summary = current_;
   done_.profile = profile_.sums();
   crater_depth_m_ = deepest_m_;
+  crater_force_N_ = std::max(crater_force_N_, current_.peak_force_N);
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
   begin_flight(now_ns);
 }
@@ -101,24 +102,31 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     observer_.add({depth_m, e.contact_force_N, 1.0});
     weighted_.add({depth_m, e.contact_force_N, weight});
   }
+  const JointSample sample = joint_sample(e, depth_m);
   if (depth_m > deepest_m_) {
-    if (virgin && e.force_velocity_mps > config_.min_speed_mps) accumulate_joint(e, depth_m);
+    if (virgin && e.force_velocity_mps > config_.min_speed_mps) accumulate_joint(sample, e.quasi_static_force_N);
     deepest_m_ = depth_m;
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
   }
+  profile_.follow(sample);
 }
 
-void StrideRecorder::accumulate_joint(const Estimate& e, double depth_m) noexcept {
-  const JointSample sample{.depth_m = depth_m,
-                           .speed_mps = e.force_velocity_mps,
-                           .accel_mps2 = -e.foot_accel_mps2,
-                           .force_N = e.direct_force_N,
-                           .leg_rate_mps = e.leg_rate_mps,
-                           .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
-                           .duration_s = sample_duration_s_};
+JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m) const noexcept {
+  return {.depth_m = depth_m,
+          .speed_mps = e.force_velocity_mps,
+          .accel_mps2 = -e.foot_accel_mps2,
+          .force_N = e.direct_force_N,
+          .leg_rate_mps = e.leg_rate_mps,
+          .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
+          .duration_s = sample_duration_s_};
+}
+
+// Below the old crater the estimated depth does not tell on which line the ground answers: a force greater than
+// any before does.
+void StrideRecorder::accumulate_joint(const JointSample& sample, double motor_force_N) noexcept {
   joint_.add(sample);
-  profile_.add(sample, e.quasi_static_force_N);
+  if (sample.force_N >= crater_force_N_) profile_.add(sample, motor_force_N);
 }
 
 void StrideRecorder::restart_sums() noexcept {
@@ -136,6 +144,11 @@ void StrideRecorder::commit() noexcept {
   committed_.observer_ols = observer_.sums();
   committed_.observer_wls = weighted_.sums();
   committed_.joint = joint_.sums();
+}
+
+StrideRecorder::Foot foot_in_flight(const CycleConfig& config, const Leg& leg) noexcept {
+  const double angle_rad = leg.angle_at_length(config.controller.compression_length_m);
+  return {config.robot.foot_radius_m, leg.dynamics(angle_rad).reduced_mass_kg};
 }
 
 StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept {

@@ -1,4 +1,5 @@
 #pragma once
+#include "estimation/leg.hpp"
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
 
@@ -33,7 +34,8 @@ class StrideRecorder {
   bool still_falling(const Estimate& estimate) const noexcept;
   void restart_sums() noexcept;
   void accumulate(const Estimate& estimate, double depth_m) noexcept;
-  void accumulate_joint(const Estimate& estimate, double depth_m) noexcept;
+  JointSample joint_sample(const Estimate& estimate, double depth_m) const noexcept;
+  void accumulate_joint(const JointSample& sample, double motor_force_N) noexcept;
   void commit() noexcept;
   bool counts(const Estimate& estimate, double depth_m) const noexcept;
 
@@ -49,12 +51,15 @@ class StrideRecorder {
   double datum_m_ = 0.0;         // what the filter calls depth where the first stride met the surface
   double deepest_m_ = 0.0;       // of this and all former strides, below that datum
   double crater_depth_m_ = 0.0;  // of former strides
+  double crater_force_N_ = 0.0;  // greatest of theirs
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
   std::int64_t last_force_time_ns_ = 0;
   double sample_duration_s_ = 0.0;
   bool touched_ = false;  // contact of this stride has been noticed
 };
+
+StrideRecorder::Foot foot_in_flight(const CycleConfig& config, const Leg& leg) noexcept;
 
 StrideResult solve_stride(const StrideSums& sums, const StiffnessConfig& config) noexcept;
 

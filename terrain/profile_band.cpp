@@ -7,9 +7,6 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kN = kProfileCells;
-constexpr std::size_t kTerms = ProfileSolver::kTerms;
-
 constexpr ProfilePoint kNowhere{std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::quiet_NaN()};
 
@@ -29,7 +26,7 @@ ProfilePoint ProfileSolver::tangent_N_per_m(std::size_t cell) const noexcept {
 
 // Expected square of the change of slope across a cell, beyond the believed bed's.
 double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
-  const std::size_t a = cell > 0 ? cell - 1 : 0, b = std::min(cell + 1, kN - 1);
+  const std::size_t a = cell > 0 ? cell - 1 : 0, b = std::min(cell + 1, kProfileCells - 1);
   const double scale = 1.0 / static_cast<double>(b - a);
   const auto& c = posterior_.covariance;
   const double change = posterior_.mean[b] - posterior_.mean[a];
@@ -40,7 +37,7 @@ double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
 ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   ProfilePoint point;
   if (!within(depth_m)) return kNowhere;
-  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
+  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kProfileCells - 1);
   const double share = depth_m / kProfileCell_m - static_cast<double>(cell);
   point.value = believed_force_N(config_, depth_m);
   Vector<kTerms> x{};
@@ -57,29 +54,30 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   // The bed's fluctuation is part of its curve. The estimate follows it by `gain`, which the variance counts as
   // an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
   const double fluctuation = config_.joint.fluctuation_relative * point.value;
-  const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 0.5));
+  const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
   // What the curve does within a cell: its scatter there, and the change of slope between its neighbours.
-  const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kN - 1);
+  const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kProfileCells - 1);
   const double nearer = std::abs(share - 0.5);
   const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);
   const double bend = 0.5 * kProfileCell_m * share * (1.0 - share);
   const double depth_N = prior_.depth_noise_m * slope_N_per_m_[cell];
-  point.sd = std::sqrt(std::max(variance, 0.0) + depth_N * depth_N + fluctuation_N2 + unresolved +
+  point.sd = std::sqrt(std::max(variance + fluctuation_N2, 0.0) + depth_N * depth_N + unresolved +
                        bend * bend * slope_change_squared(cell));
   return point;
 }
 
 ProfilePoint force_at(const StrengthProfile& p, double depth_m) noexcept {
   if (!within(depth_m)) return kNowhere;
-  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
-  const double share = depth_m / kProfileCell_m - static_cast<double>(cell);
-  const double above = cell > 0 ? p.force_N[cell - 1] : 0.0, above_sd = cell > 0 ? p.force_sd_N[cell - 1] : 0.0;
-  return {above + share * (p.force_N[cell] - above), above_sd + share * (p.force_sd_N[cell] - above_sd)};
+  const double place = depth_m / kProfilePoint_m;
+  const auto i = std::min(static_cast<std::size_t>(place), kProfilePoints - 1);
+  const double share = place - static_cast<double>(i);
+  const double above = i > 0 ? p.force_N[i - 1] : 0.0, above_sd = i > 0 ? p.force_sd_N[i - 1] : 0.0;
+  return {above + share * (p.force_N[i] - above), above_sd + share * (p.force_sd_N[i] - above_sd)};
 }
 
 ProfilePoint tangent_at(const StrengthProfile& p, double depth_m) noexcept {
   if (!within(depth_m)) return kNowhere;
-  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kN - 1);
+  const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kProfileCells - 1);
   return {p.tangent_N_per_m[cell], p.tangent_sd_N_per_m[cell]};
 }
 
@@ -92,11 +90,13 @@ void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexce
     p.depth_min_m = first ? sums.depth_min_m : std::min(p.depth_min_m, sums.depth_min_m);
     p.depth_max_m = std::max(p.depth_max_m, sums.depth_max_m);
   }
+  for (std::size_t i = 0; i < kProfilePoints; ++i) {
+    const ProfilePoint force = force_N(static_cast<double>(i + 1) * kProfilePoint_m);
+    p.force_N[i] = static_cast<float>(force.value);
+    p.force_sd_N[i] = static_cast<float>(force.sd);
+  }
   double residual = 0.0, observations = 0.0;
-  for (std::size_t j = 0; j < kN; ++j) {
-    const ProfilePoint force = force_N(static_cast<double>(j + 1) * kProfileCell_m);
-    p.force_N[j] = static_cast<float>(force.value);
-    p.force_sd_N[j] = static_cast<float>(force.sd);
+  for (std::size_t j = 0; j < kProfileCells; ++j) {
     const ProfilePoint tangent = tangent_N_per_m(j);
     p.tangent_N_per_m[j] = static_cast<float>(tangent.value);
     p.tangent_sd_N_per_m[j] = static_cast<float>(tangent.sd);

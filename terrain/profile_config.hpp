@@ -13,6 +13,10 @@ struct ProfileConfig {
   double depth_lag_sd_s = 0.0005;
   // Error of the estimated depth that is neither an offset nor a drift.
   double depth_noise_m = 0.0003;
+  // A foot that swings back and lands in its crater leaves the estimated depth and speed with larger errors:
+  // encoders and accelerometers follow the swing and the blow late.
+  double landing_depth_sd_m = 0.003;
+  double landing_drift_sd_mps = 0.06;
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -20,6 +24,8 @@ struct ProfileConfig {
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
     visit("depth_lag_sd_s", self.depth_lag_sd_s, Range{1e-6, 0.01});
     visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
+    visit("landing_depth_sd_m", self.landing_depth_sd_m, Range{0.0, 0.1});
+    visit("landing_drift_sd_mps", self.landing_drift_sd_mps, Range{1e-6, 10.0});
   }
 };
 

@@ -19,6 +19,21 @@ double ProfileCell::product_with(std::size_t feature,
   return sum;
 }
 
+void CraterReturn::follow(const JointSample& s, double contact_force_N) noexcept {
+  if (s.depth_m > deepest_m && s.speed_mps > 0.0) {
+    *this = {.deepest_m = s.depth_m,
+             .deepest_N = s.force_N,
+             .deepest_s = s.since_contact_s,
+             .released_N = s.force_N};
+    return;
+  }
+  const bool free = released_N < contact_force_N;
+  if (free || !(s.force_N < released_N)) return;
+  released_N = s.force_N;
+  recovery_m = deepest_m - s.depth_m;
+  duration_s = s.since_contact_s - deepest_s;
+}
+
 double intercept_growth(const JointConfig& config, double depth_m) noexcept {
   return 1.0 - std::exp(-depth_m / config.intercept_growth_depth_m);
 }
@@ -37,7 +52,7 @@ ProfileRegression::ProfileRegression(const StiffnessConfig& config, double foot_
       cone_(BedParameters{}, foot_radius_m) {}
 
 void ProfileRegression::reset() noexcept {
-  if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
+  if (sums_.samples + sums_.saturated + sums_.too_deep + (sums_.crater.deepest_m > 0.0)) sums_ = {};
 }
 
 void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {

@@ -33,8 +33,21 @@ struct ProfileCell {
   double product_with(std::size_t feature, const std::array<double, kProfileFeatures>& factors) const noexcept;
 };
 
+// How the ground gives way back after the deepest point of a stride: from there to where it bears the least.
+struct CraterReturn {
+  double deepest_m = 0.0;
+  double deepest_N = 0.0;
+  double deepest_s = 0.0;   // since contact
+  double released_N = 0.0;  // least force after it
+  double recovery_m = 0.0;  // deepest point less the depth there
+  double duration_s = 0.0;
+
+  void follow(const JointSample& sample, double contact_force_N) noexcept;
+};
+
 struct ProfileSums {
   std::array<ProfileCell, kProfileCells> cells{};
+  CraterReturn crater{};
   double depth_min_m = 0.0, depth_max_m = 0.0;
   // Sums over observations of added mass / reduced mass, and of its square. The measured acceleration follows
   // from the force that it helps to measure; the density of such a sample has the factor 1 + c m_a / M_f.
@@ -56,6 +69,8 @@ class ProfileRegression {
   ProfileRegression(const StiffnessConfig& config, double foot_radius_m, double reduced_mass_kg);
   // `motor_force_N`: the part of the force that the motors' current gives.
   void add(const JointSample& sample, double motor_force_N) noexcept;
+  // Every sample of a stance, in the order of time.
+  void follow(const JointSample& sample) noexcept { sums_.crater.follow(sample, config_.contact_force_N); }
   const ProfileSums& sums() const noexcept { return sums_; }
   void reset() noexcept;
 

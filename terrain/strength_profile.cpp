@@ -10,15 +10,13 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kN = kProfileCells;
-constexpr std::size_t kTerms = ProfileSolver::kTerms;
-constexpr std::size_t kShared = ProfileSolver::kShared;
 
 // Grid of the smoothness length and the spread: half a cell to several times the profile; the stated spread
 // and up to eight times it, which a crust needs.
-constexpr std::array<double, 6> kSmoothness_m{0.003, 0.008, 0.02, 0.05, 0.12, 0.3};
+constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
-constexpr int kPasses = 4;
+constexpr int kPasses = 3;
 constexpr double kDegrees = 1.0;  // of Student's distribution: Cauchy
 
 struct Column {
@@ -92,10 +90,11 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
   return info;
 }
 
-void ProfileSolver::add_stride_prior(Information& info) const noexcept {
+void ProfileSolver::add_stride_prior(Information& info, double landings) const noexcept {
+  const double landing_m = std::sqrt(landings) * prior_.landing_depth_sd_m;
   const auto& joint = config_.joint;
-  const std::array<std::pair<std::size_t, double>, 4> priors{{{kSurface, joint.surface_sd_m},
-                                                              {kDrift, joint.depth_drift_sd_mps},
+  const std::array<std::pair<std::size_t, double>, 4> priors{{{kSurface, std::sqrt(joint.surface_sd_m * joint.surface_sd_m + landing_m * landing_m)},
+                                                              {kDrift, landings > 0.0 ? prior_.landing_drift_sd_mps : joint.depth_drift_sd_mps},
                                                               {kLag, prior_.depth_lag_sd_s},
                                                               {kFriction, joint.joint_friction_sd_N}}};
   for (const auto& [term, sd] : priors) info.normal[term * kTerms + term] += 1.0 / (sd * sd);
@@ -260,16 +259,17 @@ double ProfileSolver::cell_variance_N2(const ProfileSums& sums, std::size_t s) c
   return config_.joint.force_noise_N * config_.joint.force_noise_N + fluctuation * fluctuation;
 }
 
-// Chi-squared per degree of freedom that is exceeded with a probability of 1 % (Wilson & Hilferty 1931).
-double chi_squared_99(double degrees) noexcept {
+double chi_squared_quantile(double degrees, double normal_quantile) noexcept {
   const double n = std::max(degrees, 0.5), a = 2.0 / (9.0 * n);
-  const double root = 1.0 - a + 2.326348 * std::sqrt(a);
-  return root * root * root;
+  const double root = 1.0 - a + normal_quantile * std::sqrt(a);
+  return n * root * root * root;
 }
 
 // Errors of the depth become errors of the force by the slope. What is left beyond them, at a level of 1 %, is
 // what the curve does within a cell.
 void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
+  constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles of 1 % and 1 % / 28
+  broken_cells_ = 0;
   for (std::size_t s = 0; s < kN; ++s) {
     const double n = sums.cells[s].observations;
     if (n == 0.0) continue;
@@ -277,7 +277,8 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double depth = prior_.depth_noise_m * slope_N_per_m_[s];
     const double expected = own + depth * depth;
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
-    unresolved_N2_[s] = found > chi_squared_99(n) * expected ? found - expected : 0.0;
+    unresolved_N2_[s] = n * found > chi_squared_quantile(n, k99) * expected ? found - expected : 0.0;
+    broken_cells_ += n * found > chi_squared_quantile(n, kAllCells99) * expected;
     noise_factor_[s] = (expected + unresolved_N2_[s]) / own;
   }
 }
@@ -290,7 +291,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
     info = information_of(sums);
-    add_stride_prior(info);
+    add_stride_prior(info, stride > 1 ? stride - 1.0 : 0.0);
     integrate(info, pass + 1 == kPasses);
     take_slopes();
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);

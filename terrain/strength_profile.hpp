@@ -24,13 +24,17 @@
 // of a stride is the prior of the next. Everything is bounded; nothing is allocated.
 namespace sandhopper {
 
+// Points of a reported curve: half-way through every cell and at its end.
+inline constexpr std::size_t kProfilePoints = 2 * kProfileCells;
+inline constexpr double kProfilePoint_m = 0.5 * kProfileCell_m;
+
 struct StrengthProfile {
   std::uint32_t stride = 0;  // the last that is in it; 0: none
   std::int32_t samples = 0;  // of this stride
   double depth_min_m = 0.0;  // visited by the trial so far
   double depth_max_m = 0.0;
-  std::array<float, kProfileCells> force_N{};  // at the lower end of each cell
-  std::array<float, kProfileCells> force_sd_N{};
+  std::array<float, kProfilePoints> force_N{};  // at 1.25 mm, 2.5 mm, ...
+  std::array<float, kProfilePoints> force_sd_N{};
   std::array<float, kProfileCells> tangent_N_per_m{};  // mean over each cell
   std::array<float, kProfileCells> tangent_sd_N_per_m{};
   std::array<float, kProfileCells> observations{};  // independent ones in each cell, all strides
@@ -67,6 +71,9 @@ struct StrengthProfile {
   }
 };
 
+// Chi-squared that a normal quantile's probability is not exceeded with (Wilson & Hilferty 1931).
+double chi_squared_quantile(double degrees, double normal_quantile) noexcept;
+
 // A value and its standard deviation.
 struct ProfilePoint {
   double value = 0.0;
@@ -75,7 +82,7 @@ struct ProfilePoint {
   double high() const noexcept { return value + 1.959964 * sd; }
 };
 
-// Between the ends of cells as the solver gives it there, linear in between; NaN beyond the last.
+// Linear between the points; NaN beyond the last.
 ProfilePoint force_at(const StrengthProfile& profile, double depth_m) noexcept;
 // Of the cell that holds this depth.
 ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept;
@@ -91,19 +98,27 @@ class ProfileSolver {
                                kDrift = kProfileCells + 4, kLag = kProfileCells + 5,
                                kFriction = kProfileCells + 6;
 
+  template <std::size_t N>
+  using Matrix = std::array<double, N * N>;
+  template <std::size_t N>
+  using Vector = std::array<double, N>;
+
   explicit ProfileSolver(const StiffnessConfig& config);
 
   void restart() noexcept;  // a new trial on other ground
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
+  const StiffnessConfig& config() const noexcept { return config_; }
+  // What the strides say of kappa, c, e and b, without their prior.
+  const Matrix<kShared>& normal() const noexcept { return kept_normal_; }
+  const Vector<kShared>& moment() const noexcept { return kept_moment_; }
+  double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
+  double intercept_N_per_m(std::size_t cell) const noexcept { return intercept_N_per_m_[cell]; }
+  // Cells of the last stride that no curve fits, at a level of 1 % for all of them together.
+  std::size_t broken_cells() const noexcept { return broken_cells_; }
 
   // NaN beyond the last cell.
   ProfilePoint force_N(double depth_m) const noexcept;
-
-  template <std::size_t N>
-  using Matrix = std::array<double, N * N>;
-  template <std::size_t N>
-  using Vector = std::array<double, N>;
 
  private:
   struct Information {
@@ -116,7 +131,7 @@ class ProfileSolver {
     double smoothness_m = 0.0, spread = 0.0;
   };
   Information information_of(const ProfileSums& sums) const noexcept;
-  void add_stride_prior(Information& information) const noexcept;
+  void add_stride_prior(Information& information, double landings) const noexcept;
   double add_shared_prior(Information& information, double smoothness_m, double spread) const noexcept;
   struct Innovation {
     double here, above;
@@ -149,6 +164,7 @@ class ProfileSolver {
   std::array<Vector<kTerms>, kProfileCells> response_{};
   Matrix<kShared> kept_normal_{};
   Vector<kShared> kept_moment_{};
+  std::size_t broken_cells_ = 0;
   Posterior posterior_{};
   StrengthProfile profile_{};
 };

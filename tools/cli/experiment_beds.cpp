@@ -63,7 +63,8 @@ ExitCode run(Session& session, const Options& options) {
   setup.cycle = cycle_config(robot);
   setup.world = load_world(session.config_directory(), robot);
   setup.events.noise = setup.cycle.stiffness.joint;
-  setup.providers = {joint_line_provider(setup.cycle.stiffness)};
+  setup.providers = {joint_line_provider(setup.cycle.stiffness),
+                     strength_profile_provider(setup.cycle.stiffness)};
   setup.beds = options.beds;
   setup.strides = options.strides;
   setup.first_seed = options.seed;

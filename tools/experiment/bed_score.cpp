@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "terrain/ground_summary.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper {
@@ -112,6 +113,27 @@ nlohmann::ordered_json json_of(const EventScore& s) {
 }
 
 }  // namespace
+
+ProfileProvider strength_profile_provider(const StiffnessConfig& config) {
+  return {"strength profile", [config](const BedStride& stride) -> std::optional<ProfileClaim> {
+            if (stride.profile.samples == 0) return std::nullopt;
+            ProfileSolver solver(config);
+            solver.add(stride.profile, 1);
+            const auto& p = solver.profile();
+            ProfileClaim claim;
+            claim.line_valid = summarise(solver, stride.profile).line_valid;
+            const double last_m = p.depth_max_m + kProfilePoint_m;
+            for (std::size_t i = 0; i <= kProfilePoints; ++i) {
+              const double z = static_cast<double>(i) * kProfilePoint_m;
+              if (z > last_m) break;
+              const auto force = force_at(p, z);
+              claim.depth_m.push_back(z);
+              claim.mean_N.push_back(force.value);
+              claim.sd_N.push_back(force.sd);
+            }
+            return claim;
+          }};
+}
 
 double ProfileScore::median_width_20mm() const {
   if (width_20mm.empty()) return std::numeric_limits<double>::quiet_NaN();

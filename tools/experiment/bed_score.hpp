@@ -30,6 +30,9 @@ struct ProfileProvider {
 // The joint fit's line k (z + z0 (1 - exp(-z/dz0))), with k's standard error alone.
 ProfileProvider joint_line_provider(const StiffnessConfig& config);
 
+// The strength profile (terrain/strength_profile.hpp) at the depths it visited.
+ProfileProvider strength_profile_provider(const StiffnessConfig& config);
+
 struct ProfileScore {
   double claims = 0.0;
   double depths = 0.0;               // at which a claim was compared: visited by the foot, from 2 mm on

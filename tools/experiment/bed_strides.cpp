@@ -109,7 +109,11 @@ BedStride run_bed_stride(const CycleConfig& base, const WorldConfig& world_confi
   const auto recorded = record_stride(
       cycle, world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true}, watch);
   stride.complete = recorded.complete;
-  if (stride.complete) stride.result = evaluate_stride(recorded, cycle.stiffness);
+  if (stride.complete) {
+    const auto sums = stride_sums(recorded, cycle.stiffness);
+    stride.result = solve_stride(sums, cycle.stiffness);
+    stride.profile = sums.profile;
+  }
   return stride;
 }
 

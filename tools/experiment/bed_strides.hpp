@@ -31,6 +31,7 @@ struct BedStride {
   double contact_error_m = 0.0;  // true depth at the first contact
   double true_max_depth_m = 0.0;
   StrideResult result{};
+  ProfileSums profile{};
   bool complete = false;  // liftoff was reached
 };
 

@@ -75,7 +75,7 @@ RecordedStride paired_by_row(const RecordedStride& stride) {
   return paired;
 }
 
-StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {
+StrideSums stride_sums(const RecordedStride& stride, const StiffnessConfig& config) {
   StrideRecorder recorder(config, stride.foot);
   State state = State::armed;
   for (const auto& sample : stride.samples) {
@@ -88,7 +88,11 @@ StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig
     if (state == State::extension && sample.state == State::flight) recorder.on_liftoff(now_ns);
     state = sample.state;
   }
-  return solve_stride(recorder.sums(), config);
+  return recorder.sums();
+}
+
+StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {
+  return solve_stride(stride_sums(stride, config), config);
 }
 
 }  // namespace sandhopper

@@ -59,6 +59,7 @@ RecordedStride paired_by_row(const RecordedStride& stride);
 
 // The same stride evaluated with another sample window, intercept or weights: bit for bit what the firmware
 // would have said with that configuration.
+StrideSums stride_sums(const RecordedStride& stride, const StiffnessConfig& config);
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config);
 
 }  // namespace sandhopper

@@ -30,6 +30,7 @@ struct Feed {
   TopicOf<Event> events{topic::kEvent};
   TopicOf<StrideResult> strides{topic::kStride};
   TopicOf<StrengthProfile> profiles{topic::kProfile};
+  TopicOf<GroundSummary> grounds{topic::kGround};
   TopicOf<PlantTruth> truths{topic::kTruth};
   TopicOf<LogGap> gaps{topic::kGap};
   SensorFrame frame{};
@@ -37,6 +38,7 @@ struct Feed {
   Event event{};
   StrideResult stride{};
   StrengthProfile profile{};
+  GroundSummary ground{};
   PlantTruth truth{};
   LogGap gap{};
   std::uint64_t lost = 0;
@@ -44,7 +46,8 @@ struct Feed {
   void take(const mcap::Message& message, ReportBuilder& builder) {
     if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
         pass_on(events, message, event, builder) || pass_on(strides, message, stride, builder) ||
-        pass_on(profiles, message, profile, builder) || pass_on(truths, message, truth, builder))
+        pass_on(profiles, message, profile, builder) ||
+        pass_on(grounds, message, ground, builder) || pass_on(truths, message, truth, builder))
       return;
     if (gaps.take(message, gap)) lost += gap.lost;
   }

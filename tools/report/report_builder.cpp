@@ -177,10 +177,15 @@ void ReportBuilder::add(const Event& event) {
 void ReportBuilder::add(const StrideResult& stride) {
   strides_.push_back(stride);
   profiles_.emplace_back();
+  grounds_.emplace_back();
 }
 
 void ReportBuilder::add(const StrengthProfile& profile) {
   if (!profiles_.empty()) profiles_.back() = profile;
+}
+
+void ReportBuilder::add(const GroundSummary& ground) {
+  if (!grounds_.empty()) grounds_.back() = ground;
 }
 
 double ReportBuilder::seconds(std::int64_t time_ns) const {
@@ -255,11 +260,13 @@ ReportData ReportBuilder::data() const {
                             .touchdown_speed_mps = summary.touchdown_speed_mps,
                             .peak_force_N = summary.peak_force_N,
                             .max_depth_m = summary.max_depth_m,
+                            .crater_depth_m = summary.crater_depth_m,
                             .quasi_static_ols = stiffness(result.quasi_static_ols),
                             .observer_ols = stiffness(result.observer_ols),
                             .observer_wls = stiffness(result.observer_wls),
                             .joint = stiffness(result.joint),
-                            .profile = profiles_[i]});
+                            .profile = profiles_[i],
+                            .ground = grounds_[i]});
   }
   return data;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrain/strength_profile.hpp"
+#include "terrain/ground_summary.hpp"
 
 // What a trial's report shows, whatever it was read from.
 namespace sandhopper {
@@ -53,11 +53,13 @@ struct ReportStride {
   double touchdown_speed_mps = 0.0;
   double peak_force_N = 0.0;
   double max_depth_m = 0.0;  // below where the first stride met the surface
+  double crater_depth_m = 0.0;  // deepest point of the strides before
   ReportStiffness quasi_static_ols{};
   ReportStiffness observer_ols{};
   ReportStiffness observer_wls{};
   ReportStiffness joint{};
   StrengthProfile profile{};  // of all strides up to this one; stride 0 where the log has none
+  GroundSummary ground{};
 };
 
 // Times are relative to the release, or to the first row where nothing was released.

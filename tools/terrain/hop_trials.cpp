@@ -95,7 +95,7 @@ class HopAnalysis {
       strides_.clear();
       return;
     }
-    for (auto& stride : strides_) stride.foot_radius_m = cycle_.robot.foot_radius_m;
+    for (auto& stride : strides_) stride.foot = foot_in_flight(cycle_, Leg(cycle_.robot));
     if (!strides_.back().complete) strides_.pop_back();
     add_estimates();
   }
@@ -148,7 +148,7 @@ class HopAnalysis {
       measured_.reset();
       return;
     }
-    measured_->stride.foot_radius_m = cycle_.robot.foot_radius_m;
+    measured_->stride.foot = foot_in_flight(cycle_, Leg(cycle_.robot));
     for (const auto& definition : treatment_cases()) {
       if (definition.true_state) continue;
       if (definition.window == SampleWindow::compression && !measured_->phases_known) continue;

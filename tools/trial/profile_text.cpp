@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace sandhopper {
 namespace {
@@ -13,31 +14,62 @@ std::string interval(const ProfilePoint& p, int digits) {
 
 }  // namespace
 
-std::vector<std::string> profile_lines(const StrengthProfile& p) {
+std::string headline(const GroundSummary& g) {
+  const auto line = fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
+                                g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
+  const auto no_line = fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
+  switch (g.shape) {
+    case GroundShape::unknown:
+      return "too little new ground for one number";
+    case GroundShape::line:
+      return (g.line_valid ? "a line, " : "a line deeper than the foot is high, ") + line;
+    case GroundShape::power_law:
+      return no_line + fmt::format("a power law, exponent {:.2f}  [{:.2f}, {:.2f}]", g.exponent.value,
+                                   g.exponent.ci95_low, g.exponent.ci95_high);
+    case GroundShape::crusted:
+      return "something broke on the way (a crust); beside it a line, " + line;
+    case GroundShape::layered:
+      return no_line + "layers";
+    case GroundShape::other:
+      return no_line + "neither a power law nor two layers; use the profile";
+  }
+  return {};
+}
+
+std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSummary& g) {
   if (p.stride == 0) return {};
-  if (p.depth_max_m <= 0.0) return {"ground: no new depth was reached"};
-  std::vector<std::string> lines{fmt::format("ground known from {:.1f} to {:.1f} mm{}", 1e3 * p.depth_min_m,
-                                             1e3 * p.depth_max_m,
-                                             p.stride > 1 ? ", all strides together" : "")};
+  std::vector<std::string> lines;
+  if (p.depth_max_m > 0.0) {
+    lines.push_back(fmt::format("{:<24} {}", p.stride > 1 ? "ground, all strides" : "ground", headline(g)));
+    lines.push_back(fmt::format("  profile from {:.1f} to {:.1f} mm; deeper it is a guess", 1e3 * p.depth_min_m,
+                                1e3 * p.depth_max_m));
+  }
   for (const double depth_m : {0.010, 0.020, 0.030, 0.040, 0.050}) {
     const bool known = depth_m >= p.depth_min_m && depth_m <= p.depth_max_m;
     if (!known) continue;
     const auto force = force_at(p, depth_m);
     const ProfilePoint secant{force.value / depth_m, force.sd / depth_m};
-    lines.push_back(fmt::format("  at {:2.0f} mm  {:>22} N   secant {:>22} N/m   tangent {:>22} N/m", 1e3 * depth_m,
+    lines.push_back(fmt::format("  at {:2.0f} mm  {:>20} N   secant {:>20} N/m   tangent {:>20} N/m", 1e3 * depth_m,
                                 interval(force, 1), interval(secant, 0), interval(tangent_at(p, depth_m), 0)));
   }
+  const auto& reload = g.reloading_N_per_m;
+  if (reload.ci95_low > 0.0)
+    lines.push_back(std::isfinite(reload.ci95_high)
+                        ? fmt::format("  reloading in the crater {:.0f} N/m  [{:.0f}, {:.0f}]", reload.value,
+                                      reload.ci95_low, reload.ci95_high)
+                        : fmt::format("  reloading in the crater at least {:.0f} N/m", reload.ci95_low));
   return lines;
 }
 
-nlohmann::ordered_json profile_json(const StrengthProfile& p) {
+nlohmann::ordered_json profile_json(const StrengthProfile& p, const GroundSummary& g) {
   if (p.stride == 0) return nullptr;
   using Json = nlohmann::ordered_json;
   Json depth = Json::array(), force = Json::array(), band = Json::array(), secant = Json::array(),
        tangent = Json::array(), tangent_band = Json::array(), observations = Json::array();
   for (std::size_t j = 0; j < kProfileCells; ++j) {
     const double z = static_cast<double>(j + 1) * kProfileCell_m;
-    const ProfilePoint f{p.force_N[j], p.force_sd_N[j]}, k{p.tangent_N_per_m[j], p.tangent_sd_N_per_m[j]};
+    const auto f = force_at(p, z);
+    const ProfilePoint k{p.tangent_N_per_m[j], p.tangent_sd_N_per_m[j]};
     depth.push_back(z);
     force.push_back(f.value);
     band.push_back({f.low(), f.high()});
@@ -58,7 +90,18 @@ nlohmann::ordered_json profile_json(const StrengthProfile& p) {
           {"observations", observations},
           {"added_mass_factor", p.added_mass_factor},
           {"added_mass_factor_sd", p.added_mass_factor_sd},
-          {"smoothness_m", p.smoothness_m}};
+          {"smoothness_m", p.smoothness_m},
+          {"shape", name_of(g.shape)},
+          {"line", {{"slope_N_per_m", g.line_N_per_m.value},
+                    {"ci95", {g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high}},
+                    {"valid", g.line_valid},
+                    {"chi_squared", g.line.statistic},
+                    {"limit", g.line.limit}}},
+          {"secant_20mm_N_per_m", {{"value", g.secant_20mm_N_per_m.value},
+                                   {"ci95", {g.secant_20mm_N_per_m.ci95_low, g.secant_20mm_N_per_m.ci95_high}}}},
+          {"exponent", {{"value", g.exponent.value}, {"ci95", {g.exponent.ci95_low, g.exponent.ci95_high}}}},
+          {"reloading_N_per_m", {{"value", g.reloading_N_per_m.value},
+                                 {"ci95", {g.reloading_N_per_m.ci95_low, g.reloading_N_per_m.ci95_high}}}}};
 }
 
 }  // namespace sandhopper

@@ -3,15 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "terrain/strength_profile.hpp"
+#include "terrain/ground_summary.hpp"
 
 namespace sandhopper {
 
 // What a strength profile says, for people; nothing where there is none.
-std::vector<std::string> profile_lines(const StrengthProfile& profile);
+std::vector<std::string> profile_lines(const StrengthProfile& profile, const GroundSummary& ground);
+
+// What a straight line is worth on this ground, in one sentence.
+std::string headline(const GroundSummary& ground);
 
 // The same for programs: depths at which the ground is known, and depth_m, force_N, ci95_N, secant_N_per_m,
-// tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell; null where there is none.
-nlohmann::ordered_json profile_json(const StrengthProfile& profile);
+// tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell, the ground's shape and its numbers; null where there is none.
+nlohmann::ordered_json profile_json(const StrengthProfile& profile, const GroundSummary& ground);
 
 }  // namespace sandhopper

@@ -14,6 +14,7 @@
 #include "firmware/controller.hpp"
 #include "firmware/log/topics.hpp"
 #include "firmware/log/trial_description.hpp"
+#include "terrain/ground_summary.hpp"
 #include "tools/trial/record_difference.hpp"
 
 namespace sandhopper {
@@ -141,8 +142,9 @@ class Replay {
       report_missing(outputs_);
       report_missing(events_);
       report_missing(strides_);
-      // Logs of before the strength profile have no such topic.
+      // Logs of before the strength profile have no such topics.
       if (profiles_.count() > 0) report_missing(profiles_);
+      if (grounds_.count() > 0) report_missing(grounds_);
     }
     return result_;
   }
@@ -158,6 +160,7 @@ class Replay {
     events_.begin_file();
     strides_.begin_file();
     profiles_.begin_file();
+    grounds_.begin_file();
     return true;
   }
 
@@ -169,7 +172,7 @@ class Replay {
       return;
     }
     if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
-        strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch))
+        strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch) || grounds_.take(message, result_.mismatch))
       return;
     LogGap gap;
     if (gaps_.take(message, gap)) result_.gaps += gap.lost;
@@ -188,6 +191,7 @@ class Replay {
     strides_.expect(solve_stride(sums, robot_.stiffness));
     profile_.add(sums.profile, sums.summary.stride);
     profiles_.expect(profile_.profile());
+    grounds_.expect(summarise(profile_, sums.profile));
   }
 
   template <class Record>
@@ -209,6 +213,7 @@ class Replay {
   Comparison<Event> events_{topic::kEvent};
   Comparison<StrideResult> strides_{topic::kStride};
   Comparison<StrengthProfile> profiles_{topic::kProfile};
+  Comparison<GroundSummary> grounds_{topic::kGround};
   SensorFrame frame_{};
   ReplayResult result_{};
   bool salvaged_ = false;

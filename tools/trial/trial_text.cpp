@@ -23,12 +23,19 @@ constexpr std::array<Named, 4> kTreatments{
      {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls},
      {"joint", "joint fit", &ReportStride::joint}}};
 
-std::string stiffness_line(const char* name, const ReportStiffness& k) {
+// In a crater a straight line has only the new ground below it: what is missing is that, not depth.
+std::string reason_of(const ReportStride& stride, const ReportStiffness& k) {
+  const bool little = k.reason == "too_shallow" || k.reason == "too_few_samples" || k.reason == "no_new_penetration";
+  if (!little || stride.crater_depth_m <= 0.0) return readable(k.reason);
+  return fmt::format("too little new ground below the crater of {:.0f} mm", 1e3 * stride.crater_depth_m);
+}
+
+std::string stiffness_line(const char* name, const ReportStride& stride, const ReportStiffness& k) {
   if (!std::isfinite(k.value_N_per_m))
-    return fmt::format("    {:<24} -                            not valid: {}", name, readable(k.reason));
+    return fmt::format("    {:<24} -                            not valid: {}", name, reason_of(stride, k));
   return fmt::format("    {:<24} {:6.0f} N/m  [{:6.0f}, {:6.0f}]  {}", name, k.value_N_per_m,
                      k.ci95_low_N_per_m, k.ci95_high_N_per_m,
-                     k.valid ? "valid" : "not valid: " + readable(k.reason));
+                     k.valid ? "valid" : "not valid: " + reason_of(stride, k));
 }
 
 }  // namespace
@@ -46,8 +53,8 @@ std::vector<std::string> stride_lines(const ReportData& data) {
                     "force {:.1f} N, depth {:.1f} mm",
                     s.number, s.touchdown_speed_mps, s.touchdown_s, s.switch_s, s.liftoff_s, s.peak_force_N,
                     1e3 * s.max_depth_m));
-    for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s.*t.member));
-    for (auto& line : profile_lines(s.profile)) lines.push_back("    " + line);
+    for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s, s.*t.member));
+    for (auto& line : profile_lines(s.profile, s.ground)) lines.push_back("    " + line);
   }
   return lines;
 }
@@ -66,7 +73,7 @@ nlohmann::ordered_json stride_json(const ReportStride& s) {
           {"touchdown_s", s.touchdown_s}, {"switch_s", s.switch_s},
           {"liftoff_s", s.liftoff_s},     {"peak_force_N", s.peak_force_N},
           {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness},
-          {"profile", profile_json(s.profile)}};
+          {"profile", profile_json(s.profile, s.ground)}};
 }
 
 PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConfig& config) {
