@@ -46,12 +46,12 @@ IioLoadCell::IioLoadCell(const IioLoadCellConfig& config) : config_(config) {
   if (chip_.empty())
     throw DeviceError(role, "is not there",
                       "Load its overlay and driver (hx711 or nau7802): cat /sys/bus/iio/devices/*/name");
-  volts_per_count_ = scale_of(config, role);
   const auto raw = device / ("in_voltage" + std::to_string(config.channel) + "_raw");
   raw_ = UniqueFd(::open(raw.c_str(), O_RDONLY | O_CLOEXEC));
   if (raw_.get() < 0)
     throw DeviceError(role, errno_cause("cannot open " + raw.string()),
                       "Name another channel, or run as root");
+  volts_per_count_ = scale_of(config, role);
 }
 
 bool IioLoadCell::read_raw(long& raw) noexcept {

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kBatchFrames = static_cast<std::size_t>(kBatch_ns / kShortestFrame_ns);
 // With fewer frames, times that happen to be round say nothing of the resolution.
 constexpr std::size_t kFewestForResolution = 10;
+// Nobody records a bus on which nothing comes for a day.
+constexpr std::int64_t kLongestSilence_ns = 86'400'000'000'000;
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -32,6 +34,7 @@ bool are_differences(const std::vector<Frame>& frames) {
   if (frames.size() < kFewestForResolution || 4 * backward < frames.size()) return false;
   const auto earlier = [](const Frame& a, const Frame& b) { return a.time_ns < b.time_ns; };
   const auto begin_ns = std::ranges::min_element(frames, earlier)->time_ns;
+  if (begin_ns > kLongestSilence_ns) return false;  // a date
   double first_s = 0.0, second_s = 0.0;
   for (std::size_t i = 0; i < frames.size(); ++i)
     (2 * i < frames.size() ? first_s : second_s) += seconds(frames[i].time_ns - begin_ns);
