@@ -119,6 +119,7 @@ async function checkTheme(browser) {
   await browser.run(() => document.getElementById('theme-button').click());
   const after = (await seen(browser)).paper;
   assert.ok(Math.abs(after - before) > 0.7, `the button did not switch: ${before} to ${after}`);
+  await sleep(500); // the browser writes the choice down in the background
   await browser.open(join(site, 'guide/index.html'));
   assert.equal((await seen(browser)).paper, after, 'the choice was forgotten on the next page');
   await browser.run(() => localStorage.clear());

@@ -12,6 +12,10 @@ for (const table of document.querySelectorAll('main table')) {
   box.append(table);
 }
 
+// In a table, names break where a reader would break them.
+for (const code of document.querySelectorAll('main td code'))
+  code.replaceChildren(...code.textContent.split(/(?<=[_./])/).flatMap((part) => [part, document.createElement('wbr')]));
+
 const menuButton = byId('menu-button');
 function showMenu(open) {
   document.body.classList.toggle('menu-open', open);
