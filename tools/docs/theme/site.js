@@ -73,9 +73,9 @@ function loadIndex() {
 
 function scoresOf(word) {
   const found = index.query((query) => {
-    query.term(lunr.tokenizer(word), { boost: 10 });
+    query.term(word, { boost: 10 });
     query.term(word, { usePipeline: false, boost: 3, wildcard: lunr.Query.wildcard.TRAILING });
-    if (word.length > 4) query.term(word, { usePipeline: false, editDistance: 1 });
+    if (word.length > 4) query.term(word, { editDistance: 1 });
   });
   return new Map(found.map(({ ref, score }) => [ref, score]));
 }
