@@ -181,7 +181,7 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "lost its zero"},
     {Fault::motor_velocity_implausible, "motor_velocity_implausible", Reaction::damp, Latch::until_disarmed,
      60, "a drive's velocity does not agree with how its position changes",
-     "check motor.velocity_range_radps: some firmware has half the manual's range; see HARDWARE 1.4"},
+     "check motor.velocity_range_radps: some firmware has half the range that its manual states"},
     {Fault::motor_torque_implausible, "motor_torque_implausible", Reaction::damp, Latch::until_disarmed, 25,
      "a drive's current does not follow the commanded torque",
      "check the motor's phases, the drive's current limit (it rescales the torque field) and both torque "
@@ -219,7 +219,7 @@ inline constexpr std::array<FaultEntry, kFaultCount> kFaults{{
      "restart the companion controller and check its supply"},
     {Fault::tof_out_of_range, "tof_out_of_range", Reaction::damp, Latch::until_disarmed, 60,
      "the time-of-flight sensor delivers no measurement for supervision.range_samples samples",
-     "check that the beam sees the sand; look the status up in HARDWARE 4.6"},
+     "check that the beam reaches the sand; the AFBR-S50's API manual lists the status codes"},
     {Fault::tof_implausible, "tof_implausible", Reaction::damp, Latch::until_disarmed, 40,
      "the time-of-flight height jumps by more than a body can move",
      "look for something in the beam; check mount and dual_frequency_mode"},

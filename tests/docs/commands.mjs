@@ -104,6 +104,16 @@ function blocksOf(page) {
   return blocks;
 }
 
+// Commands within a sentence are not run, but their options must exist.
+function checkInline(page) {
+  let inside = false;
+  fs.readFileSync(path.join(root, page), 'utf8').split('\n').forEach((text, index) => {
+    if (text.startsWith('```')) inside = !inside;
+    if (inside) return;
+    for (const [, command] of text.matchAll(/`((?:tools\/)?hop [a-z][^`]*)`/g)) checkCommand(`${page}:${index + 1}`, command);
+  });
+}
+
 // Lines of a block that begin a command: not those of a here-document, a continued line, or an open quote or loop body.
 function commandsOf(block) {
   const commands = [];
@@ -137,6 +147,7 @@ for (const page of pages) {
   fs.mkdirSync(folder);
   for (const entry of fs.readdirSync(clone)) fs.symlinkSync(path.join(clone, entry), path.join(folder, entry));
   for (const name of ['LOG.mcap', 'my_trial.mcap']) fs.copyFileSync(someLog, path.join(folder, name));
+  checkInline(page);
   for (const block of blocksOf(page)) {
     const list = commandsOf(block);
     commands += list.length;

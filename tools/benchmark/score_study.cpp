@@ -19,8 +19,7 @@ std::string shown(const Figure& f) {
 std::string bound(const Figure& f, double limit) { return (f.less_is_better ? "≤ " : "≥ ") + percent(limit); }
 
 StudyTable figures_table(const std::vector<Column>& columns, const std::vector<Figure>& splits) {
-  StudyTable table{.title = "Figures of DIAGNOSIS section 6, % (95 % Wilson interval)",
-                   .columns = {"figure"}};
+  StudyTable table{.title = "Figures of the benchmark, % (95 % Wilson interval)", .columns = {"figure"}};
   for (const auto& column : columns) table.columns.push_back(column.name);
   for (const char* name : {"of", "must", "aim", "met"}) table.columns.push_back(name);
   for (std::size_t i = 0; i < columns.front().score.figures.size(); ++i) {
@@ -43,7 +42,8 @@ StudyTable figures_table(const std::vector<Column>& columns, const std::vector<F
   }
   const auto& own = columns.front().score;
   table.note = fmt::format(
-      "Typical size: {} to {} of DIAGNOSIS section 3. Mean class size of the right names there: {:.2f}. {} "
+      "Typical size: {} to {} times the size in the generator's list. Mean class size of the right names "
+      "there: {:.2f}. {} "
       "parameters have "
       "no counterpart of the same name or unit in the diagnosis and are not in the intervals' figure.",
       kTypicalFrom, kTypicalTo, own.mean_class_size, own.intervals_without_counterpart);

@@ -32,7 +32,7 @@ void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known,
          .column = child.key_position.column,
          .channel = table.key + "." + child.key,
          .what = fmt::format("key '{}' is not known in [{}] and is not used", child.key, table.key),
-         .cure = "see tools/campaign/README.md for the keys, or leave it as it is"});
+         .cure = "'hop campaign keys PLANT' lists the keys; or leave it as it is"});
     return true;
   });
 }

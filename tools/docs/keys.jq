@@ -1,8 +1,9 @@
 # One plant of `hop campaign keys PLANT --json` as Markdown.
 def name: gsub("_"; " ");
+def unit: gsub("\\^2"; "²") | gsub("\\^3"; "³") | gsub(" "; " ");
 def cell: gsub("\\|"; "\\|");
-def channel: "| `\(.name)` | \(.unit) | \(.meaning | cell) |";
-def key: "| `\(.key)` | \(.unit) | \(.default) | \(.meaning | cell)\(if .used then "" else " *(not used so far)*" end) |";
+def channel: "| `\(.name)` | \(.unit | unit) | \(.meaning | cell) |";
+def key: "| `\(.key)` | \(.unit | unit) | \(.default) | \(.meaning | cell)\(if .used then "" else " *(not used so far)*" end) |";
 . as $plant |
 "\n## Plant `\(.plant)`\n\n\(.meaning[:1] | ascii_upcase)\(.meaning[1:]). Usual kind of trial: `\(.usual_kind)`.\n",
 "### Channels of \(.plant | name)\n\n| channel | unit | meaning |\n|---|---|---|",

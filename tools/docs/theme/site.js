@@ -12,6 +12,10 @@ for (const table of document.querySelectorAll('main table')) {
   box.append(table);
 }
 
+// In a table, names break where a reader would break them.
+for (const code of document.querySelectorAll('main td code'))
+  code.replaceChildren(...code.textContent.split(/(?<=[_./])/).flatMap((part) => [part, document.createElement('wbr')]));
+
 const menuButton = byId('menu-button');
 function showMenu(open) {
   document.body.classList.toggle('menu-open', open);
@@ -69,9 +73,9 @@ function loadIndex() {
 
 function scoresOf(word) {
   const found = index.query((query) => {
-    query.term(lunr.tokenizer(word), { boost: 10 });
+    query.term(word, { boost: 10 });
     query.term(word, { usePipeline: false, boost: 3, wildcard: lunr.Query.wildcard.TRAILING });
-    if (word.length > 4) query.term(word, { usePipeline: false, editDistance: 1 });
+    if (word.length > 4) query.term(word, { editDistance: 1 });
   });
   return new Map(found.map(({ ref, score }) => [ref, score]));
 }
@@ -79,12 +83,15 @@ function scoresOf(word) {
 function search(text) {
   const asked = lunr.tokenizer(text).map(String).filter((word) => word.length > 1);
   if (asked.length === 0) return [];
-  const scores = asked.map(scoresOf);
-  // Words too common to be indexed ("the") match nothing and do not count.
-  const telling = scores.filter((map) => map.size > 0);
-  if (telling.length === 0) return [];
-  const total = (ref) => telling.reduce((sum, map) => sum + map.get(ref), 0);
-  const all = [...telling[0].keys()].filter((ref) => telling.every((map) => map.has(ref)));
+  // Words that are in every text ("the", "off") are not in the index.
+  const scores = asked.filter((word) => lunr.stopWordFilter(word)).map(scoresOf);
+  if (scores.length === 0) return [];
+  const phrase = text.trim();
+  const holds = (part) => part.toLowerCase().includes(phrase);
+  // The words as they were typed, in a heading or in the text, come before the same words apart.
+  const asTyped = ({ title, text: body }) => (holds(title) ? 100 : 0) + (holds(body) ? 10 : 0);
+  const total = (ref) => scores.reduce((sum, map) => sum + map.get(ref), asTyped(sections.get(ref)));
+  const all = [...scores[0].keys()].filter((ref) => scores.every((map) => map.has(ref)));
   return all.sort((a, b) => total(b) - total(a)).slice(0, kMostResults).map((ref) => ({ section: sections.get(ref), asked }));
 }
 
@@ -93,7 +100,7 @@ function excerpt(text, asked) {
   const escaped = asked.map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
   const hit = new RegExp(`(${escaped.join('|')})`, 'gi');
   const plain = new DOMParser().parseFromString(text, 'text/html').body.textContent.replace(/\s+/g, ' ');
-  const from = Math.max(0, plain.search(hit) - 60);
+  const from = plain.lastIndexOf(' ', Math.max(0, plain.search(hit) - 60)) + 1;
   return plain.slice(from, from + 170).split(hit).map((part, i) => {
     if (i % 2 === 0) return part;
     const mark = document.createElement('mark');
