@@ -6,6 +6,8 @@
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/plausible.hpp"
+#include "tools/campaign/table_format.hpp"
 
 namespace sandhopper {
 namespace {
@@ -50,8 +52,10 @@ class Loader {
     const auto& root = document.root;
     read_head(root);
     if (const auto* columns = root.find("columns")) columns_ = read_columns(*columns);
+    if (const auto* format = root.find("format")) take_format(*format, format_);
     read_trials(root);
     for (const auto& child : root.children) note_unknown(child);
+    for (auto& finding : implausible_beliefs(campaign_)) campaign_.findings.push_back(std::move(finding));
     return std::move(campaign_);
   }
 
@@ -89,7 +93,7 @@ class Loader {
   std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
     std::vector<ColumnMapping> columns;
     for (const auto& child : table.children) {
-      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position};
+      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false};
       bool right = true;
       if (child.kind == Kind::text) {
         mapping.column = child.text;
@@ -99,7 +103,9 @@ class Loader {
           if (part.key == "column" && part.kind == Kind::text)
             mapping.column = part.text;
           else if (part.key == "scale" && number)
-            mapping.scale = *number;
+            mapping.scale = *number, mapping.has_scale = true;
+          else if (part.key == "unit" && part.kind == Kind::text)
+            mapping.unit = part.text;
           else if (part.key == "offset" && number)
             mapping.offset = *number;
           else
@@ -109,13 +115,21 @@ class Loader {
       if (!right || mapping.column.empty()) {
         add(FindingKind::set_up, FindingSeverity::channel_unusable, child.key_position, child.key,
             "this mapping cannot be understood",
-            fmt::format("write {} = {{ column = \"NAME\", scale = 1.0, offset = 0.0 }}", child.key));
+            fmt::format("write {} = {{ column = \"NAME\", unit = \"mm\", scale = 0.001, offset = 0.0 }}", child.key));
         continue;
       }
       check_mapped(mapping);
       columns.push_back(std::move(mapping));
     }
     return columns;
+  }
+
+  bool take_format(const ConfigNode& table, CsvFormat& format) {
+    auto problems = read_format(table, format);
+    for (auto& problem : problems)
+      add(FindingKind::file_format, FindingSeverity::trial_unusable, problem.position, problem.key,
+          std::move(problem.text), "see [format] in tools/campaign/README.md");
+    return problems.empty();
   }
 
   void check_mapped(const ColumnMapping& mapping) {
@@ -158,6 +172,7 @@ class Loader {
     trial.position = file->position;
     trial.belief = campaign_.belief;
     trial.index = campaign_.trials.size();
+    trial.format = format_;
     bool usable = true;
     std::vector<ConfigProblem> problems;
     for (const auto& child : node.children) {
@@ -170,6 +185,8 @@ class Loader {
         usable &= read_selection(child, trial);
       else if (child.key == "also" && child.kind == Kind::table)
         usable &= read_companion(child, trial);
+      else if (child.key == "format" && child.kind == Kind::table)
+        usable &= take_format(child, trial.format);
       else
         read_setup(child, trial, problems);
     }
@@ -218,7 +235,9 @@ class Loader {
           "names no second recording", "write also = { file = \"plate.csv\", columns = { t_s = \"t\" } }");
       return false;
     }
-    CompanionFile companion{(campaign_.folder / file->text).lexically_normal(), {}};
+    CompanionFile companion{(campaign_.folder / file->text).lexically_normal(), {}, format_};
+    if (const auto* format = table.find("format"); format != nullptr && !take_format(*format, companion.format))
+      return false;
     if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
     trial.companions.push_back(std::move(companion));
     return true;
@@ -241,7 +260,8 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "every_trial", "trial"};
+    static const std::vector<std::string> kKnown{"name", "plant", "model", "columns", "every_trial", "trial",
+                                                "format", "available"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));
@@ -255,6 +275,7 @@ class Loader {
 
   Campaign campaign_;
   std::vector<ColumnMapping> columns_;
+  CsvFormat format_{};
 };
 
 }  // namespace
