@@ -61,8 +61,7 @@ class Reading {
   void split() { split_csv_cells(line_, table_.layout.separator, cells_); }
 
   bool is_text() {
-    const auto& ahead = lines_.ahead();
-    const auto binary = ahead.empty() ? std::nullopt : binary_format_of(ahead.front());
+    const auto binary = binary_format_of(lines_.first_bytes());
     if (!binary) return true;
     report({Severity::error, 1, CsvFault::not_a_text},
            "is " + std::string(binary->name) + ", not a table; " + std::string(binary->cure));
@@ -140,6 +139,12 @@ class Reading {
     split();
     // Some programs end every row with a separator, and not the header.
     if (cells_.size() == place_of_cell_.size() + 1 && cells_.back().text.empty()) cells_.pop_back();
+    if (cells_.size() == 1 && place_of_cell_.size() > 1) {
+      report({Severity::error, 1, CsvFault::ragged_row},
+             "\"" + printable(cells_.front().text.substr(0, 40)) + "\" is no row of " +
+                 std::to_string(place_of_cell_.size()) + " cells and is passed over");
+      return;
+    }
     if (cells_.size() != place_of_cell_.size()) {
       report({Severity::error, line_.size() + 1, CsvFault::ragged_row},
              std::to_string(cells_.size()) + " cells where the header names " +

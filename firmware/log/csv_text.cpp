@@ -149,6 +149,7 @@ TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
   held_.resize(kLookedAt);
   in_.read(held_.data(), static_cast<std::streamsize>(held_.size()));
   held_.resize(static_cast<std::size_t>(in_.gcount()));
+  first_bytes_ = held_.substr(0, 32);
   encoding_ = encoding.value_or(encoding_of(held_));
   if (encoding_ == TextEncoding::utf16_le || encoding_ == TextEncoding::utf16_be) {
     held_.append(std::istreambuf_iterator<char>(in_), {});
@@ -185,7 +186,10 @@ bool TextLines::raw_line(std::string& line) {
 bool TextLines::read(std::string& line) {
   if (!raw_line(line)) return false;
   if (line.ends_with('\r')) line.pop_back();
-  if (encoding_ == TextEncoding::windows_1252) line = utf8_from(line, encoding_);
+  const auto has_high_byte = [&] { return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; }); };
+  const bool other = encoding_ == TextEncoding::windows_1252 ||
+                     (encoding_ == TextEncoding::utf8 && has_high_byte() && !is_utf8(line));
+  if (other) line = utf8_from(line, TextEncoding::windows_1252);
   return true;
 }
 

@@ -41,6 +41,7 @@ class TextLines {
 
   TextEncoding encoding() const { return encoding_; }
   const std::deque<std::string>& ahead() const { return ahead_; }
+  std::string_view first_bytes() const { return first_bytes_; }  // as they stand in the file
   bool next(std::string& line);  // false at the end
 
  private:
@@ -51,6 +52,7 @@ class TextLines {
   TextEncoding encoding_;
   std::string held_;  // bytes that were read to look at them, or the whole of a UTF-16 text
   std::size_t at_ = 0;
+  std::string first_bytes_;
   std::deque<std::string> ahead_;
   bool is_old_mac_ = false;  // \r alone ends a line
 };

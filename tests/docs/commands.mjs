@@ -10,7 +10,7 @@ const root = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.met
 const hop = path.join(path.resolve(process.argv[2]), 'bin/hop');
 const guide = path.join(root, 'tools/docs/guide');
 const pages = [path.join(root, 'README.md'),
-  ...['index', 'wiring', 'computer', 'motors', 'safety', 'calibration', 'first_hops', 'tuning', 'results', 'benchmark', 'versions',
+  ...['index', 'wiring', 'computer', 'motors', 'safety', 'calibration', 'first_hops', 'tuning', 'results', 'foreign_recordings', 'benchmark', 'versions',
     'extending']
     .map((name) => path.join(guide, `${name}.md`))];
 

@@ -15,8 +15,8 @@ constexpr std::size_t kFewestRows = 10;
 
 // 0.002 s as "2 ms"
 std::string duration(double s) {
-  if (s < 1e-3) return fmt::format("{:.3g} us", 1e6 * s);
-  if (s < 1.0) return fmt::format("{:.3g} ms", 1e3 * s);
+  if (s < 0.9995e-3) return fmt::format("{:.3g} us", 1e6 * s);
+  if (s < 0.9995) return fmt::format("{:.3g} ms", 1e3 * s);
   return fmt::format("{:.3g} s", s);
 }
 

@@ -6,6 +6,7 @@
 
 #include "config/files.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign_draft.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/cli/progress.hpp"
@@ -34,6 +35,10 @@ nlohmann::ordered_json as_json(const Finding& f) {
           {"what", f.what},          {"cure", f.cure}};
 }
 
+nlohmann::ordered_json to_json(const UsedNumber& n) {
+  return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
+}
+
 ExitCode check(Session& session, const Options& options) {
   const auto campaign = load_campaign(options.folder);
   auto findings = nlohmann::ordered_json::array();
@@ -52,13 +57,23 @@ ExitCode check(Session& session, const Options& options) {
     usable += recording.usable();
     progress.at(static_cast<double>(trial.index));
   }
+  const auto used = used_numbers(campaign);
+  auto numbers = nlohmann::ordered_json::array();
+  for (const auto& number : used.numbers) {
+    const bool listed = number.source != UsedNumber::Source::plant_default ||
+                        !(number.key.starts_with("sensors.") || number.key.starts_with("spread."));
+    if (listed) session.say("  {}", to_string(number));
+    numbers.push_back(to_json(number));
+  }
+  session.say("  {} more numbers are 0 by default: what they stand for is not assumed", used.off);
   session.say("{}: plant {}, {} trials, {} usable", campaign.name, name_of(campaign.plant),
               campaign.trials.size(), usable);
   session.result = {{"campaign", campaign.name},
                     {"plant", name_of(campaign.plant)},
                     {"trials", campaign.trials.size()},
                     {"usable", usable},
-                    {"findings", findings}};
+                    {"findings", findings},
+                    {"belief", numbers}};
   return usable == campaign.trials.size() && campaign.findings.empty() ? ExitCode::ok : ExitCode::no;
 }
 
