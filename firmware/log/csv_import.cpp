@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <istream>
@@ -10,23 +9,18 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace sandhopper {
 namespace {
 
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-struct Cell {
-  std::string_view text;
-  std::uint64_t column = 0;
-};
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return text;
+// Control characters as '?': a terminal obeys them.
+std::string printable(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return out;
 }
 
 std::string shown(double value) {
@@ -36,37 +30,18 @@ std::string shown(double value) {
   return text.str();
 }
 
-char separator_of(std::string_view header) {
-  for (const char separator : {',', ';', '\t'})
-    if (header.find(separator) != std::string_view::npos) return separator;
-  return ',';
-}
-
-// The line's cells without the blanks and quotes around them.
-void split_cells(std::string_view line, char separator, std::vector<Cell>& cells) {
-  cells.clear();
-  std::size_t start = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') quoted = !quoted;
-    if (i < line.size() && (quoted || line[i] != separator)) continue;
-    cells.push_back({trimmed(line.substr(start, i - start)), start + 1});
-    start = i + 1;
-  }
-}
-
 class Reading {
  public:
-  Reading(std::istream& in, const CsvReadOptions& options) : in_(in), options_(options) {}
+  Reading(std::istream& in, const CsvReadOptions& options)
+      : lines_(in, options.format.encoding), options_(options) {}
 
   CsvTable run() {
-    if (!next_line() || trimmed(line_).empty()) {
-      report({Severity::error, 1, CsvFault::no_header}, "no header: the first line must name the columns");
-      return std::move(table_);
-    }
+    if (!is_text()) return std::move(table_);
+    table_.layout = find_layout(lines_.ahead(), lines_.encoding(), options_.format);
     if (!read_header()) return std::move(table_);
     while (next_line())
-      if (!trimmed(line_).empty()) read_row();
+      if (line_number_ >= table_.layout.first_row_line && !is_remark(line_) && !trimmed_cell(line_).empty())
+        read_row();
     note_gaps();
     if (table_.rows() == 0) report({Severity::error, 1, CsvFault::no_rows}, "no rows below the header");
     std::stable_sort(table_.issues.begin(), table_.issues.end(),
@@ -78,24 +53,68 @@ class Reading {
   using Severity = CsvIssue::Severity;
 
   bool next_line() {
-    if (!std::getline(in_, line_)) return false;
+    if (!lines_.next(line_)) return false;
     ++line_number_;
-    if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
-    if (line_.ends_with('\r')) line_.pop_back();
     return true;
   }
 
-  void split() { split_cells(line_, separator_, cells_); }
+  void split() { split_csv_cells(line_, table_.layout.separator, cells_); }
+
+  bool is_text() {
+    const auto binary = binary_format_of(lines_.first_bytes());
+    if (!binary) return true;
+    report({Severity::error, 1, CsvFault::not_a_text},
+           "is " + std::string(binary->name) + ", not a table; " + std::string(binary->cure));
+    return false;
+  }
 
   bool read_header() {
-    separator_ = separator_of(line_);
-    split();
-    if (std::all_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return parsed(cell.text); })) {
-      report({Severity::error, 1, CsvFault::no_header},
-             "no header: the first line holds numbers where it must name the columns");
-      return false;
+    const auto& layout = table_.layout;
+    if (layout.is_ambiguous)
+      report({Severity::error, 1, CsvFault::ambiguous_number},
+             "\"" + layout.ambiguous_cell + "\" may have a decimal comma or one between thousands");
+    std::vector<std::string> units;
+    const std::uint64_t last = std::max(layout.header_line, layout.units_line);
+    std::string header;
+    std::uint64_t header_at = 1;
+    while (line_number_ < last && next_line()) {
+      if (line_number_ == layout.header_line) header = line_, header_at = line_number_;
+      if (line_number_ == layout.units_line) units = texts();
     }
-    for (const Cell& cell : cells_) {
+    line_ = header;
+    if (layout.header_line == 0 && !options_.format.names.empty()) {
+      for (const auto& name : options_.format.names) line_ += (line_.empty() ? "" : ",") + name;
+      split_csv_cells(line_, ',', cells_);
+      line_number_ = 0;
+    } else if (layout.header_line == 0 || trimmed_cell(line_).empty()) {
+      line_number_ = 1;
+      report({Severity::error, 1, CsvFault::no_header},
+             "no header: a line above the numbers must name the columns");
+      return false;
+    } else {
+      std::string mark;
+      const auto names = without_mark(line_, mark);
+      const auto skipped = static_cast<std::uint64_t>(names.data() - line_.data());
+      split_csv_cells(names, layout.separator, cells_);
+      for (auto& cell : cells_) cell.column += skipped;
+    }
+    const std::uint64_t behind = std::exchange(line_number_, header_at);
+    name_columns(units);
+    line_number_ = layout.header_line == 0 ? 0 : behind;
+    return true;
+  }
+
+  // Texts of the present line's cells.
+  std::vector<std::string> texts() {
+    std::string mark;
+    std::vector<std::string> out;
+    split_csv_cells(without_mark(line_, mark), table_.layout.separator, cells_);
+    for (const auto& cell : cells_) out.emplace_back(cell.text);
+    return out;
+  }
+
+  void name_columns(const std::vector<std::string>& units) {
+    for (const TableCell& cell : cells_) {
       const bool known = table_.find(cell.text) != nullptr;
       if (known)
         report({Severity::error, cell.column, CsvFault::duplicate_column, cell.text},
@@ -104,19 +123,28 @@ class Reading {
       place_of_cell_.push_back(used ? std::optional(table_.names.size()) : std::nullopt);
       if (!used) continue;
       if (cell.text == options_.time_column) time_ = table_.names.size();
+      const auto number = static_cast<std::size_t>(&cell - cells_.data());
       table_.names.emplace_back(cell.text);
       table_.columns.emplace_back();
-      table_.numbers.push_back(static_cast<std::uint64_t>(&cell - cells_.data()) + 1);
+      table_.numbers.push_back(number + 1);
+      table_.units.push_back(number < units.size() ? units[number] : "");
     }
     row_.resize(table_.names.size());
     if (!time_ && !options_.time_column.empty())
       report({Severity::error, 1, CsvFault::no_time_column, options_.time_column},
              "no column bears this name, so gaps and order cannot be checked");
-    return true;
   }
 
   void read_row() {
     split();
+    // Some programs end every row with a separator, and not the header.
+    if (cells_.size() == place_of_cell_.size() + 1 && cells_.back().text.empty()) cells_.pop_back();
+    if (cells_.size() == 1 && place_of_cell_.size() > 1) {
+      report({Severity::error, 1, CsvFault::ragged_row},
+             "\"" + printable(cells_.front().text.substr(0, 40)) + "\" is no row of " +
+                 std::to_string(place_of_cell_.size()) + " cells and is passed over");
+      return;
+    }
     if (cells_.size() != place_of_cell_.size()) {
       report({Severity::error, line_.size() + 1, CsvFault::ragged_row},
              std::to_string(cells_.size()) + " cells where the header names " +
@@ -134,22 +162,30 @@ class Reading {
     table_.lines.push_back(line_number_);
   }
 
-  static std::optional<double> parsed(std::string_view digits) {
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-    return value;
-  }
-
-  double number(const Cell& cell, const std::string& name) {
-    if (cell.text.empty()) return kEmpty;
-    const auto value = parsed(cell.text);
+  double number(const TableCell& cell, const std::string& name) {
+    if (is_no_sample(cell.text)) return kEmpty;
+    const auto value = number_in_cell(cell.text, table_.layout.numbers);
     if (value && std::isfinite(*value)) return *value;
+    if (!value && is_silent(cell.text)) return kEmpty;
+    if (const auto time = value ? std::nullopt : time_in_cell(cell.text)) return seconds(*time);
     const bool is_number = value.has_value();
     report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
-           "\"" + std::string(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
+           "\"" + printable(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
     return kEmpty;
+  }
+
+  bool is_silent(std::string_view text) const {
+    const auto& words = options_.format.no_sample;
+    return std::find(words.begin(), words.end(), text) != words.end();
+  }
+
+  // A time of day goes on beyond midnight.
+  double seconds(const CellTime& time) {
+    constexpr double kDay_s = 86400.0;
+    if (time.has_date) return time.s;
+    if (last_of_day_s_ && time.s + days_s_ < *last_of_day_s_ - 0.5 * kDay_s) days_s_ += kDay_s;
+    last_of_day_s_ = time.s + days_s_;
+    return *last_of_day_s_;
   }
 
   bool time_is_in_order(std::uint64_t column) {
@@ -215,16 +251,17 @@ class Reading {
         {place.severity, line, place.column, std::move(text), place.fault, std::string(place.name)});
   }
 
-  std::istream& in_;
+  TextLines lines_;
   const CsvReadOptions& options_;
   CsvTable table_;
   std::string line_;
   std::uint64_t line_number_ = 0;
-  char separator_ = ',';
-  std::vector<Cell> cells_;
+  std::vector<TableCell> cells_;
   std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
+  double days_s_ = 0.0;                   // midnights passed by times without a date
+  std::optional<double> last_of_day_s_{};
 };
 
 }  // namespace
@@ -251,7 +288,10 @@ std::string_view cure_for(CsvFault fault) {
     case CsvFault::time_stands_still:
       return "give every row a time of its own";
     case CsvFault::gap:
+    case CsvFault::not_a_text:
       return "";
+    case CsvFault::ambiguous_number:
+      return "say which: [format] decimal = \",\" or thousands = \",\" in campaign.toml";
   }
   return "";
 }
@@ -277,16 +317,21 @@ bool CsvTable::has_errors() const {
 
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
 
-std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line,
-                                 std::uint64_t number) {
+std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number,
+                                 const CsvFormat& format) {
   std::ifstream in(file);
+  if (!in) return 1;
+  TextLines lines(in, format.encoding);
+  const auto layout = find_layout(lines.ahead(), lines.encoding(), format);
   std::string text;
-  char separator = ',';
-  for (std::uint64_t i = 1; i <= line && std::getline(in, text); ++i)
-    if (i == 1) separator = separator_of(text);
-  std::vector<Cell> cells;
-  split_cells(text, separator, cells);
-  return in && number >= 1 && number <= cells.size() ? cells[number - 1].column : 1;
+  bool is_there = true;
+  for (std::uint64_t i = 1; i <= line && is_there; ++i) is_there = lines.next(text);
+  std::string mark;
+  const std::string_view cells_text = line == layout.header_line ? without_mark(text, mark) : std::string_view(text);
+  std::vector<TableCell> cells;
+  split_csv_cells(cells_text, layout.separator, cells);
+  if (!is_there || number < 1 || number > cells.size()) return 1;
+  return cells[number - 1].column + static_cast<std::uint64_t>(cells_text.data() - text.data());
 }
 
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {

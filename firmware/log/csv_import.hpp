@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/log/csv_layout.hpp"
+
 namespace sandhopper {
 
 // What can be wrong with a recording.
@@ -20,7 +22,9 @@ enum class CsvFault : std::uint8_t {
   no_time,
   time_backwards,
   time_stands_still,
-  gap
+  gap,
+  not_a_text,
+  ambiguous_number
 };
 
 // What the recording's owner can do about it; empty where nothing is lost.
@@ -52,6 +56,8 @@ struct CsvTable {
   std::vector<std::uint64_t> lines;          // of the file, for each row
   std::vector<CsvIssue> issues;   // in the order of the file, at most CsvReadOptions::max_issues …
   std::uint64_t more_issues = 0;  // … and this many besides
+  std::vector<std::string> units{};  // as names: the cell of the row of units, empty without one
+  CsvLayout layout{};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   const std::vector<double>* find(std::string_view name) const;  // null when there is none
@@ -64,16 +70,20 @@ struct CsvReadOptions {
   std::size_t max_issues = 50;
   bool check_order = true;   // false: rows may step back in time
   bool list_repeats = true;  // false: the same fault in the same column is listed once and then counted
+  CsvFormat format{};        // what is known of the file
 };
 
-// Reads a recording: a header of unique names, then numbers; an empty cell is no sample. Cells are divided by
-// commas or, where the header has none, by semicolons or tabs; quotes around a cell, a byte order mark and
-// \r\n are tolerated. What is wrong is listed with its place and left out, the rest is read: a cell that is
-// not a number (NaN and infinity included) becomes an empty one; a row with a missing or extra cell, without
-// a time, or whose time goes backwards is dropped. A second column of the same name is an error and ignored.
+// Reads a recording: a header of unique names, then numbers; a cell that is empty or says NaN, -, #N/A is no
+// sample; a date or time of day is read as seconds (csv_cells.hpp). Encoding, separator, decimal comma, lines
+// above the header and a row of units are found (csv_layout.hpp) where `format` does not state them; remarks
+// between rows are passed over, and so is an empty cell at every row's end. What is wrong is listed with its
+// place and left out, the rest is read: a cell that is not a number (infinity included) becomes an empty one; a
+// row with a missing or extra cell, without a time, or whose time goes backwards is dropped. A second column of
+// the same name is an error and ignored.
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options = {});
 // Character, from 1, at which cell `number` of a line begins; 1 where there is no such cell.
-std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number);
+std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number,
+                                 const CsvFormat& format = {});
 // Throws std::system_error when the file cannot be opened.
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options = {});
 

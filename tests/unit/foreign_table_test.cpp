@@ -1,91 +1,231 @@
-#include "tools/calibrate/foreign_table.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
+#include <gtest/gtest.h>
 
-#include <fstream>
+#include <cmath>
 
-#include "tests/unit/can_trace_text.hpp"
+#include "campaign_folder.hpp"
+#include "tools/campaign/trial_recording.hpp"
 
-namespace sandhopper::calibrate {
+// Tables as other programs write them: each kind in several forms.
+namespace sandhopper {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-struct Read {
-  std::size_t values = 0;
-  std::string error, cure;
-  std::vector<std::string> notes;
+struct Foreign {
+  std::string plant = "rotary_axis";
+  std::string campaign{};  // further lines, before the trial
+  std::string file = "a.csv";
 };
 
-Read read_file(const std::filesystem::path& file, const std::string& column) {
-  try {
-    const auto table = read_foreign_table(file, column);
-    return {table.recording.signal.value.size(), "", "", table.notes};
-  } catch (const ForeignTableError& error) {
-    return {0, error.what(), error.cure, {}};
-  }
+TrialRecording read(const std::string& bytes, const Foreign& how = {}) {
+  CampaignFolder folder;
+  folder
+      .write("campaign.toml",
+             fmt::format("plant = \"{}\"\n{}\n[[trial]]\nfile = \"{}\"\n", how.plant, how.campaign, how.file))
+      .write(how.file, bytes);
+  const auto campaign = load_campaign(folder.path());
+  return read_trial(campaign, campaign.trials.at(0));
 }
 
-Read read_text(const std::string& text) {
-  const auto file = std::filesystem::temp_directory_path() / fmt::format("foreign_{}.csv", ::getpid());
-  std::ofstream(file) << text;
-  auto read = read_file(file, "force");
-  std::filesystem::remove(file);
-  return read;
-}
-
-std::string rows(const std::string& row, int count) {
+std::string told(const TrialRecording& recording) {
   std::string text;
-  for (int i = 0; i < count; ++i) text += fmt::format(fmt::runtime(row), i) + "\n";
+  for (const auto& finding : recording.findings) text += to_string(finding) + "\n";
   return text;
 }
 
-TEST(ForeignTable, DecimalCommasAreReadOrNamed) {
-  const auto file = trace::field_input("F07/foreign.csv");
-  if (!file) GTEST_SKIP();
-  const auto read = read_file(*file, "force");
-  if (read.error.empty())
-    EXPECT_EQ(read.values, 800U);
-  else
-    EXPECT_THAT(read.error, HasSubstr("decimal commas"));
+struct Writing {
+  std::string header = "t_s,position_rad,velocity_radps,torque_Nm";
+  char separator = ',';
+  char decimal = '.';
+  std::string row_end = "\n";
+  int rows = 40;
+};
+// An axis that swings: 40 rows of which the third is 0.02, 0.29830, …
+std::string swinging(const Writing& w = {}) {
+  std::string text = w.header + w.row_end;
+  for (int i = 0; i < w.rows; ++i) {
+    const double t = 0.01 * i;
+    std::string row = fmt::format("{:.5f}{}{:.5f}{}{:.5f}{}{:.5f}", t, w.separator, 0.3 * std::cos(4.0 * t), w.separator,
+                                  -1.2 * std::sin(4.0 * t), w.separator, 0.7 * std::sin(11.0 * t));
+    for (char& c : row)
+      if (c == '.') c = w.decimal;
+    text += row + w.row_end;
+  }
+  return text;
 }
 
-TEST(ForeignTable, DecimalCommasOfOtherFormsAreReadOrNamed) {
-  for (const char* row : {"0,{:03};50,0", "0,{:03};-5,25", "0,{:03}\t+1,5"}) {
-    const std::string text(row);
-    const std::string separator = text.find(';') != std::string::npos ? ";" : "\t";
-    const auto read = read_text("t_s" + separator + "force\n" + rows(text, 40));
-    if (read.error.empty())
-      EXPECT_EQ(read.values, 40U) << row;
-    else
-      EXPECT_THAT(read.error + read.cure, AllOf(HasSubstr("decimal commas"), HasSubstr("write points")))
-          << row;
+void expect_swing(const TrialRecording& recording) {
+  ASSERT_TRUE(recording.usable()) << told(recording);
+  ASSERT_EQ(recording.rows(), 40U) << told(recording);
+  ASSERT_TRUE(recording.has("position_rad") && recording.has("torque_Nm")) << told(recording);
+  EXPECT_NEAR(recording.t_s[10], 0.1 + recording.t_s[0], 1e-6);
+  EXPECT_NEAR(recording.channel("position_rad")[10], 0.3 * std::cos(0.4), 1e-5);
+  EXPECT_NEAR(recording.channel("torque_Nm")[10], 0.7 * std::sin(1.1), 1e-5);
+}
+
+TEST(ForeignTable, RemarksAboveTheNamesArePassedOver) {
+  expect_swing(read("# Test started at Thu Apr 22 2021\n# kt = 0.1\n" + swinging()));
+  expect_swing(read("% MATLAB export, kt = 0.1\n\n" + swinging()));
+  expect_swing(read("// rig 7\n// operator: ann, ben, cem, dora\n" + swinging()));
+  expect_swing(read("LabVIEW Measurement\t\nWriter_Version\t2\n***End_of_Header***\t\n\n" + swinging()));
+}
+
+TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
+  const auto recording = read("Instrument;Zwick\nDate;13.09.2023\nSpeed;5,0;mm/min\n\n" +
+                              swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','}));
+  expect_swing(recording);
+  EXPECT_THAT(told(recording), HasSubstr("a.csv:5:1: the names of the columns stand in line 5"));
+  EXPECT_THAT(told(recording), HasSubstr("decimal comma"));
+  expect_swing(read("sep=,\n" + swinging()));
+  expect_swing(read("9/13/2023  20:41:18\nAltitude : 21.0\nPlate Diameter: 4.00cm\n" + swinging()));
+}
+
+TEST(ForeignTable, TheMarkOfARemarkBeforeTheNamesIsNoPartOfThem) {
+  expect_swing(read(swinging({.header = "# t_s,position_rad,velocity_radps,torque_Nm"})));
+  expect_swing(read(swinging({.header = "#t_s,position_rad,velocity_radps,torque_Nm"})));
+  expect_swing(read(swinging({.header = "% t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t'})));
+  expect_swing(read(swinging({.header = "# t_s position_rad velocity_radps torque_Nm", .separator = ' '})));
+  expect_swing(read(swinging({.header = "# t_s,position_rad,velocity_radps,torque_Nm"}),
+                    {.campaign = "[columns]\nt_s = { column = \"# t_s\" }\n"}));
+}
+
+TEST(ForeignTable, DecimalCommasAreRead) {
+  const std::string header = "t_s;position_rad;velocity_radps;torque_Nm";
+  expect_swing(read(swinging({.header = header, .separator = ';', .decimal = ','})));
+  expect_swing(read(swinging({.header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .decimal = ','})));
+  expect_swing(read(swinging({.header = header, .separator = ';', .decimal = ',', .row_end = ";\r\n"})));
+  const auto quoted = read("t_s,force_N,foot_z_m\n\"0,0\",\"1,5\",\"-0,01\"\n\"0,1\",\"2,5\",\"-0,02\"\n\"0,2\",\"3,25\",\"-0,03\"\n",
+                           {.plant = "intruder"});
+  ASSERT_TRUE(quoted.usable()) << told(quoted);
+  EXPECT_EQ(quoted.channel("force_N")[2], 3.25);
+}
+
+TEST(ForeignTable, ThousandsAreNoDecimals) {
+  const auto german = read("t_s;force_N\n0,0;1.234,5\n0,1;2.345,5\n0,2;987,5\n", {.plant = "intruder"});
+  EXPECT_EQ(german.channel("force_N")[0], 1234.5) << told(german);
+  const auto english = read("t_s,force_N\n0.0,\"1,234.5\"\n0.1,\"2,345.5\"\n0.2,987.5\n", {.plant = "intruder"});
+  EXPECT_EQ(english.channel("force_N")[1], 2345.5) << told(english);
+  const auto swiss = read("t_s;force_N\n0.0;1'234.5\n0.1;2'345.5\n0.2;987.5\n", {.plant = "intruder"});
+  EXPECT_EQ(swiss.channel("force_N")[1], 2345.5) << told(swiss);
+}
+
+TEST(ForeignTable, ACommaThatMayMeanEitherIsAsked) {
+  const std::string text = "t_s;force_N\n0;1,234\n1;2,345\n2;3,456\n";
+  const auto asked = read(text, {.plant = "intruder"});
+  EXPECT_FALSE(asked.usable());
+  EXPECT_THAT(told(asked), HasSubstr("[format] decimal"));
+  const auto told_so = read(text, {.plant = "intruder", .campaign = "[format]\ndecimal = \",\"\n"});
+  EXPECT_EQ(told_so.channel("force_N")[0], 1.234) << told(told_so);
+  const auto otherwise = read(text, {.plant = "intruder", .campaign = "[format]\nthousands = \",\"\ndecimal = \".\"\n"});
+  EXPECT_EQ(otherwise.channel("force_N")[0], 1234.0) << told(otherwise);
+}
+
+std::string utf16(const std::string& text, bool big_endian, bool mark) {
+  std::string out = !mark ? "" : big_endian ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) big_endian ? (out += '\0', out += c) : (out += c, out += '\0');
+  return out;
+}
+
+TEST(ForeignTable, Utf16IsReadAndSaid) {
+  const Writing tabs{.header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .row_end = "\r\n"};
+  for (const auto& bytes : {utf16(swinging(tabs), false, true), utf16(swinging(tabs), true, true),
+                            utf16(swinging(), false, false)}) {
+    const auto recording = read(bytes);
+    expect_swing(recording);
+    EXPECT_THAT(told(recording), HasSubstr("UTF-16"));
+    EXPECT_EQ(told(recording).find('\0'), std::string::npos);
   }
 }
 
-TEST(ForeignTable, AColumnWithoutNumbersIsSaidWithItsFirstCell) {
-  const auto read = read_text("t_s,force\n" + rows("0.{:03},overload", 20));
-  EXPECT_THAT(read.error, AllOf(HasSubstr("0 numbers of force in 20 rows"), HasSubstr("\"overload\"")));
+TEST(ForeignTable, Windows1252IsReadAndSaid) {
+  const std::string map = "[columns]\nposition_rad = { column = \"Winkel [°]\", scale = 0.0174532925 }\n";
+  const auto recording = read(swinging({.header = "t_s,Winkel [\xB0],v,torque_Nm"}), {.campaign = map});
+  ASSERT_TRUE(recording.usable()) << told(recording);
+  EXPECT_NEAR(recording.channel("position_rad")[0], 0.3 * 0.0174532925, 1e-9);
+  EXPECT_THAT(told(recording), HasSubstr("Windows-1252"));
+  const auto micro = read("Zeit [\xB5s],force_N\n0,1\n1000,2\n2000,3\n",
+                          {.plant = "intruder", .campaign = "[columns]\nt_s = { column = \"Zeit [µs]\", scale = 1e-6 }\n"});
+  EXPECT_NEAR(micro.t_s.at(2), 2e-3, 1e-12) << told(micro);
+  const auto umlaut = read("t_s,H\xF6he (mm)\n0,1000\n0.1,950\n0.2,800\n",
+                           {.plant = "falling_body", .campaign = "[columns]\nheight_m = { column = \"Höhe (mm)\", unit = \"mm\" }\n"});
+  EXPECT_NEAR(umlaut.channel("height_m")[1], 0.95, 1e-12) << told(umlaut);
+  expect_swing(read("\xEF\xBB\xBF" + swinging()));
 }
 
-TEST(ForeignTable, AClockThatGoesBackIsSaidWithItsLine) {
-  const auto read = read_text("t_s,force\n" + rows("1.{:03},1", 20) + rows("0.5{:02},1", 20));
-  EXPECT_THAT(read.error, AllOf(HasSubstr(":22: its clock goes backwards"), HasSubstr("20 rows in all")));
+TEST(ForeignTable, WordsForNoSampleAreNoSamples) {
+  const auto recording = read(
+      "t_s,force_N,foot_z_m\n0,NaN,-0.01\n0.1,nan,-\n0.2,#N/A,-0.02\n0.3,,NULL\n0.4,4,-0.04\n0.5,--,-0.05\n",
+      {.plant = "intruder"});
+  EXPECT_TRUE(recording.findings.empty()) << told(recording);
+  EXPECT_TRUE(std::isnan(recording.channel("force_N")[1]));
+  EXPECT_EQ(recording.channel("force_N")[4], 4.0);
+  const auto stated = read("t_s,force_N\n0,1\n0.1,-999\n0.2,OVER\n0.3,4\n",
+                           {.plant = "intruder", .campaign = "[format]\nno_sample = [\"OVER\", \"-999\"]\n"});
+  EXPECT_TRUE(stated.findings.empty()) << told(stated);
+  EXPECT_TRUE(std::isnan(stated.channel("force_N")[2]));
 }
 
-TEST(ForeignTable, AFewBadCellsAreNotes) {
-  const auto read = read_text("t_s,force\n" + rows("0.{:03},1", 20) + "0.9,oops\n");
-  EXPECT_EQ(read.values, 20U);
-  ASSERT_EQ(read.notes.size(), 1U);
-  EXPECT_THAT(read.notes.front(), HasSubstr("\"oops\""));
+TEST(ForeignTable, DatesAndTimesOfDayBecomeSeconds) {
+  const auto iso = read("Timestamp,force_N\n2023-09-13T20:41:18.250Z,1\n2023-09-13T20:41:18.500Z,2\n2023-09-13T20:41:19.000Z,3\n",
+                        {.plant = "intruder", .campaign = "[columns]\nt_s = \"Timestamp\"\n"});
+  ASSERT_TRUE(iso.usable()) << told(iso);
+  EXPECT_NEAR(iso.t_s[2] - iso.t_s[0], 0.75, 1e-6);
+  const auto german = read("Zeit;force_N\n13.09.2023 23:59:59,5;1\n14.09.2023 00:00:00,5;2\n",
+                           {.plant = "intruder", .campaign = "[columns]\nt_s = \"Zeit\"\n"});
+  ASSERT_EQ(german.rows(), 2U) << told(german);
+  EXPECT_NEAR(german.t_s[1] - german.t_s[0], 1.0, 1e-6);
+  const auto day = read("clock,force_N\n23:59:59.9,1\n00:00:00.1,2\n00:00:00.3,3\n",
+                        {.plant = "intruder", .campaign = "[columns]\nt_s = \"clock\"\n"});
+  ASSERT_EQ(day.rows(), 3U) << told(day);
+  EXPECT_NEAR(day.t_s[2] - day.t_s[0], 0.4, 1e-6);
 }
 
-TEST(ForeignTable, AMissingColumnIsSaidWithThoseThereAre) {
-  EXPECT_THAT(read_text("time,force_N\n0,1\n").error, HasSubstr("it has time, force_N"));
+TEST(ForeignTable, BinaryFilesAreNamedWithTheWayOut) {
+  for (const auto& [bytes, name] :
+       {std::pair{std::string("PK\x03\x04") + std::string(40, '\0'), "xlsx"},
+        std::pair{std::string("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") + std::string(40, '\1'), ".xls"},
+        std::pair{std::string("\x89HDF\r\n\x1A\n more"), "HDF5"}, std::pair{std::string("PAR1xxxx"), "Parquet"}}) {
+    const auto recording = read(bytes);
+    EXPECT_FALSE(recording.usable());
+    ASSERT_EQ(recording.findings.size(), 1U) << told(recording);
+    EXPECT_THAT(told(recording), HasSubstr(name));
+    EXPECT_THAT(told(recording), HasSubstr("CSV"));
+  }
+}
+
+TEST(ForeignTable, ForceAgainstDepthNeedsNoTime) {
+  for (const std::string header : {"force_N,foot_z_m", "Load [N],Depth [mm]", "Kraft (N);Weg (mm)"}) {
+    const bool own = header.starts_with("force");
+    const char separator = header.find(';') == std::string::npos ? ',' : ';';
+    std::string text = header + "\n";
+    for (int i = 0; i < 60; ++i) text += fmt::format("{:.3f}{}{:.5f}\n", 0.05 * i * i, separator, own ? -4e-4 * i : 0.4 * i);
+    const std::string depth = header.substr(header.find(separator) + 1), force = header.substr(0, header.find(separator));
+    const auto recording = read(
+        text, {.plant = "intruder",
+               .campaign = own ? ""
+                               : fmt::format("[columns]\nforce_N = \"{}\"\nfoot_z_m = {{ column = \"{}\", scale = -0.001 }}\n",
+                                             force, depth)});
+    ASSERT_TRUE(recording.usable()) << told(recording);
+    EXPECT_FALSE(recording.has_time);
+    EXPECT_NEAR(recording.channel("foot_z_m")[10], -4e-3, 1e-9);
+    EXPECT_THAT(told(recording), HasSubstr("the file has no time"));
+  }
+}
+
+TEST(ForeignTable, APathOfWindowsIsNamed) {
+  for (const auto& [path, meant] : {std::pair{"data\\rec.csv", "data/rec.csv"}, std::pair{"data\\trial.csv", "data/trial.csv"},
+                                    std::pair{"runs\\\\new.csv", "runs/new.csv"}}) {
+    CampaignFolder folder;
+    folder.write("campaign.toml", fmt::format("plant = \"rotary_axis\"\n[[trial]]\nfile = \"{}\"\n", path)).write(meant, swinging());
+    const auto campaign = load_campaign(folder.path());
+    const auto recording = read_trial(campaign, campaign.trials.at(0));
+    EXPECT_THAT(told(recording), HasSubstr(fmt::format("write file = \"{}\", which exists", meant)));
+    EXPECT_EQ(told(recording).find('\r'), std::string::npos);
+    EXPECT_EQ(told(recording).find('\t'), std::string::npos);
+  }
 }
 
 }  // namespace
-}  // namespace sandhopper::calibrate
+}  // namespace sandhopper

@@ -140,7 +140,7 @@ TEST(CsvImport, SaysWhatIsWrongAndWhereAndReadsTheRest) {
       "t_s,a,b,a\n"
       "0,1,2,9\n"
       "0.001,x,2,9\n"
-      "0.002,NaN,,9\n"
+      "0.002,inf,,9\n"
       "0.0015,1,2,9\n"
       "0.003,1,2\n"
       ",1,2,9\n"
@@ -153,7 +153,7 @@ TEST(CsvImport, SaysWhatIsWrongAndWhereAndReadsTheRest) {
   ASSERT_EQ(found.size(), 9U) << ::testing::PrintToString(found);
   EXPECT_THAT(found[0], HasSubstr("f.csv:1:9: a: a second column bears this name; rename one of them"));
   EXPECT_THAT(found[1], HasSubstr("f.csv:3:7: a: \"x\" is not a number"));
-  EXPECT_THAT(found[2], HasSubstr("f.csv:4:7: a: \"NaN\" is not a finite number"));
+  EXPECT_THAT(found[2], HasSubstr("f.csv:4:7: a: \"inf\" is not a finite number"));
   EXPECT_THAT(found[3], HasSubstr("f.csv:5:1: t_s: time goes backwards, from 0.002 to 0.0015 s"));
   EXPECT_THAT(found[4], HasSubstr("f.csv:6:10: 3 cells where the header names 4"));
   EXPECT_THAT(found[5], HasSubstr("f.csv:7:1: t_s: no time"));

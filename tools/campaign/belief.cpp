@@ -143,9 +143,25 @@ Belief default_belief(CampaignPlant plant) {
   return HopperBelief{};
 }
 
+Belief belief_of_silence(CampaignPlant plant) {
+  Belief belief = default_belief(plant);
+  const auto quiet = [](BedParameters& bed) {
+    bed.intercept_depth_m = 0.0;
+    bed.added_mass_factor = bed.drag_factor = 0.0;
+    bed.unloading_stiffness_ratio = 1.0;
+    bed.unloading_damping_ratio = 0.0;
+  };
+  if (auto* intruder = std::get_if<IntruderBelief>(&belief)) quiet(intruder->terrain);
+  if (auto* hopper = std::get_if<HopperBelief>(&belief)) {
+    quiet(hopper->terrain);
+    hopper->robot.rail_coulomb_N = hopper->robot.joint_coulomb_Nm = hopper->robot.cogging_amplitude_Nm = 0.0;
+  }
+  return belief;
+}
+
 Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes) {
   return std::visit([&](auto base) { return read_belief(file, std::move(base), notes); },
-                    default_belief(plant));
+                    belief_of_silence(plant));
 }
 
 bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,

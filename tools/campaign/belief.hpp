@@ -146,7 +146,7 @@ struct FallingBodyBelief {
 // J th'' = torque - G sin th - c tanh(th' / v_s) - b th', on the output side; the recorded torque drives it.
 struct RotaryAxisBelief {
   struct Axis {
-    double inertia_kg_m2 = 1.0;
+    double inertia_kg_m2 = 1.0;       // 0: not known, on a bench whose axis is locked in every trial
     double gravity_torque_Nm = 0.0;  // G = m g l, at th = pi/2; th = 0 hangs down
     double viscous_friction_Nm_s = 0.0;
     double coulomb_friction_Nm = 0.0;
@@ -155,7 +155,7 @@ struct RotaryAxisBelief {
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
-      visit("inertia_kg_m2", self.inertia_kg_m2, Range{1e-9, 1e6});
+      visit("inertia_kg_m2", self.inertia_kg_m2, Range{0.0, 1e6});
       visit("gravity_torque_Nm", self.gravity_torque_Nm, Range{-1e6, 1e6});
       visit("viscous_friction_Nm_s", self.viscous_friction_Nm_s, Range{0.0, 1e6});
       visit("coulomb_friction_Nm", self.coulomb_friction_Nm, Range{0.0, 1e6});
@@ -181,8 +181,11 @@ struct RotaryAxisBelief {
 // In the order of CampaignPlant.
 using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, RotaryAxisBelief>;
 
-// What the plant believes when nothing is said.
+// What the plant believes when nothing is said: for a hopper this project's robot in its bed.
 Belief default_belief(CampaignPlant plant);
+// The same without physics that a file of its owner must ask for: no friction of rail and joints, no cogging, and of
+// the bed only the straight line, without intercept, added mass, drag and an unloading line of its own.
+Belief belief_of_silence(CampaignPlant plant);
 // Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
 // key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
 // their simulator has, and what is not known here limits no conclusion.

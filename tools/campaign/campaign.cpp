@@ -6,7 +6,9 @@
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/plausible.hpp"
 #include "tools/campaign/recordings_folder.hpp"
+#include "tools/campaign/table_format.hpp"
 
 namespace sandhopper {
 namespace {
@@ -53,8 +55,10 @@ class Loader {
     if (const auto* columns = root.find("columns")) columns_ = read_columns(*columns);
     if (const auto* available = root.find("available"))
       campaign_.available = read_available(*available, campaign_.file.string(), campaign_.findings);
+    if (const auto* format = root.find("format")) take_format(*format, format_);
     read_trials(root);
     for (const auto& child : root.children) note_unknown(child);
+    for (auto& finding : implausible_beliefs(campaign_)) campaign_.findings.push_back(std::move(finding));
     return std::move(campaign_);
   }
 
@@ -109,7 +113,7 @@ class Loader {
   std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
     std::vector<ColumnMapping> columns;
     for (const auto& child : table.children) {
-      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position};
+      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false};
       bool right = true;
       if (child.kind == Kind::text) {
         mapping.column = child.text;
@@ -119,7 +123,9 @@ class Loader {
           if (part.key == "column" && part.kind == Kind::text)
             mapping.column = part.text;
           else if (part.key == "scale" && number)
-            mapping.scale = *number;
+            mapping.scale = *number, mapping.has_scale = true;
+          else if (part.key == "unit" && part.kind == Kind::text)
+            mapping.unit = part.text;
           else if (part.key == "offset" && number)
             mapping.offset = *number;
           else
@@ -129,13 +135,21 @@ class Loader {
       if (!right || mapping.column.empty()) {
         add(FindingKind::set_up, FindingSeverity::channel_unusable, child.key_position, child.key,
             "this mapping cannot be understood",
-            fmt::format("write {} = {{ column = \"NAME\", scale = 1.0, offset = 0.0 }}", child.key));
+            fmt::format("write {} = {{ column = \"NAME\", unit = \"mm\", scale = 0.001, offset = 0.0 }}", child.key));
         continue;
       }
       check_mapped(mapping);
       columns.push_back(std::move(mapping));
     }
     return columns;
+  }
+
+  bool take_format(const ConfigNode& table, CsvFormat& format) {
+    auto problems = read_format(table, format);
+    for (auto& problem : problems)
+      add(FindingKind::file_format, FindingSeverity::trial_unusable, problem.position, problem.key,
+          std::move(problem.text), "see [format] in tools/campaign/README.md");
+    return problems.empty();
   }
 
   void check_mapped(const ColumnMapping& mapping) {
@@ -178,6 +192,7 @@ class Loader {
     trial.position = file->position;
     trial.belief = campaign_.belief;
     trial.index = campaign_.trials.size();
+    trial.format = format_;
     bool usable = true;
     std::vector<ConfigProblem> problems;
     for (const auto& child : node.children) {
@@ -190,6 +205,8 @@ class Loader {
         usable &= read_selection(child, trial);
       else if (child.key == "also" && child.kind == Kind::table)
         usable &= read_companion(child, trial);
+      else if (child.key == "format" && child.kind == Kind::table)
+        usable &= take_format(child, trial.format);
       else
         read_setup(child, trial, problems);
     }
@@ -238,7 +255,9 @@ class Loader {
           "names no second recording", "write also = { file = \"plate.csv\", columns = { t_s = \"t\" } }");
       return false;
     }
-    CompanionFile companion{(campaign_.recordings / file->text).lexically_normal(), {}};
+    CompanionFile companion{(campaign_.recordings / file->text).lexically_normal(), {}, format_};
+    if (const auto* format = table.find("format"); format != nullptr && !take_format(*format, companion.format))
+      return false;
     if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
     trial.companions.push_back(std::move(companion));
     return true;
@@ -261,8 +280,8 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name",      "plant",   "model",       "data", "source",
-                                                 "available", "columns", "every_trial", "trial"};
+    static const std::vector<std::string> kKnown{"name",    "plant",  "model",       "data",  "source", "available",
+                                                 "columns", "format", "every_trial", "trial"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));
@@ -276,6 +295,7 @@ class Loader {
 
   Campaign campaign_;
   std::vector<ColumnMapping> columns_;
+  CsvFormat format_{};
 };
 
 }  // namespace

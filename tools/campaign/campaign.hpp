@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/node.hpp"
+#include "firmware/log/csv_layout.hpp"
 #include "tools/campaign/available.hpp"
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/finding.hpp"
@@ -17,11 +18,15 @@ namespace sandhopper {
 
 // channel = scale x column + offset
 struct ColumnMapping {
-  std::string channel;
-  std::string column;
+  std::string channel{};
+  std::string column{};
   double scale = 1.0;
   double offset = 0.0;
   ConfigPosition position{};  // in campaign.toml
+  std::string unit{};         // of the column's numbers, as the experimenter states it; empty: not stated
+  bool has_scale = false;     // `scale` is written down
+
+  bool is_stated() const { return !unit.empty() && has_scale; }  // its experimenter knows what it holds
 };
 
 // Rows that count: where `column` holds `value`, between two times of the file.
@@ -36,6 +41,7 @@ struct RowSelection {
 struct CompanionFile {
   std::filesystem::path file;
   std::vector<ColumnMapping> columns;  // its own, t_s among them where its time has another name
+  CsvFormat format{};
 };
 
 using SetupValue = std::variant<double, std::string, bool>;
@@ -52,6 +58,7 @@ struct CampaignTrial {
   std::vector<SetupEntry> setup;       // everything else the experimenter wrote down
   std::vector<ColumnMapping> columns;  // the campaign's, with the trial's own in front
   RowSelection rows{};
+  CsvFormat format{};  // how its file is written
   std::vector<CompanionFile> companions{};
   ConfigPosition position{};  // of its [[trial]]
   // What its recording is read against: the campaign's belief with the set-up's own values.
@@ -84,8 +91,9 @@ struct Campaign {
 //   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
 //   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
 //   also    = { file = "plate.csv", columns = { t_s = "t" } }                  a second file of the trial
-// [every_trial] holds keys that each [[trial]] has unless it says otherwise, and [available] what the next
-// trial can be (available.hpp).
+//   format  = { decimal = ",", header_line = 4 }                               how its file is written
+// [format] says the last for all trials (table_format.hpp), [every_trial] holds keys that each [[trial]] has
+// unless it says otherwise, and [available] what the next trial can be (available.hpp).
 // `data` names the folder of recordings that are kept elsewhere (recordings_folder.hpp), `source` says how to
 // get them. Throws ConfigError where nothing can be read at all: no campaign.toml, not TOML, no or an unknown
 // plant, no trial, a model that is not right in every key, a `data` folder that is not on this computer.

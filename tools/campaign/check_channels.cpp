@@ -272,7 +272,7 @@ class Checker {
 }  // namespace
 
 std::uint64_t RecordingPlaces::character(std::uint64_t line, std::uint64_t number) const {
-  return file.ends_with(".mcap") ? 1 : csv_cell_character(file, line, number);
+  return file.ends_with(".mcap") ? 1 : csv_cell_character(file, line, number, format);
 }
 
 void check_channels(TrialRecording& recording, CampaignPlant plant, const RecordingPlaces& places) {

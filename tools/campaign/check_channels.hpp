@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "firmware/log/csv_layout.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 namespace sandhopper {
@@ -15,6 +16,7 @@ struct RecordingPlaces {
   std::string file;
   std::vector<std::uint64_t> lines{};    // of the rows
   std::vector<std::uint64_t> numbers{};  // of the channels' columns, from 1
+  CsvFormat format{};                    // as its owner states it
 
   // At which a column's cell begins in a line; 1 in a log, which has no characters.
   std::uint64_t character(std::uint64_t line, std::uint64_t number) const;

@@ -12,6 +12,8 @@ std::string to_string(const Finding& f) {
   if (!f.channel.empty()) text += ": " + f.channel;
   text += ": " + f.what;
   if (!f.cure.empty()) text += "; " + f.cure;
+  for (char& c : text)  // a terminal obeys control characters
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   return text;
 }
 

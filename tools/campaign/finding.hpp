@@ -27,11 +27,16 @@ enum class FindingKind : std::uint8_t {
   saturated,
   stuck,
   wrong_plant,
-  set_up
+  set_up,
+  file_format,      // how the file is written, where that is unusual or not known
+  unit_disagrees,   // the file and campaign.toml state different units
+  coarse_time,      // times with too few digits
+  held_samples,     // values repeated, or zeros filled in, between true samples
+  implausible       // not possible on this plant: a unit is likely to be wrong
 };
 template <>
 struct EnumNames<FindingKind> {
-  static constexpr std::array<std::string_view, 19> value{"missing_file",
+  static constexpr std::array<std::string_view, 24> value{"missing_file",
                                                           "unreadable_file",
                                                           "empty_file",
                                                           "no_header",
@@ -49,7 +54,12 @@ struct EnumNames<FindingKind> {
                                                           "saturated",
                                                           "stuck",
                                                           "wrong_plant",
-                                                          "set_up"};
+                                                          "set_up",
+                                                          "file_format",
+                                                          "unit_disagrees",
+                                                          "coarse_time",
+                                                          "held_samples",
+                                                          "implausible"};
 };
 
 // What it costs: nothing but what the text says was left out, the whole channel, or the whole trial.

@@ -2,237 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <numeric>
-#include <sstream>
 
 #include "config/hint.hpp"
-#include "firmware/log/csv_export.hpp"
-#include "firmware/log/csv_import.hpp"
-#include "firmware/log/mcap_reader.hpp"
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/companion.hpp"
+#include "tools/campaign/plausible.hpp"
 #include "tools/campaign/position_loop.hpp"
+#include "tools/campaign/read_table.hpp"
+#include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
+#include "tools/campaign/unit_check.hpp"
 
 namespace sandhopper {
 namespace {
 
-namespace fs = std::filesystem;
 using enum FindingSeverity;
-
-constexpr std::uint64_t kMostSlips = 3;
-
-struct FaultMeaning {
-  FindingKind kind;
-  FindingSeverity severity;
-};
-
-FaultMeaning meaning_of(CsvFault fault) {
-  using enum CsvFault;
-  switch (fault) {
-    case no_header:
-      return {FindingKind::no_header, trial_unusable};
-    case no_rows:
-      return {FindingKind::empty_file, trial_unusable};
-    case no_time_column:
-      return {FindingKind::no_time, trial_unusable};
-    case duplicate_column:
-      return {FindingKind::duplicate_column, channel_unusable};
-    case ragged_row:
-      return {FindingKind::ragged_row, note};
-    case not_a_number:
-      return {FindingKind::non_numeric_cell, note};
-    case not_finite:
-      return {FindingKind::nan_cell, note};
-    case no_time:
-      return {FindingKind::no_time, note};
-    case time_backwards:
-      return {FindingKind::time_backwards, note};
-    case time_stands_still:
-      return {FindingKind::time_stands_still, note};
-    case gap:
-      return {FindingKind::gap, note};
-  }
-  return {FindingKind::unreadable_file, trial_unusable};
-}
 
 class Reader {
  public:
   Reader(const Campaign& campaign, const CampaignTrial& trial) : campaign_(campaign), trial_(trial) {}
 
   TrialRecording run() {
-    const auto file = locate();
-    if (!file) return std::move(out_);
-    file_ = places_.file = file->string();
-    if (!read_table(*file)) return std::move(out_);
-    translate_issues();
+    auto read = read_table(campaign_, trial_, out_.findings);
+    if (!read) return std::move(out_);
+    table_ = std::move(read->table);
+    unusable_columns_ = std::move(read->unusable_columns);
+    out_.own_log = read->own_log;
+    file_ = places_.file = read->file;
+    places_.format = trial_.format;
     if (!any_unusable(out_.findings)) take_columns();
+    if (!any_unusable(out_.findings)) judge_time();
     if (!any_unusable(out_.findings)) forget_unused_columns();
     if (!any_unusable(out_.findings)) judge_plant();
     if (!any_unusable(out_.findings)) select_rows();
-    if (!any_unusable(out_.findings)) {
-      join_equal_times(out_, places_);
-      note_gaps(out_, places_);
-      check_channels(out_, campaign_.plant, places_);
-    }
+    if (!any_unusable(out_.findings)) judge_samples();
     return std::move(out_);
   }
 
  private:
-  std::optional<fs::path> locate() {
-    std::error_code error;
-    if (!fs::exists(trial_.file, error)) {
-      complain(FindingKind::missing_file, trial_unusable,
-               fmt::format("the recording {} does not exist", trial_.file.string()),
-               "correct file = \"…\" (it is relative to this folder) or take the trial out");
-      return std::nullopt;
+  void judge_samples() {
+    if (!out_.own_log) check_times(out_, places_, trial_.format.spread_times);
+    if (any_unusable(out_.findings)) return;
+    join_equal_times(out_, places_);
+    if (!out_.own_log) {
+      check_held_samples(out_, places_);
+      check_plausible(out_, campaign_, trial_, places_);
     }
-    if (!fs::is_directory(trial_.file, error)) return trial_.file;
-    for (const auto* ending : {".mcap", ".csv"}) {
-      std::vector<fs::path> found;
-      for (const auto& entry : fs::directory_iterator(trial_.file, error))
-        if (entry.path().extension() == ending) found.push_back(entry.path());
-      if (found.size() == 1) return found.front();
-      if (found.size() > 1) {
-        complain(FindingKind::unreadable_file, trial_unusable,
-                 fmt::format("the folder {} holds {} recordings", trial_.file.string(), found.size()),
-                 "name one of them: file = \"FOLDER/trial_001.mcap\"");
-        return std::nullopt;
-      }
-    }
-    complain(FindingKind::missing_file, trial_unusable,
-             fmt::format("the folder {} holds no .mcap or .csv recording", trial_.file.string()),
-             "name a recording, or the folder that `hop trial` made");
-    return std::nullopt;
-  }
-
-  bool read_table(const fs::path& file) {
-    try {
-      if (file.extension() == ".mcap") {
-        std::stringstream text;
-        const auto exported = export_csv(file, text, {.optional_channels = true});
-        table_ = parse(text);
-        out_.own_log = true;
-        if (exported.truncated_at)
-          add(FindingKind::unreadable_file, note, 0, 0, "",
-              fmt::format("the log is cut at byte {}", *exported.truncated_at),
-              "what precedes the cut is used");
-        if (exported.lost_records > 0)
-          add(FindingKind::gap, note, 0, 0, "",
-              fmt::format("{} records were lost when it was logged", exported.lost_records), "");
-        return true;
-      }
-      std::ifstream in(file);
-      if (!in) throw std::runtime_error("cannot be opened");
-      if (in.peek() == std::ifstream::traits_type::eof()) {
-        add(FindingKind::empty_file, trial_unusable, 1, 1, "", "the file is empty",
-            "record the trial again or take it out of campaign.toml");
-        return false;
-      }
-      table_ = parse(in);
-      return true;
-    } catch (const std::exception& error) {
-      add(FindingKind::unreadable_file, trial_unusable, 0, 0, "",
-          fmt::format("cannot be read: {}", error.what()), "check the file and its permissions");
-      return false;
-    }
-  }
-
-  // By the mapped name of the time, or by t_s where the file has no such column.
-  CsvTable parse(std::istream& in) {
-    CsvReadOptions options;
-    options.gap_steps = std::numeric_limits<double>::infinity();
-    options.list_repeats = false;
-    options.max_issues = 1000;
-    const auto* time = mapping_of("t_s");
-    if (!trial_.rows.column.empty()) options.check_order = false;
-    if (time == nullptr) return read_csv(in, options);
-    options.time_column = time->column;
-    auto table = read_csv(in, options);
-    if (table.find(time->column) != nullptr || table.find("t_s") == nullptr) return table;
-    in.clear();
-    in.seekg(0);
-    options.time_column = "t_s";
-    return read_csv(in, options);
-  }
-
-  void translate_issues() {
-    std::uint64_t dropped = 0, line = 0;
-    for (const auto& issue : table_.issues) {
-      auto meaning = meaning_of(issue.fault);
-      const std::uint64_t count = issue.repeats + 1;
-      if (issue.fault == CsvFault::no_time_column && !table_.names.empty()) suggest_time(issue);
-      if (issue.fault == CsvFault::no_time_column && !table_.names.empty()) continue;
-      if (issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite)
-        if (const auto* column = table_.find(issue.name);
-            column != nullptr && count * 5 > samples_in(*column) + count)
-          meaning.severity = channel_unusable;
-      if (issue.fault == CsvFault::duplicate_column) {
-        unusable_columns_.push_back(issue.name);
-        if (table_.find(issue.name) == time_column()) meaning.severity = trial_unusable;
-      }
-      // A few rows out of order are slips; a clock set back leaves nothing to count time by.
-      if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table_.rows() / 100)
-        meaning.severity = trial_unusable;
-      if (meaning.severity == channel_unusable) unusable_columns_.push_back(issue.name);
-      const bool drops = issue.fault == CsvFault::ragged_row || issue.fault == CsvFault::no_time ||
-                         issue.fault == CsvFault::time_backwards;
-      if (drops) dropped += count;
-      if (drops && line == 0) line = issue.line;
-      add(meaning.kind, meaning.severity, issue.line, issue.column, issue.name, issue.text + repeats(issue),
-          cure_for(issue.fault));
-    }
-    if (dropped * 5 > table_.rows())
-      add(FindingKind::unreadable_file, trial_unusable, line, 1, "",
-          fmt::format("{} of {} rows had to be left out, too many to trust the rest", dropped,
-                      dropped + table_.rows()),
-          "repair the file");
-  }
-
-  static std::string repeats(const CsvIssue& issue) {
-    if (issue.repeats == 0) return "";
-    return fmt::format(" (and {} more like it, the last in line {})", issue.repeats, issue.last_line);
-  }
-
-  static std::uint64_t samples_in(const std::vector<double>& column) {
-    return static_cast<std::uint64_t>(
-        std::count_if(column.begin(), column.end(), [](double value) { return !std::isnan(value); }));
-  }
-
-  // No t_s: what the file calls its time, or the whole file belongs to something else.
-  void suggest_time(const CsvIssue& issue) {
-    std::string cure = "name the column of the time: [columns] t_s = { column = \"NAME\", scale = 1.0 }";
-    for (const auto& name : table_.names) {
-      const auto misnamed = misnamed_unit(name, campaign_.plant);
-      const bool is_time = name == "t" || name == "time" || name == "Time" || name.starts_with("time") ||
-                           (misnamed && misnamed->channel == "t_s");
-      if (!is_time) continue;
-      const auto unit = split_unit(name);
-      const bool known = unit && unit->dimension == "time" && unit->to_si > 0.0;
-      const double scale = known ? unit->to_si : 1.0;
-      cure = fmt::format("add t_s = {{ column = \"{}\", scale = {} }} to [columns] (scale: to seconds)", name,
-                         scale);
-      break;
-    }
-    add(FindingKind::no_time, trial_unusable, issue.line, 1, issue.name,
-        fmt::format("no column is called \"{}\"; the columns are {}", issue.name,
-                    fmt::join(table_.names, ", ")),
-        cure);
-  }
-
-  const ColumnMapping* mapping_of(std::string_view channel) const {
-    for (const auto& mapping : trial_.columns)
-      if (mapping.channel == channel) return &mapping;
-    return nullptr;
-  }
-
-  const std::vector<double>* time_column() const {
-    const auto* mapped = mapping_of("t_s");
-    const auto* column = mapped == nullptr ? nullptr : table_.find(mapped->column);
-    return column != nullptr ? column : table_.find("t_s");
+    if (out_.has_time) note_gaps(out_, places_);
+    check_channels(out_, campaign_.plant, places_);
   }
 
   void take_columns() {
@@ -241,7 +60,7 @@ class Reader {
     std::vector<std::string_view> taken{"t_s"};
     for (const auto& mapping : trial_.columns) {
       if (std::find(taken.begin(), taken.end(), mapping.channel) != taken.end()) continue;
-      const bool plain = table_.find(mapping.column) == nullptr && table_.find(mapping.channel) != nullptr;
+      const bool plain = find_column(table_, mapping.column) == nullptr && table_.find(mapping.channel) != nullptr;
       if (plain) continue;  // this file already bears the channel's own name
       taken.push_back(mapping.channel);
       take_mapped(mapping);
@@ -251,21 +70,22 @@ class Reader {
       if (used_[i] || name == trial_.rows.column) continue;
       const bool mapped = std::find(taken.begin(), taken.end(), name) != taken.end();
       if (find_channel(campaign_.plant, name) != nullptr && !mapped)
-        take(i, name, 1.0, 0.0);
+        take(i, ColumnMapping{name, name});
       else
         leave(i);
     }
   }
 
   void take_time() {
-    const auto* mapping = mapping_of("t_s");
-    const auto* column = time_column();
-    if (column == nullptr) return;  // said already
+    const auto* mapping = mapping_of(trial_, "t_s");
+    const auto* column = time_column(table_, trial_);
+    places_.lines = table_.lines;
+    if (column == nullptr) return;  // judge_time
     const auto i = index_of(*column);
-    const bool mapped = mapping != nullptr && table_.names[i] == mapping->column;
-    const double scale = mapped ? mapping->scale : 1.0;
-    const double offset = mapped ? mapping->offset : 0.0;
-    if (!(scale > 0.0)) {
+    const bool mapped = mapping != nullptr && find_column(table_, mapping->column) == column;
+    const auto scale = unit_scale(i, mapped ? *mapping : ColumnMapping{"t_s", table_.names[i]});
+    if (!scale) return;
+    if (!(*scale > 0.0)) {
       complain_at(mapping->position, FindingKind::set_up, trial_unusable, "t_s",
                   "the scale of the time must be positive",
                   "write scale = 1.0 for seconds, 0.001 for milliseconds");
@@ -273,35 +93,80 @@ class Reader {
     }
     used_[i] = true;
     out_.t_s = *column;
-    for (double& time_s : out_.t_s) time_s = scale * time_s + offset;
-    places_.lines = table_.lines;
+    for (double& time_s : out_.t_s) time_s = *scale * time_s + (mapped ? mapping->offset : 0.0);
+  }
+
+  // Force against depth needs no time: rows are then taken in the order of the file.
+  void judge_time() {
+    if (time_column(table_, trial_) != nullptr) return;
+    const auto* mapping = mapping_of(trial_, "t_s");
+    const std::string wanted = mapping == nullptr ? "t_s" : mapping->column;
+    const std::string cure = cure_for_time(table_, campaign_.plant);
+    const bool force_against_depth = campaign_.plant == CampaignPlant::intruder && mapping == nullptr &&
+                                     out_.has("foot_z_m") && out_.has("force_N");
+    if (force_against_depth && cure.empty()) {
+      out_.has_time = false;
+      out_.t_s.resize(table_.rows());
+      for (std::size_t row = 0; row < out_.t_s.size(); ++row) out_.t_s[row] = static_cast<double>(row);
+      add(FindingKind::no_time, note, table_.layout.header_line, 1, wanted,
+          "the file has no time: force against depth is read in the order of the rows, and nothing that needs a speed "
+          "can be said",
+          "for that add a column of the time: [columns] t_s = { column = \"NAME\", scale = 1.0 }");
+      return;
+    }
+    add(FindingKind::no_time, trial_unusable, table_.layout.header_line, 1, wanted,
+        fmt::format("no column is called \"{}\"; the columns are {}", wanted, fmt::join(table_.names, ", ")),
+        cure.empty() ? "add a column of the time, in s, and name it: [columns] t_s = { column = \"NAME\", scale = 1.0 }"
+                     : cure);
   }
 
   void take_mapped(const ColumnMapping& mapping) {
-    const auto* column = table_.find(mapping.column);
+    const auto* column = find_column(table_, mapping.column);
     if (column == nullptr) {
       const auto near = nearest_words(mapping.column, table_.names, 1);
-      add(FindingKind::missing_column, channel_unusable, 1, 1, mapping.column,
+      add(FindingKind::missing_column, channel_unusable, table_.layout.header_line, 1, mapping.column,
           fmt::format("no such column for channel {}; the columns are {}", mapping.channel,
                       fmt::join(table_.names, ", ")),
           near.empty() ? "correct [columns] or export that column"
                        : fmt::format("did you mean \"{}\"? correct [columns]", near.front()));
       return;
     }
-    take(index_of(*column), mapping.channel, mapping.scale, mapping.offset);
+    take(index_of(*column), mapping);
   }
 
-  void take(std::size_t i, const std::string& channel, double scale, double offset) {
+  // The factor to the channel's unit; nothing where the file and the mapping disagree on it.
+  std::optional<double> unit_scale(std::size_t i, const ColumnMapping& mapping) {
+    if (out_.own_log) return mapping.scale;
+    double largest = 0.0;
+    for (const double value : table_.columns[i])
+      if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
+    const auto verdict = check_unit({.column = table_.names[i],
+                                     .channel = mapping.channel,
+                                     .row_unit = table_.units[i],
+                                     .stated_unit = mapping.unit,
+                                     .scale = mapping.scale,
+                                     .has_scale = mapping.has_scale,
+                                     .largest = largest});
+    if (verdict.problem.empty()) return verdict.scale;
+    const bool by_row = table_.layout.units_line > 0 && !table_.units[i].empty();
+    add(FindingKind::unit_disagrees, trial_unusable, by_row ? table_.layout.units_line : table_.layout.header_line,
+        header_character(i), table_.names[i], fmt::format("for {}: {}", mapping.channel, verdict.problem), verdict.cure);
+    return std::nullopt;
+  }
+
+  void take(std::size_t i, const ColumnMapping& mapping) {
     used_[i] = true;
     if (std::find(unusable_columns_.begin(), unusable_columns_.end(), table_.names[i]) !=
         unusable_columns_.end())
       return;
+    const auto scale = unit_scale(i, mapping);
+    if (!scale) return;
     auto values = table_.columns[i];
     const bool empty =
         std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
     if (empty) return;  // as if it were not there
-    for (double& value : values) value = scale * value + offset;
-    out_.channels.push_back({channel, std::move(values)});
+    for (double& value : values) value = *scale * value + mapping.offset;
+    out_.channels.push_back({mapping.channel, std::move(values)});
     places_.numbers.push_back(table_.numbers[i]);
   }
 
@@ -309,7 +174,7 @@ class Reader {
     const auto& name = table_.names[i];
     out_.unused_columns.push_back(name);
     const auto misnamed = misnamed_unit(name, campaign_.plant);
-    if (!misnamed || table_.find(misnamed->channel) != nullptr || mapping_of(misnamed->channel) != nullptr)
+    if (!misnamed || table_.find(misnamed->channel) != nullptr || mapping_of(trial_, misnamed->channel) != nullptr)
       return;
     const auto cure =
         misnamed->scale
@@ -317,7 +182,7 @@ class Reader {
                           name, *misnamed->scale)
             : fmt::format("say what it is in SI units: {} = {{ column = \"{}\", scale = … }} in [columns]",
                           misnamed->channel, name);
-    add(FindingKind::unknown_unit, channel_unusable, 1, header_character(i), name,
+    add(FindingKind::unknown_unit, channel_unusable, table_.layout.header_line, header_character(i), name,
         fmt::format("looks like channel {} in the unit \"{}\", which is not the channel's; column left out",
                     misnamed->channel, misnamed->unit),
         cure);
@@ -341,7 +206,7 @@ class Reader {
     if (own) return;
     std::vector<std::string> foreign;
     std::optional<CampaignPlant> plant;
-    std::uint64_t place = 1;
+    std::uint64_t place = 1, line = table_.layout.header_line;
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
       const auto owner = plant_with_channel(table_.names[i]);
       if (!owner || *owner == campaign_.plant) continue;
@@ -350,16 +215,28 @@ class Reader {
       foreign.push_back(table_.names[i]);
     }
     if (plant)
-      add(FindingKind::wrong_plant, trial_unusable, 1, place, foreign.front(),
+      add(FindingKind::wrong_plant, trial_unusable, line, place, foreign.front(),
           fmt::format("{} {} of plant \"{}\", the campaign's is \"{}\"", fmt::join(foreign, ", "),
                       foreign.size() == 1 ? "is a channel" : "are channels", name_of(*plant),
                       name_of(campaign_.plant)),
           "correct plant in campaign.toml, or put this trial into a campaign of its own");
     else
-      add(FindingKind::unknown_column, trial_unusable, 1, 1, "",
+      add(FindingKind::unknown_column, trial_unusable, line, 1, "",
           fmt::format("no column is a channel of plant \"{}\"; the columns are {}", name_of(campaign_.plant),
                       fmt::join(table_.names, ", ")),
-          "say in [columns] which column is which channel");
+          is_linear_stage() ? "a linear stage obeys the equation of plant \"rotary_axis\" with m for rad, N for N m and kg "
+                              "for kg m^2: position_rad = { column = \"NAME\", unit = \"m\", scale = 1.0 } in [columns], "
+                              "inertia_kg_m2 = its mass"
+                            : "say in [columns] which column is which channel");
+  }
+
+  // An axis that is recorded in metres.
+  bool is_linear_stage() const {
+    if (campaign_.plant != CampaignPlant::rotary_axis) return false;
+    return std::any_of(table_.names.begin(), table_.names.end(), [](const auto& name) {
+      const auto unit = unit_in_name(name);
+      return unit && (unit->dimension == "length" || unit->dimension == "speed");
+    });
   }
 
   void select_rows() {
@@ -372,9 +249,8 @@ class Reader {
       return;
     }
     std::vector<std::size_t> keep;
-    const auto* file_time_s = time_column();
-    if (file_time_s == nullptr) return;
-    const auto time_s = *file_time_s;
+    const auto* file_time_s = time_column(table_, trial_);
+    const auto time_s = file_time_s == nullptr ? out_.t_s : *file_time_s;
     for (std::size_t row = 0; row < out_.t_s.size(); ++row)
       if ((column == nullptr || (*column)[row] == rows.value) && time_s[row] >= rows.from_s &&
           time_s[row] <= rows.to_s)
@@ -388,7 +264,7 @@ class Reader {
     if (keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
   }
 
-  std::uint64_t header_character(std::size_t i) const { return places_.character(1, table_.numbers[i]); }
+  std::uint64_t header_character(std::size_t i) const { return places_.character(table_.layout.header_line, table_.numbers[i]); }
 
   std::size_t index_of(const std::vector<double>& column) const {
     return static_cast<std::size_t>(&column - table_.columns.data());
@@ -429,6 +305,7 @@ TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial) 
     other.file = companion.file;
     other.kind = trial.kind;
     other.columns = companion.columns;
+    other.format = companion.format;
     other.position = trial.position;
     other.belief = trial.belief;
     join_companion(recording, Reader(campaign, other).run());

@@ -1,7 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
 #include "config/files.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/campaign_draft.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/cli/campaign_keys.hpp"
 #include "tools/cli/progress.hpp"
@@ -19,6 +25,9 @@ struct Options {
   int trials = 15;
   std::uint64_t seed = 1;
   bool every_key = false;
+  std::vector<std::string> files;  // to import
+  std::string import_plant;
+  std::string import_output;
 };
 
 nlohmann::ordered_json as_json(const Finding& f) {
@@ -26,6 +35,10 @@ nlohmann::ordered_json as_json(const Finding& f) {
           {"file", f.file},          {"line", f.line},
           {"column", f.column},      {"channel", f.channel},
           {"what", f.what},          {"cure", f.cure}};
+}
+
+nlohmann::ordered_json to_json(const UsedNumber& n) {
+  return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
 }
 
 ExitCode check(Session& session, const Options& options) {
@@ -46,13 +59,23 @@ ExitCode check(Session& session, const Options& options) {
     usable += recording.usable();
     progress.at(static_cast<double>(trial.index));
   }
+  const auto used = used_numbers(campaign);
+  auto numbers = nlohmann::ordered_json::array();
+  for (const auto& number : used.numbers) {
+    const bool listed = number.source != UsedNumber::Source::plant_default ||
+                        !(number.key.starts_with("sensors.") || number.key.starts_with("spread."));
+    if (listed) session.say("  {}", to_string(number));
+    numbers.push_back(to_json(number));
+  }
+  session.say("  {} more numbers are 0 by default: what they stand for is not assumed", used.off);
   session.say("{}: plant {}, {} trials, {} usable", campaign.name, name_of(campaign.plant),
               campaign.trials.size(), usable);
   session.result = {{"campaign", campaign.name},
                     {"plant", name_of(campaign.plant)},
                     {"trials", campaign.trials.size()},
                     {"usable", usable},
-                    {"findings", findings}};
+                    {"findings", findings},
+                    {"belief", numbers}};
   return usable == campaign.trials.size() && campaign.findings.empty() ? ExitCode::ok : ExitCode::no;
 }
 
@@ -76,6 +99,49 @@ ExitCode make(Session& session, const Options& options) {
   session.say("{}: {} simulated trials; look at them with 'hop terrain {}'", options.output, options.trials,
               options.output);
   session.result = {{"folder", options.output}, {"plant", options.plant}, {"trials", options.trials}};
+  return ExitCode::ok;
+}
+
+void write_new(const std::filesystem::path& file, const std::string& text) {
+  if (std::filesystem::exists(file))
+    throw Failure(ExitCode::usage, file.string() + " exists already and is not overwritten",
+                  "name another folder with --output");
+  std::ofstream out(file);
+  if (!(out << text).flush())
+    throw Failure(ExitCode::fault, file.string() + " cannot be written", "name a folder you may write with --output");
+}
+
+std::optional<CampaignPlant> plant_named(const std::string& name) {
+  const auto& names = EnumNames<CampaignPlant>::value;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<CampaignPlant>(found - names.begin());
+}
+
+ExitCode import_files(Session& session, const Options& options) {
+  const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
+  const auto folder = options.import_output.empty() ? std::filesystem::absolute(files.front()).parent_path()
+                                                    : std::filesystem::path(options.import_output);
+  CampaignDraft draft;
+  try {
+    draft = draft_campaign(files, plant_named(options.import_plant), folder);
+  } catch (const std::runtime_error& error) {
+    throw Failure(ExitCode::no, error.what(), "name a table: rows of numbers under the names of their columns");
+  }
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  write_new(folder / "campaign.toml", draft.campaign_toml);
+  write_new(folder / "nominal.toml", draft.nominal_toml);
+  session.say("{} is taken for:", files.front().string());
+  for (const auto& line : draft.said) session.say("  {}", line);
+  const auto campaign = load_campaign(folder);
+  for (const auto& finding : campaign.findings) session.say("{} ({})", to_string(finding), name_of(finding.severity));
+  for (const auto& trial : campaign.trials)
+    for (const auto& finding : read_trial(campaign, trial).findings)
+      session.say("{} ({})", to_string(finding), name_of(finding.severity));
+  session.say("wrote {} and nominal.toml: correct what is wrong there, then 'hop campaign check {}'",
+              (folder / "campaign.toml").string(), folder.string());
+  session.result = {{"folder", folder.string()}, {"plant", name_of(draft.plant)}, {"taken_for", draft.said}};
   return ExitCode::ok;
 }
 
@@ -103,8 +169,15 @@ Run set_up(Arguments& arguments) {
       .show_default();
   making.add_option("--seed", options->seed, "of the first trial; the next ones count up").show_default();
   making.add_option("--output", options->output, "folder to write").required();
-  return [options, checking, keys](Session& session) {
+  auto importing = arguments.add_verb("import", "look at a table of another program and write a campaign for it");
+  importing.add_option("FILE", options->files, "recordings, all written alike (.csv, .txt)").required().existing_file();
+  importing.add_option("--plant", options->import_plant, "default: guessed from the columns")
+      .one_of({"hopper", "intruder", "falling_body", "rotary_axis"});
+  importing.add_option("--output", options->import_output,
+                       "folder for campaign.toml and nominal.toml; default: that of the first file");
+  return [options, checking, keys, importing](Session& session) {
     if (keys.parsed()) return print_campaign_keys(session, options->plant, options->every_key);
+    if (importing.parsed()) return import_files(session, *options);
     return checking.parsed() ? check(session, *options) : make(session, *options);
   };
 }

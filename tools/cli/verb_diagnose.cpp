@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
@@ -41,10 +42,42 @@ std::filesystem::path corrected_file(const std::filesystem::path& folder,
   return file;
 }
 
+// The numbers that the answer rests on, and who said them; those of [sensors] and [spread] by default are counted.
+void tell_belief(Session& session, const UsedNumbers& used) {
+  std::size_t counted = 0;
+  for (const auto& number : used.numbers) {
+    const bool is_default = number.source == UsedNumber::Source::plant_default;
+    const bool of_sensors = number.key.starts_with("sensors.") || number.key.starts_with("spread.");
+    if (is_default && of_sensors)
+      ++counted;
+    else
+      session.say("belief {}", to_string(number));
+  }
+  session.say("belief {} numbers of sensors and spread are defaults (in diagnosis.json), {} more are 0: not assumed",
+              counted, used.off);
+}
+
+// Not one trial could be read: there is nothing to say about physics, and the findings say why.
+ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& folder, std::size_t trials) {
+  sandhopper::diagnose::Diagnosis nothing;
+  nothing.verdict = "insufficient_data";
+  nothing.detail = "null";
+  nothing.notes.push_back(fmt::format("none of {} trials can be used: correct what is said about them", trials));
+  session.result = sandhopper::diagnose::to_json(nothing);
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  write(folder / "diagnosis.json", session.result.dump(2) + "\n");
+  session.say("no verdict: {}", nothing.notes.front());
+  return ExitCode::no;
+}
+
 ExitCode diagnose(Session& session, const Options& options) {
   const Campaign campaign = load_campaign(options.campaign);
   const auto input = sandhopper::diagnose::read_campaign(campaign);
   for (const auto& finding : input.findings) session.say_line(to_string(finding));
+  const std::filesystem::path folder =
+      options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
+  if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;
   Progress progress("diagnosing", 1.0);
@@ -55,13 +88,15 @@ ExitCode diagnose(Session& session, const Options& options) {
   const auto diagnosis = sandhopper::diagnose::diagnose(input.recordings, engine);
   if (options.search)
     for (const auto& line : diagnosis.log) session.say_line(line);
-  const std::filesystem::path folder =
-      options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
   session.result = sandhopper::diagnose::to_json(diagnosis);
+  auto& belief = session.result["belief"] = nlohmann::ordered_json::array();
+  for (const auto& n : used_numbers(campaign).numbers)
+    belief.push_back({{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}});
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
+  tell_belief(session, used_numbers(campaign));
   if (!diagnosis.corrected_model_toml.empty()) {
     const auto file = corrected_file(folder, campaign.model);
     write(file, diagnosis.corrected_model_toml);

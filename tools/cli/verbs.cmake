@@ -27,7 +27,7 @@ sandhopper_verb(calibrate "find zeros, gains and delays of the sensors, and writ
   SOURCES calibrate_encoders.cpp calibrate_imu.cpp calibrate_load_cell.cpp calibrate_timing.cpp calibrate_tof.cpp
           calibrate_torque_constant.cpp
   LIBRARIES sandhopper_calibrate)
-sandhopper_verb(campaign "check a campaign of recordings, or make a simulated one"
+sandhopper_verb(campaign "check or import recordings, or make a simulated campaign"
   SOURCES campaign_keys.cpp LIBRARIES sandhopper_campaign sandhopper_trial)
 sandhopper_verb(conceal "make campaigns in which physics is hidden, to test 'hop diagnose'"
   LIBRARIES sandhopper_benchmark)

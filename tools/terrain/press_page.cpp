@@ -249,8 +249,13 @@ Json json_of(const IntrusionFit& fit) {
 std::string line_of(const IntrusionFit& fit) {
   if (!fit.chosen) return "No trial presses into a bed.";
   const auto& law = fit.laws[*fit.chosen];
-  auto line = fmt::format("Depth law of {} presses: {}, rms {:.2f} N.", fit.fit_trials, title_of(law.fit.law),
-                          law.fit.rms_N);
+  const auto text = text_of(law.fit.law);
+  auto line = fmt::format("Depth law of {} presses: {}, F = {} with K = {} N/cm³", fit.fit_trials,
+                          title_of(law.fit.law), text.equation,
+                          figure_number(1e-6 * law.fit.stiffness_per_area_N_per_m3));
+  if (law.fit.law != DepthLaw::linear)
+    line += fmt::format(", {} = {}", text.shape, figure_number(text.scale * law.fit.shape));
+  line += fmt::format("; rms {:.2f} N.", law.fit.rms_N);
   if (fit.held_out_trials > 0)
     line += fmt::format(" On {} held-out presses: rms {:.2f} N; error {} at 5, {} at 10, {} at 20 mm.",
                         fit.held_out_trials, law.heldout_rms_N, percent(law.relative_error[0]),

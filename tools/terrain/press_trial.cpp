@@ -81,7 +81,7 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
     const bool relieved = row.depth_m < deepest_m - kRelieved_m;
     if (row.t_s <= window.to_s && row.depth_m > 0.0 && !relieved) loading.push_back(row);
   }
-  if (!on_stop && is_fast(loading)) return;
+  if (!on_stop && recording.has_time && is_fast(loading)) return;
   keep_thinned(result.series, "press_path", path);
   if (!on_stop) keep_thinned(result.series, "press_loading", loading);
   const double diameter_m = 2.0 * std::get<IntruderBelief>(trial.belief).foot.radius_m;

@@ -12,7 +12,7 @@ constexpr double kSlow_mps = 0.077;
 
 bool slow(const TrialRecording& recording) {
   const auto* depth = recording.find("foot_z_m");
-  if (depth == nullptr) return true;
+  if (depth == nullptr || !recording.has_time) return true;
   double first_t = std::nan(""), last_t = 0.0, low = INFINITY, high = -INFINITY;
   for (std::size_t i = 0; i < recording.rows(); ++i) {
     if (std::isnan((*depth)[i])) continue;

@@ -28,7 +28,22 @@ struct Plate {
   double fastest_mps = 0.0;
 
   bool tells_drag() const { return fastest_mps >= kFastest_mps && trials.size() >= 3; }
+  // Why not, with what to record.
+  std::string why_no_drag() const {
+    if (trials.size() < 3)
+      return fmt::format("stiffness at rest, drag and added mass need three strokes of one plate, there {} {}",
+                         trials.size() == 1 ? "is" : "are", trials.size());
+    return fmt::format("stiffness at rest, drag and added mass need strokes faster than {} m/s, the fastest has {:.2g}",
+                       kFastest_mps, fastest_mps);
+  }
 };
+
+// Mean slope of a straight line through each stroke, whatever its speed.
+TrialMean any_slope(const Plate& plate) {
+  std::vector<double> slopes;
+  for (const auto* trial : plate.trials) slopes.push_back(trial->value("slope_N_per_m"));
+  return mean_over_trials(slopes);
+}
 
 std::vector<Plate> plates_of(Results results) {
   std::vector<Plate> plates;
@@ -186,7 +201,8 @@ PlateReport report_plate(const Plate& plate) {
   out.row = {fmt::format("{:.0f}", 1e3 * plate.diameter_m), fmt::format("{}", plate.trials.size()),
              mean_text(slow)};
   if (!plate.tells_drag()) {
-    out.json["ruled_out"] = "drag and added mass: fewer than three strokes, or none faster than 0.3 m/s";
+    out.json["ruled_out"] = plate.why_no_drag();
+    out.json["slope_N_per_m"] = mean_json(any_slope(plate));
     out.row.insert(out.row.end(), {"–", "–", "–", "–"});
     return out;
   }
@@ -232,7 +248,8 @@ CampaignConclusions conclude_strokes(Results results) {
       .text_columns = 0,
       .note =
           "F = F0 + k z + (a + b z + c z²) v² + m_a(z) z̈ with m_a the integral of the drag; 95 % intervals "
-          "by leaving out one stroke after the other. Slow: below 0.077 m/s."};
+          "by leaving out one stroke after the other. Slow: below 0.077 m/s. –: needs three strokes, one of them "
+          "faster than 0.3 m/s."};
   std::vector<StudyFigure> figures{path_figure(results), slope_figure(plates)};
   const auto fused = std::count_if(results.begin(), results.end(), [](const TrialResult* result) {
     const auto facts = result->series.find("stroke");
@@ -249,7 +266,12 @@ CampaignConclusions conclude_strokes(Results results) {
     auto report = report_plate(plate);
     table.rows.push_back(report.row);
     std::move(report.figures.begin(), report.figures.end(), std::back_inserter(figures));
-    told.lines.push_back(fmt::format(
+    if (!plate.tells_drag())
+      told.lines.push_back(fmt::format("strokes, {:.0f} mm plate: {} trials, slope of a straight line {} N/m; {}",
+                                       1e3 * plate.diameter_m, plate.trials.size(), mean_text(any_slope(plate)),
+                                       plate.why_no_drag()));
+    else
+      told.lines.push_back(fmt::format(
         "strokes, {:.0f} mm plate: {} trials, k {} N/m, drag at the surface {} kg/m, added mass at 30 mm {} "
         "kg",
         1e3 * plate.diameter_m, plate.trials.size(), report.row[3], report.row[5], report.row[6]));

@@ -37,6 +37,10 @@ class Stroke {
                                            in_.has("force_N") ? "foot_z_m" : "force_N"));
       return;
     }
+    if (!in_.has_time) {
+      out_.ruled_out.emplace_back("force against depth and speed: the file has no time, so no speed");
+      return;
+    }
     find_motion();
     force_N_.assign(in_.channel("force_N").begin(), in_.channel("force_N").end());
     remove_offset();

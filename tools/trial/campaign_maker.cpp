@@ -114,6 +114,15 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
   }
 }
 
+// What the simulation has and a nominal.toml must ask for.
+std::string bed_keys(const BedParameters& bed) {
+  return fmt::format(
+      "[terrain]\nintercept_depth_m         = {}\nadded_mass_factor         = {}\ndrag_factor               = {}\n"
+      "unloading_stiffness_ratio = {}\nunloading_damping_ratio   = {}\n",
+      bed.intercept_depth_m, bed.added_mass_factor, bed.drag_factor, bed.unloading_stiffness_ratio,
+      bed.unloading_damping_ratio);
+}
+
 }  // namespace
 
 void make_hop_campaign(const CampaignMakerSetup& setup) {
@@ -122,7 +131,11 @@ void make_hop_campaign(const CampaignMakerSetup& setup) {
   auto out = begin(setup.folder, {"simulated hops", "hopper"});
   open(setup.folder / "nominal.toml")
       << "[sensors]\nencoder_latency_s = 0.001   # a row holds the reply to the "
-         "previous cycle's command\n";
+         "previous cycle's command\n\n"
+      << fmt::format("[robot]\nrail_coulomb_N        = {}\njoint_coulomb_Nm      = {}\ncogging_amplitude_Nm  = {}\n\n",
+                     setup.world.robot.rail_coulomb_N, setup.world.robot.joint_coulomb_Nm,
+                     setup.world.robot.cogging_amplitude_Nm)
+      << bed_keys(setup.world.terrain);
   const fs::path log = setup.folder / "making.mcap";
   for (int i = 0; i < setup.trials; ++i) {
     SimTrialSetup trial{.robot = setup.robot, .world = setup.world, .log = log};
@@ -147,7 +160,7 @@ void make_hop_campaign(const CampaignMakerSetup& setup) {
 
 void make_intrusion_campaign(const CampaignMakerSetup& setup) {
   auto out = begin(setup.folder, {"simulated intrusions", "intruder"});
-  open(setup.folder / "nominal.toml") << "[foot]\nradius_m = 0.040\n";
+  open(setup.folder / "nominal.toml") << "[foot]\nradius_m = 0.040\n\n" << bed_keys(setup.world.terrain);
   for (int i = 0; i < setup.trials; ++i) {
     const auto what = intrusion(i);
     record_intrusion(setup.world, what, setup.seed + static_cast<std::uint64_t>(i),

@@ -7,29 +7,15 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/setup_keys.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/rotary_axis/free_axis.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
-
-template <class T>
-void flatten(const T& table, const std::string& prefix, std::map<std::string, double>& out) {
-  T::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
-    const std::string name = prefix + std::string(key);
-    if constexpr (HasFields<const Member>) {
-      flatten(member, name + ".", out);
-    } else if constexpr (std::is_arithmetic_v<Member>) {
-      out[name] = static_cast<double>(member);
-    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
-      if (member) out[name] = *member;
-    }
-  });
-}
 
 PlantKind kind_of(CampaignPlant plant) {
   switch (plant) {
@@ -109,6 +95,12 @@ void begin_at_zero(Recordings& recordings) {
   }
 }
 
+// An axis without inertia cannot be simulated as it moves.
+bool is_locked_only(const CampaignTrial& trial) {
+  const auto* axis = std::get_if<RotaryAxisBelief>(&trial.belief);
+  return axis != nullptr && axis->axis.inertia_kg_m2 == 0.0 && trial.kind != TrialKind::clamped;
+}
+
 void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInput& input) {
   const auto tell = [&](std::string what, std::string cure) {
     input.findings.push_back({.kind = FindingKind::set_up,
@@ -135,12 +127,8 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
 
 Belief flattened(const sandhopper::Belief& belief) {
   Belief flat;
-  std::visit(
-      [&](const auto& plant) {
-        flatten(plant, "", flat.numbers);
-        flat.effects = plant.effects;
-      },
-      belief);
+  flat.numbers = numbers_of(belief);
+  std::visit([&](const auto& plant) { flat.effects = plant.effects; }, belief);
   return flat;
 }
 
@@ -157,7 +145,23 @@ CampaignInput read_campaign(const Campaign& campaign) {
     for (const auto& finding : recording.findings)  // a file that several trials share has each once
       if (std::ranges::find(input.findings, finding) == input.findings.end())
         input.findings.push_back(finding);
-    if (!recording.usable()) {
+    if (!recording.has_time)
+      input.findings.push_back({.kind = FindingKind::no_time,
+                                .severity = FindingSeverity::trial_unusable,
+                                .file = described.file.string(),
+                                .what = "has no time, which a diagnosis needs: it compares courses in time",
+                                .cure = "add a column of the time; hop terrain gives the depth law without one"});
+    if (!recording.usable() || !recording.has_time) {
+      ++input.unusable;
+      continue;
+    }
+    if (is_locked_only(described)) {
+      input.findings.push_back({.kind = FindingKind::set_up,
+                                .severity = FindingSeverity::trial_unusable,
+                                .file = described.file.string(),
+                                .channel = "axis.inertia_kg_m2",
+                                .what = "is 0, which is right only for an axis that is locked",
+                                .cure = "write kind = \"clamped\" for such a trial, or state the inertia"});
       ++input.unusable;
       continue;
     }

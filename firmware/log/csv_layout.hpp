@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/log/csv_cells.hpp"
+#include "firmware/log/csv_text.hpp"
+
+// How the lines of a table are to be read: stated by its owner, or found by looking at its first lines.
+namespace sandhopper {
+
+// What the owner states, [format] of campaign.toml; the rest is found.
+struct CsvFormat {
+  std::optional<TextEncoding> encoding{};
+  std::optional<char> separator{};
+  std::optional<char> decimal{};
+  std::optional<char> thousands{};            // '\0': none
+  std::optional<std::uint64_t> header_line{};  // from 1; 0: the columns have no names but `names`
+  std::optional<std::uint64_t> units_line{};   // 0: none
+  std::vector<std::string> names{};            // of the columns, where the file has none
+  std::vector<std::string> no_sample{};        // further words that say so
+  bool spread_times = false;  // rows that share a time came evenly: times with too few digits
+};
+
+struct CsvLayout {
+  TextEncoding encoding = TextEncoding::utf8;
+  char separator = ',';
+  NumberStyle numbers{};
+  std::uint64_t header_line = 1;  // 0: none
+  std::uint64_t units_line = 0;   // 0: none
+  std::uint64_t first_row_line = 2;
+  std::string header_mark{};       // in front of the names: "#"
+  bool is_ambiguous = false;       // 1,234 may be 1234 or 1.234, and nothing in the file tells
+  std::string ambiguous_cell{};
+  // What is unusual about the file, for its owner: "its names stand in line 3; lines 1 to 2 are passed over".
+  std::vector<std::string> said{};
+};
+
+// The table is the longest run of lines with equally many cells, most of them numbers; its names stand in the
+// nearest line above with as many cells that are no numbers, units in the line between. A line that states
+// `sep=;` is obeyed. Of several ways to divide the lines the one with most numbers counts.
+CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding, const CsvFormat& stated);
+
+// A line that holds no cells: blank, or a remark ("#", "%", "//") behind the header.
+bool is_remark(std::string_view line);
+// The line without the remark's mark and the blanks around it.
+std::string_view without_mark(std::string_view line, std::string& mark);
+// "m", "[mm]", "(deg)", "N·m", "-": what a row of units holds in a cell.
+bool looks_like_unit(std::string_view text);
+
+}  // namespace sandhopper

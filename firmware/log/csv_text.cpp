@@ -1,0 +1,196 @@
+#include "firmware/log/csv_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <istream>
+#include <iterator>
+
+namespace sandhopper {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::size_t kLookedAt = 1 << 16;  // bytes
+
+constexpr std::string_view kSaveAsCsv =
+    "open it in the program that wrote it and save it as CSV UTF-8 (Excel: File, Save as, \"CSV UTF-8\"), then "
+    "name that file";
+constexpr std::string_view kPandas =
+    "write it as a table: python3 -c \"import pandas as pd; pd.read_…('FILE').to_csv('FILE.csv', index=False)\"";
+
+struct Magic {
+  std::string_view bytes;
+  BinaryFormat format;
+};
+constexpr std::array kMagic{
+    Magic{"PK\x03\x04"sv, {"a spreadsheet or another zip archive (.xlsx, .ods, .zip)", kSaveAsCsv}},
+    Magic{"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, {"an old Excel file (.xls)", kSaveAsCsv}},
+    Magic{"\x89HDF\r\n\x1A\n"sv, {"an HDF5 file (.h5, .mat of version 7.3)", kPandas}},
+    Magic{"MATLAB 5.0 MAT-file"sv, {"a MATLAB file (.mat)", "in MATLAB: writetable(T, 'FILE.csv')"}},
+    Magic{"PAR1"sv, {"a Parquet file", kPandas}},
+    Magic{"TDSm"sv,
+          {"a LabVIEW measurement (.tdms)", "export it as text from LabVIEW or Excel, or by npTDMS in Python"}},
+    Magic{"\x1F\x8B"sv, {"compressed (.gz)", "unpack it with gunzip and name the table inside"}},
+    Magic{"\x28\xB5\x2F\xFD"sv, {"compressed (.zst)", "unpack it with unzstd and name the table inside"}},
+    Magic{"#ROSBAG V"sv, {"a ROS 1 bag", "write the topic as a table: rostopic echo -b FILE -p /TOPIC > FILE.csv"}},
+    Magic{"SQLite format 3"sv, {"a database (SQLite, or a ROS 2 bag)", "write the topic as a table and name it"}},
+    Magic{"\x93NUMPY"sv,
+          {"a NumPy array (.npy)", "write it as a table: numpy.savetxt('FILE.csv', a, delimiter=',', header='t_s,…')"}},
+    Magic{"%PDF"sv, {"a PDF", "export the table itself as CSV"}},
+    Magic{"\x89MCAP0\r\n"sv, {"an MCAP log", "give it the ending .mcap"}}};
+
+// Characters 0x80 to 0x9F of Windows-1252; the rest are those of Latin-1. Source: WHATWG Encoding Standard,
+// index windows-1252.
+constexpr std::array<char32_t, 32> kWindows{
+    0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
+    0x2039, 0x0152, 0x8D,   0x017D, 0x8F,   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
+    0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+
+void append_utf8(std::string& out, char32_t c) {
+  const auto put = [&](char32_t byte) { out.push_back(static_cast<char>(byte)); };
+  if (c < 0x80) {
+    put(c);
+  } else if (c < 0x800) {
+    put(0xC0 | (c >> 6));
+    put(0x80 | (c & 0x3F));
+  } else if (c < 0x10000) {
+    put(0xE0 | (c >> 12));
+    put(0x80 | ((c >> 6) & 0x3F));
+    put(0x80 | (c & 0x3F));
+  } else {
+    put(0xF0 | (c >> 18));
+    put(0x80 | ((c >> 12) & 0x3F));
+    put(0x80 | ((c >> 6) & 0x3F));
+    put(0x80 | (c & 0x3F));
+  }
+}
+
+unsigned byte_at(std::string_view bytes, std::size_t i) { return static_cast<unsigned char>(bytes[i]); }
+
+// Bytes of the character that begins with `first`; 0: no character begins so.
+std::size_t length_of_character(unsigned first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first < 0xE0) return 2;
+  if (first >= 0xE0 && first < 0xF0) return 3;
+  if (first >= 0xF0 && first < 0xF5) return 4;
+  return 0;
+}
+
+bool is_utf8(std::string_view bytes) {
+  for (std::size_t i = 0; i < bytes.size();) {
+    const std::size_t length = length_of_character(byte_at(bytes, i));
+    if (length == 0) return false;
+    for (std::size_t k = 1; k < length && i + k < bytes.size(); ++k)
+      if ((byte_at(bytes, i + k) & 0xC0) != 0x80) return false;
+    i += length;
+  }
+  return true;
+}
+
+std::string from_utf16(std::string_view bytes, bool big_endian) {
+  std::string out;
+  out.reserve(bytes.size() / 2);
+  const auto unit = [&](std::size_t i) -> char32_t {
+    const unsigned a = byte_at(bytes, i), b = byte_at(bytes, i + 1);
+    return big_endian ? (a << 8) | b : (b << 8) | a;
+  };
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    char32_t c = unit(i);
+    const bool pair = c >= 0xD800 && c < 0xDC00 && i + 3 < bytes.size();
+    if (pair) c = 0x10000 + ((c - 0xD800) << 10) + ((unit(i += 2) - 0xDC00) & 0x3FF);
+    if (c != 0xFEFF) append_utf8(out, c);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes) {
+  for (const auto& magic : kMagic)
+    if (first_bytes.starts_with(magic.bytes)) return magic.format;
+  return std::nullopt;
+}
+
+TextEncoding encoding_of(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE"sv)) return TextEncoding::utf16_le;
+  if (bytes.starts_with("\xFE\xFF"sv)) return TextEncoding::utf16_be;
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    if (bytes[i] == '\0') ++zeros[i % 2];
+  // Digits and separators of UTF-16 have one byte 0 each: nearly half of all bytes, all on one side.
+  if (zeros[1] * 3 > bytes.size() && zeros[0] * 10 < zeros[1]) return TextEncoding::utf16_le;
+  if (zeros[0] * 3 > bytes.size() && zeros[1] * 10 < zeros[0]) return TextEncoding::utf16_be;
+  return is_utf8(bytes) ? TextEncoding::utf8 : TextEncoding::windows_1252;
+}
+
+std::string utf8_from(std::string_view bytes, TextEncoding encoding) {
+  switch (encoding) {
+    case TextEncoding::utf16_le:
+      return from_utf16(bytes, false);
+    case TextEncoding::utf16_be:
+      return from_utf16(bytes, true);
+    case TextEncoding::windows_1252: {
+      std::string out;
+      for (const char byte : bytes) {
+        const auto c = static_cast<unsigned char>(byte);
+        append_utf8(out, c >= 0x80 && c < 0xA0 ? kWindows[c - 0x80U] : c);
+      }
+      return out;
+    }
+    case TextEncoding::utf8:
+      break;
+  }
+  return std::string(bytes);
+}
+
+TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
+    : in_(in), encoding_(TextEncoding::utf8) {
+  held_.resize(kLookedAt);
+  in_.read(held_.data(), static_cast<std::streamsize>(held_.size()));
+  held_.resize(static_cast<std::size_t>(in_.gcount()));
+  first_bytes_ = held_.substr(0, 32);
+  encoding_ = encoding.value_or(encoding_of(held_));
+  if (encoding_ == TextEncoding::utf16_le || encoding_ == TextEncoding::utf16_be) {
+    held_.append(std::istreambuf_iterator<char>(in_), {});
+    held_ = utf8_from(held_, encoding_);
+  }
+  if (held_.starts_with(kByteOrderMark)) held_.erase(0, kByteOrderMark.size());
+  is_old_mac_ = held_.find('\n') == std::string::npos && held_.find('\r') != std::string::npos;
+  std::string line;
+  while (ahead_.size() < kAhead && read(line)) ahead_.push_back(line);
+}
+
+bool TextLines::next(std::string& line) {
+  if (ahead_.empty()) return read(line);
+  line = std::move(ahead_.front());
+  ahead_.pop_front();
+  return true;
+}
+
+bool TextLines::raw_line(std::string& line) {
+  const char end = is_old_mac_ ? '\r' : '\n';
+  if (at_ < held_.size()) {
+    const auto stop = held_.find(end, at_);
+    line = held_.substr(at_, stop == std::string::npos ? stop : stop - at_);
+    at_ = stop == std::string::npos ? held_.size() : stop + 1;
+    if (stop != std::string::npos || !in_) return true;
+    std::string rest;  // the line goes on behind what was looked at
+    if (std::getline(in_, rest, end)) line += rest;
+    return true;
+  }
+  if (!held_.empty()) std::string().swap(held_), at_ = 0;
+  return static_cast<bool>(std::getline(in_, line, end));
+}
+
+bool TextLines::read(std::string& line) {
+  if (!raw_line(line)) return false;
+  if (line.ends_with('\r')) line.pop_back();
+  const auto has_high_byte = [&] { return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; }); };
+  const bool other = encoding_ == TextEncoding::windows_1252 ||
+                     (encoding_ == TextEncoding::utf8 && has_high_byte() && !is_utf8(line));
+  if (other) line = utf8_from(line, TextEncoding::windows_1252);
+  return true;
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,102 @@
+#include "tools/campaign/belief_sources.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+#include "config/hint.hpp"
+#include "config/load.hpp"
+#include "tools/campaign/belief_notes.hpp"
+
+namespace sandhopper {
+namespace {
+
+template <class T>
+void flatten(const T& table, const std::string& prefix, std::map<std::string, double>& out) {
+  T::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
+    const std::string name = prefix + std::string(key);
+    if constexpr (HasFields<const Member>) {
+      flatten(member, name + ".", out);
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      out[name] = static_cast<double>(member);
+    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+      if (member) out[name] = *member;
+    }
+  });
+}
+
+// Lines of the model file by "table.key".
+std::map<std::string, std::uint64_t> lines_of(const std::filesystem::path& model) {
+  std::map<std::string, std::uint64_t> lines;
+  if (model.empty()) return lines;
+  const auto document = parse_config_file(model.string());
+  for (const auto& child : document.root.children) {
+    if (child.kind != ConfigNode::Kind::table) lines[child.key] = static_cast<std::uint64_t>(child.key_position.line);
+    if (child.kind == ConfigNode::Kind::table)
+      for (const auto& inner : child.children)
+        lines[child.key + "." + inner.key] = static_cast<std::uint64_t>(inner.key_position.line);
+  }
+  return lines;
+}
+
+std::string table_of(const std::string& key) {
+  const auto dot = key.find('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+std::string last_of(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// [sensors] and [spread] of the simple plants are empty by default: a range at its far end is none.
+bool is_without_effect(CampaignPlant plant, const std::string& key) {
+  const bool simple = plant == CampaignPlant::falling_body || plant == CampaignPlant::rotary_axis;
+  const auto table = table_of(key);
+  return simple && (table == "sensors" || table == "spread");
+}
+
+}  // namespace
+
+std::map<std::string, double> numbers_of(const Belief& belief) {
+  std::map<std::string, double> numbers;
+  std::visit([&](const auto& plant) { flatten(plant, "", numbers); }, belief);
+  return numbers;
+}
+
+UsedNumbers used_numbers(const Campaign& campaign) {
+  UsedNumbers used;
+  const auto lines = lines_of(campaign.model);
+  std::vector<std::map<std::string, double>> of_trials;
+  for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
+  for (const auto& [key, value] : numbers_of(campaign.belief)) {
+    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
+    std::size_t own = 0;
+    for (std::size_t i = 0; i < of_trials.size(); ++i) {
+      const auto it = of_trials[i].find(key);
+      if (it == of_trials[i].end()) continue;
+      own += it->second != value;
+      number.low = i == 0 ? it->second : std::min(number.low, it->second);
+      number.high = i == 0 ? it->second : std::max(number.high, it->second);
+    }
+    const auto line = lines.find(key);
+    if (own > 0) {
+      number.source = UsedNumber::Source::trial_setup;
+      number.said_by = fmt::format("set-up of {} of {} trials", own, of_trials.size());
+    } else if (line != lines.end()) {
+      number.source = UsedNumber::Source::model_file;
+      number.said_by = fmt::format("{}, line {}", campaign.model.filename().string(), line->second);
+    } else {
+      if (value == 0.0) ++used.off;
+      if (value == 0.0 || is_without_effect(campaign.plant, key)) continue;
+      number.said_by = "default: " + belief_note(table_of(key), last_of(key)).default_reason;
+    }
+    used.numbers.push_back(std::move(number));
+  }
+  return used;
+}
+
+std::string to_string(const UsedNumber& n) {
+  const std::string value = n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
+  return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.said_by);
+}
+
+}  // namespace sandhopper

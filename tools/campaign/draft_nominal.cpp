@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <type_traits>
+
+#include "config/hint.hpp"
+#include "tools/campaign/belief.hpp"
+#include "tools/campaign/belief_notes.hpp"
+#include "tools/campaign/campaign_draft.hpp"
+
+namespace sandhopper {
+namespace {
+
+// Without these the answer hangs on a number that nobody stated.
+constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2",        "inertia_kg_m2", "gravity_torque_Nm", "mass_kg",
+                                                  "radius_m", "stiffness_N_per_m"};
+
+// A number as TOML reads a real.
+std::string toml_real(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+class NominalWriter {
+ public:
+  template <class Table>
+  void write(const Table& table, const std::string& name) {
+    Table::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range range = {}) {
+      if constexpr (!HasFields<const Member>) line(name, key, member, range);
+    });
+    Table::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
+      if constexpr (HasFields<const Member>) {
+        text_ += fmt::format("\n[{}]\n", key);
+        write(member, std::string(key));
+      }
+    });
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  template <class Member>
+  void line(const std::string& table, std::string_view key, const Member& member, Range range) {
+    if (key.ends_with("_name")) return;
+    std::string value = "0.0";
+    if constexpr (std::is_same_v<Member, bool>)
+      value = member ? "true" : "false";
+    else if constexpr (std::is_arithmetic_v<Member>)
+      value = toml_real(static_cast<double>(member));
+    else if constexpr (std::is_same_v<Member, std::optional<double>>)
+      value = member ? toml_real(*member) : toml_real(std::max(0.0, range.low));
+    else
+      return;
+    const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
+                        std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
+    const auto note = belief_note(table, key);
+    std::string comment = unit_of_key(key);
+    if (!note.does.empty()) comment += (comment.empty() ? "" : "; ") + note.does;
+    text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value, comment.empty() ? "" : "   # " + comment);
+  }
+
+  std::string text_;
+};
+
+}  // namespace
+
+std::string draft_nominal(CampaignPlant plant) {
+  NominalWriter writer;
+  std::visit([&](const auto& belief) { writer.write(belief, ""); }, default_belief(plant));
+  return fmt::format(
+             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take the # away\n"
+             "# from what you know besides; what stays a remark is not there, or has the value that stands here.\n",
+             name_of(plant)) +
+         writer.take();
+}
+
+}  // namespace sandhopper

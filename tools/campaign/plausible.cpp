@@ -1,0 +1,304 @@
+#include "tools/campaign/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace sandhopper {
+namespace {
+
+using enum CampaignPlant;
+using enum FindingSeverity;
+
+constexpr double kLongestBed_m = 5.0;
+constexpr std::string_view kDrive = "MIT protocol of the drives: a position is coded over +-12.5 rad";
+constexpr std::string_view kJoint = "MIT protocol of the drives: a speed is coded over +-65 rad/s at most; three times that";
+constexpr std::string_view kImu = "the widest shock accelerometers of such rigs carry 2000 m/s2 (200 g); ten times that";
+constexpr std::string_view kTall = "a leg of 0.4 m in a laboratory";
+
+constexpr std::array kBounds{
+    PlausibleBound{intruder, "foot_z_m", kLongestBed_m, "no bed of a laboratory is deeper or higher"},
+    PlausibleBound{intruder, "foot_velocity_mps", 10.0, "free fall from 5 m"},
+    PlausibleBound{intruder, "foot_accel_mps2", 2e4, kImu},
+    PlausibleBound{intruder, "force_N", 1e6, "the frame of a large testing machine"},
+    PlausibleBound{falling_body, "accel_mps2", 1e5, "a steel ball on steel: 10,000 g"},
+    PlausibleBound{falling_body, "pressure_Pa", 1e7, "a depth of 1000 m of water"},
+    PlausibleBound{rotary_axis, "velocity_radps", 2000.0, "a rotor at 19,000 rpm"},
+    PlausibleBound{rotary_axis, "torque_Nm", 1e5, "the range of the largest shaft torque sensors"},
+    PlausibleBound{hopper, "motor_left_position_rad", 12.5, kDrive},
+    PlausibleBound{hopper, "motor_right_position_rad", 12.5, kDrive},
+    PlausibleBound{hopper, "motor_left_velocity_radps", 200.0, kJoint},
+    PlausibleBound{hopper, "motor_right_velocity_radps", 200.0, kJoint},
+    PlausibleBound{hopper, "motor_left_current_A", 500.0, "ten times the peak current of drives of a few kW"},
+    PlausibleBound{hopper, "motor_right_current_A", 500.0, "ten times the peak current of drives of a few kW"},
+    PlausibleBound{hopper, "tof_height_m", 10.0, kTall},
+    PlausibleBound{hopper, "mocap_body_z_m", 10.0, kTall},
+    PlausibleBound{hopper, "mocap_foot_z_m", 10.0, kTall},
+    PlausibleBound{hopper, "load_cell_force_N", 1e5, "a hundred times the weight of a robot of 100 kg"},
+    PlausibleBound{hopper, "imu_body_accel_z_mps2", 2e4, kImu},
+    PlausibleBound{hopper, "imu_foot_accel_z_mps2", 2e4, kImu}};
+
+// The plant's belief, as stated for the trial.
+template <class T>
+const T* belief_of(const CampaignTrial& trial) {
+  return std::get_if<T>(&trial.belief);
+}
+
+double gravity_of(const Belief& belief) {
+  return std::visit([](const auto& plant) { return plant.gravity_mps2; }, belief);
+}
+
+double largest(std::span<const double> values) {
+  double most = 0.0;
+  for (const double value : values)
+    if (!std::isnan(value)) most = std::max(most, std::abs(value));
+  return most;
+}
+
+class PlausibilityChecker {
+ public:
+  PlausibilityChecker(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial, const RecordingPlaces& places)
+      : recording_(recording), campaign_(campaign), trial_(trial), places_(places) {}
+
+  void run() {
+    check_bounds();
+    if (!recording_.has_time) return;
+    check_clock();
+    check_rates();
+    check_fall();
+  }
+  void check_forces() {
+    if (campaign_.plant == intruder && trial_.kind != TrialKind::clamped) check_overburden();
+  }
+
+ private:
+  bool is_stated(std::string_view channel) const {
+    return std::any_of(trial_.columns.begin(), trial_.columns.end(),
+                       [&](const auto& mapping) { return mapping.channel == channel && mapping.is_stated(); });
+  }
+
+  // "X = { column = …, unit = …, scale = … }", which says that the values are as they are.
+  std::string cure(std::string_view channel) const {
+    std::string column(channel);
+    for (const auto& mapping : trial_.columns)
+      if (mapping.channel == channel) column = mapping.column;
+    return fmt::format(
+        "correct its scale; if it is so, say it in [columns]: {} = {{ column = \"{}\", unit = \"…\", scale = … }}", channel,
+        column);
+  }
+
+  void check_bounds() {
+    for (const auto& bound : kBounds) {
+      if (bound.plant != campaign_.plant || !recording_.has(bound.channel)) continue;
+      const double most = bound_of(bound);
+      const double value = largest(recording_.channel(bound.channel));
+      if (value <= most) continue;
+      add(bound.channel,
+          fmt::format("reaches {:.4g}, which is not plausible: {} ({:.4g})", value, bound.source, most),
+          is_stated(bound.channel));
+    }
+  }
+
+  // A stated depth of the bed counts instead of what laboratories have.
+  double bound_of(const PlausibleBound& bound) const {
+    if (bound.channel != "foot_z_m") return bound.most;
+    return std::max(bound.most, 2.0 * trial_.number("bed_depth_m").value_or(0.0));
+  }
+
+  // Milliseconds, or an epoch in them, taken for seconds.
+  void check_clock() {
+    if (recording_.t_s.size() < 10) return;
+    constexpr double kNow_s = 1.7e9;  // 2023, as an epoch
+    const double first = std::abs(recording_.t_s.front());
+    for (const double unit : {1e3, 1e6, 1e9})
+      if (first > 0.5 * kNow_s * unit && first < 3.0 * kNow_s * unit) {
+        add("t_s",
+            fmt::format("begins at {:.6g}, which is an epoch in {}, not in s", first,
+                        unit == 1e3 ? "ms" : unit == 1e6 ? "us" : "ns"),
+            is_stated("t_s"), fmt::format("write t_s = {{ column = \"…\", scale = {} }} in [columns]", 1.0 / unit));
+        return;
+      }
+    const double step_s = (recording_.t_s.back() - recording_.t_s.front()) / static_cast<double>(recording_.t_s.size() - 1);
+    const bool moves = campaign_.plant == hopper && trial_.kind == TrialKind::hop;
+    if (moves && step_s > 0.5)
+      add("t_s", fmt::format("a row comes every {:.3g} s, and a hop takes less than a second", step_s), is_stated("t_s"),
+          "write t_s = { column = \"…\", scale = 0.001 } in [columns] if the times are in ms");
+  }
+
+  void check_rates() {
+    struct Pair {
+      std::string_view position, speed;
+    };
+    constexpr std::array kPairs{Pair{"position_rad", "velocity_radps"}, Pair{"foot_z_m", "foot_velocity_mps"},
+                                Pair{"motor_left_position_rad", "motor_left_velocity_radps"},
+                                Pair{"motor_right_position_rad", "motor_right_velocity_radps"}};
+    for (const auto& pair : kPairs) {
+      const auto ratio = rate_ratio(pair.position, pair.speed);
+      if (!ratio) continue;
+      add(pair.speed,
+          fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}", *ratio,
+                      pair.position, hint(*ratio)),
+          is_stated(pair.position) && is_stated(pair.speed));
+    }
+  }
+
+  static std::string hint(double ratio) {
+    struct Known {
+      double ratio;
+      std::string_view text;
+    };
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    constexpr std::array kKnown{Known{kDegrees, " (57.3: the speed in deg/s)"},
+                                Known{1.0 / kDegrees, " (0.01745: the position in degrees)"},
+                                Known{30.0 / std::numbers::pi, " (9.55: the speed in rpm)"},
+                                Known{1.0 / 6.0, " (1/6: the position in degrees and the speed in rpm)"},
+                                Known{1e3, " (1000: the speed in mm/s or mrad/s, or the time in ms too coarse)"},
+                                Known{1e-3, " (0.001: the position in mm or mrad, or the time in ms)"}};
+    for (const auto& known : kKnown)
+      if (std::abs(std::abs(ratio) / known.ratio - 1.0) < 0.15) return std::string(known.text);
+    return ratio < 0.0 ? " or has the other sign" : "";
+  }
+
+  // Slope of the speed channel over the rate of the position, where they go together and it is far from 1: below
+  // 0.2, above 5, or of the other sign. Rates are taken over a twentieth of the rows, above the sensor's noise.
+  std::optional<double> rate_ratio(std::string_view position, std::string_view speed) const {
+    if (!recording_.has(position) || !recording_.has(speed)) return std::nullopt;
+    const auto x = recording_.channel(position), v = recording_.channel(speed);
+    const std::size_t n = recording_.rows(), span = std::max<std::size_t>(1, n / 20);
+    double dd = 0.0, dv = 0.0, vv = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + span < n; ++i) {
+      if (std::isnan(x[i]) || std::isnan(x[i + span])) continue;
+      double mean = 0.0;
+      std::size_t samples = 0;
+      for (std::size_t k = i; k <= i + span; ++k)
+        if (!std::isnan(v[k])) mean += v[k], ++samples;
+      const double step_s = recording_.t_s[i + span] - recording_.t_s[i];
+      if (samples == 0 || !(step_s > 0.0)) continue;
+      mean /= static_cast<double>(samples);
+      const double rate = (x[i + span] - x[i]) / step_s;
+      dd += rate * rate, dv += rate * mean, vv += mean * mean;
+      ++count;
+    }
+    if (count < 10 || dd <= 0.0 || vv <= 0.0) return std::nullopt;
+    const double ratio = dv / dd, together = dv * dv / (dd * vv);
+    const bool far = ratio < 0.2 || ratio > 5.0;
+    return together > 0.8 && far ? std::optional(ratio) : std::nullopt;
+  }
+
+  void check_fall() {
+    if (campaign_.plant != falling_body || !recording_.has("height_m")) return;
+    constexpr double kThrow_mps = 15.0;
+    const auto h = recording_.channel("height_m");
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < recording_.rows(); ++i) {
+      if (std::isnan(h[i])) continue;
+      if (!first) first = i;
+      const double t = recording_.t_s[i] - recording_.t_s[*first], way = std::abs(h[i] - h[*first]);
+      if (t < 0.05 || way <= kThrow_mps * t + std::max(gravity_of(trial_.belief), 10.0) * t * t) continue;
+      add("height_m",
+          fmt::format("changes by {:.4g} m within {:.3g} s, faster than a throw of 15 m/s and a fall", way, t),
+          is_stated("height_m"));
+      return;
+    }
+  }
+
+  // rho g z A is what the displaced material weighs: less cannot push a foot at rest in a bed.
+  void check_overburden() {
+    const auto* belief = belief_of<IntruderBelief>(trial_);
+    const bool has_foot = trial_.number("plate_diameter_m") || trial_.number("diameter_m") ||
+                          trial_.number("foot_diameter_m") || trial_.number("radius_m") || !campaign_.model.empty();
+    if (belief == nullptr || !has_foot || !recording_.has("foot_z_m") || !recording_.has("force_N")) return;
+    double deepest_m = 0.0;
+    for (const double z : recording_.channel("foot_z_m"))
+      if (!std::isnan(z)) deepest_m = std::max(deepest_m, -z);
+    constexpr double kLightest_kg_per_m3 = 100.0;  // expanded polystyrene beads, cork
+    const double area_m2 = std::numbers::pi * belief->foot.radius_m * belief->foot.radius_m;
+    const double least_N = kLightest_kg_per_m3 * 9.81 * deepest_m * area_m2;
+    const double peak_N = largest(recording_.channel("force_N"));
+    if (peak_N <= 0.0 || peak_N >= 0.2 * least_N) return;
+    add("force_N",
+        fmt::format("reaches {:.3g} N at a depth of {:.3g} m, where even a bed of {:.0f} kg/m3 weighs {:.3g} N above a "
+                    "foot of {:.3g} m: force, depth or foot is in another unit",
+                    peak_N, deepest_m, kLightest_kg_per_m3, least_N, 2.0 * belief->foot.radius_m),
+        is_stated("force_N") && is_stated("foot_z_m"));
+  }
+
+  void add(std::string_view channel, std::string what, bool stated, std::string how = "") {
+    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
+    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file, line, 1,
+                                   std::string(channel), std::move(what),
+                                   stated ? "taken as stated in [columns]" : how.empty() ? cure(channel) : how});
+  }
+
+  TrialRecording& recording_;
+  const Campaign& campaign_;
+  const CampaignTrial& trial_;
+  const RecordingPlaces& places_;
+};
+
+// Of the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan, Venus, Jupiter
+// (NASA Planetary Fact Sheet), and none.
+bool is_known_gravity(double g) {
+  constexpr std::array kElsewhere{0.0, 1.62, 3.7, 3.71, 3.72, 3.73, 1.35, 8.87, 24.8, 24.79};
+  return (g > 9.7 && g < 9.9) || std::any_of(kElsewhere.begin(), kElsewhere.end(),
+                                             [&](double other) { return std::abs(g - other) < 0.006; });
+}
+
+std::string text_of_gravity(double g) {
+  if (std::abs(g - 1.0) < 0.05) return "1 g is 9.81 m/s2";
+  return "on Earth it is 9.78 to 9.83 m/s2";
+}
+
+void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, const std::string& file) {
+  constexpr double kDensest_kg_per_m3 = 22600.0;  // osmium
+  constexpr double kLongest = 30.0;               // length over diameter of the slenderest penetrometers
+  const double area_m2 = belief.body.frontal_area_m2;
+  const double length_m = kLongest * std::sqrt(4.0 * area_m2 / std::numbers::pi);
+  const double volume_m3 = belief.body.volume_m3 > 0.0 ? belief.body.volume_m3 : area_m2 * length_m;
+  const double mass_kg = belief.body.mass_kg;
+  const auto add = [&](std::string what) {
+    out.push_back({FindingKind::implausible, note, file, 0, 0, "body.mass_kg", std::move(what),
+                   "is it in g? write it in kg"});
+  };
+  if (volume_m3 > 0.0 && mass_kg > kDensest_kg_per_m3 * volume_m3)
+    add(fmt::format("{:.4g} kg in {:.3g} m3 at most is denser than any metal", mass_kg, volume_m3));
+  else if (mass_kg > 1000.0)
+    add(fmt::format("a body of {:.4g} kg ({:.3g} t) is not dropped in a laboratory", mass_kg, mass_kg / 1000.0));
+}
+
+}  // namespace
+
+std::span<const PlausibleBound> plausible_bounds() { return kBounds; }
+
+void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                     const RecordingPlaces& places) {
+  PlausibilityChecker checker(recording, campaign, trial, places);
+  checker.run();
+  checker.check_forces();
+}
+
+std::vector<Finding> implausible_beliefs(const Campaign& campaign) {
+  std::vector<Finding> out;
+  const std::string file = campaign.model.empty() ? campaign.file.string() : campaign.model.string();
+  const auto look = [&](const Belief& belief) {
+    const double g = gravity_of(belief);
+    if (!is_known_gravity(g))
+      out.push_back({FindingKind::implausible, note, file, 0, 0, "gravity_mps2",
+                     fmt::format("{:.4g} m/s2 is the gravity of no place: {}", g, text_of_gravity(g)),
+                     "correct it, or leave it so if the rig is inclined or counterbalanced"});
+    if (const auto* body = std::get_if<FallingBodyBelief>(&belief)) check_density(*body, out, file);
+  };
+  look(campaign.belief);
+  for (const auto& trial : campaign.trials) look(trial.belief);
+  std::vector<Finding> once;
+  for (auto& finding : out)
+    if (std::find(once.begin(), once.end(), finding) == once.end()) once.push_back(std::move(finding));
+  return once;
+}
+
+}  // namespace sandhopper

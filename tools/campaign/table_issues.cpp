@@ -1,0 +1,106 @@
+#include "tools/campaign/table_issues.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+using enum FindingSeverity;
+
+constexpr std::uint64_t kMostSlips = 3;
+
+struct FaultMeaning {
+  FindingKind kind;
+  FindingSeverity severity;
+};
+
+FaultMeaning meaning_of(CsvFault fault) {
+  using enum CsvFault;
+  switch (fault) {
+    case no_header:
+      return {FindingKind::no_header, trial_unusable};
+    case no_rows:
+      return {FindingKind::empty_file, trial_unusable};
+    case no_time_column:
+      return {FindingKind::no_time, trial_unusable};
+    case duplicate_column:
+      return {FindingKind::duplicate_column, channel_unusable};
+    case ragged_row:
+      return {FindingKind::ragged_row, note};
+    case not_a_number:
+      return {FindingKind::non_numeric_cell, note};
+    case not_finite:
+      return {FindingKind::nan_cell, note};
+    case no_time:
+      return {FindingKind::no_time, note};
+    case time_backwards:
+      return {FindingKind::time_backwards, note};
+    case time_stands_still:
+      return {FindingKind::time_stands_still, note};
+    case gap:
+      return {FindingKind::gap, note};
+    case not_a_text:
+    case ambiguous_number:
+      return {FindingKind::file_format, trial_unusable};
+  }
+  return {FindingKind::unreadable_file, trial_unusable};
+}
+
+std::string repeats(const CsvIssue& issue) {
+  if (issue.repeats == 0) return "";
+  return fmt::format(" (and {} more like it, the last in line {})", issue.repeats, issue.last_line);
+}
+
+std::uint64_t samples_in(const std::vector<double>& column) {
+  return static_cast<std::uint64_t>(
+      std::count_if(column.begin(), column.end(), [](double value) { return !std::isnan(value); }));
+}
+
+bool drops_rows(CsvFault fault) {
+  return fault == CsvFault::ragged_row || fault == CsvFault::no_time || fault == CsvFault::time_backwards;
+}
+
+FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, const CampaignTrial& trial) {
+  const std::uint64_t count = issue.repeats + 1;
+  const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite;
+  const auto* column = table.table.find(issue.name);
+  if (in_cells && column != nullptr && count * 5 > samples_in(*column) + count) return channel_unusable;
+  if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial)) return trial_unusable;
+  // A few rows out of order are slips; a clock set back leaves nothing to count time by.
+  if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table.table.rows() / 100) return trial_unusable;
+  return meaning_of(issue.fault).severity;
+}
+
+// Cells of a number with a comma and three digits, or of any text: the cure depends on what they hold.
+std::string cure_of(const CsvIssue& issue) {
+  const bool is_comma = issue.fault == CsvFault::not_a_number && issue.text.find(',') != std::string::npos;
+  if (is_comma) return "if that is a decimal comma write [format] decimal = \",\" into campaign.toml";
+  return std::string(cure_for(issue.fault));
+}
+
+}  // namespace
+
+void translate_issues(const Campaign&, const CampaignTrial& trial, TrialTable& table, std::vector<Finding>& findings) {
+  std::uint64_t dropped = 0, line = 0;
+  for (const auto& issue : table.table.issues) {
+    const std::uint64_t count = issue.repeats + 1;
+    if (issue.fault == CsvFault::no_time_column && !table.table.names.empty()) continue;
+    const auto severity = severity_of(issue, table, trial);
+    if (severity == channel_unusable || issue.fault == CsvFault::duplicate_column)
+      table.unusable_columns.push_back(issue.name);
+    if (drops_rows(issue.fault)) dropped += count;
+    if (drops_rows(issue.fault) && line == 0) line = issue.line;
+    findings.push_back({meaning_of(issue.fault).kind, severity, table.file, issue.line, issue.column, issue.name,
+                        issue.text + repeats(issue), cure_of(issue)});
+  }
+  if (dropped * 5 > table.table.rows())
+    findings.push_back({FindingKind::unreadable_file, trial_unusable, table.file, line, 1, "",
+                        fmt::format("{} of {} rows had to be left out, too many to trust the rest", dropped,
+                                    dropped + table.table.rows()),
+                        "repair the file"});
+}
+
+}  // namespace sandhopper
