@@ -200,8 +200,8 @@ class Simulation {
 
   HopperTraces from(const HopperResumed& known) {
     const HopperMoment& at = *known.at;
-    static_cast<HopperSignals&>(traces_) = *known.traces;
-    resumed_ = true;
+    traces_ = *known.traces;
+    while (traces_.moments.back().step > at.step) traces_.moments.pop_back();
     plant_.resume(at.plant);
     ground_.resume(at.contact);
     actuator_.resume(at.actuator);
@@ -212,7 +212,7 @@ class Simulation {
   }
 
  private:
-  static constexpr std::size_t kStepsBetweenMoments = 8, kMomentsExpected = 32;
+  static constexpr std::size_t kStepsBetweenMoments = 8;
 
   Bed bed() const {
     Bed bed(run_.world.terrain, run_.world.robot.leg.foot_radius_m, run_.fluctuation);
@@ -243,7 +243,7 @@ class Simulation {
 
   HopperTraces run_on(std::size_t first) {
     for (std::size_t i = first; i < count_; ++i) {
-      if (means_ && !resumed_ && i % kStepsBetweenMoments == 0) remember(i);
+      if (means_ && i % kStepsBetweenMoments == 0) remember(i);
       step(i);
     }
     if (means_) traces_.body_accel_mps2.values[count_ - 1] = traces_.body_accel_mps2.values[count_ - 2];
@@ -253,7 +253,6 @@ class Simulation {
 
   void remember(std::size_t i) {
     auto& moments = traces_.moments;
-    moments.reserve(kMomentsExpected);
     const double reached_m = plant_.bed_reached_m();
     if (!moments.empty()) {
       if (moments.back().plant.bed_reached_m == reached_m && reached_m > 0.0) return;
@@ -299,7 +298,7 @@ class Simulation {
   const HopperRun& run_;
   double step_s_;
   std::size_t count_, steps_per_tick_ = 1;
-  bool means_, resumed_ = false;
+  bool means_;
   GroundLaws ground_;
   PortLaws ports_;
   double surface_m_;

@@ -78,14 +78,11 @@ struct HopperMoment {
 };
 
 // What a run leaves: quantities on one grid of time, heights over the undisturbed surface.
-struct HopperSignals {
+struct HopperTraces {
   Signal angle_rad, rate_radps, current_torque_Nm,
       command_torque_Nm;  // torques: both motors, nominal constant
   Signal body_accel_mps2, foot_accel_mps2, body_z_m, foot_z_m, foot_velocity_mps, force_N;
-};
-struct HopperTraces : HopperSignals {
-  // The last moment before the foot meets the bed, then moments at which it was deeper than ever before. None
-  // of a run that was resumed: others go on from the one it came from.
+  // The last moment before the foot meets the bed, then moments at which it was deeper than ever before.
   std::vector<HopperMoment> moments{};
   double bed_reached_m = 0.0;  // Plant::bed_reached_m at the end
 };
