@@ -104,11 +104,6 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   if (!problem.plant->is_costly())
     search_options.fits_per_screen = search_options.proposals = problem.rows() < kManyRows ? 10 : 6;
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
-  search_options.first_look = [&](const Screened* nearest) {
-    options.progress(0.0,
-                     "first look: " + (nearest != nullptr ? problem.candidates[nearest->candidate].label()
-                                                          : std::string("nothing missing")));
-  };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
   // Where next to nothing else is seen and the recordings' balances may say at once what it is, a search
   // looks at what is nearest only.
@@ -122,7 +117,6 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
     const Settled of_some = settled_null(some.problem);
     Search search(some.problem, search_options);
     search.run(of_some.null, of_some.starts);
-    search_options.first_look = [](const Screened*) {};
     seeds = carried_over(some.problem, search.best_points(kSeeds), problem, null);
     problem.simulations += some.problem.simulations;
     search_options.most_effects = search_options.fits_per_screen = search_options.fits_of_singles = 0;
@@ -151,7 +145,6 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   }
   keep_columns(problem, search.null().fit.point);
   search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
-  search_options.first_look = [](const Screened*) {};
   // What came near already needs no search, but another fit.
   search_options.most_effects = options.most_effects;
   search_options.fits_per_screen = search_options.fits_of_singles = 3;

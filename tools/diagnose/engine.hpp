@@ -9,8 +9,7 @@ namespace sandhopper::diagnose {
 struct EngineOptions {
   std::size_t most_effects = 3;
   bool tell_evidence = false;  // of what the search puts first, in the log
-  // Called with the share of work done. The first text that is not empty is the quick verdict: what explains
-  // most by its derivative, before any effect is fitted.
+  // Called with the share of work done; the first call with a text other than empty is the quick verdict.
   std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};
 };
 

@@ -2,16 +2,12 @@
 
 #include <cmath>
 #include <cstddef>
-#include <mutex>
 
 namespace sandhopper {
 namespace {
 
 constexpr double kFirst_rad = -0.1, kStep_rad = 1.0 / 192.0;
 constexpr std::size_t kIntervals = 576;  // up to 2.9 rad
-// As many as a screen of effects asks for in turn: the believed leg, and each of its numbers changed. 0.2 MB
-// each.
-constexpr std::size_t kTablesKept = 24;
 
 struct Keyed {
   std::vector<double> key;
@@ -67,22 +63,12 @@ LegDynamics LegTable::dynamics(double angle_rad) const noexcept {
 }
 
 std::shared_ptr<const LegTable> leg_table(const Leg& leg) {
-  static std::mutex mutex;
-  static std::array<Keyed, kTablesKept> kept{};
-  static std::size_t next = 0;
+  thread_local std::array<Keyed, 4> kept{};
+  thread_local std::size_t next = 0;
   auto key = key_of(leg.parameters());
-  const auto known = [&]() -> std::shared_ptr<const LegTable> {
-    for (const auto& one : kept)
-      if (one.key == key) return one.table;
-    return nullptr;
-  };
-  {
-    const std::lock_guard lock(mutex);
-    if (auto table = known()) return table;
-  }
+  for (const auto& known : kept)
+    if (known.key == key) return known.table;
   auto table = std::make_shared<const LegTable>(leg);
-  const std::lock_guard lock(mutex);
-  if (auto made_meanwhile = known()) return made_meanwhile;
   kept[next++ % kept.size()] = {std::move(key), table};
   return table;
 }

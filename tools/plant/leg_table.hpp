@@ -28,7 +28,7 @@ class LegTable {
   std::vector<Interval> intervals_;
 };
 
-// The table of this leg; the last few that any thread asked for are kept.
+// The table of this leg; the last few that a thread asked for are kept.
 std::shared_ptr<const LegTable> leg_table(const Leg& leg);
 
 }  // namespace sandhopper

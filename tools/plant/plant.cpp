@@ -40,16 +40,8 @@ Plant::Plant(const WorldConfig& config, const Bed& bed, const Options& options)
 void Plant::place(const PlantState& state) noexcept {
   state_ = state;
   max_depth_m_ = std::max(0.0, -state.foot_z_m);
-  contact_impulse_Ns_ = bed_reached_m_ = 0.0;
+  contact_impulse_Ns_ = 0.0;
   standing_ = false;
-}
-
-void Plant::resume(const Progress& at) noexcept {
-  state_ = at.state;
-  max_depth_m_ = at.max_depth_m;
-  contact_impulse_Ns_ = at.contact_impulse_Ns;
-  bed_reached_m_ = at.bed_reached_m;
-  standing_ = at.standing;
 }
 
 void Plant::place_in_crater(const PlantState& state, double max_depth_m) noexcept {
@@ -125,7 +117,6 @@ Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept 
   } else if (rigid_) {
     r.foot_accel_mps2 = free_force / mass_kg;
   } else {
-    if (s.foot_z_m < 0.0) bed_reached_m_ = std::max({bed_reached_m_, -s.foot_z_m, max_depth_m_});
     const auto ground = bed_.reaction({.depth_m = std::max(0.0, -s.foot_z_m),
                                        .speed_mps = -s.foot_velocity_mps,
                                        .max_depth_m = max_depth_m_,

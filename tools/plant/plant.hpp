@@ -88,26 +88,10 @@ class Plant {
   // contact; it is divided where the bed's force has a kink or a jump. For many simulations of the same hop
   // at 0.25 ms, smooth in what they start from.
   PlantMotion advance(double torque_Nm, double step_s) noexcept;
-
-  // Everything that a step changes: a plant that resumes goes on exactly as the one that was left there.
-  struct Progress {
-    PlantState state{};
-    double max_depth_m = 0.0;
-    double contact_impulse_Ns = 0.0;
-    double bed_reached_m = 0.0;
-    bool standing = false;
-  };
-  Progress progress() const noexcept {
-    return {state_, max_depth_m_, contact_impulse_Ns_, bed_reached_m_, standing_};
-  }
-  void resume(const Progress& at) noexcept;
-
   const PlantState& state() const noexcept { return state_; }
   const Leg& leg() const noexcept { return leg_; }
   const Bed& bed() const noexcept { return bed_; }
   double max_depth_m() const noexcept { return max_depth_m_; }
-  // The deepest point at which the bed's law was asked for a force since place(); 0: nowhere.
-  double bed_reached_m() const noexcept { return bed_reached_m_; }
   // Integral of the contact force since place(): its difference over an interval is the mean force there.
   double contact_impulse_Ns() const noexcept { return contact_impulse_Ns_; }
 
@@ -147,7 +131,6 @@ class Plant {
   double max_depth_m_ = 0.0;
   mutable double known_depth_m_ = 0.0, known_N_ = 0.0;  // a deepest point, and the bed's curve there
   double contact_impulse_Ns_ = 0.0;
-  mutable double bed_reached_m_ = 0.0;
   bool standing_ = false;  // on rigid ground
 };
 

@@ -210,7 +210,7 @@ Edits with_term(Edits base, const FreeTerm& term, double amplitude) {
     base.sensor_law(term.port, scaled);
   } else {
     base.law(term.port, scaled);
-    (Edits::acts_in_ground(term.port) ? base.ground_laws_key : base.laws_key) = 0;
+    base.laws_key = 0;
   }
   return base;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tools/diagnose/fit/fit.hpp"
-#include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -51,15 +50,10 @@ std::vector<MatrixXd> eliminated(const std::vector<TrialLinear>& trials, Index f
   MatrixXd block = pooled.block(first, first, count, count);
   block.diagonal() += prior_information;
   const MatrixXd regression = block.ldlt().solve(pooled.middleRows(first, count));
-  // gram becomes T' gram T with T = I - E regression, E the unit columns of the block: without forming T,
-  // which is far larger than the block.
-  MatrixXd taken = regression;
-  taken.middleCols(first, count).setZero();
-  parallel_for(grams.size(), [&](std::size_t t) {
-    MatrixXd& gram = grams[t];
-    gram -= MatrixXd(gram.middleCols(first, count)) * taken;
-    gram -= taken.transpose() * MatrixXd(gram.middleRows(first, count));
-  });
+  MatrixXd transform = MatrixXd::Identity(width, width);
+  for (Index j = 0; j < width; ++j)
+    if (j < first || j >= first + count) transform.block(first, j, count, 1) = -regression.col(j);
+  for (auto& gram : grams) gram = transform.transpose() * gram * transform;
   return grams;
 }
 

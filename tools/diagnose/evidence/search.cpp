@@ -563,8 +563,6 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   null.fit = fit_at(start, {.columns_made_here = true});
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
-  const auto& seen = screened({});
-  options_.first_look(!seen.empty() && seen.front().gain > cost_of_an_effect() ? &seen.front() : nullptr);
   restart_null();
   if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
   for (const auto& seed : seeds) {

@@ -47,9 +47,6 @@ struct SearchOptions {
   bool straight = false;      // start from the believed nuisances, too
   double hopeless = 0.03;  // of the largest gain on the screen: less is not fitted, but for the first three
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
-  // Called once, before any effect is fitted, with the one whose derivative explains most; null where that
-  // would not pay for an effect.
-  std::function<void(const Screened* nearest)> first_look = [](const Screened*) {};
 };
 
 // Forward search over sets of effects with a beam, exchanges and deletions; every set that was tried is kept.

@@ -100,18 +100,10 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
     if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&
         trial.rows[k].block == trial.rows[k - 1].block)
       before[k] = static_cast<std::uint8_t>(std::min<std::size_t>(before[k - 1] + 1u, kOrder));
-  std::vector<double> sds(rows);
-  for (std::size_t k = 0; k < rows; ++k)
-    if (used[k]) sds[k] = sd(trial, trial.rows[k]);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
     auto column = values.col(c);
     std::array<double, kOrder> past{};  // scaled residuals, newest first
-    // What is zero stays so, but for the few rows after others that look back at them.
-    std::size_t first = 0, end = rows;
-    while (first < end && column[static_cast<Eigen::Index>(first)] == 0.0) ++first;
-    while (end > first && column[static_cast<Eigen::Index>(end - 1)] == 0.0) --end;
-    end = std::min(rows, end + kOrder);
-    for (std::size_t k = first; k < end; ++k) {
+    for (std::size_t k = 0; k < rows; ++k) {
       double& value = column[static_cast<Eigen::Index>(k)];
       if (!used[k]) {
         value = 0.0;
@@ -119,7 +111,7 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
       }
       const Row& row = trial.rows[k];
       const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
-      const double e = value / sds[k];
+      const double e = value / sd(trial, row);
       value = e;
       if (before[k] >= a.size()) {
         for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];

@@ -55,17 +55,14 @@ void Tolerance::put(Edits& edits, double in_scales) const {
 
 Edits edits_for(const Problem& problem, const Hypothesis& hypothesis, std::span<const double> tolerances) {
   Edits edits = problem.in_place;
-  edits.laws_key = edits.ground_laws_key = 1;
+  edits.laws_key = 1;
   for (std::size_t i = 0; i < hypothesis.candidates.size(); ++i) {
     const Candidate& candidate = problem.candidates[hypothesis.candidates[i]];
     const std::size_t laws = edits.laws.size(), sensors = edits.sensors.size();
     candidate.effect->apply(problem.context, candidate.channel, hypothesis.values[i], edits);
     std::uint64_t key = mixed(1, hypothesis.candidates[i]);
     for (const double value : hypothesis.values[i]) key = mixed(key, std::bit_cast<std::uint64_t>(value));
-    for (std::size_t k = laws; k < edits.laws.size(); ++k) {
-      auto& laws_key = Edits::acts_in_ground(edits.laws[k].first) ? edits.ground_laws_key : edits.laws_key;
-      laws_key = mixed(laws_key, key + k - laws);
-    }
+    if (edits.laws.size() > laws) edits.laws_key = mixed(edits.laws_key, key);
     for (std::size_t k = sensors; k < edits.sensors.size(); ++k) edits.sensors[k].law_key = key;
   }
   for (std::size_t k = 0; k < hypothesis.law.size(); ++k)

@@ -57,8 +57,6 @@ struct BeliefEdit {
   std::string key;
   double factor = 1.0;
   double addend = 0.0;
-
-  bool operator==(const BeliefEdit&) const = default;
 };
 
 // Everything a set of effects changes in a simulation; empty is the belief as it stands.
@@ -66,10 +64,8 @@ struct Edits {
   std::vector<BeliefEdit> belief;
   std::vector<std::pair<std::string, Law>> laws;  // port, force or torque added there
   std::vector<SensorEdit> sensors;
-  // Edits with the same keys hold the same laws at ports. 0: not known. Laws that act only while a foot is in
-  // the ground have a key of their own: until it lands they change nothing.
+  // Edits with the same key hold the same laws at ports. 0: not known.
   std::uint64_t laws_key = 0;
-  std::uint64_t ground_laws_key = 0;
 
   void scale(std::string key, double factor);
   void add(std::string key, double addend);
@@ -81,10 +77,6 @@ struct Edits {
     for (const auto& edit : belief)
       if (edit.key == key) value = value * edit.factor + edit.addend;
     return value;
-  }
-  // Whether a law at this port acts only while the foot is in the ground. The surface's height acts before.
-  static bool acts_in_ground(std::string_view port) {
-    return port.starts_with("ground.") && port != "ground.surface";
   }
   std::vector<const Law*> at(std::string_view port) const {
     std::vector<const Law*> found;

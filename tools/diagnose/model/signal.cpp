@@ -13,17 +13,11 @@ double Signal::at(double time_s) const {
   const auto i =
       std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place), std::max<std::ptrdiff_t>(n - 2, 0));
   const double u = place - static_cast<double>(i);
-  const auto between = [u](double a, double b, double c, double d) {
-    return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
-  };
-  if (i > 0 && i + 2 < n) {
-    const double* p = values.data() + i;
-    return between(p[-1], p[0], p[1], p[2]);
-  }
   const auto value = [&](std::ptrdiff_t k) {
     return values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, n - 1))];
   };
-  return between(value(i - 1), value(i), value(i + 1), value(i + 2));
+  const double a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
+  return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
 }
 
 void Signal::low_pass(double time_constant_s) {

@@ -54,7 +54,7 @@ BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, double
                         .pushes = history_.pushes,
                         .wait_s = history_.wait_s,
                         .bed_depth_m = floor_m(),
-                        .since_touch_s = time_s_ - contact_.touched_s};
+                        .since_touch_s = time_s_ - touched_s_};
   return {.force_N = sum_of(force_, state),
           .added_mass_kg = sum_of(mass_, state),
           .least_N = -sum_of(tension_, state)};

@@ -37,16 +37,9 @@ class GroundLaws final : public BedExtension {
   void pushed() { history_.pushes += 1.0; }
   // Whether the foot is below the surface now.
   void touching(bool now) {
-    if (now && !contact_.touching) contact_.touched_s = time_s_;
-    contact_.touching = now;
+    if (now && !touching_) touched_s_ = time_s_;
+    touching_ = now;
   }
-  // Since when the foot has been in the ground, if it is: what a run must know to go on from there.
-  struct Contact {
-    double touched_s = 0.0;
-    bool touching = false;
-  };
-  Contact contact() const { return contact_; }
-  void resume(const Contact& contact) { contact_ = contact; }
   double deeper_m() const;
   bool empty() const {
     return factor_.empty() && static_.empty() && unloading_.empty() && force_.empty() && mass_.empty() &&
@@ -58,8 +51,8 @@ class GroundLaws final : public BedExtension {
 
   std::vector<const Law*> factor_, static_, unloading_, force_, mass_, tension_, surface_;
   BedHistory history_;
-  double time_s_ = 0.0;
-  Contact contact_{};
+  double time_s_ = 0.0, touched_s_ = 0.0;
+  bool touching_ = false;
 };
 
 BedParameters bed_parameters(const Belief& belief, const Edits& edits);

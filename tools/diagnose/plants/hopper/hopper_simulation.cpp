@@ -1,11 +1,12 @@
 #include "tools/diagnose/plants/hopper/hopper_simulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "tools/diagnose/plants/ground_laws.hpp"
-#include "tools/diagnose/plants/hopper/hopper_actuator.hpp"
+#include "tools/plant/nominal_controller.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -32,6 +33,90 @@ class PortLaws final : public PlantExtension {
  private:
   std::vector<const Law*> rail_, joint_;
   double time_s_ = 0.0;
+};
+
+// From the commanded torque to the current, and from the current to the torque on the links.
+class Actuator {
+ public:
+  Actuator(const Edits& edits, const HopperRun& run)
+      : step_s_(run.step_s),
+        factor_(run.torque_constant_factor),
+        temperature_C_(run.motor_temperature_C),
+        limits_(edits.at("actuator.limit")) {
+    const double time_constant_s = run.world.motor.current_loop_time_constant_s;
+    for (const auto& edit : edits.sensors) {
+      if (edit.channel != "actuator") continue;
+      switch (edit.kind) {
+        case SensorEdit::Kind::gain:
+          factor_ *= edit.value;
+          break;
+        case SensorEdit::Kind::offset:
+          offset_Nm_ += edit.value;
+          break;
+        case SensorEdit::Kind::delay_s:
+          delay_s_ += edit.value;
+          break;
+        case SensorEdit::Kind::lag_s:
+          lag_decay_ = decay(edit.value);
+          break;
+        case SensorEdit::Kind::law:
+          laws_.push_back(&edit.law);
+          break;
+        default:
+          break;
+      }
+    }
+    loop_decay_ = decay(time_constant_s);
+    // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
+    // may be of either: between the two. Which, a tolerance finds out (plants/hopper).
+    const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
+    loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / step_s_;
+    history_.fill(0.0);
+  }
+
+  // One grid step with `command` in force; returns the current (as torque of the nominal constant), mean over
+  // the step.
+  double step(double command_Nm, double rate_radps) {
+    if (!limits_.empty()) {
+      const double limit_Nm = std::max(0.0, sum_of(limits_, {.velocity = rate_radps, .load = command_Nm}));
+      command_Nm = std::clamp(command_Nm, -limit_Nm, limit_Nm);
+    }
+    newest_ = (newest_ + 1) % history_.size();
+    history_[newest_] = command_Nm;
+    // A little early is an overshoot of the next step that holds the same impulse.
+    const double steps = std::clamp(delay_s_ / step_s_, -1.0, static_cast<double>(history_.size() - 2));
+    const auto whole = static_cast<std::size_t>(std::max(0.0, steps));
+    const double part = steps - static_cast<double>(whole);
+    const auto back = [&](std::size_t n) {
+      return history_[(newest_ + history_.size() - n) % history_.size()];
+    };
+    const double delayed = (1.0 - part) * back(whole) + part * back(whole + 1);
+    lagged_ = delayed + (lagged_ - delayed) * lag_decay_;
+    const double mean_Nm = lagged_ + (current_Nm_ - lagged_) * loop_mean_;
+    current_Nm_ = lagged_ + (current_Nm_ - lagged_) * loop_decay_;
+    return mean_Nm;
+  }
+
+  double current_Nm() const { return current_Nm_; }
+
+  double torque_Nm(double current_Nm, double time_s) const {
+    double torque = factor_ * current_Nm + offset_Nm_;
+    if (!laws_.empty())
+      torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm, .temperature_C = temperature_C_});
+    return torque;
+  }
+
+ private:
+  double decay(double time_constant_s) const {
+    return time_constant_s > 0.0 ? std::exp(-step_s_ / time_constant_s) : 0.0;
+  }
+
+  double step_s_, factor_, offset_Nm_ = 0.0, delay_s_ = 0.0, lag_decay_ = 0.0, loop_decay_ = 0.0,
+                           loop_mean_ = 0.0;
+  double lagged_ = 0.0, current_Nm_ = 0.0, temperature_C_;
+  std::vector<const Law*> laws_, limits_;
+  std::array<double, 256> history_{};
+  std::size_t newest_ = 0;
 };
 
 // The angle as the controller reads it: the mean of both motors'.
@@ -68,8 +153,7 @@ class MeasuredAngle {
 // RecordedController takes: how the recorded one differs is part of the residual command.
 class MeasuredRate {
  public:
-  explicit MeasuredRate(const HopperRun& run)
-      : at_{run.start.angular_velocity_radps, run.start.angular_velocity_radps} {
+  explicit MeasuredRate(const HopperRun& run) : rate_radps_(run.start.angular_velocity_radps) {
     const double bandwidth_Hz = run.world.sensors.encoder_velocity_bandwidth_Hz;
     if (bandwidth_Hz <= 0.0) return;
     const double ratio = 2.0 * std::numbers::pi * bandwidth_Hz * run.step_s;
@@ -79,17 +163,14 @@ class MeasuredRate {
 
   // One grid step further; exact for a speed that is linear over it.
   void follow(double rate_radps) {
-    at_.read_radps =
-        decay_ * at_.read_radps + (1.0 - decay_) * at_.now_radps + slope_gain_ * (rate_radps - at_.now_radps);
-    at_.now_radps = rate_radps;
+    rate_radps_ =
+        decay_ * rate_radps_ + (1.0 - decay_) * now_radps_ + slope_gain_ * (rate_radps - now_radps_);
+    now_radps_ = rate_radps;
   }
-  double operator()() const { return at_.read_radps; }
-  const RateProgress& progress() const { return at_; }
-  void resume(const RateProgress& at) { at_ = at; }
+  double operator()() const { return rate_radps_; }
 
  private:
-  RateProgress at_;
-  double decay_ = 0.0, slope_gain_ = 1.0;
+  double rate_radps_, now_radps_ = rate_radps_, decay_ = 0.0, slope_gain_ = 1.0;
 };
 
 // The believed controller on the simulated leg; see HopperRun for what else can drive it.
@@ -99,13 +180,6 @@ class SpringLeg {
       : run_(run), leg_(leg), own_(run.world.controller, run.compression_stiffness_N_per_m), rate_(run) {}
 
   void follow(double rate_radps) { rate_.follow(rate_radps); }
-
-  const RateProgress& rate() const { return rate_.progress(); }
-  const NominalController& controller() const { return own_; }
-  void resume(const HopperMoment& at) {
-    rate_.resume(at.rate);
-    own_ = at.controller;
-  }
 
   double command_Nm(double time_s, double angle_rad, const PlantState& state) {
     const auto& world = run_.world;
@@ -164,158 +238,79 @@ double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N
   return std::clamp(force * kinematics.dlength_m_per_rad, -limit, limit);
 }
 
-namespace {
-
-// One hop, step by step.
-class Simulation {
- public:
-  Simulation(const HopperRun& run, const Edits& edits)
-      : run_(run),
-        step_s_(run.step_s),
-        count_(static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / step_s_)) + 2),
-        means_(!run.world.terrain.rigid),
-        ground_(edits, run.bed_history),
-        ports_(edits),
-        surface_m_(run.surface_m + ground_.deeper_m()),
-        table_(leg_table(Leg(run.world.robot.leg))),
-        plant_(run.world, bed(), options()),
-        spring_(run, plant_.leg()),
-        actuator_(edits, run),
-        measured_(edits) {
-    const double tick_s = 1.0 / run.world.controller.rate_Hz;
-    steps_per_tick_ = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / step_s_)));
+HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
+  GroundLaws ground(edits, run.bed_history);
+  PortLaws ports(edits);
+  Bed bed(run.world.terrain, run.world.robot.leg.foot_radius_m, run.fluctuation);
+  if (!ground.empty()) bed.extend(&ground);
+  Plant::Options options;
+  options.cable_force_N = run.cable_force_N;
+  if (!ports.empty()) options.extension = &ports;
+  const auto table = leg_table(Leg(run.world.robot.leg));
+  options.leg_table = table.get();
+  Plant plant(run.world, bed, options);
+  PlantState start = run.start;
+  const double surface_m = run.surface_m + ground.deeper_m();
+  start.foot_z_m -= surface_m;  // the plant's zero is the surface
+  SpringLeg spring(run, plant.leg());
+  Actuator actuator(edits, run);
+  const MeasuredAngle measured(edits);
+  start.angle_rad = measured.behind(start.angle_rad);
+  // Recorded is the rotors' angle; they lie at the side of the play to which the motors push.
+  const double play_rad = run.world.robot.joint_play_rad;
+  if (play_rad > 0.0) {
+    start.play_rad = std::copysign(0.5 * play_rad, spring.command_Nm(run.from_s, measured(start), start));
+    start.angle_rad -= start.play_rad;
   }
+  plant.place_in_crater(start, run.crater_m);
 
-  HopperTraces from_start() {
-    place();
-    traces_ = empty_traces(run_.from_s, step_s_, count_);
-    // Force and accelerations jump where the bed begins to yield again: their means over a step do not jump
-    // from one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse,
-    // which is no acceleration.
-    if (means_)
-      for (Signal* signal : {&traces_.body_accel_mps2, &traces_.foot_accel_mps2, &traces_.force_N})
-        signal->start_s += 0.5 * step_s_;
-    return run_on(0);
-  }
-
-  HopperTraces from(const HopperResumed& known) {
-    const HopperMoment& at = *known.at;
-    traces_ = *known.traces;
-    while (traces_.moments.back().step > at.step) traces_.moments.pop_back();
-    plant_.resume(at.plant);
-    ground_.resume(at.contact);
-    actuator_.resume(at.actuator);
-    spring_.resume(at);
-    command_Nm_ = at.command_Nm;
-    body_velocity_mps_ = at.body_velocity_mps;
-    return run_on(at.step);
-  }
-
- private:
-  static constexpr std::size_t kStepsBetweenMoments = 8;
-
-  Bed bed() const {
-    Bed bed(run_.world.terrain, run_.world.robot.leg.foot_radius_m, run_.fluctuation);
-    if (!ground_.empty()) bed.extend(&ground_);
-    return bed;
-  }
-  Plant::Options options() const {
-    Plant::Options options;
-    options.cable_force_N = run_.cable_force_N;
-    if (!ports_.empty()) options.extension = &ports_;
-    options.leg_table = table_.get();
-    return options;
-  }
-
-  void place() {
-    PlantState start = run_.start;
-    start.foot_z_m -= surface_m_;  // the plant's zero is the surface
-    start.angle_rad = measured_.behind(start.angle_rad);
-    // Recorded is the rotors' angle; they lie at the side of the play to which the motors push.
-    const double play_rad = run_.world.robot.joint_play_rad;
-    if (play_rad > 0.0) {
-      start.play_rad =
-          std::copysign(0.5 * play_rad, spring_.command_Nm(run_.from_s, measured_(start), start));
-      start.angle_rad -= start.play_rad;
-    }
-    plant_.place_in_crater(start, run_.crater_m);
-  }
-
-  HopperTraces run_on(std::size_t first) {
-    for (std::size_t i = first; i < count_; ++i) {
-      if (means_ && i % kStepsBetweenMoments == 0) remember(i);
-      step(i);
-    }
-    if (means_) traces_.body_accel_mps2.values[count_ - 1] = traces_.body_accel_mps2.values[count_ - 2];
-    traces_.bed_reached_m = plant_.bed_reached_m();
-    return std::move(traces_);
-  }
-
-  void remember(std::size_t i) {
-    auto& moments = traces_.moments;
-    const double reached_m = plant_.bed_reached_m();
-    if (!moments.empty()) {
-      if (moments.back().plant.bed_reached_m == reached_m && reached_m > 0.0) return;
-      if (reached_m == 0.0) moments.pop_back();
-    }
-    moments.push_back({i, plant_.progress(), ground_.contact(), actuator_.progress(), spring_.rate(),
-                       spring_.controller(), command_Nm_, body_velocity_mps_});
-  }
-
-  void step(std::size_t i) {
-    const double t = run_.from_s + step_s_ * static_cast<double>(i);
-    ground_.at_time(t);
-    ports_.at_time(t);
-    const PlantState& state = plant_.state();
-    ground_.touching(state.foot_z_m < 0.0);
-    if (i > 0) spring_.follow(state.rotor_radps());
-    const bool switched = run_.switch_between_cycles && i > 0 && run_.phases != nullptr &&
-                          phase_at(*run_.phases, t) != phase_at(*run_.phases, t - step_s_);
-    if (i % steps_per_tick_ == 0 || switched) command_Nm_ = spring_.command_Nm(t, measured_(state), state);
-    traces_.current_torque_Nm.values[i] = actuator_.current_Nm();  // read before the command acts
-    const double torque_Nm = actuator_.torque_Nm(actuator_.step(command_Nm_, state.rotor_radps()), t);
-    traces_.angle_rad.values[i] = state.rotor_rad();
-    traces_.rate_radps.values[i] = state.rotor_radps();
-    traces_.command_torque_Nm.values[i] = command_Nm_;
-    traces_.foot_z_m.values[i] = state.foot_z_m + surface_m_;
-    traces_.foot_velocity_mps.values[i] = state.foot_velocity_mps;
-    const double foot_velocity_mps = state.foot_velocity_mps, impulse_Ns = plant_.contact_impulse_Ns();
-    const PlantMotion motion = plant_.advance(torque_Nm, step_s_);
-    traces_.body_z_m.values[i] = motion.body_z_m + surface_m_;
-    if (means_) {
+  const double step_s = run.step_s;
+  const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / step_s)) + 2;
+  const double tick_s = 1.0 / run.world.controller.rate_Hz;
+  const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / step_s)));
+  HopperTraces traces = empty_traces(run.from_s, step_s, count);
+  // Force and accelerations jump where the bed begins to yield again: their means over a step do not jump
+  // from one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse,
+  // which is no acceleration.
+  const bool means = !run.world.terrain.rigid;
+  if (means)
+    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
+      signal->start_s += 0.5 * step_s;
+  double command_Nm = 0.0, body_velocity_mps = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = run.from_s + step_s * static_cast<double>(i);
+    ground.at_time(t);
+    ports.at_time(t);
+    const PlantState& state = plant.state();
+    ground.touching(state.foot_z_m < 0.0);
+    if (i > 0) spring.follow(state.rotor_radps());
+    const bool switched = run.switch_between_cycles && i > 0 && run.phases != nullptr &&
+                          phase_at(*run.phases, t) != phase_at(*run.phases, t - step_s);
+    if (i % per_tick == 0 || switched) command_Nm = spring.command_Nm(t, measured(state), state);
+    traces.current_torque_Nm.values[i] = actuator.current_Nm();  // read before the command acts
+    const double torque_Nm = actuator.torque_Nm(actuator.step(command_Nm, state.rotor_radps()), t);
+    traces.angle_rad.values[i] = state.rotor_rad();
+    traces.rate_radps.values[i] = state.rotor_radps();
+    traces.command_torque_Nm.values[i] = command_Nm;
+    traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
+    traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
+    const double foot_velocity_mps = state.foot_velocity_mps, impulse_Ns = plant.contact_impulse_Ns();
+    const PlantMotion motion = plant.advance(torque_Nm, step_s);
+    traces.body_z_m.values[i] = motion.body_z_m + surface_m;
+    if (means) {
       if (i > 0)
-        traces_.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps_) / step_s_;
-      body_velocity_mps_ = motion.body_velocity_mps;
-      traces_.foot_accel_mps2.values[i] = (plant_.state().foot_velocity_mps - foot_velocity_mps) / step_s_;
-      traces_.force_N.values[i] = (plant_.contact_impulse_Ns() - impulse_Ns) / step_s_;
+        traces.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps) / step_s;
+      body_velocity_mps = motion.body_velocity_mps;
+      traces.foot_accel_mps2.values[i] = (plant.state().foot_velocity_mps - foot_velocity_mps) / step_s;
+      traces.force_N.values[i] = (plant.contact_impulse_Ns() - impulse_Ns) / step_s;
     } else {
-      traces_.body_accel_mps2.values[i] = motion.body_accel_mps2;
-      traces_.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
-      traces_.force_N.values[i] = motion.contact_force_N;
+      traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
+      traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
+      traces.force_N.values[i] = motion.contact_force_N;
     }
   }
-
-  const HopperRun& run_;
-  double step_s_;
-  std::size_t count_, steps_per_tick_ = 1;
-  bool means_;
-  GroundLaws ground_;
-  PortLaws ports_;
-  double surface_m_;
-  std::shared_ptr<const LegTable> table_;
-  Plant plant_;
-  SpringLeg spring_;
-  Actuator actuator_;
-  MeasuredAngle measured_;
-  HopperTraces traces_;
-  double command_Nm_ = 0.0, body_velocity_mps_ = 0.0;
-};
-
-}  // namespace
-
-HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits, const HopperResumed& from) {
-  Simulation simulation(run, edits);
-  return from.at != nullptr ? simulation.from(from) : simulation.from_start();
+  if (means) traces.body_accel_mps2.values[count - 1] = traces.body_accel_mps2.values[count - 2];
+  return traces;
 }
 
 }  // namespace sandhopper::diagnose

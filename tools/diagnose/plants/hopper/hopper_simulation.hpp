@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,7 +6,6 @@
 #include "tools/diagnose/model/edits.hpp"
 #include "tools/diagnose/model/signal.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
-#include "tools/plant/nominal_controller.hpp"
 #include "tools/plant/plant.hpp"
 #include "tools/plant/world_config.hpp"
 
@@ -56,42 +54,11 @@ struct HopperRun {
   const Signal* recorded_command_Nm = nullptr;  // drives the leg instead of the controller
 };
 
-// The torque on its way from the command to the links.
-struct ActuatorProgress {
-  double lagged_Nm = 0.0, current_Nm = 0.0;
-  std::array<double, 256> history_Nm{};  // of commands, a ring
-  std::size_t newest = 0;
-};
-struct RateProgress {
-  double read_radps = 0.0, now_radps = 0.0;
-};
-
-// Everything that a run goes on from at the start of a step.
-struct HopperMoment {
-  std::size_t step = 0;
-  Plant::Progress plant{};
-  GroundLaws::Contact contact{};
-  ActuatorProgress actuator{};
-  RateProgress rate{};
-  NominalController controller;
-  double command_Nm = 0.0, body_velocity_mps = 0.0;
-};
-
 // What a run leaves: quantities on one grid of time, heights over the undisturbed surface.
 struct HopperTraces {
   Signal angle_rad, rate_radps, current_torque_Nm,
       command_torque_Nm;  // torques: both motors, nominal constant
   Signal body_accel_mps2, foot_accel_mps2, body_z_m, foot_z_m, foot_velocity_mps, force_N;
-  // The last moment before the foot meets the bed, then moments at which it was deeper than ever before.
-  std::vector<HopperMoment> moments{};
-  double bed_reached_m = 0.0;  // Plant::bed_reached_m at the end
-};
-
-// Where a run can start that differs from a known one only once the foot is in the ground, or deeper than
-// some depth.
-struct HopperResumed {
-  const HopperTraces* traces = nullptr;
-  const HopperMoment* at = nullptr;  // one of its moments
 };
 
 // Closed loop at the controller's rate on a 0.25 ms grid (RK4): the virtual spring on the simulated leg,
@@ -103,8 +70,6 @@ struct HopperResumed {
 //   ground.*  as in ground_laws.hpp
 // and the sensor edits of the channel "actuator": delay and lag act on the current, gain, offset and law on
 // the torque it makes. Edits of the motors' position (offset, gain, law) are what the controller sees, too.
-//
-// `from`: goes on from there. The result is the same, bit by bit, if nothing that acted before differs.
-HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits, const HopperResumed& from = {});
+HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits);
 
 }  // namespace sandhopper::diagnose

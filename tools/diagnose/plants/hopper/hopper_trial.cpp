@@ -123,12 +123,13 @@ class HopperTrial final : public TrialModel {
   }
 
   void predict(const Edits& edits, std::span<const double> n, std::span<double> out) const override {
-    const WorldConfig& world = world_with(edits);
-    const auto key = HopperRuns::key(edits, run_nuisances(n));
+    const WorldConfig world = world_of(belief_, edits);
+    std::vector<double> plant_nuisances;
+    for (std::size_t i = 0; i < n.size(); ++i)
+      if (i < kTofBias || i >= kFirstKnot) plant_nuisances.push_back(n[i]);
+    const auto key = HopperRuns::key(edits, plant_nuisances);
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      auto& run =
-          runs_.run(key, b, [&](const HopperResumed& from) { return simulated(world, edits, b, n, from); });
-      twin_ = {};
+      auto& run = runs_.run(key, b, [&] { return simulated(world, edits, b, n); });
       for (std::size_t c = 0; c < kSources.size(); ++c) {
         const auto& span = spans_[c][b];
         if (span.count == 0) continue;
@@ -151,7 +152,7 @@ class HopperTrial final : public TrialModel {
 
   void predict_variant(const Variant& variant, const Edits& edits, std::span<const double> n,
                        std::span<double> out) const override {
-    const WorldConfig& world = world_with(edits);
+    const WorldConfig world = world_of(belief_, edits);
     auto phases = course_.phases;
     if (variant.kind == Variant::Kind::event) phases[variant.event].time_s += variant.amount * kTick_s;
     for (std::uint32_t b = 0; b < blocks; ++b) {
@@ -160,7 +161,6 @@ class HopperTrial final : public TrialModel {
       if (run.phases != nullptr) run.phases = &phases;
       run.switch_between_cycles = variant.kind == Variant::Kind::event;
       const auto traces = simulate_hopper(run, edits);
-      twin_ = {};
       for (std::size_t c = 0; c < kSources.size(); ++c)
         if (const auto& span = spans_[c][b]; span.count > 0)
           read_channel(world, traces, edits, n, c, span, out.subspan(span.first, span.count));
@@ -171,27 +171,6 @@ class HopperTrial final : public TrialModel {
   struct Span {
     std::size_t first = 0, count = 0;
   };
-
-  // The world that simulations of the same belief share.
-  const WorldConfig& world_with(const Edits& edits) const {
-    if (edits.belief.empty()) return world_;
-    if (edits.belief != edited_by_) {
-      edited_world_ = world_of(belief_, edits);
-      edited_by_ = edits.belief;
-    }
-    return edited_world_;
-  }
-
-  HopperRuns::RunNuisances run_nuisances(std::span<const double> n) const {
-    HopperRuns::RunNuisances out;
-    for (std::size_t i = 0; i < kTofBias; ++i) (i == kStiffness ? out.in_ground : out.always).push_back(n[i]);
-    const auto knots = n.subspan(kFirstKnot, grains_.count());
-    out.by_depth.assign(knots.begin(), knots.end());
-    out.knot_spacing_m = grains_.spacing_m();
-    const auto rest = n.subspan(kFirstKnot + grains_.count());
-    out.always.insert(out.always.end(), rest.begin(), rest.end());
-    return out;
-  }
 
   void take_commands(const Trial& trial) {
     const auto commands = commands_of(trial);
@@ -244,15 +223,15 @@ class HopperTrial final : public TrialModel {
 
   // The run with another controller than is believed: what was commanded is held against that one.
   HopperTraces simulated(const WorldConfig& world, const Edits& edits, std::uint32_t block,
-                         std::span<const double> n, const HopperResumed& from) const {
+                         std::span<const double> n) const {
     HopperRun run = run_of(world, block, n);
     const bool other = std::ranges::any_of(
         edits.belief, [](const BeliefEdit& edit) { return edit.key.starts_with("controller."); });
-    if (!other || run.command_residual_Nm == nullptr) return simulate_hopper(run, edits, from);
+    if (!other || run.command_residual_Nm == nullptr) return simulate_hopper(run, edits);
     run.compression_stiffness_N_per_m = compression_stiffness_of(edits);
     const Signal residual = controller_.residual_Nm(world, run.compression_stiffness_N_per_m, course_.phases);
     run.command_residual_Nm = &residual;
-    return simulate_hopper(run, edits, from);
+    return simulate_hopper(run, edits);
   }
 
   double compression_stiffness_of(const Edits& edits) const {
@@ -324,7 +303,6 @@ class HopperTrial final : public TrialModel {
       read_command(world, edits, span, at);
       return;
     }
-    if (read_like_twin(edits, n, c, span, at)) return;
     Signal signal = traces.*kSources[c].trace;
     const double motors = world.robot.leg.motor_count;
     switch (c) {
@@ -352,31 +330,8 @@ class HopperTrial final : public TrialModel {
     }
     const auto sampled_s = sampled(span, age_share(c, n));
     observe(signal, sensors_[c], edits, kSources[c].channel, sampled_s, at);
-    if (c + 1 < kSources.size() && kSources[c].trace == kSources[c + 1].trace)
-      twin_ = {c, span.first, {at.begin(), at.end()}};
     const double offset = offset_of(c, n);
     for (double& v : at) v += offset;
-  }
-
-  // Both motors' sensors read the same of one run, but for their offsets, where nothing is edited.
-  bool read_like_twin(const Edits& edits, std::span<const double> n, std::size_t c, const Span& span,
-                      std::span<double> at) const {
-    const std::size_t t = twin_.channel;
-    if (twin_.values.size() != span.count || t + 1 != c || kSources[t].trace != kSources[c].trace ||
-        std::string_view(kSources[t].sensor) != kSources[c].sensor || kSources[t].age || kSources[c].age ||
-        kSources[t].scale || kSources[c].scale)
-      return false;
-    if (std::ranges::any_of(edits.sensors, [&](const SensorEdit& edit) {
-          return edit.channel == kSources[t].channel || edit.channel == kSources[c].channel;
-        }))
-      return false;
-    const auto times = std::span(times_), ages = std::span(ages_s_);
-    if (!std::ranges::equal(times.subspan(twin_.first, span.count), times.subspan(span.first, span.count)) ||
-        !std::ranges::equal(ages.subspan(twin_.first, span.count), ages.subspan(span.first, span.count)))
-      return false;
-    const double offset = offset_of(c, n);
-    for (std::size_t i = 0; i < span.count; ++i) at[i] = twin_.values[i] + offset;
-    return true;
   }
 
   // What was commanded follows from what was measured, not from the run; mostly by the controller as
@@ -535,16 +490,7 @@ class HopperTrial final : public TrialModel {
     coordinates = {std::move(z), std::move(v), std::move(a), std::move(phi), std::move(time)};
   }
 
-  // The last readings before their offset, of a channel whose run the next channel reads, too.
-  struct Twin {
-    std::size_t channel = 0, first = 0;
-    std::vector<double> values{};
-  };
-
   mutable HopperRuns runs_;
-  mutable Twin twin_{};
-  mutable std::vector<BeliefEdit> edited_by_{};
-  mutable WorldConfig edited_world_{};
   mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // by a span's first row
   Belief belief_;
   WorldConfig world_;

@@ -20,7 +20,6 @@ class BedGrains {
 
   std::size_t count() const { return count_; }
   double sd() const { return relative_; }
-  double spacing_m() const { return spacing_m_; }
   double between_knots() const;  // relative; what lines between knots leave
   BedFluctuation fluctuation(std::span<const double> nuisances) const;
 
