@@ -97,7 +97,8 @@ void score_stride(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t 
   score_event(events.boundary, GroundEventKind::box_floor, truth.floor_depth_m, deepest, score.floor);
   // A foot that leaves meets suction just above its crater's floor, which is not deeper than the deepest
   // point.
-  const auto pull = truth.suction_N ? std::optional(deepest - 2.0 * kBeyond_m) : std::nullopt;
+  std::optional<double> pull(deepest - 2.0 * kBeyond_m);
+  if (!truth.suction_N) pull.reset();
   score_event(events.suction, GroundEventKind::suction, pull, deepest, score.suction);
 }
 
