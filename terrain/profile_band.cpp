@@ -84,7 +84,7 @@ ProfilePoint tangent_at(const StrengthProfile& p, double depth_m) noexcept {
 void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexcept {
   StrengthProfile& p = profile_;
   const bool first = p.stride == 0;
-  p.stride = stride;
+  p.stride = stride > 0 ? stride : p.stride + 1;
   p.samples = sums.samples;
   if (sums.samples > 0) {
     p.depth_min_m = first ? sums.depth_min_m : std::min(p.depth_min_m, sums.depth_min_m);

@@ -97,8 +97,11 @@ void score_stride(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t 
   score_event(events.boundary, GroundEventKind::box_floor, truth.floor_depth_m, deepest, score.floor);
   // A foot that leaves meets suction just above its crater's floor, which is not deeper than the deepest
   // point.
-  const auto pull = truth.suction_N ? std::optional(deepest - 2.0 * kBeyond_m) : std::nullopt;
-  score_event(events.suction, GroundEventKind::suction, pull, deepest, score.suction);
+  const double pull_m = deepest - 2.0 * kBeyond_m;
+  if (truth.suction_N)
+    score_event(events.suction, GroundEventKind::suction, pull_m, deepest, score.suction);
+  else
+    score_event(events.suction, GroundEventKind::suction, std::nullopt, deepest, score.suction);
 }
 
 nlohmann::ordered_json json_of(const EventScore& s) {

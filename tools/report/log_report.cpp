@@ -8,9 +8,11 @@
 #include <charconv>
 #include <ctime>
 #include <optional>
+#include <utility>
 
 #include "firmware/log/topics.hpp"
 #include "firmware/log/trial_sheet.hpp"
+#include "tools/plant/bed_truth.hpp"
 #include "tools/report/report_builder.hpp"
 
 namespace sandhopper {
@@ -96,6 +98,11 @@ void add_attached(const mcap::Reader& log, ReportData& data) {
     }
   }
   for (const mcap::Attachment& attachment : log.attachments()) {
+    if (attachment.name == kBedTruthAttachment) {
+      auto truth = read_bed_truth(mcap::text_of(attachment.data));
+      data.bed_depth_m = std::move(truth.depth_m);
+      data.bed_force_N = std::move(truth.force_N);
+    }
     const bool is_text =
         attachment.media_type.starts_with("text/") || attachment.media_type == "application/toml";
     if (!is_text) continue;

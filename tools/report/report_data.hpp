@@ -73,6 +73,8 @@ struct ReportData {
   std::vector<ReportEvent> events;
   std::vector<ReportStride> strides;
   std::string configuration;
+  std::vector<double> bed_depth_m{};  // true curve of a simulated bed
+  std::vector<double> bed_force_N{};
 };
 
 }  // namespace sandhopper

@@ -21,6 +21,22 @@ Json stiffness(const ReportStiffness& fit) {
           {"reason", fit.reason}};
 }
 
+// The curve at its points with the 95 % band, the depths visited, and what one number is worth.
+Json profile_json(const StrengthProfile& profile, const GroundSummary& ground) {
+  if (profile.stride == 0) return nullptr;
+  Json depth = Json::array(), force = Json::array(), low = Json::array(), high = Json::array();
+  for (std::size_t i = 0; i < kProfilePoints; ++i) {
+    const ProfilePoint point{profile.force_N[i], profile.force_sd_N[i]};
+    depth.push_back(static_cast<double>(i + 1) * kProfilePoint_m);
+    force.push_back(number(point.value));
+    low.push_back(number(point.low()));
+    high.push_back(number(point.high()));
+  }
+  return {{"from_m", profile.depth_min_m}, {"to_m", profile.depth_max_m}, {"depth_m", depth},
+          {"force_N", force},              {"low_N", low},                {"high_N", high},
+          {"shape", name_of(ground.shape)}};
+}
+
 Json stride_json(const ReportStride& stride) {
   return {{"number", stride.number},
           {"contact_s", number(stride.contact_s)},
@@ -33,7 +49,8 @@ Json stride_json(const ReportStride& stride) {
           {"qs_ols", stiffness(stride.quasi_static_ols)},
           {"mo_ols", stiffness(stride.observer_ols)},
           {"mo_wls", stiffness(stride.observer_wls)},
-          {"joint", stiffness(stride.joint)}};
+          {"joint", stiffness(stride.joint)},
+          {"profile", profile_json(stride.profile, stride.ground)}};
 }
 
 Json columns_json(const std::vector<ReportColumn>& columns) {
@@ -55,6 +72,8 @@ nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
             {"columns", columns_json(data.columns)},
             {"envelope_rows", envelope_run},
             {"configuration", data.configuration}};
+  json["bed_curve"] =
+      data.bed_depth_m.empty() ? Json(nullptr) : Json{{"depth_m", data.bed_depth_m}, {"force_N", data.bed_force_N}};
   json["phases"] = Json::array();
   for (const ReportPhase& phase : data.phases) {
     json["phases"].push_back({{"from_s", phase.from_s}, {"to_s", phase.to_s}, {"name", phase.name}});

@@ -17,7 +17,8 @@ class ForceDepth {
       .map(path => ({ ...path, shown: path.shown !== false }));
     this.lines = TREATMENTS.map(treatment => ({ ...treatment, style: 'dashed', shown: true }));
     this.caption = element('figcaption', {}, element('b', {}, 'Force against depth ', this.scope = element('span')));
-    const entries = [...this.paths, ...this.lines.map(line => Object.assign(line, { label: `fit: ${line.label}` }))];
+    this.band = new ProfileBand(data);
+    const entries = [...this.band.entries(data.strides), ...this.paths, ...this.lines.map(line => Object.assign(line, { label: `fit: ${line.label}` }))];
     this.legend = new Legend(this.caption, entries, () => { this.fit(); this.draw(); }, false);
     this.canvas = element('canvas');
     figure.append(this.caption, this.canvas);
@@ -101,6 +102,7 @@ class ForceDepth {
     context.beginPath();
     context.rect(this.box.x, this.box.y, this.box.w, this.box.h);
     context.clip();
+    this.band.draw(context, this, this.strides);
     this.drawPaths(context);
     this.drawLines(context);
     this.drawMarks(context);

@@ -26,8 +26,9 @@ void draw_strides(Pane& pane, const TrialModel& model, int most) {
     pane.put(1, fmt::format("{:2}  {:5.2f} m/s  {:5.1f} mm  {:5.1f} N   ", s->number, s->touchdown_speed_mps,
                             1e3 * s->max_depth_m, s->peak_force_N));
     const bool last = std::next(s) == model.strides.end();
-    pane.put(38, stiffness_text(s->joint),
-             !s->joint.valid ? Style::faint
+    const bool line = s->joint.valid && s->ground.empty();
+    pane.put(38, s->ground.empty() ? stiffness_text(s->joint) : s->ground,
+             !line           ? Style::faint
              : last          ? Style::good
                              : Style::plain);
   }

@@ -51,11 +51,24 @@ LiveStride::Stiffness stiffness_of(const Json& json) {
           json.at("valid").get<bool>(), readable(json.at("reason").get<std::string>())};
 }
 
+// The ground of the newest stride: shape and secant stiffness where a line is not valid.
+void take_ground(TrialModel& model, const Json& json) {
+  if (model.strides.empty() || json.at("line_valid").get<bool>()) return;
+  const auto shape = json.at("shape").get<std::string>();
+  const auto& secant = json.at("secant_20mm_N_per_m");
+  auto& text = model.strides.back().ground;
+  text = shape == "unknown" ? "little new ground" : "no line: " + readable(shape);
+  if (secant.at("ci95_high").get<double>() > 0.0)
+    text += fmt::format(", F/z at 20 mm {:.0f} [{:.0f}, {:.0f}] N/m", secant.at("value").get<double>(),
+                        secant.at("ci95_low").get<double>(), secant.at("ci95_high").get<double>());
+}
+
 LiveStride stride_of(const Json& json) {
   const auto& stiffness = json.at("stiffness_N_per_m");
   return {json.at("stride").get<std::uint32_t>(), number(json.at("touchdown_speed_mps")),
           number(json.at("peak_force_N")),        number(json.at("max_depth_m")),
-          stiffness_of(stiffness.at("mo_wls")),   stiffness_of(stiffness.at("joint"))};
+          stiffness_of(stiffness.at("mo_wls")),   stiffness_of(stiffness.at("joint")),
+          {}};
 }
 
 std::string time_text(const TrialModel& model, std::int64_t time_ns) {
@@ -147,6 +160,7 @@ void take_json(TrialModel& model, const Json& json) {
   if (json.contains("status")) return take_status(model, json["status"]);
   if (json.contains("event")) return take_event(model, json);
   if (json.contains("stiffness_N_per_m")) return model.strides.push_back(stride_of(json));
+  if (json.contains("ground")) return take_ground(model, json["ground"]);
   if (json.contains("end")) return take_end(model, json["end"]);
   if (json.contains("request")) return take_answer(model, json["request"]);
   if (json.contains("ready")) {

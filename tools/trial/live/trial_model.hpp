@@ -23,6 +23,7 @@ struct LiveStride {
     bool valid = false;
     std::string reason;  // why not valid, in words
   } observer_wls, joint;
+  std::string ground;  // why no line describes the ground, and what is known instead; empty where one does
 };
 
 // What the view shows of one trial, kept up to date by the lines that the cycle's process says.
