@@ -48,6 +48,8 @@ TEST(CampaignKeyReference, DefaultsAndUnitsAreThoseOfTheStructs) {
   EXPECT_FALSE(find(CampaignPlant::rotary_axis, "sensors.tof_rate_Hz").of_this_plant);
   EXPECT_FALSE(find(CampaignPlant::falling_body, "sensors.pressure_noise_Pa").used);
   EXPECT_TRUE(find(CampaignPlant::falling_body, "sensors.height_noise_m").used);
+  EXPECT_EQ(find(CampaignPlant::falling_body, "body.mass_kg").meaning, meaning_of_key("body.mass_kg"));
+  EXPECT_TRUE(meaning_of_key("body.colour").empty());
 }
 
 }  // namespace

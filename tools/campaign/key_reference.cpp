@@ -139,6 +139,11 @@ std::vector<BeliefKey> belief_keys(CampaignPlant plant) {
   return collector.keys;
 }
 
+std::string_view meaning_of_key(std::string_view path) {
+  const auto* found = find_meaning(path);
+  return found == nullptr ? std::string_view{} : found->meaning;
+}
+
 std::vector<ChannelEntry> channel_entries(CampaignPlant plant) {
   std::vector<ChannelEntry> entries{{"t_s", "s", "time of the row, from the start of the recording"}};
   for (const auto& channel : known_channels()) {

@@ -29,6 +29,10 @@ struct BeliefKey {
 // In the order of the file.
 std::vector<BeliefKey> belief_keys(CampaignPlant plant);
 
+// What a key of nominal.toml does; `path` is "table.key", or "key" at the top of the file. Empty: no such
+// key.
+std::string_view meaning_of_key(std::string_view path);
+
 struct ChannelEntry {
   std::string_view name;
   std::string unit;
