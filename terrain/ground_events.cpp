@@ -1,6 +1,7 @@
 #include "terrain/ground_events.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -40,18 +41,36 @@ double greatest_force_N(std::span<const Point> points) {
   return greatest;
 }
 
+struct Stance {
+  std::vector<Point> points;
+  std::array<float, 2> resumed_m;
+};
+
 struct Smoothness {
   double length_m;
   double relative;
 };
 
-NormalTest smooth_bed(std::span<const Point> points, const GroundEventConfig& config,
-                      const Smoothness& smooth) {
+// Of force over depth, from the neighbours [N/m].
+double slope_at(std::span<const Point> points, std::size_t i) {
+  const auto& before = points[i == 0 ? 0 : i - 1];
+  const auto& after = points[std::min(i + 1, points.size() - 1)];
+  return (after.force_N - before.force_N) / std::max(after.depth_m - before.depth_m, DepthBins::kWidth_m);
+}
+
+NormalTest smooth_bed(const Stance& stance, const GroundEventConfig& config, const Smoothness& smooth) {
+  const auto& points = stance.points;
   const auto& noise = config.noise;
   const double scale_N = std::max(greatest_force_N(points), noise.force_noise_N);
   const double deepest_m = points.back().depth_m;
   NormalTest test(points.size(), kSmoothTerms);
-  for (std::size_t i = 0; i < points.size(); ++i) test.observe(i, points[i].force_N);
+  std::vector<double> variance(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    test.observe(i, points[i].force_N);
+    const double from_depth_N = slope_at(points, i) * config.depth_noise_m;
+    variance[i] =
+        (noise.force_noise_N * noise.force_noise_N + from_depth_N * from_depth_N) / points[i].samples;
+  }
   test.add_covariance([&](std::size_t i, std::size_t j) {
     const double apart_m = std::abs(points[i].depth_m - points[j].depth_m);
     const double u = apart_m / smooth.length_m;
@@ -59,19 +78,20 @@ NormalTest smooth_bed(std::span<const Point> points, const GroundEventConfig& co
     const double share = std::max(0.0, 1.0 - apart_m / noise.fluctuation_length_m);
     const double e2 = noise.fluctuation_relative * noise.fluctuation_relative;
     return s_N * s_N * std::exp(-0.5 * u * u) + e2 * points[i].force_N * points[j].force_N * share +
-           (i == j ? noise.force_noise_N * noise.force_noise_N / points[i].samples : 0.0);
+           (i == j ? variance[i] : 0.0);
   });
   const auto term = [&](double sd, auto&& value) {
     test.add_term(sd, [&](std::size_t i) { return value(points[i]); });
   };
   const double wide_N = kDiffuse * scale_N;
-  term(wide_N, [](const Point&) { return 1.0; });
+  const double slope_N_per_m = scale_N / deepest_m;
+  term(std::hypot(config.offset_sd_N, slope_N_per_m * noise.surface_sd_m), [](const Point&) { return 1.0; });
   term(wide_N, [&](const Point& p) { return p.depth_m / deepest_m; });
   term(wide_N, [&](const Point& p) { return p.depth_m * p.depth_m / (deepest_m * deepest_m); });
   term(wide_N, [&](const Point& p) { return 1.0 - std::exp(-p.depth_m / noise.intercept_growth_depth_m); });
   term(noise.added_mass_factor + noise.added_mass_factor_sd, [](const Point& p) { return p.inertia_N; });
   term(noise.joint_friction_sd_N, [](const Point& p) { return p.friction; });
-  term(scale_N / deepest_m * noise.depth_drift_sd_mps, [](const Point& p) { return p.time_s; });
+  term(slope_N_per_m * noise.depth_drift_sd_mps, [](const Point& p) { return p.time_s; });
   return test;
 }
 
@@ -120,43 +140,100 @@ class Search {
 };
 
 constexpr double kPlaces_m = 1e-3;  // apart
+constexpr double kFirstBoundary_m = 0.003;
+constexpr std::array kRises_m{0.001, 0.002, 0.004};
+constexpr std::array kDecays_m{0.0005, 0.0015};
+constexpr std::array kWidths_m{0.001, 0.002, 0.004};
 
-GroundEvent find_rupture(std::span<const Point> points, const GroundEventConfig& config,
-                         std::vector<double>& shape) {
-  const auto test =
-      smooth_bed(points, config, {config.rupture_smooth_length_m, config.rupture_smooth_relative});
-  Search search(test, points);
-  for (const auto& p : points) {
-    const double place_m = p.depth_m;
-    for (const double rise_m : {0.001, 0.002, 0.004})
-      for (const double decay_m : {0.0005, 0.0015})
-        search.offer(place_m, GroundEventKind::crust_rupture, false, [&](double z) {
-          return z <= place_m ? std::max(0.0, 1.0 - (place_m - z) / rise_m)
-                              : std::exp(-(z - place_m) / decay_m);
-        });
+struct Rupture {
+  double place_m, rise_m, decay_m;
+  double operator()(double z) const {
+    return z <= place_m ? std::max(0.0, 1.0 - (place_m - z) / rise_m) : std::exp(-(z - place_m) / decay_m);
   }
-  const auto event = search.event(config.false_alarm_probability, false);
-  if (event.kind != GroundEventKind::none)
-    shape.assign(search.best_shape().begin(), search.best_shape().end());
-  return event;
+};
+
+// Mean force without the added mass's between two depths; NaN where there is no point.
+double mean_force_N(std::span<const Point> points, double from_m, double to_m) {
+  double sum = 0.0, count = 0.0;
+  for (const auto& p : points)
+    if (p.depth_m > from_m && p.depth_m < to_m) {
+      sum += p.force_N - p.inertia_N;
+      count += 1.0;
+    }
+  return sum / count;
 }
 
-GroundEvent find_boundary(std::span<const Point> points, const GroundEventConfig& config,
-                          std::span<const double> rupture_shape) {
-  auto test = smooth_bed(points, config, {config.smooth_length_m, config.smooth_relative});
-  if (!rupture_shape.empty())
-    test.add_term(kDiffuse * greatest_force_N(points), [&](std::size_t i) { return rupture_shape[i]; });
-  Search search(test, points);
-  const double deepest_m = points.back().depth_m;
-  for (double place_m = 0.003; place_m < deepest_m; place_m += kPlaces_m) {
-    for (const double width_m : {0.001, 0.002, 0.004})
+// True where the end of a reloading's damping explains a fall of the force.
+bool resumes_at(const Stance& stance, double place_m) {
+  constexpr double kResumes_m = 0.001, kBefore_m = 0.002, kAfter_m = 0.004;
+  return std::ranges::any_of(stance.resumed_m, [&](double resumed_m) {
+    if (resumed_m < 0.0 || std::abs(place_m - resumed_m) > kResumes_m) return false;
+    const double before_N = mean_force_N(stance.points, resumed_m - kBefore_m, resumed_m);
+    const double after_N = mean_force_N(stance.points, resumed_m + kResumes_m, resumed_m + kAfter_m);
+    return !(after_N < before_N);
+  });
+}
+
+void offer_ruptures(Search& search, const Stance& stance) {
+  for (const auto& p : stance.points) {
+    if (resumes_at(stance, p.depth_m)) continue;
+    for (const double rise_m : kRises_m)
+      for (const double decay_m : kDecays_m)
+        search.offer(p.depth_m, GroundEventKind::crust_rupture, false, Rupture{p.depth_m, rise_m, decay_m});
+  }
+}
+
+void offer_boundaries(Search& search, double deepest_m) {
+  for (double place_m = kFirstBoundary_m; place_m < deepest_m; place_m += kPlaces_m) {
+    for (const double width_m : kWidths_m)
       search.offer(place_m, GroundEventKind::layer_boundary, true,
                    [&](double z) { return z / (1.0 + std::exp((place_m - z) / width_m)); });
-    search.offer(place_m, GroundEventKind::box_floor, true,
+    search.offer(place_m, GroundEventKind::box_floor, false,
                  [&](double z) { return std::max(0.0, z - place_m); });
   }
+}
+
+// The shape of what was found becomes part of the null; a rupture with every rise and decay that was tried.
+void absorb(NormalTest& test, std::span<const Point> points, const GroundEvent& event,
+            std::span<const double> shape) {
+  const double sd = kDiffuse * greatest_force_N(points);
+  if (event.kind != GroundEventKind::crust_rupture) {
+    const double greatest =
+        std::abs(*std::ranges::max_element(shape, {}, [](double x) { return std::abs(x); }));
+    test.add_term(sd / greatest, [&](std::size_t i) { return shape[i]; });
+    return;
+  }
+  for (const double rise_m : kRises_m)
+    for (const double decay_m : kDecays_m)
+      test.add_term(sd, [&](std::size_t i) {
+        return Rupture{event.depth_m, rise_m, decay_m}(points[i].depth_m);
+      });
+}
+
+GroundEvent find_rupture(const Stance& stance, const GroundEventConfig& config) {
+  const auto& points = stance.points;
+  auto test = smooth_bed(stance, config, {config.rupture_smooth_length_m, config.rupture_smooth_relative});
+  Search search(test, points);
+  offer_ruptures(search, stance);
+  offer_boundaries(search, points.back().depth_m);
+  const auto best = search.event(config.false_alarm_probability, false);
+  if (best.kind == GroundEventKind::crust_rupture || best.kind == GroundEventKind::none) return best;
+  absorb(test, points, best, search.best_shape());
+  Search beside(test, points);
+  offer_ruptures(beside, stance);
+  return beside.event(config.false_alarm_probability, false);
+}
+
+GroundEvent find_boundary(const Stance& stance, const GroundEventConfig& config, const GroundEvent& rupture) {
+  const auto& points = stance.points;
+  auto test = smooth_bed(stance, config, {config.smooth_length_m, config.smooth_relative});
+  if (rupture.kind != GroundEventKind::none) absorb(test, points, rupture, {});
+  Search search(test, points);
+  offer_boundaries(search, points.back().depth_m);
   return search.event(config.false_alarm_probability, true);
 }
+
+constexpr double kFloorBelow_m = 0.004;  // the pull begins that near to where the load ended
 
 // From the first depth at which the foot no longer bears a load upwards.
 GroundEvent find_suction(const DepthBins& up, const GroundEventConfig& config) {
@@ -165,24 +242,40 @@ GroundEvent find_suction(const DepthBins& up, const GroundEventConfig& config) {
   const auto loaded =
       std::find_if(points.rbegin(), points.rend(), [&](const Point& p) { return p.force_N < free_N; });
   points.erase(loaded.base(), points.end());
+  // The ground cannot push a foot that leaves: a greater force is that of the leg at its end stop.
+  const double most_N = 5.0 * std::hypot(config.noise.force_noise_N, config.offset_sd_N);
+  const auto pushed =
+      std::find_if(points.rbegin(), points.rend(), [&](const Point& p) { return p.force_N > most_N; });
+  points.erase(points.begin(), pushed.base());
   if (points.size() < 8) return {};
   const double noise2 = config.noise.force_noise_N * config.noise.force_noise_N;
   NormalTest test(points.size(), 2);
   for (std::size_t i = 0; i < points.size(); ++i) test.observe(i, points[i].force_N);
-  test.add_covariance(
-      [&](std::size_t i, std::size_t j) { return i == j ? noise2 / points[i].samples : 0.0; });
+  test.add_covariance([&](std::size_t i, std::size_t j) {
+    const double apart_m = points[i].depth_m - points[j].depth_m;
+    const auto smooth = [&](double sd_N, double length_m) {
+      const double u = apart_m / length_m;
+      return sd_N * sd_N * std::exp(-0.5 * u * u);
+    };
+    return smooth(config.offset_sd_N, config.smooth_length_m) +
+           smooth(config.noise.force_noise_N, config.rupture_smooth_length_m) +
+           (i == j ? noise2 / points[i].samples : 0.0);
+  });
   test.add_term(config.offset_sd_N, [](std::size_t) { return 1.0; });
   test.add_term(config.noise.joint_friction_sd_N, [&](std::size_t i) { return points[i].friction; });
   Search search(test, points);
   const double top_m = points.back().depth_m;
-  for (double floor_m = top_m + 0.002; floor_m > top_m - 0.004; floor_m -= kPlaces_m)
-    for (const double length_m : {0.003, 0.006, 0.012})
+  for (const double length_m : {0.003, 0.006, 0.012})
+    for (double floor_m = top_m + length_m / 3.0; floor_m > top_m - kFloorBelow_m; floor_m -= kPlaces_m)
       search.offer(floor_m - length_m / 3.0, GroundEventKind::suction, false, [&](double z) {
         const double u = (floor_m - z) / length_m;
         return u > 0.0 && u < 1.0 ? -6.75 * u * (1.0 - u) * (1.0 - u) : 0.0;
       });
   return search.event(config.false_alarm_probability, false);
 }
+
+constexpr double kUnknown_m = -1.0;
+constexpr double kLeastStep_m = 1e-6;  // beyond the deepest point, past the rounding of its single precision
 
 void put(DepthBins& bins, const JointSample& s, double inertia_N, double friction) noexcept {
   const double place = s.depth_m / DepthBins::kWidth_m;
@@ -209,29 +302,66 @@ void GroundEventRecorder::restart(double crater_depth_m) noexcept {
   sums_ = {};
   sums_.crater_depth_m = static_cast<float>(crater_depth_m);
   sums_.deepest_m = sums_.crater_depth_m;
+  settled_s_ = 0.0;
+  paused_s_ = -1.0;
+  pause_N_per_m_ = 0.0;
+  new_from_m_ = kUnknown_m;
+  shift_m_ = 0.0;
+  leaves_ = false;
 }
 
-void GroundEventRecorder::add(const JointSample& s) noexcept {
-  const double friction = std::tanh(s.leg_rate_mps / config_.noise.friction_switch_speed_mps);
-  if (s.depth_m > static_cast<double>(sums_.deepest_m)) {
-    sums_.deepest_m = static_cast<float>(s.depth_m);
-    if (s.speed_mps < config_.min_speed_mps) return;
-    const double inertia_N = cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
-                             cone_.added_mass_kg(s.depth_m) * s.accel_mps2;
-    put(sums_.down, s, inertia_N, friction);
-  } else if (s.speed_mps < -config_.min_speed_mps) {
+double GroundEventRecorder::inertia_N(const JointSample& s) const noexcept {
+  return cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
+         cone_.added_mass_kg(s.depth_m) * s.accel_mps2;
+}
+
+bool GroundEventRecorder::is_new_ground(const JointSample& s) noexcept {
+  const double deepest_m = sums_.deepest_m;
+  const double slowing_mps2 = std::max(0.0, -s.accel_mps2);
+  if (s.speed_mps < config_.min_speed_mps + slowing_mps2 * config_.speed_lag_s) {
+    if (paused_s_ < 0.0) paused_s_ = s.since_contact_s;
+    new_from_m_ = kUnknown_m;
+    return false;
+  }
+  if (s.since_contact_s < settled_s_) return false;
+  if (paused_s_ >= 0.0) {
+    constexpr double kDeviations = 2.0;
+    const double drift_m = config_.noise.depth_drift_sd_mps * (s.since_contact_s - paused_s_);
+    if (new_from_m_ == kUnknown_m) new_from_m_ = deepest_m + kDeviations * drift_m;
+    const bool loaded_again = s.force_N - inertia_N(s) >= pause_N_per_m_ * deepest_m;
+    if (!loaded_again && s.depth_m <= new_from_m_) return false;
+    if (loaded_again) shift_m_ = std::max(0.0, deepest_m - s.depth_m) + kLeastStep_m;
+    paused_s_ = -1.0;
+    sums_.resumed_m = {static_cast<float>(s.depth_m + shift_m_), sums_.resumed_m[0]};
+  }
+  return s.depth_m + shift_m_ > deepest_m;
+}
+
+void GroundEventRecorder::add(const JointSample& sample) noexcept {
+  const double friction = std::tanh(sample.leg_rate_mps / config_.noise.friction_switch_speed_mps);
+  const bool new_ground = is_new_ground(sample);
+  JointSample s = sample;
+  s.depth_m += shift_m_;
+  if (new_ground) {
+    if (leaves_) sums_.up = {};
+    leaves_ = false;
+    const double inertia = inertia_N(s);
+    pause_N_per_m_ = (s.force_N - inertia) / s.depth_m;
+    put(sums_.down, s, inertia, friction);
+  } else if (s.speed_mps < -config_.min_speed_mps && s.since_contact_s >= settled_s_) {
+    leaves_ = true;
     put(sums_.up, s, 0.0, friction);
   }
+  sums_.deepest_m = std::max(sums_.deepest_m, static_cast<float>(s.depth_m));
 }
 
 GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config) {
   GroundEvents events;
   events.suction = find_suction(sums.up, config);
-  const auto points = points_of(sums.down);
-  if (points.size() < kLeastPoints) return events;
-  std::vector<double> rupture_shape;
-  events.rupture = find_rupture(points, config, rupture_shape);
-  events.boundary = find_boundary(points, config, rupture_shape);
+  const Stance stance{points_of(sums.down), sums.resumed_m};
+  if (stance.points.size() < kLeastPoints) return events;
+  events.rupture = find_rupture(stance, config);
+  events.boundary = find_boundary(stance, config, events.rupture);
   return events;
 }
 

@@ -25,8 +25,14 @@
 //   boundary  h = z / (1 + exp((c - z)/w)), either sign
 //   floor     h = max(0, z - c); A > 0
 //   suction   h = -(27/4) u (1 - u)^2 above the crater's floor, on the samples of the foot that leaves; A > 0
-// A rupture that was found belongs to the null of the boundary and the floor; of these two the likelier is
-// reported.
+// All templates compete: a rupture is reported where none of the others is likelier. What was found belongs
+// to the null of what is looked for next.
+//
+// A foot that stopped meets its reloading line first, and its estimated depth drifts meanwhile. After a
+// pause, new ground begins where the force is again what it was at the deepest point, which is then the
+// present depth; or where the depth is greater than before by two standard deviations of that drift. The
+// damping of the reloading ends there, which looks like a rupture: within 1 mm of it a rupture must leave
+// less force than there was before the pause.
 //
 // Sources: the statistic is Davies 1977 (a nuisance parameter that exists only under the alternative);
 // templates as in terrain/bed_family.hpp.
@@ -44,10 +50,18 @@ struct GroundEventConfig {
   double smooth_length_m = 0.020;          // of s, for boundary and floor
   double smooth_relative = 0.10;           // standard deviation of s over the greatest force
   double rupture_smooth_length_m = 0.005;  // of s, for a rupture: a bed without one has no shorter feature
-  double rupture_smooth_relative = 0.30;
-  double offset_sd_N = 1.0;  // of the force on a foot in the air
-  JointConfig noise{};       // force_noise_N, fluctuation and its length, dz0, friction
-  double min_speed_mps = 0.03;
+  double rupture_smooth_relative = 0.10;
+  double depth_noise_m = 1e-4;  // scatter of the estimated depth; a steep bed makes force of it
+  double offset_sd_N = 1.0;     // of the force on a foot in the air, constant and smooth
+  // After a change of the stance's phase the torque is another one at once, and the foot's acceleration
+  // follows it by the age of a reading, one cycle, and three time constants of the IMU's low-pass of 400 Hz:
+  // three samples that do not count.
+  double settling_time_s = 0.003;
+  JointConfig noise{};  // force_noise_N, fluctuation and its length, dz0, friction
+  // A foot is taken to move beyond two standard deviations of its estimated speed, and beyond what its
+  // acceleration changes in one cycle and one time constant of the IMU's low-pass.
+  double min_speed_mps = 0.06;
+  double speed_lag_s = 0.0014;
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -56,9 +70,12 @@ struct GroundEventConfig {
     visit("smooth_relative", self.smooth_relative, Range{0.0, 10.0});
     visit("rupture_smooth_length_m", self.rupture_smooth_length_m, Range{1e-3, 0.2});
     visit("rupture_smooth_relative", self.rupture_smooth_relative, Range{0.0, 10.0});
+    visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
     visit("offset_sd_N", self.offset_sd_N, Range{0.0, 100.0});
+    visit("settling_time_s", self.settling_time_s, Range{0.0, 0.1});
     visit("noise", self.noise);
     visit("min_speed_mps", self.min_speed_mps, Range{0.0, 1.0});
+    visit("speed_lag_s", self.speed_lag_s, Range{0.0, 0.1});
   }
 };
 
@@ -103,6 +120,8 @@ struct GroundEventSums {
   DepthBins up;    // the foot leaves
   float deepest_m = 0.0F;
   float crater_depth_m = 0.0F;  // of earlier strides
+  std::array<float, 2> resumed_m{-1.0F,
+                                 -1.0F};  // where new ground began after the last pauses; negative: none
 };
 
 // Accumulates the samples of a stance, and those after liftoff until the foot is clear. Never allocates.
@@ -111,13 +130,27 @@ class GroundEventRecorder {
   GroundEventRecorder(const GroundEventConfig& config, double foot_radius_m);
   // A new stride: the deepest point of the earlier ones.
   void restart(double crater_depth_m) noexcept;
+  // The stance switch or the liftoff, between the samples before and after it.
+  void on_phase_change(double since_contact_s) noexcept {
+    settled_s_ = since_contact_s + config_.settling_time_s;
+  }
   void add(const JointSample& sample) noexcept;
   const GroundEventSums& sums() const noexcept { return sums_; }
 
  private:
+  bool is_new_ground(const JointSample& sample) noexcept;
+  double inertia_N(const JointSample& sample) const noexcept;
+
   GroundEventConfig config_;
   Bed cone_;  // added mass at factor 1
   GroundEventSums sums_{};
+  double settled_s_ = 0.0;
+  double paused_s_ = -1.0;  // since when the foot has not gone down; negative: it does
+  double pause_N_per_m_ =
+      0.0;  // force without the added mass's, over depth, on the last new ground before the pause
+  double new_from_m_ = 0.0;  // where new ground begins at the latest after the pause
+  double shift_m_ = 0.0;     // added to the estimated depth since then
+  bool leaves_ = false;      // sums_.up has samples
 };
 
 struct GroundEvents {

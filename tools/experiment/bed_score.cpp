@@ -15,9 +15,11 @@ namespace {
 constexpr double kNormal975 = 1.959964;
 constexpr double kFirstDepth_m = 0.002;  // shallower, the surface's own error is larger than the force
 constexpr double kWidthDepth_m = 0.020;
+constexpr double kNone_m = std::numeric_limits<double>::infinity();
 constexpr double kPitch_m = 0.001;
 constexpr double kSamePlace_m = 0.010;  // farther off, what was found is something else
 constexpr double kAccurate_m = 0.002;
+constexpr double kNear_m = 0.005;
 constexpr double kBeyond_m = 0.001;  // how far the foot must go past an event for it to have happened
 
 // Linear between the claim's depths; NaN outside of them.
@@ -44,9 +46,10 @@ void score_claim(const BedStride& stride, const ProfileClaim& claim, ProfileScor
     score.width_20mm.push_back(2.0 * kNormal975 * sd / stride.truth.force_at_N(kWidthDepth_m));
 }
 
-void score_event(const GroundEvent& event, GroundEventKind kind, std::optional<double> true_depth_m,
-                 double deepest_m, EventScore& score) {
-  const bool happened = true_depth_m && deepest_m > *true_depth_m + kBeyond_m;
+// `true_depth_m`: infinite where the bed has no such thing.
+void score_event(const GroundEvent& event, GroundEventKind kind, double true_depth_m, double deepest_m,
+                 EventScore& score) {
+  const bool happened = deepest_m > true_depth_m + kBeyond_m;
   const bool reported = event.kind == kind;
   if (!happened) {
     score.absent += 1.0;
@@ -56,7 +59,7 @@ void score_event(const GroundEvent& event, GroundEventKind kind, std::optional<d
     return;
   }
   score.possible += 1.0;
-  const double error = event.depth_m - *true_depth_m;
+  const double error = event.depth_m - true_depth_m;
   if (!reported || std::abs(error) > kSamePlace_m) return;
   score.found += 1.0;
   score.within_2mm += std::abs(error) <= kAccurate_m;
@@ -67,7 +70,11 @@ void score_event(const GroundEvent& event, GroundEventKind kind, std::optional<d
 GroundEvents events_of(const BedStride& stride, const GroundEventConfig& config) {
   GroundEventRecorder recorder(config, stride.truth.foot_radius_m);
   recorder.restart(0.0);
-  for (const auto& sample : stride.samples) recorder.add(sample);
+  for (const auto& sample : stride.samples) {
+    recorder.add(sample);
+    if (std::ranges::find(stride.phase_changes_s, sample.since_contact_s) != stride.phase_changes_s.end())
+      recorder.on_phase_change(sample.since_contact_s);
+  }
   return find_ground_events(recorder.sums(), config);
 }
 
@@ -91,17 +98,18 @@ void score_stride(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t 
     if (claims[p]) score_claim(stride, *claims[p], score.profile[p]);
   const auto& truth = stride.truth;
   const double deepest = stride.true_max_depth_m;
-  score_event(events.rupture, GroundEventKind::crust_rupture, truth.rupture_depth_m, deepest, score.rupture);
-  score_event(events.boundary, GroundEventKind::layer_boundary, truth.boundary_depth_m, deepest,
-              score.boundary);
-  score_event(events.boundary, GroundEventKind::box_floor, truth.floor_depth_m, deepest, score.floor);
+  score_event(events.rupture, GroundEventKind::crust_rupture, truth.rupture_depth_m.value_or(kNone_m),
+              deepest, score.rupture);
+  // A foot that only came near the boundary felt a part of it: neither there nor absent.
+  const double boundary = truth.boundary_depth_m.value_or(kNone_m);
+  if (!(std::abs(deepest - boundary) <= kNear_m))
+    score_event(events.boundary, GroundEventKind::layer_boundary, boundary, deepest, score.boundary);
+  score_event(events.boundary, GroundEventKind::box_floor, truth.floor_depth_m.value_or(kNone_m), deepest,
+              score.floor);
   // A foot that leaves meets suction just above its crater's floor, which is not deeper than the deepest
   // point.
-  const double pull_m = deepest - 2.0 * kBeyond_m;
-  if (truth.suction_N)
-    score_event(events.suction, GroundEventKind::suction, pull_m, deepest, score.suction);
-  else
-    score_event(events.suction, GroundEventKind::suction, std::nullopt, deepest, score.suction);
+  const double pull = truth.suction_N.has_value() ? deepest - 2.0 * kBeyond_m : kNone_m;
+  score_event(events.suction, GroundEventKind::suction, pull, deepest, score.suction);
 }
 
 nlohmann::ordered_json json_of(const EventScore& s) {

@@ -56,6 +56,7 @@ class SampleCutter {
     const State before = state_;
     state_ = view.output.state;
     const auto previous_ns = std::exchange(last_ns_, e.force_time_ns);
+    if (left_) return;
     stride_.true_max_depth_m = std::max(stride_.true_max_depth_m, view.truth.max_depth_m);
     if (before != State::flight && before != State::compression && before != State::extension) return;
     if (contact_ns_ == 0) {
@@ -64,15 +65,19 @@ class SampleCutter {
       datum_m_ = e.force_depth_m;
       stride_.contact_error_m = std::max(0.0, -view.truth.foot_z_m);
     }
+    const double since_contact_s = 1e-9 * static_cast<double>(e.force_time_ns - contact_ns_);
+    if (before != State::flight && before != state_) stride_.phase_changes_s.push_back(since_contact_s);
     const double depth = e.force_depth_m - datum_m_;
-    left_ = left_ || (depth < 0.0 && e.force_velocity_mps < 0.0);
+    lifted_ = lifted_ || (before == State::extension && state_ == State::flight);
+    rises_ = rises_ || (lifted_ && e.force_velocity_mps < -config_.min_speed_mps);
+    left_ = rises_ && (depth < 0.0 || e.force_velocity_mps > 0.0);  // clear of the surface, or falling again
     if (left_) return;
     stride_.samples.push_back({.depth_m = depth,
                                .speed_mps = e.force_velocity_mps,
                                .accel_mps2 = -e.foot_accel_mps2,
                                .force_N = e.direct_force_N,
                                .leg_rate_mps = e.leg_rate_mps,
-                               .since_contact_s = 1e-9 * static_cast<double>(e.force_time_ns - contact_ns_),
+                               .since_contact_s = since_contact_s,
                                .duration_s = 1e-9 * static_cast<double>(e.force_time_ns - previous_ns)});
   }
 
@@ -82,7 +87,7 @@ class SampleCutter {
   State state_ = State::idle;
   std::int64_t last_ns_ = 0, contact_ns_ = 0;
   double datum_m_ = 0.0;
-  bool left_ = false;
+  bool lifted_ = false, rises_ = false, left_ = false;
 };
 
 }  // namespace

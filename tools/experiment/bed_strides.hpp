@@ -28,7 +28,8 @@ struct BedStride {
   BedTruth truth{};
   // From the first contact until the foot is in the air again; depth counts from that contact.
   std::vector<JointSample> samples{};
-  double contact_error_m = 0.0;  // true depth at the first contact
+  std::vector<double> phase_changes_s{};  // stance switch and liftoff, after the contact
+  double contact_error_m = 0.0;           // true depth at the first contact
   double true_max_depth_m = 0.0;
   StrideResult result{};
   ProfileSums profile{};
