@@ -33,7 +33,8 @@ std::map<std::string, std::uint64_t> lines_of(const std::filesystem::path& model
   if (model.empty()) return lines;
   const auto document = parse_config_file(model.string());
   for (const auto& child : document.root.children) {
-    if (child.kind != ConfigNode::Kind::table) lines[child.key] = static_cast<std::uint64_t>(child.key_position.line);
+    if (child.kind != ConfigNode::Kind::table)
+      lines[child.key] = static_cast<std::uint64_t>(child.key_position.line);
     if (child.kind == ConfigNode::Kind::table)
       for (const auto& inner : child.children)
         lines[child.key + "." + inner.key] = static_cast<std::uint64_t>(inner.key_position.line);
@@ -95,7 +96,8 @@ UsedNumbers used_numbers(const Campaign& campaign) {
 }
 
 std::string to_string(const UsedNumber& n) {
-  const std::string value = n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
+  const std::string value =
+      n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
   return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.said_by);
 }
 

@@ -14,8 +14,8 @@ namespace sandhopper {
 namespace {
 
 // Without these the answer hangs on a number that nobody stated.
-constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2",        "inertia_kg_m2", "gravity_torque_Nm", "mass_kg",
-                                                  "radius_m", "stiffness_N_per_m"};
+constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2", "inertia_kg_m2", "gravity_torque_Nm",
+                                                  "mass_kg",      "radius_m",      "stiffness_N_per_m"};
 
 // A number as TOML reads a real.
 std::string toml_real(double value) {
@@ -58,7 +58,8 @@ class NominalWriter {
     const auto note = belief_note(table, key);
     std::string comment = unit_of_key(key);
     if (!note.does.empty()) comment += (comment.empty() ? "" : "; ") + note.does;
-    text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value, comment.empty() ? "" : "   # " + comment);
+    text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
+                         comment.empty() ? "" : "   # " + comment);
   }
 
   std::string text_;
@@ -70,8 +71,10 @@ std::string draft_nominal(CampaignPlant plant) {
   NominalWriter writer;
   std::visit([&](const auto& belief) { writer.write(belief, ""); }, default_belief(plant));
   return fmt::format(
-             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take the # away\n"
-             "# from what you know besides; what stays a remark is not there, or has the value that stands here.\n",
+             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take "
+             "the # away\n"
+             "# from what you know besides; what stays a remark is not there, or has the value that stands "
+             "here.\n",
              name_of(plant)) +
          writer.take();
 }
