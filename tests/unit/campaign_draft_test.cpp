@@ -49,6 +49,7 @@ TEST(CampaignDraft, APlateOfATestingMachine) {
   std::replace(text.begin() + 12, text.end(), '.', ',');
   const auto got = drafted(folder, text);
   EXPECT_EQ(got.draft.plant, CampaignPlant::intruder);
+  EXPECT_THAT(got.draft.campaign_toml, HasSubstr("file = \"rec.csv\""));
   ASSERT_TRUE(got.recording.usable()) << to_string(got.recording.findings.front());
   EXPECT_NEAR(got.recording.t_s[1], 0.01, 1e-12);
   EXPECT_NEAR(got.recording.channel("force_N")[2], 700.0, 1e-9);
@@ -94,6 +95,9 @@ TEST(CampaignDraft, NominalHoldsEveryKeyAndStatesNoPhysics) {
     std::vector<Finding> notes;
     const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes);
     EXPECT_TRUE(notes.empty());
+    if (plant == CampaignPlant::intruder) {
+      EXPECT_THAT(text, HasSubstr("# added_mass_factor = 0.0")) << "what is not stated";
+    }
     for (const auto& [key, value] : numbers_of(belief))
       EXPECT_THAT(text, HasSubstr(key.substr(key.rfind('.') + 1) + " = ")) << name_of(plant);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "config/hint.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -82,6 +84,8 @@ std::string sensor_note(std::string_view key) {
 }
 
 }  // namespace
+
+std::string belief_unit(std::string_view key) { return key.ends_with("_Nm_s") ? "N m s" : unit_of_key(key); }
 
 BeliefNote belief_note(std::string_view table, std::string_view key) {
   const std::string name = std::string(table) + "." + std::string(key);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "config/hint.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/belief_notes.hpp"
 
@@ -69,7 +68,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
-    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
+    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = belief_unit(key)};
     std::size_t own = 0;
     for (std::size_t i = 0; i < of_trials.size(); ++i) {
       const auto it = of_trials[i].find(key);

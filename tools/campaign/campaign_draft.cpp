@@ -312,7 +312,7 @@ class Drafter {
         "clock\n";
     for (const auto& file : files_) {
       std::error_code error;
-      auto name = fs::proximate(file, folder_, error);
+      auto name = fs::proximate(fs::absolute(file), fs::absolute(folder_), error);
       text +=
           fmt::format("\n[[trial]]\nfile = \"{}\"\n", (error ? fs::absolute(file) : name).generic_string());
     }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "config/hint.hpp"
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/campaign_draft.hpp"
@@ -56,7 +55,7 @@ class NominalWriter {
     const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
                         std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
     const auto note = belief_note(table, key);
-    std::string comment = unit_of_key(key);
+    std::string comment = belief_unit(key);
     if (!note.does.empty()) comment += (comment.empty() ? "" : "; ") + note.does;
     text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
                          comment.empty() ? "" : "   # " + comment);
@@ -69,7 +68,7 @@ class NominalWriter {
 
 std::string draft_nominal(CampaignPlant plant) {
   NominalWriter writer;
-  std::visit([&](const auto& belief) { writer.write(belief, ""); }, default_belief(plant));
+  std::visit([&](const auto& belief) { writer.write(belief, ""); }, belief_of_silence(plant));
   return fmt::format(
              "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take "
              "the # away\n"
