@@ -42,7 +42,8 @@ class TimeReader {
     std::size_t n = 0;
     while (n < std::min(most_digits, rest_.size()) && is_digit(rest_[n])) ++n;
     int value = 0;
-    if (n == 0 || std::from_chars(rest_.data(), rest_.data() + n, value).ec != std::errc{}) return std::nullopt;
+    if (n == 0 || std::from_chars(rest_.data(), rest_.data() + n, value).ec != std::errc{})
+      return std::nullopt;
     rest_.remove_prefix(n);
     return value;
   }
@@ -53,7 +54,8 @@ class TimeReader {
   }
   bool word(std::string_view upper) {
     const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
-    if (rest_.size() < upper.size() || !std::equal(upper.begin(), upper.end(), rest_.begin(), same)) return false;
+    if (rest_.size() < upper.size() || !std::equal(upper.begin(), upper.end(), rest_.begin(), same))
+      return false;
     rest_.remove_prefix(upper.size());
     return true;
   }
@@ -93,7 +95,8 @@ std::optional<double> days_in(TimeReader& in) {
     day = *first, month = *second;
   }
   if (year < 100) year += 2000;
-  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
   if (year < 1900 || year > 2200 || !date.ok()) return std::nullopt;
   return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
@@ -181,8 +184,9 @@ std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
 }
 
 bool is_no_sample(std::string_view text) {
-  constexpr std::array<std::string_view, 16> kWords{"nan",  "na",    "n/a",  "#n/a",    "#nv",    "#value!", "#div/0!", "#wert!",
-                                                    "null", "none",  "-",    "--",      "---",    "nil",     "#num!",   "missing"};
+  constexpr std::array<std::string_view, 16> kWords{"nan",     "na",     "n/a",   "#n/a",   "#nv", "#value!",
+                                                    "#div/0!", "#wert!", "null",  "none",   "-",   "--",
+                                                    "---",     "nil",    "#num!", "missing"};
   if (text.empty()) return true;
   if (text.size() > 8) return false;
   std::string lower(text);

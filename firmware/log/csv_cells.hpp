@@ -31,9 +31,10 @@ std::optional<double> number_in_cell(std::string_view text, NumberStyle style);
 // True for a cell that says that there is no sample: empty, NaN, nan, -, --, N/A, #N/A, #NV, NULL, None, …
 bool is_no_sample(std::string_view text);
 
-// A date or a time of day, s: since 1970-01-01 00:00 UTC where the cell holds a date (a stated offset from UTC
-// is taken off), else since midnight.
-//   2023-09-13T20:41:18.250Z   2023-09-13 20:41:18+02:00   13.09.2023 20:41:18,25   9/13/2023 8:41:18 PM   20:41:18
+// A date or a time of day, s: since 1970-01-01 00:00 UTC where the cell holds a date (a stated offset from
+// UTC is taken off), else since midnight.
+//   2023-09-13T20:41:18.250Z   2023-09-13 20:41:18+02:00   13.09.2023 20:41:18,25   9/13/2023 8:41:18 PM
+//   20:41:18
 // Of 9/13/2023 and 13/9/2023 the number above 12 is the day; where both are not, the first is the month.
 struct CellTime {
   double s = 0.0;

@@ -260,7 +260,7 @@ class Reading {
   std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
-  double days_s_ = 0.0;                   // midnights passed by times without a date
+  double days_s_ = 0.0;  // midnights passed by times without a date
   std::optional<double> last_of_day_s_{};
 };
 
@@ -327,7 +327,8 @@ std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_
   bool is_there = true;
   for (std::uint64_t i = 1; i <= line && is_there; ++i) is_there = lines.next(text);
   std::string mark;
-  const std::string_view cells_text = line == layout.header_line ? without_mark(text, mark) : std::string_view(text);
+  const std::string_view cells_text =
+      line == layout.header_line ? without_mark(text, mark) : std::string_view(text);
   std::vector<TableCell> cells;
   split_csv_cells(cells_text, layout.separator, cells);
   if (!is_there || number < 1 || number > cells.size()) return 1;

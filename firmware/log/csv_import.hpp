@@ -54,8 +54,8 @@ struct CsvTable {
   std::vector<std::vector<double>> columns;  // as names; NaN: no sample
   std::vector<std::uint64_t> numbers;        // as names: number of the column in the file, from 1
   std::vector<std::uint64_t> lines;          // of the file, for each row
-  std::vector<CsvIssue> issues;   // in the order of the file, at most CsvReadOptions::max_issues …
-  std::uint64_t more_issues = 0;  // … and this many besides
+  std::vector<CsvIssue> issues;      // in the order of the file, at most CsvReadOptions::max_issues …
+  std::uint64_t more_issues = 0;     // … and this many besides
   std::vector<std::string> units{};  // as names: the cell of the row of units, empty without one
   CsvLayout layout{};
 
@@ -77,9 +77,9 @@ struct CsvReadOptions {
 // sample; a date or time of day is read as seconds (csv_cells.hpp). Encoding, separator, decimal comma, lines
 // above the header and a row of units are found (csv_layout.hpp) where `format` does not state them; remarks
 // between rows are passed over, and so is an empty cell at every row's end. What is wrong is listed with its
-// place and left out, the rest is read: a cell that is not a number (infinity included) becomes an empty one; a
-// row with a missing or extra cell, without a time, or whose time goes backwards is dropped. A second column of
-// the same name is an error and ignored.
+// place and left out, the rest is read: a cell that is not a number (infinity included) becomes an empty one;
+// a row with a missing or extra cell, without a time, or whose time goes backwards is dropped. A second
+// column of the same name is an error and ignored.
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options = {});
 // Character, from 1, at which cell `number` of a line begins; 1 where there is no such cell.
 std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number,

@@ -19,15 +19,17 @@ constexpr std::size_t kEnoughRows = 60;  // show how a table is written
 // In the order of preference: where two read equally many numbers the first counts.
 std::vector<Division> divisions(const CsvFormat& stated, std::optional<char> declared) {
   constexpr std::array kSeparators{',', ';', '\t', ' '};
-  constexpr std::array<NumberStyle, 6> kStyles{NumberStyle{'.', '\0'}, NumberStyle{',', '\0'}, NumberStyle{'.', ','},
-                                               NumberStyle{',', '.'},  NumberStyle{'.', '\''}, NumberStyle{',', ' '}};
+  constexpr std::array<NumberStyle, 6> kStyles{NumberStyle{'.', '\0'}, NumberStyle{',', '\0'},
+                                               NumberStyle{'.', ','},  NumberStyle{',', '.'},
+                                               NumberStyle{'.', '\''}, NumberStyle{',', ' '}};
   std::vector<Division> all;
   for (const char separator : kSeparators)
     for (const auto style : kStyles) {
       const bool blank_twice = separator == ' ' && style.thousands == ' ';
       if (blank_twice || (stated.decimal && style.decimal != *stated.decimal)) continue;
       if (stated.thousands && style.thousands != *stated.thousands) continue;
-      if (const auto only = stated.separator ? stated.separator : declared; only && separator != *only) continue;
+      if (const auto only = stated.separator ? stated.separator : declared; only && separator != *only)
+        continue;
       all.push_back({separator, style});
     }
   if (all.empty())
@@ -235,7 +237,8 @@ class Finder {
     if (by_comma || stated_.decimal || stated_.thousands) return;
     const char mark = style.decimal == ',' ? ',' : style.thousands;
     if (mark != ',' && !(style == NumberStyle{',', '.'})) return;
-    const NumberStyle other = style == NumberStyle{',', '\0'} ? NumberStyle{'.', ','} : NumberStyle{',', '\0'};
+    const NumberStyle other =
+        style == NumberStyle{',', '\0'} ? NumberStyle{'.', ','} : NumberStyle{',', '\0'};
     std::vector<TableCell> cells;
     std::string example;
     for (std::size_t i = seen_.first_row; i < lines_.size(); ++i) {
@@ -256,11 +259,13 @@ class Finder {
     const auto say = [&](std::string text) { out_.said.push_back(std::move(text)); };
     if (out_.encoding == TextEncoding::utf16_le || out_.encoding == TextEncoding::utf16_be)
       say("the file is UTF-16 and is read as such");
-    if (out_.encoding == TextEncoding::windows_1252) say("the file is Windows-1252, not UTF-8, and is read as such");
+    if (out_.encoding == TextEncoding::windows_1252)
+      say("the file is Windows-1252, not UTF-8, and is read as such");
     const std::uint64_t plain = declared ? 2 : 1;
     if (out_.header_line > plain) {
       std::string text = "the names of the columns stand in line " + std::to_string(out_.header_line);
-      text += out_.header_line == plain + 1 ? ", the line above is passed over" : ", the lines above are passed over";
+      text += out_.header_line == plain + 1 ? ", the line above is passed over"
+                                            : ", the lines above are passed over";
       say(text);
     }
     if (out_.units_line > 0) say("line " + std::to_string(out_.units_line) + " holds units");
@@ -278,7 +283,8 @@ class Finder {
 
 }  // namespace
 
-CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding, const CsvFormat& stated) {
+CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding,
+                      const CsvFormat& stated) {
   return Finder(first_lines, stated).run(encoding);
 }
 
@@ -293,7 +299,8 @@ std::string_view without_mark(std::string_view line, std::string& mark) {
   while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
   if (!is_remark(rest)) return line;
   std::size_t length = 0;
-  while (length < rest.size() && std::string_view("#%/").find(rest[length]) != std::string_view::npos) ++length;
+  while (length < rest.size() && std::string_view("#%/").find(rest[length]) != std::string_view::npos)
+    ++length;
   mark = std::string(rest.substr(0, length));
   rest.remove_prefix(length);
   while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
@@ -305,14 +312,20 @@ bool looks_like_unit(std::string_view text) {
   const auto pair = [&](char a, char b) { return text.size() >= 2 && text.front() == a && text.back() == b; };
   if (pair('[', ']') || pair('(', ')')) return true;
   constexpr std::array<std::string_view, 66> kWords{
-      "s",    "ms",   "us",    "\xC2\xB5s", "\xCE\xBCs", "ns",   "sec",  "min",   "h",     "m",   "mm",   "cm",  "um",
-      "N",    "kN",   "mN",    "lbf",       "lb",        "kgf",  "gf",   "kg",    "g",     "t",   "rad",  "mrad", "deg",
-      "\xC2\xB0", "rpm", "1/min", "rad/s",  "deg/s",     "dps",  "\xC2\xB0/s", "m/s", "mm/s", "cm/s", "km/h", "m/s^2", "m/s2",
-      "m/s\xC2\xB2", "A", "mA", "V",        "mV",        "W",    "Nm",   "N m",   "N.m",   "N*m", "N\xC2\xB7m", "mNm", "Ncm",
-      "Pa",   "kPa",  "MPa",   "hPa",       "bar",       "mbar", "psi",  "C",     "\xC2\xB0\x43", "K", "%", "-", "Hz", "in"};
+      "s",          "ms",    "us",    "\xC2\xB5s", "\xCE\xBCs",    "ns",       "sec",
+      "min",        "h",     "m",     "mm",        "cm",           "um",       "N",
+      "kN",         "mN",    "lbf",   "lb",        "kgf",          "gf",       "kg",
+      "g",          "t",     "rad",   "mrad",      "deg",          "\xC2\xB0", "rpm",
+      "1/min",      "rad/s", "deg/s", "dps",       "\xC2\xB0/s",   "m/s",      "mm/s",
+      "cm/s",       "km/h",  "m/s^2", "m/s2",      "m/s\xC2\xB2",  "A",        "mA",
+      "V",          "mV",    "W",     "Nm",        "N m",          "N.m",      "N*m",
+      "N\xC2\xB7m", "mNm",   "Ncm",   "Pa",        "kPa",          "MPa",      "hPa",
+      "bar",        "mbar",  "psi",   "C",         "\xC2\xB0\x43", "K",        "%",
+      "-",          "Hz",    "in"};
   if (std::find(kWords.begin(), kWords.end(), text) != kWords.end()) return true;
-  return text == "ft" || text == "degC" || text == "count" || text == "counts" || text == "rev" || text == "U/min" ||
-         text == "seconds" || text == "raw" || text == "degrees" || text == "newton" || text == "meter";
+  return text == "ft" || text == "degC" || text == "count" || text == "counts" || text == "rev" ||
+         text == "U/min" || text == "seconds" || text == "raw" || text == "degrees" || text == "newton" ||
+         text == "meter";
 }
 
 }  // namespace sandhopper

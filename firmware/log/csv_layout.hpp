@@ -16,7 +16,7 @@ struct CsvFormat {
   std::optional<TextEncoding> encoding{};
   std::optional<char> separator{};
   std::optional<char> decimal{};
-  std::optional<char> thousands{};            // '\0': none
+  std::optional<char> thousands{};             // '\0': none
   std::optional<std::uint64_t> header_line{};  // from 1; 0: the columns have no names but `names`
   std::optional<std::uint64_t> units_line{};   // 0: none
   std::vector<std::string> names{};            // of the columns, where the file has none
@@ -31,8 +31,8 @@ struct CsvLayout {
   std::uint64_t header_line = 1;  // 0: none
   std::uint64_t units_line = 0;   // 0: none
   std::uint64_t first_row_line = 2;
-  std::string header_mark{};       // in front of the names: "#"
-  bool is_ambiguous = false;       // 1,234 may be 1234 or 1.234, and nothing in the file tells
+  std::string header_mark{};  // in front of the names: "#"
+  bool is_ambiguous = false;  // 1,234 may be 1234 or 1.234, and nothing in the file tells
   std::string ambiguous_cell{};
   // What is unusual about the file, for its owner: "its names stand in line 3; lines 1 to 2 are passed over".
   std::vector<std::string> said{};
@@ -41,7 +41,8 @@ struct CsvLayout {
 // The table is the longest run of lines with equally many cells, most of them numbers; its names stand in the
 // nearest line above with as many cells that are no numbers, units in the line between. A line that states
 // `sep=;` is obeyed. Of several ways to divide the lines the one with most numbers counts.
-CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding, const CsvFormat& stated);
+CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding,
+                      const CsvFormat& stated);
 
 // A line that holds no cells: blank, or a remark ("#", "%", "//") behind the header.
 bool is_remark(std::string_view line);

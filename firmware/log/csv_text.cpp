@@ -14,10 +14,12 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kLookedAt = 1 << 16;  // bytes
 
 constexpr std::string_view kSaveAsCsv =
-    "open it in the program that wrote it and save it as CSV UTF-8 (Excel: File, Save as, \"CSV UTF-8\"), then "
+    "open it in the program that wrote it and save it as CSV UTF-8 (Excel: File, Save as, \"CSV UTF-8\"), "
+    "then "
     "name that file";
 constexpr std::string_view kPandas =
-    "write it as a table: python3 -c \"import pandas as pd; pd.read_…('FILE').to_csv('FILE.csv', index=False)\"";
+    "write it as a table: python3 -c \"import pandas as pd; pd.read_…('FILE').to_csv('FILE.csv', "
+    "index=False)\"";
 
 struct Magic {
   std::string_view bytes;
@@ -29,23 +31,27 @@ constexpr std::array kMagic{
     Magic{"\x89HDF\r\n\x1A\n"sv, {"an HDF5 file (.h5, .mat of version 7.3)", kPandas}},
     Magic{"MATLAB 5.0 MAT-file"sv, {"a MATLAB file (.mat)", "in MATLAB: writetable(T, 'FILE.csv')"}},
     Magic{"PAR1"sv, {"a Parquet file", kPandas}},
-    Magic{"TDSm"sv,
-          {"a LabVIEW measurement (.tdms)", "export it as text from LabVIEW or Excel, or by npTDMS in Python"}},
+    Magic{
+        "TDSm"sv,
+        {"a LabVIEW measurement (.tdms)", "export it as text from LabVIEW or Excel, or by npTDMS in Python"}},
     Magic{"\x1F\x8B"sv, {"compressed (.gz)", "unpack it with gunzip and name the table inside"}},
     Magic{"\x28\xB5\x2F\xFD"sv, {"compressed (.zst)", "unpack it with unzstd and name the table inside"}},
-    Magic{"#ROSBAG V"sv, {"a ROS 1 bag", "write the topic as a table: rostopic echo -b FILE -p /TOPIC > FILE.csv"}},
-    Magic{"SQLite format 3"sv, {"a database (SQLite, or a ROS 2 bag)", "write the topic as a table and name it"}},
+    Magic{"#ROSBAG V"sv,
+          {"a ROS 1 bag", "write the topic as a table: rostopic echo -b FILE -p /TOPIC > FILE.csv"}},
+    Magic{"SQLite format 3"sv,
+          {"a database (SQLite, or a ROS 2 bag)", "write the topic as a table and name it"}},
     Magic{"\x93NUMPY"sv,
-          {"a NumPy array (.npy)", "write it as a table: numpy.savetxt('FILE.csv', a, delimiter=',', header='t_s,…')"}},
+          {"a NumPy array (.npy)",
+           "write it as a table: numpy.savetxt('FILE.csv', a, delimiter=',', header='t_s,…')"}},
     Magic{"%PDF"sv, {"a PDF", "export the table itself as CSV"}},
     Magic{"\x89MCAP0\r\n"sv, {"an MCAP log", "give it the ending .mcap"}}};
 
 // Characters 0x80 to 0x9F of Windows-1252; the rest are those of Latin-1. Source: WHATWG Encoding Standard,
 // index windows-1252.
-constexpr std::array<char32_t, 32> kWindows{
-    0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
-    0x2039, 0x0152, 0x8D,   0x017D, 0x8F,   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
-    0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+constexpr std::array<char32_t, 32> kWindows{0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                            0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
+                                            0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                            0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
 
 void append_utf8(std::string& out, char32_t c) {
   const auto put = [&](char32_t byte) { out.push_back(static_cast<char>(byte)); };
@@ -186,7 +192,9 @@ bool TextLines::raw_line(std::string& line) {
 bool TextLines::read(std::string& line) {
   if (!raw_line(line)) return false;
   if (line.ends_with('\r')) line.pop_back();
-  const auto has_high_byte = [&] { return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; }); };
+  const auto has_high_byte = [&] {
+    return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; });
+  };
   const bool other = encoding_ == TextEncoding::windows_1252 ||
                      (encoding_ == TextEncoding::utf8 && has_high_byte() && !is_utf8(line));
   if (other) line = utf8_from(line, TextEncoding::windows_1252);

@@ -31,8 +31,8 @@ std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes);
 TextEncoding encoding_of(std::string_view bytes);
 std::string utf8_from(std::string_view bytes, TextEncoding encoding);
 
-// Lines of a stream without their line ends (\n, \r\n or \r) and without a byte order mark, in UTF-8. The first
-// `kAhead` lines can be looked at before they are taken.
+// Lines of a stream without their line ends (\n, \r\n or \r) and without a byte order mark, in UTF-8. The
+// first `kAhead` lines can be looked at before they are taken.
 class TextLines {
  public:
   static constexpr std::size_t kAhead = 400;
@@ -42,7 +42,7 @@ class TextLines {
   TextEncoding encoding() const { return encoding_; }
   const std::deque<std::string>& ahead() const { return ahead_; }
   std::string_view first_bytes() const { return first_bytes_; }  // as they stand in the file
-  bool next(std::string& line);  // false at the end
+  bool next(std::string& line);                                  // false at the end
 
  private:
   bool read(std::string& line);

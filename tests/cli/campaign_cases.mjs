@@ -24,8 +24,8 @@ const without_cell = trial => with_observer(trial) && trial.ruled_out.some(reaso
 
 export const breakages = [
   { name: 'non-numeric cell', kinds: ['non_numeric_cell'], usable: true, keeps: with_observer,
-    recording: rows => change(rows, 't_s', 2, cell => cell).map((row, i) => (i === 499 ? row.replace(/^([^,]*),[^,]*/, '$1,none') : row)),
-    place: '500:7', says: ['motor_left_position_rad: "none" is not a number', 'leave the cell empty'] },
+    recording: rows => change(rows, 't_s', 2, cell => cell).map((row, i) => (i === 499 ? row.replace(/^([^,]*),[^,]*/, '$1,fail') : row)),
+    place: '500:7', says: ['motor_left_position_rad: "fail" is not a number', 'leave the cell empty'] },
   { name: 'infinity', kinds: ['nan_cell'], usable: true, keeps: with_observer,
     recording: rows => change(rows, 'motor_left_position_rad', 500, (cell, at) => (at < 503 ? 'inf' : cell)),
     place: '500:7', says: ['"inf" is not a finite number', 'leave the cell empty', 'and 2 more like it'] },

@@ -1,3 +1,5 @@
+#include "tools/campaign/campaign_draft.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +8,6 @@
 
 #include "campaign_folder.hpp"
 #include "tools/campaign/belief_sources.hpp"
-#include "tools/campaign/campaign_draft.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 // A campaign written for a foreign file, and a belief with who said what.
@@ -23,7 +24,8 @@ struct Drafted {
 };
 
 // What `hop campaign import` makes of a file, read back.
-Drafted drafted(CampaignFolder& folder, const std::string& text, std::optional<CampaignPlant> plant = std::nullopt) {
+Drafted drafted(CampaignFolder& folder, const std::string& text,
+                std::optional<CampaignPlant> plant = std::nullopt) {
   folder.write("rec.csv", text);
   Drafted out{.draft = draft_campaign({folder.path() / "rec.csv"}, plant, folder.path())};
   folder.write("campaign.toml", out.draft.campaign_toml).write("nominal.toml", out.draft.nominal_toml);
@@ -36,7 +38,8 @@ std::string rows(const std::string& header, char separator, int columns) {
   std::string text = header;
   for (int i = 0; i < 40; ++i)
     for (int c = 0; c < columns; ++c)
-      text += fmt::format("{:.4f}{}", c == 0 ? 10.0 * i : 0.3 * i + 0.1 * c, c + 1 < columns ? separator : '\n');
+      text +=
+          fmt::format("{:.4f}{}", c == 0 ? 10.0 * i : 0.3 * i + 0.1 * c, c + 1 < columns ? separator : '\n');
   return text;
 }
 
@@ -46,6 +49,7 @@ TEST(CampaignDraft, APlateOfATestingMachine) {
   std::replace(text.begin() + 12, text.end(), '.', ',');
   const auto got = drafted(folder, text);
   EXPECT_EQ(got.draft.plant, CampaignPlant::intruder);
+  EXPECT_THAT(got.draft.campaign_toml, HasSubstr("file = \"rec.csv\""));
   ASSERT_TRUE(got.recording.usable()) << to_string(got.recording.findings.front());
   EXPECT_NEAR(got.recording.t_s[1], 0.01, 1e-12);
   EXPECT_NEAR(got.recording.channel("force_N")[2], 700.0, 1e-9);
@@ -56,16 +60,19 @@ TEST(CampaignDraft, AnAxisInDegreesAndTurns) {
   CampaignFolder folder;
   const auto got = drafted(folder, rows("Time (ms),Angle [deg],Speed [rpm],Torque [N·m],Temp (C)\n", ',', 5));
   EXPECT_EQ(got.draft.plant, CampaignPlant::rotary_axis);
-  EXPECT_THAT(got.draft.campaign_toml, HasSubstr("position_rad = { column = \"Angle [deg]\", unit = \"deg\", scale = 0.017453"));
+  EXPECT_THAT(got.draft.campaign_toml,
+              HasSubstr("position_rad = { column = \"Angle [deg]\", unit = \"deg\", scale = 0.017453"));
   EXPECT_THAT(got.draft.campaign_toml, HasSubstr("# not used: column \"Temp (C)\""));
   EXPECT_TRUE(got.recording.has("torque_Nm"));
 }
 
 TEST(CampaignDraft, ADroppedBodyAndADepthCountedDownward) {
   CampaignFolder first, second;
-  EXPECT_EQ(drafted(first, rows("t_s,Height (mm)\n", ',', 2), CampaignPlant::falling_body).draft.plant, CampaignPlant::falling_body);
+  EXPECT_EQ(drafted(first, rows("t_s,Height (mm)\n", ',', 2), CampaignPlant::falling_body).draft.plant,
+            CampaignPlant::falling_body);
   const auto depth = drafted(second, rows("time,Force (N),Sinkage (mm)\n", ',', 3));
-  EXPECT_THAT(depth.draft.campaign_toml, HasSubstr("foot_z_m = { column = \"Sinkage (mm)\", unit = \"mm\", scale = -0.001 }"));
+  EXPECT_THAT(depth.draft.campaign_toml,
+              HasSubstr("foot_z_m = { column = \"Sinkage (mm)\", unit = \"mm\", scale = -0.001 }"));
 }
 
 TEST(CampaignDraft, ASpreadsheetIsRefusedWithTheWayOut) {
@@ -80,13 +87,17 @@ TEST(CampaignDraft, ASpreadsheetIsRefusedWithTheWayOut) {
 }
 
 TEST(CampaignDraft, NominalHoldsEveryKeyAndStatesNoPhysics) {
-  for (const auto plant : {CampaignPlant::hopper, CampaignPlant::intruder, CampaignPlant::falling_body, CampaignPlant::rotary_axis}) {
+  for (const auto plant : {CampaignPlant::hopper, CampaignPlant::intruder, CampaignPlant::falling_body,
+                           CampaignPlant::rotary_axis}) {
     CampaignFolder folder;
     const auto text = draft_nominal(plant);
     folder.write("nominal.toml", text);
     std::vector<Finding> notes;
     const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes);
     EXPECT_TRUE(notes.empty());
+    if (plant == CampaignPlant::intruder) {
+      EXPECT_THAT(text, HasSubstr("# added_mass_factor = 0.0")) << "what is not stated";
+    }
     for (const auto& [key, value] : numbers_of(belief))
       EXPECT_THAT(text, HasSubstr(key.substr(key.rfind('.') + 1) + " = ")) << name_of(plant);
   }
@@ -96,10 +107,12 @@ TEST(BeliefSources, EveryNumberHasItsSource) {
   CampaignFolder folder;
   folder.write("nominal.toml", "gravity_mps2 = 9.81\n[axis]\ninertia_kg_m2 = 0.1\ngravity_torque_Nm = 2.0\n")
       .write("campaign.toml",
-             "plant = \"rotary_axis\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n[[trial]]\nfile = \"b.csv\"\n"
+             "plant = \"rotary_axis\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = "
+             "\"a.csv\"\n[[trial]]\nfile = \"b.csv\"\n"
              "inertia_kg_m2 = 0.2\n");
   std::string text;
-  for (const auto& number : used_numbers(load_campaign(folder.path())).numbers) text += to_string(number) + "\n";
+  for (const auto& number : used_numbers(load_campaign(folder.path())).numbers)
+    text += to_string(number) + "\n";
   EXPECT_THAT(text, HasSubstr("axis.gravity_torque_Nm = 2 N m (nominal.toml, line 4)"));
   EXPECT_THAT(text, HasSubstr("axis.inertia_kg_m2 = 0.1 to 0.2 kg m^2 (set-up of 1 of 2 trials)"));
   EXPECT_THAT(text, HasSubstr("axis.friction_switch_speed_radps = 0.02 rad/s (default: "));

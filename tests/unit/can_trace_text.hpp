@@ -70,12 +70,14 @@ inline std::string text_of(const TraceReport& report, const std::string& kind) {
   return "";
 }
 
-// A file of the data beside this repository; empty, said loudly, where it is missing.
+// A file of the data beside this repository; nothing, said loudly, where it is missing or has no bytes.
 inline std::optional<std::filesystem::path> field_input(const std::string& name) {
   const auto file =
       std::filesystem::path(SANDHOPPER_SOURCE_DIR).parent_path() / "shared/data/field_inputs" / name;
-  if (std::filesystem::exists(file)) return file;
-  std::printf("*** SKIPPED: %s is not there; put the recordings beside this repository ***\n", file.c_str());
+  std::error_code error;
+  if (std::filesystem::file_size(file, error) > 0 && !error) return file;
+  std::printf("*** SKIPPED: %s is not there, or is empty; put the recordings beside this repository ***\n",
+              file.c_str());
   return std::nullopt;
 }
 

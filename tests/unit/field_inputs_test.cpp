@@ -8,8 +8,8 @@
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/terrain/campaign_analysis.hpp"
 
-// Made-up files as laboratories have them, each in a folder with what a good tool does (expected.txt). They lie
-// beside this repository and are read in place.
+// Made-up files as laboratories have them, each in a folder with what a good tool does (expected.txt). They
+// lie beside this repository and are read in place.
 namespace sandhopper {
 namespace {
 
@@ -25,7 +25,8 @@ struct Looked {
 std::optional<Looked> look(const std::string& name) {
   const auto folder = std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "../shared/data/field_inputs" / name;
   if (!std::filesystem::exists(folder / "campaign.toml")) {
-    std::printf("*** SKIPPED: %s is not there; put the recordings beside this repository ***\n", folder.c_str());
+    std::printf("*** SKIPPED: %s is not there; put the recordings beside this repository ***\n",
+                folder.c_str());
     return std::nullopt;
   }
   const auto campaign = load_campaign(folder);
@@ -48,8 +49,8 @@ std::string terrain(const std::string& name) {
   return text;
 }
 
-#define LOOK(name)                  \
-  const auto looked = look(name);   \
+#define LOOK(name)                \
+  const auto looked = look(name); \
   if (!looked) GTEST_SKIP() << "field_inputs is not there"
 
 TEST(FieldInput, F01MillimetresTakenForMetres) {
@@ -70,7 +71,8 @@ TEST(FieldInput, F01bARowOfUnits) {
 TEST(FieldInput, F04AllTimesAlike) {
   LOOK("F04");
   EXPECT_EQ(looked->usable, 0U);
-  EXPECT_THAT(looked->told, HasSubstr("all 40 rows have the same time (1.73234e+09): written with too few digits"));
+  EXPECT_THAT(looked->told,
+              HasSubstr("all 40 rows have the same time (1.73234e+09): written with too few digits"));
 }
 
 TEST(FieldInput, F04bTimesWithTwoDigits) {

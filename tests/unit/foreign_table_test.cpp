@@ -47,8 +47,9 @@ std::string swinging(const Writing& w = {}) {
   std::string text = w.header + w.row_end;
   for (int i = 0; i < w.rows; ++i) {
     const double t = 0.01 * i;
-    std::string row = fmt::format("{:.5f}{}{:.5f}{}{:.5f}{}{:.5f}", t, w.separator, 0.3 * std::cos(4.0 * t), w.separator,
-                                  -1.2 * std::sin(4.0 * t), w.separator, 0.7 * std::sin(11.0 * t));
+    std::string row =
+        fmt::format("{:.5f}{}{:.5f}{}{:.5f}{}{:.5f}", t, w.separator, 0.3 * std::cos(4.0 * t), w.separator,
+                    -1.2 * std::sin(4.0 * t), w.separator, 0.7 * std::sin(11.0 * t));
     for (char& c : row)
       if (c == '.') c = w.decimal;
     text += row + w.row_end;
@@ -73,8 +74,9 @@ TEST(ForeignTable, RemarksAboveTheNamesArePassedOver) {
 }
 
 TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
-  const auto recording = read("Instrument;Zwick\nDate;13.09.2023\nSpeed;5,0;mm/min\n\n" +
-                              swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','}));
+  const auto recording = read(
+      "Instrument;Zwick\nDate;13.09.2023\nSpeed;5,0;mm/min\n\n" +
+      swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','}));
   expect_swing(recording);
   EXPECT_THAT(told(recording), HasSubstr("a.csv:5:1: the names of the columns stand in line 5"));
   EXPECT_THAT(told(recording), HasSubstr("decimal comma"));
@@ -85,7 +87,8 @@ TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
 TEST(ForeignTable, TheMarkOfARemarkBeforeTheNamesIsNoPartOfThem) {
   expect_swing(read(swinging({.header = "# t_s,position_rad,velocity_radps,torque_Nm"})));
   expect_swing(read(swinging({.header = "#t_s,position_rad,velocity_radps,torque_Nm"})));
-  expect_swing(read(swinging({.header = "% t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t'})));
+  expect_swing(
+      read(swinging({.header = "% t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t'})));
   expect_swing(read(swinging({.header = "# t_s position_rad velocity_radps torque_Nm", .separator = ' '})));
   expect_swing(read(swinging({.header = "# t_s,position_rad,velocity_radps,torque_Nm"}),
                     {.campaign = "[columns]\nt_s = { column = \"# t_s\" }\n"}));
@@ -94,10 +97,13 @@ TEST(ForeignTable, TheMarkOfARemarkBeforeTheNamesIsNoPartOfThem) {
 TEST(ForeignTable, DecimalCommasAreRead) {
   const std::string header = "t_s;position_rad;velocity_radps;torque_Nm";
   expect_swing(read(swinging({.header = header, .separator = ';', .decimal = ','})));
-  expect_swing(read(swinging({.header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .decimal = ','})));
+  expect_swing(read(swinging(
+      {.header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .decimal = ','})));
   expect_swing(read(swinging({.header = header, .separator = ';', .decimal = ',', .row_end = ";\r\n"})));
-  const auto quoted = read("t_s,force_N,foot_z_m\n\"0,0\",\"1,5\",\"-0,01\"\n\"0,1\",\"2,5\",\"-0,02\"\n\"0,2\",\"3,25\",\"-0,03\"\n",
-                           {.plant = "intruder"});
+  const auto quoted = read(
+      "t_s,force_N,foot_z_m\n\"0,0\",\"1,5\",\"-0,01\"\n\"0,1\",\"2,5\",\"-0,02\"\n\"0,2\",\"3,25\",\"-0,"
+      "03\"\n",
+      {.plant = "intruder"});
   ASSERT_TRUE(quoted.usable()) << told(quoted);
   EXPECT_EQ(quoted.channel("force_N")[2], 3.25);
 }
@@ -105,7 +111,8 @@ TEST(ForeignTable, DecimalCommasAreRead) {
 TEST(ForeignTable, ThousandsAreNoDecimals) {
   const auto german = read("t_s;force_N\n0,0;1.234,5\n0,1;2.345,5\n0,2;987,5\n", {.plant = "intruder"});
   EXPECT_EQ(german.channel("force_N")[0], 1234.5) << told(german);
-  const auto english = read("t_s,force_N\n0.0,\"1,234.5\"\n0.1,\"2,345.5\"\n0.2,987.5\n", {.plant = "intruder"});
+  const auto english =
+      read("t_s,force_N\n0.0,\"1,234.5\"\n0.1,\"2,345.5\"\n0.2,987.5\n", {.plant = "intruder"});
   EXPECT_EQ(english.channel("force_N")[1], 2345.5) << told(english);
   const auto swiss = read("t_s;force_N\n0.0;1'234.5\n0.1;2'345.5\n0.2;987.5\n", {.plant = "intruder"});
   EXPECT_EQ(swiss.channel("force_N")[1], 2345.5) << told(swiss);
@@ -118,7 +125,8 @@ TEST(ForeignTable, ACommaThatMayMeanEitherIsAsked) {
   EXPECT_THAT(told(asked), HasSubstr("[format] decimal"));
   const auto told_so = read(text, {.plant = "intruder", .campaign = "[format]\ndecimal = \",\"\n"});
   EXPECT_EQ(told_so.channel("force_N")[0], 1.234) << told(told_so);
-  const auto otherwise = read(text, {.plant = "intruder", .campaign = "[format]\nthousands = \",\"\ndecimal = \".\"\n"});
+  const auto otherwise =
+      read(text, {.plant = "intruder", .campaign = "[format]\nthousands = \",\"\ndecimal = \".\"\n"});
   EXPECT_EQ(otherwise.channel("force_N")[0], 1234.0) << told(otherwise);
 }
 
@@ -129,7 +137,8 @@ std::string utf16(const std::string& text, bool big_endian, bool mark) {
 }
 
 TEST(ForeignTable, Utf16IsReadAndSaid) {
-  const Writing tabs{.header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .row_end = "\r\n"};
+  const Writing tabs{
+      .header = "t_s\tposition_rad\tvelocity_radps\ttorque_Nm", .separator = '\t', .row_end = "\r\n"};
   for (const auto& bytes : {utf16(swinging(tabs), false, true), utf16(swinging(tabs), true, true),
                             utf16(swinging(), false, false)}) {
     const auto recording = read(bytes);
@@ -145,11 +154,13 @@ TEST(ForeignTable, Windows1252IsReadAndSaid) {
   ASSERT_TRUE(recording.usable()) << told(recording);
   EXPECT_NEAR(recording.channel("position_rad")[0], 0.3 * 0.0174532925, 1e-9);
   EXPECT_THAT(told(recording), HasSubstr("Windows-1252"));
-  const auto micro = read("Zeit [\xB5s],force_N\n0,1\n1000,2\n2000,3\n",
-                          {.plant = "intruder", .campaign = "[columns]\nt_s = { column = \"Zeit [µs]\", scale = 1e-6 }\n"});
+  const auto micro =
+      read("Zeit [\xB5s],force_N\n0,1\n1000,2\n2000,3\n",
+           {.plant = "intruder", .campaign = "[columns]\nt_s = { column = \"Zeit [µs]\", scale = 1e-6 }\n"});
   EXPECT_NEAR(micro.t_s.at(2), 2e-3, 1e-12) << told(micro);
   const auto umlaut = read("t_s,H\xF6he (mm)\n0,1000\n0.1,950\n0.2,800\n",
-                           {.plant = "falling_body", .campaign = "[columns]\nheight_m = { column = \"Höhe (mm)\", unit = \"mm\" }\n"});
+                           {.plant = "falling_body",
+                            .campaign = "[columns]\nheight_m = { column = \"Höhe (mm)\", unit = \"mm\" }\n"});
   EXPECT_NEAR(umlaut.channel("height_m")[1], 0.95, 1e-12) << told(umlaut);
   expect_swing(read("\xEF\xBB\xBF" + swinging()));
 }
@@ -168,8 +179,10 @@ TEST(ForeignTable, WordsForNoSampleAreNoSamples) {
 }
 
 TEST(ForeignTable, DatesAndTimesOfDayBecomeSeconds) {
-  const auto iso = read("Timestamp,force_N\n2023-09-13T20:41:18.250Z,1\n2023-09-13T20:41:18.500Z,2\n2023-09-13T20:41:19.000Z,3\n",
-                        {.plant = "intruder", .campaign = "[columns]\nt_s = \"Timestamp\"\n"});
+  const auto iso = read(
+      "Timestamp,force_N\n2023-09-13T20:41:18.250Z,1\n2023-09-13T20:41:18.500Z,2\n2023-09-13T20:41:19.000Z,"
+      "3\n",
+      {.plant = "intruder", .campaign = "[columns]\nt_s = \"Timestamp\"\n"});
   ASSERT_TRUE(iso.usable()) << told(iso);
   EXPECT_NEAR(iso.t_s[2] - iso.t_s[0], 0.75, 1e-6);
   const auto german = read("Zeit;force_N\n13.09.2023 23:59:59,5;1\n14.09.2023 00:00:00,5;2\n",
@@ -186,12 +199,13 @@ TEST(ForeignTable, BinaryFilesAreNamedWithTheWayOut) {
   for (const auto& [bytes, name] :
        {std::pair{std::string("PK\x03\x04") + std::string(40, '\0'), "xlsx"},
         std::pair{std::string("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") + std::string(40, '\1'), ".xls"},
-        std::pair{std::string("\x89HDF\r\n\x1A\n more"), "HDF5"}, std::pair{std::string("PAR1xxxx"), "Parquet"}}) {
+        std::pair{std::string("\x89HDF\r\n\x1A\n more"), "HDF5"},
+        std::pair{std::string("PAR1xxxx"), "Parquet"}}) {
     const auto recording = read(bytes);
     EXPECT_FALSE(recording.usable());
     ASSERT_EQ(recording.findings.size(), 1U) << told(recording);
     EXPECT_THAT(told(recording), HasSubstr(name));
-    EXPECT_THAT(told(recording), HasSubstr("CSV"));
+    EXPECT_THAT(told(recording), ::testing::ContainsRegex("CSV|csv"));
   }
 }
 
@@ -200,13 +214,18 @@ TEST(ForeignTable, ForceAgainstDepthNeedsNoTime) {
     const bool own = header.starts_with("force");
     const char separator = header.find(';') == std::string::npos ? ',' : ';';
     std::string text = header + "\n";
-    for (int i = 0; i < 60; ++i) text += fmt::format("{:.3f}{}{:.5f}\n", 0.05 * i * i, separator, own ? -4e-4 * i : 0.4 * i);
-    const std::string depth = header.substr(header.find(separator) + 1), force = header.substr(0, header.find(separator));
-    const auto recording = read(
-        text, {.plant = "intruder",
-               .campaign = own ? ""
-                               : fmt::format("[columns]\nforce_N = \"{}\"\nfoot_z_m = {{ column = \"{}\", scale = -0.001 }}\n",
-                                             force, depth)});
+    for (int i = 0; i < 60; ++i)
+      text += fmt::format("{:.3f}{}{:.5f}\n", 0.05 * i * i, separator, own ? -4e-4 * i : 0.4 * i);
+    const std::string depth = header.substr(header.find(separator) + 1),
+                      force = header.substr(0, header.find(separator));
+    const auto recording =
+        read(text,
+             {.plant = "intruder",
+              .campaign =
+                  own ? ""
+                      : fmt::format(
+                            "[columns]\nforce_N = \"{}\"\nfoot_z_m = {{ column = \"{}\", scale = -0.001 }}\n",
+                            force, depth)});
     ASSERT_TRUE(recording.usable()) << told(recording);
     EXPECT_FALSE(recording.has_time);
     EXPECT_NEAR(recording.channel("foot_z_m")[10], -4e-3, 1e-9);
@@ -215,10 +234,12 @@ TEST(ForeignTable, ForceAgainstDepthNeedsNoTime) {
 }
 
 TEST(ForeignTable, APathOfWindowsIsNamed) {
-  for (const auto& [path, meant] : {std::pair{"data\\rec.csv", "data/rec.csv"}, std::pair{"data\\trial.csv", "data/trial.csv"},
-                                    std::pair{"runs\\\\new.csv", "runs/new.csv"}}) {
+  for (const auto& [path, meant] :
+       {std::pair{"data\\rec.csv", "data/rec.csv"}, std::pair{"data\\trial.csv", "data/trial.csv"},
+        std::pair{"runs\\\\new.csv", "runs/new.csv"}}) {
     CampaignFolder folder;
-    folder.write("campaign.toml", fmt::format("plant = \"rotary_axis\"\n[[trial]]\nfile = \"{}\"\n", path)).write(meant, swinging());
+    folder.write("campaign.toml", fmt::format("plant = \"rotary_axis\"\n[[trial]]\nfile = \"{}\"\n", path))
+        .write(meant, swinging());
     const auto campaign = load_campaign(folder.path());
     const auto recording = read_trial(campaign, campaign.trials.at(0));
     EXPECT_THAT(told(recording), HasSubstr(fmt::format("write file = \"{}\", which exists", meant)));

@@ -26,8 +26,8 @@ struct Rig {
 TrialRecording read(const std::string& csv, const Rig& rig) {
   CampaignFolder folder;
   folder
-      .write("campaign.toml", fmt::format("plant = \"{}\"\n[columns]\n{}\n[[trial]]\nfile = \"a.csv\"\n{}\n", rig.plant,
-                                          rig.columns, rig.trial))
+      .write("campaign.toml", fmt::format("plant = \"{}\"\n[columns]\n{}\n[[trial]]\nfile = \"a.csv\"\n{}\n",
+                                          rig.plant, rig.columns, rig.trial))
       .write("a.csv", csv);
   const auto campaign = load_campaign(folder.path());
   return read_trial(campaign, campaign.trials.at(0));
@@ -40,7 +40,8 @@ const Finding* find(const TrialRecording& recording, FindingKind kind) {
 }
 
 // A plate that sinks 0.3 mm a row, in the units of the file.
-std::string press(const std::string& depth, const std::string& force, double depth_per_m, double force_per_N) {
+std::string press(const std::string& depth, const std::string& force, double depth_per_m,
+                  double force_per_N) {
   std::string text = fmt::format("t,{},{}\n", force, depth);
   for (int i = 0; i < 70; ++i) {
     const double noise = 0.3 * std::sin(7.0 * i * i);
@@ -62,7 +63,8 @@ TEST(Units, NamesAreRead) {
     EXPECT_EQ(unit(name)->dimension, dimension) << name;
     EXPECT_NEAR(unit(name)->to_si / to_si, 1.0, 1e-6) << name;
   }
-  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position"}) EXPECT_FALSE(unit(name)) << name;
+  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position"})
+    EXPECT_FALSE(unit(name)) << name;
 }
 
 TEST(Units, ANameAgainstItsScaleIsAskedWithTheArithmetic) {
@@ -78,7 +80,8 @@ TEST(Units, ANameAgainstItsScaleIsAskedWithTheArithmetic) {
         Case{"Sinkage / in", "offset = 0.0", 39.37, "unit = \"in\", scale = 0.0254"}}) {
     const auto recording =
         read(press(depth, "F", per_m, 1.0),
-             {.columns = fmt::format("t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = {{ column = \"{}\", {} }}", depth, mapping)});
+             {.columns = fmt::format("t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = {{ column = \"{}\", {} }}",
+                                     depth, mapping)});
     EXPECT_FALSE(recording.usable());
     const auto* finding = find(recording, unit_disagrees);
     ASSERT_NE(finding, nullptr) << depth;
@@ -90,41 +93,53 @@ TEST(Units, ANameAgainstItsScaleIsAskedWithTheArithmetic) {
 TEST(Units, ScaleAndUnitTogetherAreTheUsersWord) {
   const auto with = [](const std::string& mapping, double per_m) {
     return read(press("Sinkage (mm)", "F", per_m, 1.0),
-                {.columns = "t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = { column = \"Sinkage (mm)\", " + mapping + " }"});
+                {.columns = "t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = { column = \"Sinkage (mm)\", " +
+                            mapping + " }"});
   };
   const auto right = with("scale = -0.001", 1e3);
   EXPECT_TRUE(right.usable());
   EXPECT_NEAR(right.channel("foot_z_m").back(), -3.3e-4 * 69, 1e-5);
   EXPECT_NEAR(with("unit = \"mm\"", 1e3).channel("foot_z_m").back(), 3.3e-4 * 69, 1e-5);
   EXPECT_NEAR(with("unit = \"m\", scale = -1.0", 1.0).channel("foot_z_m").back(), -3.3e-4 * 69, 1e-5);
-  EXPECT_EQ(find(with("unit = \"mm\", scale = -1.0", 1e3), unit_disagrees)->severity, FindingSeverity::trial_unusable);
+  EXPECT_EQ(find(with("unit = \"mm\", scale = -1.0", 1e3), unit_disagrees)->severity,
+            FindingSeverity::trial_unusable);
 }
 
 TEST(Units, ARowOfUnitsCountsForMappedAndForOwnNames) {
-  std::string axis = "Time,Angle,Speed,Torque\ns,deg,rpm,Nm\n", own = "t_s,foot_z_m,force_N\ns,mm,N\n", kilo = "t_s;foot_z_m;force_N\n[s];[m];[kN]\n";
+  std::string axis = "Time,Angle,Speed,Torque\ns,deg,rpm,Nm\n", own = "t_s,foot_z_m,force_N\ns,mm,N\n",
+              kilo = "t_s;foot_z_m;force_N\n[s];[m];[kN]\n";
   for (int i = 0; i < 40; ++i) {
     const double t = 0.01 * i;
-    axis += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", t, 17.2 * std::cos(4 * t), -11.5 * std::sin(4 * t), 0.3 * t);
+    axis += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f}\n", t, 17.2 * std::cos(4 * t), -11.5 * std::sin(4 * t),
+                        0.3 * t);
     own += fmt::format("{:.3f},{:.3f},{:.3f}\n", t, -0.3 * i, 0.9 * i + 0.1 * std::sin(3.0 * i));
     kilo += fmt::format("{:.3f};{:.5f};{:.6f}\n", t, -3e-4 * i, 9e-4 * i);
   }
-  const auto rotary = read(axis, {.plant = "rotary_axis",
-                                  .columns = "t_s = \"Time\"\nposition_rad = \"Angle\"\nvelocity_radps = \"Speed\"\ntorque_Nm = \"Torque\""});
+  const auto rotary = read(
+      axis,
+      {.plant = "rotary_axis",
+       .columns =
+           "t_s = \"Time\"\nposition_rad = \"Angle\"\nvelocity_radps = \"Speed\"\ntorque_Nm = \"Torque\""});
   EXPECT_EQ(std::count_if(rotary.findings.begin(), rotary.findings.end(),
-                          [](const auto& f) { return f.kind == unit_disagrees; }), 2);
+                          [](const auto& f) { return f.kind == unit_disagrees; }),
+            2);
   EXPECT_THAT(find(rotary, unit_disagrees)->cure, HasSubstr("scale = 0.0174532925"));
   const auto plate = read(own, {});
   EXPECT_FALSE(plate.usable());
-  EXPECT_THAT(find(plate, unit_disagrees)->cure, HasSubstr("foot_z_m = { column = \"foot_z_m\", unit = \"mm\", scale = 0.001 }"));
+  EXPECT_THAT(find(plate, unit_disagrees)->cure,
+              HasSubstr("foot_z_m = { column = \"foot_z_m\", unit = \"mm\", scale = 0.001 }"));
   EXPECT_THAT(find(read(kilo, {}), unit_disagrees)->cure, HasSubstr("unit = \"kN\", scale = 1000"));
 }
 
 TEST(Units, VoltsNeedTheirScale) {
   const std::string csv = press("z", "Force (V)", -1.0, 0.01);
   const std::string rest = "t_s = \"t\"\nfoot_z_m = \"z\"\n";
-  EXPECT_THAT(find(read(csv, {.columns = rest + "force_N = \"Force (V)\""}), unit_disagrees)->cure, HasSubstr("scale = …"));
+  EXPECT_THAT(find(read(csv, {.columns = rest + "force_N = \"Force (V)\""}), unit_disagrees)->cure,
+              HasSubstr("scale = …"));
   EXPECT_TRUE(read(csv, {.columns = rest + "force_N = { column = \"Force (V)\", scale = 100.0 }"}).usable());
-  EXPECT_TRUE(read(csv, {.columns = rest + "force_N = { column = \"Force (V)\", unit = \"V\", scale = 100.0 }"}).usable());
+  EXPECT_TRUE(
+      read(csv, {.columns = rest + "force_N = { column = \"Force (V)\", unit = \"V\", scale = 100.0 }"})
+          .usable());
 }
 
 TEST(Units, AListOfUnitsHasNoTwoThatOneToleranceConfuses) {
@@ -139,8 +154,9 @@ TEST(Plausible, MillimetresWithoutAName) {
   EXPECT_FALSE(recording.usable());
   EXPECT_EQ(find(recording, implausible)->channel, "foot_z_m");
   EXPECT_TRUE(read(press("z", "F", 1.0, 1.0), {.columns = columns}).usable());
-  const auto stated = read(press("z", "F", 1e3, 1.0),
-                           {.columns = "t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = { column = \"z\", unit = \"m\", scale = -1.0 }"});
+  const auto stated = read(
+      press("z", "F", 1e3, 1.0),
+      {.columns = "t_s = \"t\"\nforce_N = \"F\"\nfoot_z_m = { column = \"z\", unit = \"m\", scale = -1.0 }"});
   EXPECT_TRUE(stated.usable()) << "its owner has said so";
   EXPECT_EQ(find(stated, implausible)->severity, FindingSeverity::note);
 }
@@ -156,8 +172,9 @@ std::string swing(double position_scale, double speed_scale, double time_scale =
   std::string text = "t_s,position_rad,velocity_radps,torque_Nm\n";
   for (int i = 0; i < 300; ++i) {
     const double t = 0.01 * i;
-    text += fmt::format("{:.9f},{:.6f},{:.6f},{:.4f}\n", start + time_scale * t, position_scale * 0.3 * std::cos(4 * t),
-                        -speed_scale * 1.2 * std::sin(4 * t), 0.1 * std::sin(9 * t));
+    text += fmt::format("{:.9f},{:.6f},{:.6f},{:.4f}\n", start + time_scale * t,
+                        position_scale * 0.3 * std::cos(4 * t), -speed_scale * 1.2 * std::sin(4 * t),
+                        0.1 * std::sin(9 * t));
   }
   return text;
 }
@@ -167,21 +184,24 @@ TEST(Plausible, ASpeedThatIsNotTheRateOfItsPosition) {
   EXPECT_TRUE(read(swing(1.0, 1.0), axis).findings.empty());
   EXPECT_EQ(find(read(swing(1.0, 1.2), axis), implausible), nullptr) << "a gain that a diagnosis finds";
   for (const auto& [position, speed, hint] :
-       {std::tuple{1.0, 57.2958, "deg/s"}, std::tuple{57.2958, 1.0, "position in degrees"}, std::tuple{1.0, 9.5493, "rpm"},
-        std::tuple{57.2958, 9.5493, "degrees and the speed in rpm"}, std::tuple{1.0, -1.0, "other sign"}}) {
+       {std::tuple{1.0, 57.2958, "deg/s"}, std::tuple{57.2958, 1.0, "position in degrees"},
+        std::tuple{1.0, 9.5493, "rpm"}, std::tuple{57.2958, 9.5493, "degrees and the speed in rpm"},
+        std::tuple{1.0, -1.0, "other sign"}}) {
     const auto recording = read(swing(position, speed), axis);
     ASSERT_NE(find(recording, implausible), nullptr) << hint;
     EXPECT_THAT(find(recording, implausible)->what, HasSubstr(hint));
     EXPECT_FALSE(recording.usable());
   }
   EXPECT_FALSE(read(swing(1.0, 1.0, 1000.0), axis).usable()) << "milliseconds";
-  EXPECT_THAT(find(read(swing(1.0, 1.0, 1000.0, 1.7e12), axis), implausible)->what, HasSubstr("an epoch in ms"));
+  EXPECT_THAT(find(read(swing(1.0, 1.0, 1000.0, 1.7e12), axis), implausible)->what,
+              HasSubstr("an epoch in ms"));
 }
 
 TEST(Plausible, HeightsAndDropsInOtherUnits) {
   const auto drop = [](double per_m) {
     std::string text = "t_s,height_m\n";
-    for (int i = 0; i < 45; ++i) text += fmt::format("{:.3f},{:.5f}\n", 0.01 * i, per_m * (1.0 - 4.905e-4 * i * i));
+    for (int i = 0; i < 45; ++i)
+      text += fmt::format("{:.3f},{:.5f}\n", 0.01 * i, per_m * (1.0 - 4.905e-4 * i * i));
     return text;
   };
   EXPECT_TRUE(read(drop(1.0), {.plant = "falling_body"}).usable());
@@ -192,7 +212,8 @@ TEST(Plausible, HeightsAndDropsInOtherUnits) {
 std::vector<Finding> believed(const std::string& plant, const std::string& nominal) {
   CampaignFolder folder;
   folder.write("nominal.toml", nominal)
-      .write("campaign.toml", "plant = \"" + plant + "\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
+      .write("campaign.toml",
+             "plant = \"" + plant + "\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
   return load_campaign(folder.path()).findings;
 }
 
@@ -201,9 +222,12 @@ TEST(Plausible, BeliefsThatNoLaboratoryHas) {
   EXPECT_TRUE(believed("falling_body", "gravity_mps2 = 9.80665\n").empty());
   EXPECT_TRUE(believed("falling_body", "gravity_mps2 = 1.62\n").empty()) << "the Moon";
   EXPECT_EQ(believed("falling_body", "[body]\nmass_kg = 4000\n").at(0).kind, implausible);
-  EXPECT_EQ(believed("falling_body", "[body]\nmass_kg = 58\nfrontal_area_m2 = 0.00126\nvolume_m3 = 3.35e-5\n").at(0).channel,
+  EXPECT_EQ(believed("falling_body", "[body]\nmass_kg = 58\nfrontal_area_m2 = 0.00126\nvolume_m3 = 3.35e-5\n")
+                .at(0)
+                .channel,
             "body.mass_kg");
-  EXPECT_TRUE(believed("falling_body", "[body]\nmass_kg = 9\nfrontal_area_m2 = 0.006\nvolume_m3 = 2.5e-3\n").empty());
+  EXPECT_TRUE(
+      believed("falling_body", "[body]\nmass_kg = 9\nfrontal_area_m2 = 0.006\nvolume_m3 = 2.5e-3\n").empty());
   EXPECT_THROW(believed("rotary_axis", "gravity_mps2 = 981\n"), ConfigError);
   for (const auto& bound : plausible_bounds()) EXPECT_FALSE(bound.source.empty()) << bound.channel;
 }
@@ -223,7 +247,8 @@ TEST(SampleTimes, TooFewDigitsAreSaidAsSuch) {
   EXPECT_THAT(find(all, coarse_time)->what, HasSubstr("all 60 rows have the same time (1.73234e+09)"));
   for (const auto& [format, step, said] :
        {std::tuple{"{:.2f}", 0.001, "resolution of 10 ms, rows come every 1"},
-        std::tuple{"{:.0f}", 0.1, "resolution of 1 s, rows come every"}, std::tuple{"{:.3f}", 0.0004, "resolution of 1 ms"}}) {
+        std::tuple{"{:.0f}", 0.1, "resolution of 1 s, rows come every"},
+        std::tuple{"{:.3f}", 0.0004, "resolution of 1 ms"}}) {
     const auto recording = read(clocked(format, step, 5.0), axis);
     EXPECT_FALSE(recording.usable()) << said;
     ASSERT_NE(find(recording, coarse_time), nullptr) << said;
@@ -233,7 +258,8 @@ TEST(SampleTimes, TooFewDigitsAreSaidAsSuch) {
 }
 
 TEST(SampleTimes, RowsAreSpreadWhereItsOwnerSaysSo) {
-  const auto recording = read(clocked("{:.2f}", 0.001, 5.0), {.plant = "rotary_axis", .trial = "format = { spread_times = true }"});
+  const auto recording = read(clocked("{:.2f}", 0.001, 5.0),
+                              {.plant = "rotary_axis", .trial = "format = { spread_times = true }"});
   ASSERT_TRUE(recording.usable());
   ASSERT_EQ(recording.rows(), 60U);
   EXPECT_NEAR(recording.t_s[40] - recording.t_s[20], 0.020, 0.002);
@@ -251,7 +277,9 @@ TEST(HeldSamples, HeldAndFilledValuesAreFound) {
   for (const int hold : {2, 4, 10}) {
     std::string text = "t_s,foot_z_m,force_N\n";
     for (int i = 0; i < 400; ++i)
-      text += fmt::format("{:.3f},{:.6f},{:.4f}\n", 0.002 * i, 0.005 - 1e-5 * (i / hold * hold) * (1 + 1e-3 * (i / hold)), 0.01 * i + 0.001 * std::sin(i));
+      text += fmt::format("{:.3f},{:.6f},{:.4f}\n", 0.002 * i,
+                          0.005 - 1e-5 * (i / hold * hold) * (1 + 1e-3 * (i / hold)),
+                          0.01 * i + 0.001 * std::sin(i));
     const auto recording = read(text, {});
     ASSERT_NE(find(recording, held_samples), nullptr) << hold;
     EXPECT_THAT(find(recording, held_samples)->what, HasSubstr(fmt::format("held over {} rows", hold)));

@@ -146,7 +146,7 @@ struct FallingBodyBelief {
 // J th'' = torque - G sin th - c tanh(th' / v_s) - b th', on the output side; the recorded torque drives it.
 struct RotaryAxisBelief {
   struct Axis {
-    double inertia_kg_m2 = 1.0;       // 0: not known, on a bench whose axis is locked in every trial
+    double inertia_kg_m2 = 1.0;      // 0: not known, on a bench whose axis is locked in every trial
     double gravity_torque_Nm = 0.0;  // G = m g l, at th = pi/2; th = 0 hangs down
     double viscous_friction_Nm_s = 0.0;
     double coulomb_friction_Nm = 0.0;
@@ -183,8 +183,9 @@ using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, Rot
 
 // What the plant believes when nothing is said: for a hopper this project's robot in its bed.
 Belief default_belief(CampaignPlant plant);
-// The same without physics that a file of its owner must ask for: no friction of rail and joints, no cogging, and of
-// the bed only the straight line, without intercept, added mass, drag and an unloading line of its own.
+// The same without physics that a file of its owner must ask for: no friction of rail and joints, no cogging,
+// and of the bed only the straight line, without intercept, added mass, drag and an unloading line of its
+// own.
 Belief belief_of_silence(CampaignPlant plant);
 // Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
 // key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what

@@ -10,6 +10,8 @@ struct BeliefNote {
   std::string does;
   std::string default_reason;
 };
+// The unit at the end of a key, as one writes it: "N m s" of viscous_friction_Nm_s.
+std::string belief_unit(std::string_view key);
 BeliefNote belief_note(std::string_view table, std::string_view key);
 
 }  // namespace sandhopper

@@ -6,7 +6,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "config/hint.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/belief_notes.hpp"
 
@@ -33,7 +32,8 @@ std::map<std::string, std::uint64_t> lines_of(const std::filesystem::path& model
   if (model.empty()) return lines;
   const auto document = parse_config_file(model.string());
   for (const auto& child : document.root.children) {
-    if (child.kind != ConfigNode::Kind::table) lines[child.key] = static_cast<std::uint64_t>(child.key_position.line);
+    if (child.kind != ConfigNode::Kind::table)
+      lines[child.key] = static_cast<std::uint64_t>(child.key_position.line);
     if (child.kind == ConfigNode::Kind::table)
       for (const auto& inner : child.children)
         lines[child.key + "." + inner.key] = static_cast<std::uint64_t>(inner.key_position.line);
@@ -68,7 +68,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
-    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
+    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = belief_unit(key)};
     std::size_t own = 0;
     for (std::size_t i = 0; i < of_trials.size(); ++i) {
       const auto it = of_trials[i].find(key);
@@ -95,7 +95,8 @@ UsedNumbers used_numbers(const Campaign& campaign) {
 }
 
 std::string to_string(const UsedNumber& n) {
-  const std::string value = n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
+  const std::string value =
+      n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
   return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.said_by);
 }
 

@@ -13,17 +13,17 @@ std::map<std::string, double> numbers_of(const Belief& belief);
 // One number that an answer rests on, and who said it.
 struct UsedNumber {
   enum class Source : std::uint8_t { model_file, trial_setup, plant_default };
-  std::string key;   // "terrain.stiffness_N_per_m"
-  double value = 0.0;  // of the campaign; trials may have their own
+  std::string key;               // "terrain.stiffness_N_per_m"
+  double value = 0.0;            // of the campaign; trials may have their own
   double low = 0.0, high = 0.0;  // over the trials
   std::string unit{};
   Source source = Source::plant_default;
   std::string said_by{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
 };
 
-// Those of the plant's own tables and of [sensors] and [spread] that the file or a set-up states, and defaults that
-// are not 0. What is 0 by default is off and only counted (`off`). Without effect are [sensors] and [spread] of
-// simple plants, whose defaults limit and disturb nothing; they are not listed.
+// Those of the plant's own tables and of [sensors] and [spread] that the file or a set-up states, and
+// defaults that are not 0. What is 0 by default is off and only counted (`off`). Without effect are [sensors]
+// and [spread] of simple plants, whose defaults limit and disturb nothing; they are not listed.
 struct UsedNumbers {
   std::vector<UsedNumber> numbers;
   std::size_t off = 0;

@@ -135,7 +135,8 @@ class Loader {
       if (!right || mapping.column.empty()) {
         add(FindingKind::set_up, FindingSeverity::channel_unusable, child.key_position, child.key,
             "this mapping cannot be understood",
-            fmt::format("write {} = {{ column = \"NAME\", unit = \"mm\", scale = 0.001, offset = 0.0 }}", child.key));
+            fmt::format("write {} = {{ column = \"NAME\", unit = \"mm\", scale = 0.001, offset = 0.0 }}",
+                        child.key));
         continue;
       }
       check_mapped(mapping);
@@ -256,7 +257,8 @@ class Loader {
       return false;
     }
     CompanionFile companion{(campaign_.recordings / file->text).lexically_normal(), {}, format_};
-    if (const auto* format = table.find("format"); format != nullptr && !take_format(*format, companion.format))
+    if (const auto* format = table.find("format");
+        format != nullptr && !take_format(*format, companion.format))
       return false;
     if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
     trial.companions.push_back(std::move(companion));
@@ -280,8 +282,8 @@ class Loader {
   }
 
   void note_unknown(const ConfigNode& node) {
-    static const std::vector<std::string> kKnown{"name",    "plant",  "model",       "data",  "source", "available",
-                                                 "columns", "format", "every_trial", "trial"};
+    static const std::vector<std::string> kKnown{"name",      "plant",   "model",  "data",        "source",
+                                                 "available", "columns", "format", "every_trial", "trial"};
     if (std::find(kKnown.begin(), kKnown.end(), node.key) != kKnown.end()) return;
     add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
         "is not used at the top of a campaign", cure_for_unknown_key(node.key, std::nullopt, kKnown));

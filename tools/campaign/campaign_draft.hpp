@@ -16,14 +16,16 @@ struct CampaignDraft {
   std::string nominal_toml{};
 };
 
-// Looks at the first file: how it is written (csv_layout.hpp), which column is the time and which may be which
-// channel, by unit and name; `plant` is guessed from these where it is not given. Both texts hold every key, with
-// unit and a comment; keys that state physics are remarks until somebody wants them. Files are named relative to
-// `folder`. Throws std::runtime_error where a file cannot be read as a table, with the way out.
-CampaignDraft draft_campaign(const std::vector<std::filesystem::path>& files, std::optional<CampaignPlant> plant,
-                             const std::filesystem::path& folder);
+// Looks at the first file: how it is written (csv_layout.hpp), which column is the time and which may be
+// which channel, by unit and name; `plant` is guessed from these where it is not given. Both texts hold every
+// key, with unit and a comment; keys that state physics are remarks until somebody wants them. Files are
+// named relative to `folder`. Throws std::runtime_error where a file cannot be read as a table, with the way
+// out.
+CampaignDraft draft_campaign(const std::vector<std::filesystem::path>& files,
+                             std::optional<CampaignPlant> plant, const std::filesystem::path& folder);
 
-// Every key of the plant's nominal.toml; those without which nothing can be said are stated, the rest are remarks.
+// Every key of the plant's nominal.toml; those without which nothing can be said are stated, the rest are
+// remarks.
 std::string draft_nominal(CampaignPlant plant);
 
 }  // namespace sandhopper

@@ -5,7 +5,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "config/hint.hpp"
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/campaign_draft.hpp"
@@ -14,8 +13,8 @@ namespace sandhopper {
 namespace {
 
 // Without these the answer hangs on a number that nobody stated.
-constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2",        "inertia_kg_m2", "gravity_torque_Nm", "mass_kg",
-                                                  "radius_m", "stiffness_N_per_m"};
+constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2", "inertia_kg_m2", "gravity_torque_Nm",
+                                                  "mass_kg",      "radius_m",      "stiffness_N_per_m"};
 
 // A number as TOML reads a real.
 std::string toml_real(double value) {
@@ -56,9 +55,10 @@ class NominalWriter {
     const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
                         std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
     const auto note = belief_note(table, key);
-    std::string comment = unit_of_key(key);
+    std::string comment = belief_unit(key);
     if (!note.does.empty()) comment += (comment.empty() ? "" : "; ") + note.does;
-    text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value, comment.empty() ? "" : "   # " + comment);
+    text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
+                         comment.empty() ? "" : "   # " + comment);
   }
 
   std::string text_;
@@ -68,10 +68,12 @@ class NominalWriter {
 
 std::string draft_nominal(CampaignPlant plant) {
   NominalWriter writer;
-  std::visit([&](const auto& belief) { writer.write(belief, ""); }, default_belief(plant));
+  std::visit([&](const auto& belief) { writer.write(belief, ""); }, belief_of_silence(plant));
   return fmt::format(
-             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take the # away\n"
-             "# from what you know besides; what stays a remark is not there, or has the value that stands here.\n",
+             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take "
+             "the # away\n"
+             "# from what you know besides; what stays a remark is not there, or has the value that stands "
+             "here.\n",
              name_of(plant)) +
          writer.take();
 }

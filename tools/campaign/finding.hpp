@@ -28,11 +28,11 @@ enum class FindingKind : std::uint8_t {
   stuck,
   wrong_plant,
   set_up,
-  file_format,      // how the file is written, where that is unusual or not known
-  unit_disagrees,   // the file and campaign.toml state different units
-  coarse_time,      // times with too few digits
-  held_samples,     // values repeated, or zeros filled in, between true samples
-  implausible       // not possible on this plant: a unit is likely to be wrong
+  file_format,     // how the file is written, where that is unusual or not known
+  unit_disagrees,  // the file and campaign.toml state different units
+  coarse_time,     // times with too few digits
+  held_samples,    // values repeated, or zeros filled in, between true samples
+  implausible      // not possible on this plant: a unit is likely to be wrong
 };
 template <>
 struct EnumNames<FindingKind> {

@@ -16,8 +16,10 @@ using enum FindingSeverity;
 
 constexpr double kLongestBed_m = 5.0;
 constexpr std::string_view kDrive = "MIT protocol of the drives: a position is coded over +-12.5 rad";
-constexpr std::string_view kJoint = "MIT protocol of the drives: a speed is coded over +-65 rad/s at most; three times that";
-constexpr std::string_view kImu = "the widest shock accelerometers of such rigs carry 2000 m/s2 (200 g); ten times that";
+constexpr std::string_view kJoint =
+    "MIT protocol of the drives: a speed is coded over +-65 rad/s at most; three times that";
+constexpr std::string_view kImu =
+    "the widest shock accelerometers of such rigs carry 2000 m/s2 (200 g); ten times that";
 constexpr std::string_view kTall = "a leg of 0.4 m in a laboratory";
 
 constexpr std::array kBounds{
@@ -34,7 +36,8 @@ constexpr std::array kBounds{
     PlausibleBound{hopper, "motor_left_velocity_radps", 200.0, kJoint},
     PlausibleBound{hopper, "motor_right_velocity_radps", 200.0, kJoint},
     PlausibleBound{hopper, "motor_left_current_A", 500.0, "ten times the peak current of drives of a few kW"},
-    PlausibleBound{hopper, "motor_right_current_A", 500.0, "ten times the peak current of drives of a few kW"},
+    PlausibleBound{hopper, "motor_right_current_A", 500.0,
+                   "ten times the peak current of drives of a few kW"},
     PlausibleBound{hopper, "tof_height_m", 10.0, kTall},
     PlausibleBound{hopper, "mocap_body_z_m", 10.0, kTall},
     PlausibleBound{hopper, "mocap_foot_z_m", 10.0, kTall},
@@ -61,7 +64,8 @@ double largest(std::span<const double> values) {
 
 class PlausibilityChecker {
  public:
-  PlausibilityChecker(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial, const RecordingPlaces& places)
+  PlausibilityChecker(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                      const RecordingPlaces& places)
       : recording_(recording), campaign_(campaign), trial_(trial), places_(places) {}
 
   void run() {
@@ -77,8 +81,9 @@ class PlausibilityChecker {
 
  private:
   bool is_stated(std::string_view channel) const {
-    return std::any_of(trial_.columns.begin(), trial_.columns.end(),
-                       [&](const auto& mapping) { return mapping.channel == channel && mapping.is_stated(); });
+    return std::any_of(trial_.columns.begin(), trial_.columns.end(), [&](const auto& mapping) {
+      return mapping.channel == channel && mapping.is_stated();
+    });
   }
 
   // "X = { column = …, unit = …, scale = … }", which says that the values are as they are.
@@ -87,8 +92,9 @@ class PlausibilityChecker {
     for (const auto& mapping : trial_.columns)
       if (mapping.channel == channel) column = mapping.column;
     return fmt::format(
-        "correct its scale; if it is so, say it in [columns]: {} = {{ column = \"{}\", unit = \"…\", scale = … }}", channel,
-        column);
+        "correct its scale; if it is so, say it in [columns]: {} = {{ column = \"{}\", unit = \"…\", scale = "
+        "… }}",
+        channel, column);
   }
 
   void check_bounds() {
@@ -118,14 +124,19 @@ class PlausibilityChecker {
       if (first > 0.5 * kNow_s * unit && first < 3.0 * kNow_s * unit) {
         add("t_s",
             fmt::format("begins at {:.6g}, which is an epoch in {}, not in s", first,
-                        unit == 1e3 ? "ms" : unit == 1e6 ? "us" : "ns"),
-            is_stated("t_s"), fmt::format("write t_s = {{ column = \"…\", scale = {} }} in [columns]", 1.0 / unit));
+                        unit == 1e3   ? "ms"
+                        : unit == 1e6 ? "us"
+                                      : "ns"),
+            is_stated("t_s"),
+            fmt::format("write t_s = {{ column = \"…\", scale = {} }} in [columns]", 1.0 / unit));
         return;
       }
-    const double step_s = (recording_.t_s.back() - recording_.t_s.front()) / static_cast<double>(recording_.t_s.size() - 1);
+    const double step_s =
+        (recording_.t_s.back() - recording_.t_s.front()) / static_cast<double>(recording_.t_s.size() - 1);
     const bool moves = campaign_.plant == hopper && trial_.kind == TrialKind::hop;
     if (moves && step_s > 0.5)
-      add("t_s", fmt::format("a row comes every {:.3g} s, and a hop takes less than a second", step_s), is_stated("t_s"),
+      add("t_s", fmt::format("a row comes every {:.3g} s, and a hop takes less than a second", step_s),
+          is_stated("t_s"),
           "write t_s = { column = \"…\", scale = 0.001 } in [columns] if the times are in ms");
   }
 
@@ -140,8 +151,8 @@ class PlausibilityChecker {
       const auto ratio = rate_ratio(pair.position, pair.speed);
       if (!ratio) continue;
       add(pair.speed,
-          fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}", *ratio,
-                      pair.position, hint(*ratio)),
+          fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}",
+                      *ratio, pair.position, hint(*ratio)),
           is_stated(pair.position) && is_stated(pair.speed));
     }
   }
@@ -152,19 +163,21 @@ class PlausibilityChecker {
       std::string_view text;
     };
     constexpr double kDegrees = 180.0 / std::numbers::pi;
-    constexpr std::array kKnown{Known{kDegrees, " (57.3: the speed in deg/s)"},
-                                Known{1.0 / kDegrees, " (0.01745: the position in degrees)"},
-                                Known{30.0 / std::numbers::pi, " (9.55: the speed in rpm)"},
-                                Known{1.0 / 6.0, " (1/6: the position in degrees and the speed in rpm)"},
-                                Known{1e3, " (1000: the speed in mm/s or mrad/s, or the time in ms too coarse)"},
-                                Known{1e-3, " (0.001: the position in mm or mrad, or the time in ms)"}};
+    constexpr std::array kKnown{
+        Known{kDegrees, " (57.3: the speed in deg/s)"},
+        Known{1.0 / kDegrees, " (0.01745: the position in degrees)"},
+        Known{30.0 / std::numbers::pi, " (9.55: the speed in rpm)"},
+        Known{1.0 / 6.0, " (1/6: the position in degrees and the speed in rpm)"},
+        Known{1e3, " (1000: the speed in mm/s or mrad/s, or the time in ms too coarse)"},
+        Known{1e-3, " (0.001: the position in mm or mrad, or the time in ms)"}};
     for (const auto& known : kKnown)
       if (std::abs(std::abs(ratio) / known.ratio - 1.0) < 0.15) return std::string(known.text);
     return ratio < 0.0 ? " or has the other sign" : "";
   }
 
-  // Slope of the speed channel over the rate of the position, where they go together and it is far from 1: below
-  // 0.2, above 5, or of the other sign. Rates are taken over a twentieth of the rows, above the sensor's noise.
+  // Slope of the speed channel over the rate of the position, where they go together and it is far from 1:
+  // below 0.2, above 5, or of the other sign. Rates are taken over a twentieth of the rows, above the
+  // sensor's noise.
   std::optional<double> rate_ratio(std::string_view position, std::string_view speed) const {
     if (!recording_.has(position) || !recording_.has(speed)) return std::nullopt;
     const auto x = recording_.channel(position), v = recording_.channel(speed);
@@ -201,7 +214,8 @@ class PlausibilityChecker {
       const double t = recording_.t_s[i] - recording_.t_s[*first], way = std::abs(h[i] - h[*first]);
       if (t < 0.05 || way <= kThrow_mps * t + std::max(gravity_of(trial_.belief), 10.0) * t * t) continue;
       add("height_m",
-          fmt::format("changes by {:.4g} m within {:.3g} s, faster than a throw of 15 m/s and a fall", way, t),
+          fmt::format("changes by {:.4g} m within {:.3g} s, faster than a throw of 15 m/s and a fall", way,
+                      t),
           is_stated("height_m"));
       return;
     }
@@ -211,7 +225,8 @@ class PlausibilityChecker {
   void check_overburden() {
     const auto* belief = belief_of<IntruderBelief>(trial_);
     const bool has_foot = trial_.number("plate_diameter_m") || trial_.number("diameter_m") ||
-                          trial_.number("foot_diameter_m") || trial_.number("radius_m") || !campaign_.model.empty();
+                          trial_.number("foot_diameter_m") || trial_.number("radius_m") ||
+                          !campaign_.model.empty();
     if (belief == nullptr || !has_foot || !recording_.has("foot_z_m") || !recording_.has("force_N")) return;
     double deepest_m = 0.0;
     for (const double z : recording_.channel("foot_z_m"))
@@ -222,7 +237,8 @@ class PlausibilityChecker {
     const double peak_N = largest(recording_.channel("force_N"));
     if (peak_N <= 0.0 || peak_N >= 0.2 * least_N) return;
     add("force_N",
-        fmt::format("reaches {:.3g} N at a depth of {:.3g} m, where even a bed of {:.0f} kg/m3 weighs {:.3g} N above a "
+        fmt::format("reaches {:.3g} N at a depth of {:.3g} m, where even a bed of {:.0f} kg/m3 weighs {:.3g} "
+                    "N above a "
                     "foot of {:.3g} m: force, depth or foot is in another unit",
                     peak_N, deepest_m, kLightest_kg_per_m3, least_N, 2.0 * belief->foot.radius_m),
         is_stated("force_N") && is_stated("foot_z_m"));
@@ -230,9 +246,11 @@ class PlausibilityChecker {
 
   void add(std::string_view channel, std::string what, bool stated, std::string how = "") {
     const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file, line, 1,
-                                   std::string(channel), std::move(what),
-                                   stated ? "taken as stated in [columns]" : how.empty() ? cure(channel) : how});
+    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file,
+                                   line, 1, std::string(channel), std::move(what),
+                                   stated        ? "taken as stated in [columns]"
+                                   : how.empty() ? cure(channel)
+                                                 : how});
   }
 
   TrialRecording& recording_;
@@ -241,8 +259,8 @@ class PlausibilityChecker {
   const RecordingPlaces& places_;
 };
 
-// Of the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan, Venus, Jupiter
-// (NASA Planetary Fact Sheet), and none.
+// Of the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan, Venus,
+// Jupiter (NASA Planetary Fact Sheet), and none.
 bool is_known_gravity(double g) {
   constexpr std::array kElsewhere{0.0, 1.62, 3.7, 3.71, 3.72, 3.73, 1.35, 8.87, 24.8, 24.79};
   return (g > 9.7 && g < 9.9) || std::any_of(kElsewhere.begin(), kElsewhere.end(),
@@ -268,7 +286,8 @@ void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, c
   if (volume_m3 > 0.0 && mass_kg > kDensest_kg_per_m3 * volume_m3)
     add(fmt::format("{:.4g} kg in {:.3g} m3 at most is denser than any metal", mass_kg, volume_m3));
   else if (mass_kg > 1000.0)
-    add(fmt::format("a body of {:.4g} kg ({:.3g} t) is not dropped in a laboratory", mass_kg, mass_kg / 1000.0));
+    add(fmt::format("a body of {:.4g} kg ({:.3g} t) is not dropped in a laboratory", mass_kg,
+                    mass_kg / 1000.0));
 }
 
 }  // namespace

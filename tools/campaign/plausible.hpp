@@ -6,11 +6,12 @@
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// Values that are not possible on a plant, so that a unit must be wrong. One table of bounds (plausible.cpp), each
-// with the physics or the part that gives it; and laws that two channels must keep together:
+// Values that are not possible on a plant, so that a unit must be wrong. One table of bounds (plausible.cpp),
+// each with the physics or the part that gives it; and laws that two channels must keep together:
 //   rate of a position = its speed channel              within a factor of 5
 //   |height(t) - height(0)| <= 15 m/s t + g t^2         a throw and a fall, with room
-//   peak force >= rho g z_max A / 5                     a bed pushes at least with its own weight above the foot
+//   peak force >= rho g z_max A / 5                     a bed pushes at least with its own weight above the
+//   foot
 namespace sandhopper {
 
 struct PlausibleBound {
@@ -21,8 +22,8 @@ struct PlausibleBound {
 };
 std::span<const PlausibleBound> plausible_bounds();
 
-// Adds findings to a recording: what rules the trial out, or a note where `unit` and `scale` of the channel are both
-// written down, so that its experimenter has said that it is so.
+// Adds findings to a recording: what rules the trial out, or a note where `unit` and `scale` of the channel
+// are both written down, so that its experimenter has said that it is so.
 void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                      const RecordingPlaces& places);
 

@@ -40,8 +40,8 @@ class TableReader {
   std::optional<fs::path> locate() {
     std::error_code error;
     if (!fs::exists(trial_.file, error)) {
-      complain(FindingKind::missing_file, fmt::format("the recording {} does not exist", trial_.file.string()),
-               cure_for_missing());
+      complain(FindingKind::missing_file,
+               fmt::format("the recording {} does not exist", trial_.file.string()), cure_for_missing());
       return std::nullopt;
     }
     if (!fs::is_directory(trial_.file, error)) return trial_.file;
@@ -63,21 +63,23 @@ class TableReader {
     return std::nullopt;
   }
 
-  // A path of Windows has backslashes, and TOML reads "\r", "\t", "\n" in double quotes as control characters.
+  // A path of Windows has backslashes, and TOML reads "\r", "\t", "\n" in double quotes as control
+  // characters.
   std::string cure_for_missing() const {
     constexpr std::array<std::pair<char, std::string_view>, 7> kEscapes{
         {{'\r', "/r"}, {'\n', "/n"}, {'\t', "/t"}, {'\b', "/b"}, {'\f', "/f"}, {'\x1B', "/e"}, {'\\', "/"}}};
     std::string meant;
     bool is_windows = false;
     for (const char c : trial_.name) {
-      const auto found = std::find_if(kEscapes.begin(), kEscapes.end(), [&](const auto& e) { return e.first == c; });
+      const auto found =
+          std::find_if(kEscapes.begin(), kEscapes.end(), [&](const auto& e) { return e.first == c; });
       is_windows |= found != kEscapes.end();
       meant += found == kEscapes.end() ? std::string(1, c) : std::string(found->second);
     }
-    if (!is_windows)
-      return "correct file = \"…\" (it is relative to this folder) or take the trial out";
-    return fmt::format("a backslash in a name in double quotes makes a control character: write file = \"{}\"{}", meant,
-                       fs::exists(campaign_.folder / meant) ? ", which exists" : "");
+    if (!is_windows) return "correct file = \"…\" (it is relative to this folder) or take the trial out";
+    return fmt::format(
+        "a backslash in a name in double quotes makes a control character: write file = \"{}\"{}", meant,
+        fs::exists(campaign_.folder / meant) ? ", which exists" : "");
   }
 
   bool read(const fs::path& file) {
@@ -108,10 +110,11 @@ class TableReader {
     out_.table = parse(text);
     out_.own_log = true;
     if (exported.truncated_at)
-      add(FindingKind::unreadable_file, note, 0, fmt::format("the log is cut at byte {}", *exported.truncated_at),
-          "what precedes the cut is used");
+      add(FindingKind::unreadable_file, note, 0,
+          fmt::format("the log is cut at byte {}", *exported.truncated_at), "what precedes the cut is used");
     if (exported.lost_records > 0)
-      add(FindingKind::gap, note, 0, fmt::format("{} records were lost when it was logged", exported.lost_records), "");
+      add(FindingKind::gap, note, 0,
+          fmt::format("{} records were lost when it was logged", exported.lost_records), "");
   }
 
   // By the mapped name of the time, or by t_s where the file has no such column.
@@ -147,14 +150,15 @@ class TableReader {
               : "state it otherwise with [format] in campaign.toml if that is wrong");
   }
 
-  void add(FindingKind kind, FindingSeverity severity, std::uint64_t line, std::string what, std::string cure) {
+  void add(FindingKind kind, FindingSeverity severity, std::uint64_t line, std::string what,
+           std::string cure) {
     findings_.push_back({kind, severity, out_.file, line, line, "", std::move(what), std::move(cure)});
     findings_.back().column = line > 0 ? 1 : 0;
   }
   // What the trial's entry in campaign.toml asks for and cannot have.
   void complain(FindingKind kind, std::string what, std::string cure) {
-    findings_.push_back({kind, trial_unusable, campaign_.file.string(), trial_.position.line, trial_.position.column,
-                         "file", std::move(what), std::move(cure)});
+    findings_.push_back({kind, trial_unusable, campaign_.file.string(), trial_.position.line,
+                         trial_.position.column, "file", std::move(what), std::move(cure)});
   }
 
   const Campaign& campaign_;
@@ -167,10 +171,13 @@ bool is_called_time(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (lower == "t" || lower.starts_with("t ") || lower.starts_with("t(") || lower.starts_with("t[")) return true;
-  constexpr std::array<std::string_view, 9> kBegin{"time", "zeit", "temps", "tiempo", "tempo", "timestamp", "stamp", "elapsed", "uhrzeit"};
+  if (lower == "t" || lower.starts_with("t ") || lower.starts_with("t(") || lower.starts_with("t["))
+    return true;
+  constexpr std::array<std::string_view, 9> kBegin{"time",      "zeit",  "temps",   "tiempo", "tempo",
+                                                   "timestamp", "stamp", "elapsed", "uhrzeit"};
   return std::any_of(kBegin.begin(), kBegin.end(), [&](auto word) { return lower.starts_with(word); }) ||
-         lower.ends_with("timestamp") || lower.ends_with("_time") || lower == "sec" || lower == "seconds" || lower == "ms";
+         lower.ends_with("timestamp") || lower.ends_with("_time") || lower == "sec" || lower == "seconds" ||
+         lower == "ms";
 }
 
 }  // namespace
@@ -208,8 +215,8 @@ std::string cure_for_time(const CsvTable& table, CampaignPlant plant) {
   auto unit = read_unit(table.units[*i], true);
   if (!unit) unit = unit_in_name(table.names[*i]);
   const bool known = unit && unit->dimension == "time" && unit->to_si > 0.0;
-  return fmt::format("add t_s = {{ column = \"{}\", scale = {} }} to [columns] (scale: to seconds)", table.names[*i],
-                     known ? unit->to_si : 1.0);
+  return fmt::format("add t_s = {{ column = \"{}\", scale = {} }} to [columns] (scale: to seconds)",
+                     table.names[*i], known ? unit->to_si : 1.0);
 }
 
 std::optional<TrialTable> read_table(const Campaign& campaign, const CampaignTrial& trial,

@@ -60,7 +60,8 @@ class Reader {
     std::vector<std::string_view> taken{"t_s"};
     for (const auto& mapping : trial_.columns) {
       if (std::find(taken.begin(), taken.end(), mapping.channel) != taken.end()) continue;
-      const bool plain = find_column(table_, mapping.column) == nullptr && table_.find(mapping.channel) != nullptr;
+      const bool plain =
+          find_column(table_, mapping.column) == nullptr && table_.find(mapping.channel) != nullptr;
       if (plain) continue;  // this file already bears the channel's own name
       taken.push_back(mapping.channel);
       take_mapped(mapping);
@@ -109,14 +110,16 @@ class Reader {
       out_.t_s.resize(table_.rows());
       for (std::size_t row = 0; row < out_.t_s.size(); ++row) out_.t_s[row] = static_cast<double>(row);
       add(FindingKind::no_time, note, table_.layout.header_line, 1, wanted,
-          "the file has no time: force against depth is read in the order of the rows, and nothing that needs a speed "
+          "the file has no time: force against depth is read in the order of the rows, and nothing that "
+          "needs a speed "
           "can be said",
           "for that add a column of the time: [columns] t_s = { column = \"NAME\", scale = 1.0 }");
       return;
     }
     add(FindingKind::no_time, trial_unusable, table_.layout.header_line, 1, wanted,
         fmt::format("no column is called \"{}\"; the columns are {}", wanted, fmt::join(table_.names, ", ")),
-        cure.empty() ? "add a column of the time, in s, and name it: [columns] t_s = { column = \"NAME\", scale = 1.0 }"
+        cure.empty() ? "add a column of the time, in s, and name it: [columns] t_s = { column = \"NAME\", "
+                       "scale = 1.0 }"
                      : cure);
   }
 
@@ -149,8 +152,9 @@ class Reader {
                                      .largest = largest});
     if (verdict.problem.empty()) return verdict.scale;
     const bool by_row = table_.layout.units_line > 0 && !table_.units[i].empty();
-    add(FindingKind::unit_disagrees, trial_unusable, by_row ? table_.layout.units_line : table_.layout.header_line,
-        header_character(i), table_.names[i], fmt::format("for {}: {}", mapping.channel, verdict.problem), verdict.cure);
+    add(FindingKind::unit_disagrees, trial_unusable,
+        by_row ? table_.layout.units_line : table_.layout.header_line, header_character(i), table_.names[i],
+        fmt::format("for {}: {}", mapping.channel, verdict.problem), verdict.cure);
     return std::nullopt;
   }
 
@@ -174,7 +178,8 @@ class Reader {
     const auto& name = table_.names[i];
     out_.unused_columns.push_back(name);
     const auto misnamed = misnamed_unit(name, campaign_.plant);
-    if (!misnamed || table_.find(misnamed->channel) != nullptr || mapping_of(trial_, misnamed->channel) != nullptr)
+    if (!misnamed || table_.find(misnamed->channel) != nullptr ||
+        mapping_of(trial_, misnamed->channel) != nullptr)
       return;
     const auto cure =
         misnamed->scale
@@ -224,10 +229,11 @@ class Reader {
       add(FindingKind::unknown_column, trial_unusable, line, 1, "",
           fmt::format("no column is a channel of plant \"{}\"; the columns are {}", name_of(campaign_.plant),
                       fmt::join(table_.names, ", ")),
-          is_linear_stage() ? "a linear stage obeys the equation of plant \"rotary_axis\" with m for rad, N for N m and kg "
-                              "for kg m^2: position_rad = { column = \"NAME\", unit = \"m\", scale = 1.0 } in [columns], "
-                              "inertia_kg_m2 = its mass"
-                            : "say in [columns] which column is which channel");
+          is_linear_stage()
+              ? "a linear stage obeys the equation of plant \"rotary_axis\" with m for rad, N for N m and kg "
+                "for kg m^2: position_rad = { column = \"NAME\", unit = \"m\", scale = 1.0 } in [columns], "
+                "inertia_kg_m2 = its mass"
+              : "say in [columns] which column is which channel");
   }
 
   // An axis that is recorded in metres.
@@ -264,7 +270,9 @@ class Reader {
     if (keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
   }
 
-  std::uint64_t header_character(std::size_t i) const { return places_.character(table_.layout.header_line, table_.numbers[i]); }
+  std::uint64_t header_character(std::size_t i) const {
+    return places_.character(table_.layout.header_line, table_.numbers[i]);
+  }
 
   std::size_t index_of(const std::vector<double>& column) const {
     return static_cast<std::size_t>(&column - table_.columns.data());

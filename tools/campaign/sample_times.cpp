@@ -23,13 +23,15 @@ std::string duration(double s) {
 void add(TrialRecording& recording, FindingKind kind, FindingSeverity severity, const RecordingPlaces& places,
          std::size_t row, const std::string& channel, std::string what, std::string cure) {
   const std::uint64_t line = row < places.lines.size() ? places.lines[row] : row + 2;
-  recording.findings.push_back({kind, severity, places.file, line, 1, channel, std::move(what), std::move(cure)});
+  recording.findings.push_back(
+      {kind, severity, places.file, line, 1, channel, std::move(what), std::move(cure)});
 }
 
 // True where the rows hold different values of some channel: two samples, not one row in two parts.
 bool rows_differ(const TrialRecording& recording, std::size_t a, std::size_t b) {
   return std::any_of(recording.channels.begin(), recording.channels.end(), [&](const auto& channel) {
-    return !std::isnan(channel.values[a]) && !std::isnan(channel.values[b]) && channel.values[a] != channel.values[b];
+    return !std::isnan(channel.values[a]) && !std::isnan(channel.values[b]) &&
+           channel.values[a] != channel.values[b];
   });
 }
 
@@ -80,7 +82,8 @@ double coarse_resolution(const std::vector<double>& t_s) {
   }
   if (steps.size() < 2) return 0.0;
   std::sort(steps.begin(), steps.end());
-  const double resolution = steps[1] - steps[0], mean = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
+  const double resolution = steps[1] - steps[0],
+               mean = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
   const bool multiples = std::all_of(steps.begin(), steps.end(), [&](double step) {
     return std::abs(step / resolution - std::round(step / resolution)) < 0.01;
   });
@@ -118,9 +121,11 @@ Runs inner_runs(const std::vector<double>& values) {
 // The length that nearly all runs have; 0 where there is none.
 std::size_t usual_length(std::vector<std::size_t> lengths) {
   if (lengths.size() < 8) return 0;
-  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
+                   lengths.end());
   const std::size_t middle = lengths[lengths.size() / 2];
-  const auto alike = std::count_if(lengths.begin(), lengths.end(), [&](std::size_t length) { return length == middle; });
+  const auto alike =
+      std::count_if(lengths.begin(), lengths.end(), [&](std::size_t length) { return length == middle; });
   return static_cast<std::size_t>(alike) * 5 >= lengths.size() * 4 ? middle : 0;
 }
 
@@ -154,31 +159,34 @@ void check_times(TrialRecording& recording, const RecordingPlaces& places, bool 
   const double step_s = (recording.t_s.back() - recording.t_s.front()) / static_cast<double>(rows - 1);
   if (shared.distinct == 1 && shared.rows > 0) {
     add(recording, FindingKind::coarse_time, trial_unusable, places, 0, "t_s",
-        fmt::format("all {} rows have the same time ({:.6g}): written with too few digits", rows, recording.t_s.front()),
+        fmt::format("all {} rows have the same time ({:.6g}): written with too few digits", rows,
+                    recording.t_s.front()),
         "export the time with more digits (\"%.6f\" in place of \"%g\"), or as seconds since the start");
   } else if (shared.rows * 10 > rows) {
-    const std::string what =
-        fmt::format("times have a resolution of {}, rows come every {}: {} of {} rows share a time with the row before",
-                    duration(shared.resolution_s), duration(step_s), shared.rows, rows);
+    const std::string what = fmt::format(
+        "times have a resolution of {}, rows come every {}: {} of {} rows share a time with the row before",
+        duration(shared.resolution_s), duration(step_s), shared.rows, rows);
     if (spread_times) {
       spread(recording.t_s);
-      add(recording, FindingKind::coarse_time, note, places, shared.first, "t_s", what + "; spread evenly, as [format] says",
-          "");
+      add(recording, FindingKind::coarse_time, note, places, shared.first, "t_s",
+          what + "; spread evenly, as [format] says", "");
     } else {
       add(recording, FindingKind::coarse_time, trial_unusable, places, shared.first, "t_s", what,
-          "export the time with more digits, or, if the rows came evenly, write [format] spread_times = true into "
+          "export the time with more digits, or, if the rows came evenly, write [format] spread_times = true "
+          "into "
           "campaign.toml");
     }
   } else if (const double resolution_s = coarse_resolution(recording.t_s); resolution_s > 0.0) {
     add(recording, FindingKind::coarse_time, note, places, 0, "t_s",
-        fmt::format("times have a resolution of {}, rows come every {}: each may be {} off", duration(resolution_s),
-                    duration(step_s), duration(0.5 * resolution_s)),
+        fmt::format("times have a resolution of {}, rows come every {}: each may be {} off",
+                    duration(resolution_s), duration(step_s), duration(0.5 * resolution_s)),
         "speeds and accelerations from them are as coarse; export the time with more digits");
     return;
   } else {
     return;
   }
-  std::erase_if(recording.findings, [](const Finding& f) { return f.kind == FindingKind::time_stands_still; });
+  std::erase_if(recording.findings,
+                [](const Finding& f) { return f.kind == FindingKind::time_stands_still; });
 }
 
 void check_held_samples(TrialRecording& recording, const RecordingPlaces& places) {
@@ -201,9 +209,10 @@ void check_held_samples(TrialRecording& recording, const RecordingPlaces& places
     const auto runs = inner_runs(channel.values);
     const double held_s = static_cast<double>(length[i]) * step_s;
     add(recording, FindingKind::held_samples, note, places, runs.first_row, channel.name,
-        fmt::format("is held over {} rows at a time ({}) while other channels change with every row; between its true "
-                    "samples it is up to {:.3g} off, and a speed made of it has {:.3g} Hz at most",
-                    length[i], duration(held_s), runs.largest_step, 0.5 / held_s),
+        fmt::format(
+            "is held over {} rows at a time ({}) while other channels change with every row; between its "
+            "true samples it is up to {:.3g} off, and what changes faster than {:.3g} Hz does not show",
+            length[i], duration(held_s), runs.largest_step, 0.5 / held_s),
         "leave the cell empty where there is no new sample");
   }
 }

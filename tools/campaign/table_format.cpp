@@ -16,10 +16,11 @@ struct Word {
   std::string_view text;
   char value;
 };
-constexpr std::array kSeparators{Word{",", ','},    Word{";", ';'},  Word{"tab", '\t'},
+constexpr std::array kSeparators{Word{",", ','},   Word{";", ';'},     Word{"tab", '\t'},
                                  Word{"\t", '\t'}, Word{"blank", ' '}, Word{" ", ' '}};
 constexpr std::array kDecimals{Word{".", '.'}, Word{",", ','}};
-constexpr std::array kThousands{Word{"", '\0'}, Word{".", '.'}, Word{",", ','}, Word{"'", '\''}, Word{" ", ' '}};
+constexpr std::array kThousands{Word{"", '\0'}, Word{".", '.'}, Word{",", ','}, Word{"'", '\''},
+                                Word{" ", ' '}};
 
 class FormatReader {
  public:
@@ -38,8 +39,9 @@ class FormatReader {
       format_.spread_times = node.boolean;
       return;
     }
-    static const std::vector<std::string> kKeys{"separator",  "decimal", "thousands", "encoding",    "header_line",
-                                                "units_line", "names",   "no_sample", "spread_times"};
+    static const std::vector<std::string> kKeys{"separator", "decimal",     "thousands",
+                                                "encoding",  "header_line", "units_line",
+                                                "names",     "no_sample",   "spread_times"};
     wrong(node, cure_for_unknown_key(node.key, std::nullopt, kKeys));
   }
   std::vector<ConfigProblem> take_problems() { return std::move(problems_); }
@@ -71,14 +73,15 @@ class FormatReader {
   }
 
   void line(const ConfigNode& node, std::optional<std::uint64_t>& out) {
-    if (node.kind != Kind::integer || node.integer < 0) return wrong(node, "is no number of a line: from 1; 0 for none");
+    if (node.kind != Kind::integer || node.integer < 0)
+      return wrong(node, "is no number of a line: from 1; 0 for none");
     out = static_cast<std::uint64_t>(node.integer);
   }
 
   void words(const ConfigNode& node, std::vector<std::string>& out) {
-    const bool texts = node.kind == Kind::array && std::all_of(node.children.begin(), node.children.end(), [](const auto& child) {
-                         return child.kind == Kind::text;
-                       });
+    const bool texts =
+        node.kind == Kind::array && std::all_of(node.children.begin(), node.children.end(),
+                                                [](const auto& child) { return child.kind == Kind::text; });
     if (!texts) return wrong(node, "is no list of texts: write [\"one\", \"two\"]");
     out.clear();
     for (const auto& child : node.children) out.push_back(child.text);

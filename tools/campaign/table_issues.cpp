@@ -68,9 +68,11 @@ FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, cons
   const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite;
   const auto* column = table.table.find(issue.name);
   if (in_cells && column != nullptr && count * 5 > samples_in(*column) + count) return channel_unusable;
-  if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial)) return trial_unusable;
+  if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial))
+    return trial_unusable;
   // A few rows out of order are slips; a clock set back leaves nothing to count time by.
-  if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table.table.rows() / 100) return trial_unusable;
+  if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table.table.rows() / 100)
+    return trial_unusable;
   return meaning_of(issue.fault).severity;
 }
 
@@ -83,7 +85,8 @@ std::string cure_of(const CsvIssue& issue) {
 
 }  // namespace
 
-void translate_issues(const Campaign&, const CampaignTrial& trial, TrialTable& table, std::vector<Finding>& findings) {
+void translate_issues(const Campaign&, const CampaignTrial& trial, TrialTable& table,
+                      std::vector<Finding>& findings) {
   std::uint64_t dropped = 0, line = 0;
   for (const auto& issue : table.table.issues) {
     const std::uint64_t count = issue.repeats + 1;
@@ -93,8 +96,8 @@ void translate_issues(const Campaign&, const CampaignTrial& trial, TrialTable& t
       table.unusable_columns.push_back(issue.name);
     if (drops_rows(issue.fault)) dropped += count;
     if (drops_rows(issue.fault) && line == 0) line = issue.line;
-    findings.push_back({meaning_of(issue.fault).kind, severity, table.file, issue.line, issue.column, issue.name,
-                        issue.text + repeats(issue), cure_of(issue)});
+    findings.push_back({meaning_of(issue.fault).kind, severity, table.file, issue.line, issue.column,
+                        issue.name, issue.text + repeats(issue), cure_of(issue)});
   }
   if (dropped * 5 > table.table.rows())
     findings.push_back({FindingKind::unreadable_file, trial_unusable, table.file, line, 1, "",

@@ -32,8 +32,8 @@ class TrialRecording {
   std::vector<Channel> channels;
   // Of those that are not used: at the end of their range for too long, or at one value throughout.
   std::vector<Channel> at_one_value;
-  bool own_log = false;                     // a log of this firmware, not a table from somewhere
-  bool has_time = true;                     // false: t_s counts the rows of a force against depth, 0, 1, 2 …
+  bool own_log = false;  // a log of this firmware, not a table from somewhere
+  bool has_time = true;  // false: t_s counts the rows of a force against depth, 0, 1, 2 …
   std::vector<std::string> unused_columns;  // of the file, that no channel or mapping names
   std::vector<SaturatedRows> saturated;
   std::vector<Finding> findings;
@@ -49,8 +49,9 @@ class TrialRecording {
   bool is_saturated(std::string_view name, std::size_t row) const;
 };
 
-// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or the folder of a hop that holds one of
-// either. Never throws for bad input; findings say what is wrong, and usable() whether enough is left.
+// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or the folder of a hop
+// that holds one of either. Never throws for bad input; findings say what is wrong, and usable() whether
+// enough is left.
 TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial);
 
 }  // namespace sandhopper

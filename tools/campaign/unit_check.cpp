@@ -10,24 +10,26 @@ namespace {
 bool same(double a, double b) { return std::abs(std::abs(a) / std::abs(b) - 1.0) < kSameScale; }
 
 std::string mapping(const ColumnUnits& c, std::string_view unit, double scale) {
-  return fmt::format("{} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }}", c.channel, c.column, unit, scale);
+  return fmt::format("{} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }}", c.channel, c.column, unit,
+                     scale);
 }
 
 // "23.59 mm are 0.02359 m, and scale = -1 makes 23.59 m of them"
-std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted, double factor) {
-  return fmt::format("{:.4g} {} are {:.4g} {}, and scale = {:.6g} makes {:.4g} {} of them", c.largest, unit.text,
-                     c.largest * factor, wanted.text, c.scale, c.largest * std::abs(c.scale), wanted.text);
+std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
+                       double factor) {
+  return fmt::format("{:.4g} {} are {:.4g} {}, and scale = {:.6g} makes {:.4g} {} of them", c.largest,
+                     unit.text, c.largest * factor, wanted.text, c.scale, c.largest * std::abs(c.scale),
+                     wanted.text);
 }
 
-UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted, double factor,
-                         std::string_view where) {
+UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
+                         double factor, std::string_view where) {
   const double sign = c.scale < 0.0 ? -1.0 : 1.0;
   return {c.scale,
-          fmt::format("{} \"{}\", which does not fit scale = {:.6g} to {}: {}", where, unit.text, c.scale, wanted.text,
-                      arithmetic(c, unit, wanted, factor)),
+          fmt::format("{} \"{}\", which does not fit scale = {:.6g} to {}: {}", where, unit.text, c.scale,
+                      wanted.text, arithmetic(c, unit, wanted, factor)),
           fmt::format("say which in [columns]: {}, or, if the numbers are in {} after all, {}",
-                      mapping(c, unit.text, sign * factor), wanted.text,
-                      mapping(c, wanted.text, c.scale))};
+                      mapping(c, unit.text, sign * factor), wanted.text, mapping(c, wanted.text, c.scale))};
 }
 
 UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
@@ -35,9 +37,11 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
   return {c.scale,
           fmt::format("{} \"{}\"{}, the channel is in {}", where, unit.text,
                       unit.dimension.empty() ? ", which is no unit known here"
-                                             : fmt::format(", a {}", unit.dimension), wanted.text),
-          fmt::format("say how many {} one {} is: {} = {{ column = \"{}\", unit = \"{}\", scale = … }} in [columns]",
-                      wanted.text, unit.text, c.channel, c.column, unit.text)};
+                                             : fmt::format(", a {}", unit.dimension),
+                      wanted.text),
+          fmt::format(
+              "say how many {} one {} is: {} = {{ column = \"{}\", unit = \"{}\", scale = … }} in [columns]",
+              wanted.text, unit.text, c.channel, c.column, unit.text)};
 }
 
 UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {

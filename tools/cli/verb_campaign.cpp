@@ -108,7 +108,8 @@ void write_new(const std::filesystem::path& file, const std::string& text) {
                   "name another folder with --output");
   std::ofstream out(file);
   if (!(out << text).flush())
-    throw Failure(ExitCode::fault, file.string() + " cannot be written", "name a folder you may write with --output");
+    throw Failure(ExitCode::fault, file.string() + " cannot be written",
+                  "name a folder you may write with --output");
 }
 
 std::optional<CampaignPlant> plant_named(const std::string& name) {
@@ -126,7 +127,8 @@ ExitCode import_files(Session& session, const Options& options) {
   try {
     draft = draft_campaign(files, plant_named(options.import_plant), folder);
   } catch (const std::runtime_error& error) {
-    throw Failure(ExitCode::no, error.what(), "name a table: rows of numbers under the names of their columns");
+    throw Failure(ExitCode::no, error.what(),
+                  "name a table: rows of numbers under the names of their columns");
   }
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
@@ -135,7 +137,8 @@ ExitCode import_files(Session& session, const Options& options) {
   session.say("{} is taken for:", files.front().string());
   for (const auto& line : draft.said) session.say("  {}", line);
   const auto campaign = load_campaign(folder);
-  for (const auto& finding : campaign.findings) session.say("{} ({})", to_string(finding), name_of(finding.severity));
+  for (const auto& finding : campaign.findings)
+    session.say("{} ({})", to_string(finding), name_of(finding.severity));
   for (const auto& trial : campaign.trials)
     for (const auto& finding : read_trial(campaign, trial).findings)
       session.say("{} ({})", to_string(finding), name_of(finding.severity));
@@ -169,8 +172,11 @@ Run set_up(Arguments& arguments) {
       .show_default();
   making.add_option("--seed", options->seed, "of the first trial; the next ones count up").show_default();
   making.add_option("--output", options->output, "folder to write").required();
-  auto importing = arguments.add_verb("import", "look at a table of another program and write a campaign for it");
-  importing.add_option("FILE", options->files, "recordings, all written alike (.csv, .txt)").required().existing_file();
+  auto importing =
+      arguments.add_verb("import", "look at a table of another program and write a campaign for it");
+  importing.add_option("FILE", options->files, "recordings, all written alike (.csv, .txt)")
+      .required()
+      .existing_file();
   importing.add_option("--plant", options->import_plant, "default: guessed from the columns")
       .one_of({"hopper", "intruder", "falling_body", "rotary_axis"});
   importing.add_option("--output", options->import_output,

@@ -42,7 +42,8 @@ std::filesystem::path corrected_file(const std::filesystem::path& folder,
   return file;
 }
 
-// The numbers that the answer rests on, and who said them; those of [sensors] and [spread] by default are counted.
+// The numbers that the answer rests on, and who said them; those of [sensors] and [spread] by default are
+// counted.
 void tell_belief(Session& session, const UsedNumbers& used) {
   std::size_t counted = 0;
   for (const auto& number : used.numbers) {
@@ -53,8 +54,9 @@ void tell_belief(Session& session, const UsedNumbers& used) {
     else
       session.say("belief {}", to_string(number));
   }
-  session.say("belief {} numbers of sensors and spread are defaults (in diagnosis.json), {} more are 0: not assumed",
-              counted, used.off);
+  session.say(
+      "belief {} numbers of sensors and spread are defaults (in diagnosis.json), {} more are 0: not assumed",
+      counted, used.off);
 }
 
 // Not one trial could be read: there is nothing to say about physics, and the findings say why.
@@ -62,7 +64,8 @@ ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& fold
   sandhopper::diagnose::Diagnosis nothing;
   nothing.verdict = "insufficient_data";
   nothing.detail = "null";
-  nothing.notes.push_back(fmt::format("none of {} trials can be used: correct what is said about them", trials));
+  nothing.notes.push_back(
+      fmt::format("none of {} trials can be used: correct what is said about them", trials));
   session.result = sandhopper::diagnose::to_json(nothing);
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
@@ -91,7 +94,8 @@ ExitCode diagnose(Session& session, const Options& options) {
   session.result = sandhopper::diagnose::to_json(diagnosis);
   auto& belief = session.result["belief"] = nlohmann::ordered_json::array();
   for (const auto& n : used_numbers(campaign).numbers)
-    belief.push_back({{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}});
+    belief.push_back(
+        {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}});
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");

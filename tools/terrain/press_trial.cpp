@@ -86,8 +86,8 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
   if (!on_stop) keep_thinned(result.series, "press_loading", loading);
   const double diameter_m = 2.0 * std::get<IntruderBelief>(trial.belief).foot.radius_m;
   const double angle_deg = trial.number("friction_angle_deg").value_or(kDefaultFrictionAngle_deg);
-  result.series["press"] = {on_stop ? 1.0 : 0.0, trial.flag("held_out").value_or(false) ? 1.0 : 0.0, diameter_m,
-                            angle_deg * std::numbers::pi / 180.0};
+  result.series["press"] = {on_stop ? 1.0 : 0.0, trial.flag("held_out").value_or(false) ? 1.0 : 0.0,
+                            diameter_m, angle_deg * std::numbers::pi / 180.0};
 }
 
 bool holds_press(const TrialResult& result) {

@@ -31,10 +31,12 @@ struct Plate {
   // Why not, with what to record.
   std::string why_no_drag() const {
     if (trials.size() < 3)
-      return fmt::format("stiffness at rest, drag and added mass need three strokes of one plate, there {} {}",
-                         trials.size() == 1 ? "is" : "are", trials.size());
-    return fmt::format("stiffness at rest, drag and added mass need strokes faster than {} m/s, the fastest has {:.2g}",
-                       kFastest_mps, fastest_mps);
+      return fmt::format(
+          "stiffness at rest, drag and added mass need three strokes of one plate, there {} {}",
+          trials.size() == 1 ? "is" : "are", trials.size());
+    return fmt::format(
+        "stiffness at rest, drag and added mass need strokes faster than {} m/s, the fastest has {:.2g}",
+        kFastest_mps, fastest_mps);
   }
 };
 
@@ -248,7 +250,8 @@ CampaignConclusions conclude_strokes(Results results) {
       .text_columns = 0,
       .note =
           "F = F0 + k z + (a + b z + c z²) v² + m_a(z) z̈ with m_a the integral of the drag; 95 % intervals "
-          "by leaving out one stroke after the other. Slow: below 0.077 m/s. –: needs three strokes, one of them "
+          "by leaving out one stroke after the other. Slow: below 0.077 m/s. –: needs three strokes, one of "
+          "them "
           "faster than 0.3 m/s."};
   std::vector<StudyFigure> figures{path_figure(results), slope_figure(plates)};
   const auto fused = std::count_if(results.begin(), results.end(), [](const TrialResult* result) {
@@ -267,14 +270,15 @@ CampaignConclusions conclude_strokes(Results results) {
     table.rows.push_back(report.row);
     std::move(report.figures.begin(), report.figures.end(), std::back_inserter(figures));
     if (!plate.tells_drag())
-      told.lines.push_back(fmt::format("strokes, {:.0f} mm plate: {} trials, slope of a straight line {} N/m; {}",
-                                       1e3 * plate.diameter_m, plate.trials.size(), mean_text(any_slope(plate)),
-                                       plate.why_no_drag()));
+      told.lines.push_back(fmt::format(
+          "strokes, {:.0f} mm plate: {} trials, slope of a straight line {} N/m; {}", 1e3 * plate.diameter_m,
+          plate.trials.size(), mean_text(any_slope(plate)), plate.why_no_drag()));
     else
       told.lines.push_back(fmt::format(
-        "strokes, {:.0f} mm plate: {} trials, k {} N/m, drag at the surface {} kg/m, added mass at 30 mm {} "
-        "kg",
-        1e3 * plate.diameter_m, plate.trials.size(), report.row[3], report.row[5], report.row[6]));
+          "strokes, {:.0f} mm plate: {} trials, k {} N/m, drag at the surface {} kg/m, added mass at 30 mm "
+          "{} "
+          "kg",
+          1e3 * plate.diameter_m, plate.trials.size(), report.row[3], report.row[5], report.row[6]));
     list.push_back(std::move(report.json));
   }
   if (const auto law = area_law(plates); std::isfinite(law.exponent)) {

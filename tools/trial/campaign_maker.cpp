@@ -117,7 +117,8 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
 // What the simulation has and a nominal.toml must ask for.
 std::string bed_keys(const BedParameters& bed) {
   return fmt::format(
-      "[terrain]\nintercept_depth_m         = {}\nadded_mass_factor         = {}\ndrag_factor               = {}\n"
+      "[terrain]\nintercept_depth_m         = {}\nadded_mass_factor         = {}\ndrag_factor               "
+      "= {}\n"
       "unloading_stiffness_ratio = {}\nunloading_damping_ratio   = {}\n",
       bed.intercept_depth_m, bed.added_mass_factor, bed.drag_factor, bed.unloading_stiffness_ratio,
       bed.unloading_damping_ratio);
@@ -132,9 +133,11 @@ void make_hop_campaign(const CampaignMakerSetup& setup) {
   open(setup.folder / "nominal.toml")
       << "[sensors]\nencoder_latency_s = 0.001   # a row holds the reply to the "
          "previous cycle's command\n\n"
-      << fmt::format("[robot]\nrail_coulomb_N        = {}\njoint_coulomb_Nm      = {}\ncogging_amplitude_Nm  = {}\n\n",
-                     setup.world.robot.rail_coulomb_N, setup.world.robot.joint_coulomb_Nm,
-                     setup.world.robot.cogging_amplitude_Nm)
+      << fmt::format(
+             "[robot]\nrail_coulomb_N        = {}\njoint_coulomb_Nm      = {}\ncogging_amplitude_Nm  = "
+             "{}\n\n",
+             setup.world.robot.rail_coulomb_N, setup.world.robot.joint_coulomb_Nm,
+             setup.world.robot.cogging_amplitude_Nm)
       << bed_keys(setup.world.terrain);
   const fs::path log = setup.folder / "making.mcap";
   for (int i = 0; i < setup.trials; ++i) {

@@ -146,11 +146,12 @@ CampaignInput read_campaign(const Campaign& campaign) {
       if (std::ranges::find(input.findings, finding) == input.findings.end())
         input.findings.push_back(finding);
     if (!recording.has_time)
-      input.findings.push_back({.kind = FindingKind::no_time,
-                                .severity = FindingSeverity::trial_unusable,
-                                .file = described.file.string(),
-                                .what = "has no time, which a diagnosis needs: it compares courses in time",
-                                .cure = "add a column of the time; hop terrain gives the depth law without one"});
+      input.findings.push_back(
+          {.kind = FindingKind::no_time,
+           .severity = FindingSeverity::trial_unusable,
+           .file = described.file.string(),
+           .what = "has no time, which a diagnosis needs: it compares courses in time",
+           .cure = "add a column of the time; hop terrain gives the depth law without one"});
     if (!recording.usable() || !recording.has_time) {
       ++input.unusable;
       continue;
