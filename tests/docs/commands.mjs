@@ -46,6 +46,7 @@ for (const file of execFileSync('git', ['ls-files', '-z'], { cwd: root, encoding
 // tools/hop of the copy, and `hop`: the programs that are built, with a note of what was run. Exit status 1 is an answer ("no")
 // to all but a replay.
 const ran = path.join(work, 'ran');
+fs.writeFileSync(ran, '');
 const wrapper = `#!/bin/bash
 SANDHOPPER_CONFIG=\${SANDHOPPER_CONFIG:-${clone}/config} "${hop}" "$@"
 status=$?
