@@ -16,9 +16,9 @@ const pages = process.argv.length > 3 ? process.argv.slice(3)
 // The first that fits says why a command is not run here.
 const reasons = [
   [/^sudo |\bapt-get\b|\badduser\b|^ip link|\bdd if=|\breboot\b|tools\/(image|package)\/build|clean_machine/, 'needs root'],
+  [/tools\/bench\b/, 'boots the virtual bench: ctest -L bench'],
   [/--board linux|\bhop doctor\b|\bhop calibrate (?!.*--(board sim|from))/, 'needs the robot'],
   [/^ssh |robot\.local/, 'needs the robot'],
-  [/tools\/bench\b/, 'boots the virtual bench: ctest -L bench'],
   [/\bhop conceal benchmark\b|tools\/benchmark\/page\.mjs/, 'takes hours'],
   [/tests\/fuzz\/|tools\/test\b|tools\/build\b|tools\/lint\b/, 'takes more than a quarter of an hour, or is the test itself'],
   [/\bhop replay --can my_trace\.log/, 'needs a trace of your own and a CAN interface'],
@@ -46,6 +46,7 @@ for (const file of execFileSync('git', ['ls-files', '-z'], { cwd: root, encoding
 // tools/hop of the copy, and `hop`: the programs that are built, with a note of what was run. Exit status 1 is an answer ("no")
 // to all but a replay.
 const ran = path.join(work, 'ran');
+fs.writeFileSync(ran, '');
 const wrapper = `#!/bin/bash
 SANDHOPPER_CONFIG=\${SANDHOPPER_CONFIG:-${clone}/config} "${hop}" "$@"
 status=$?

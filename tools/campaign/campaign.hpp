@@ -75,7 +75,7 @@ struct CampaignTrial {
 // recording is read when it is asked for (read_trial), so a campaign of thousands takes little memory.
 struct Campaign {
   std::filesystem::path folder;
-  std::filesystem::path file;  // campaign.toml
+  std::filesystem::path file;        // campaign.toml
   std::filesystem::path recordings;  // the trials' files are relative to it: `folder`, unless `data` is given
   std::string name;
   CampaignPlant plant{};
