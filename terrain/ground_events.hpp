@@ -159,7 +159,8 @@ struct GroundEvents {
   GroundEvent suction{};
 };
 
-// Not for the cycle: about a millisecond, and it allocates. The same sums give the same bits.
+// Not for the cycle: some ten milliseconds for a whole foot of depth, and it allocates. The same sums give
+// the same bits.
 GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config);
 
 // u with P(chi^2_1 > u) = probability.
