@@ -293,6 +293,10 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
 
 void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept {
   if (stride == 1) restart();
+  if (sums.samples == 0 && stride > 1) {  // no new ground: what is known stays
+    report(sums, stride);
+    return;
+  }
   noise_factor_.fill(1.0);
   unresolved_N2_.fill(0.0);
   jump_.fill(1.0);

@@ -25,8 +25,8 @@ constexpr std::array<Named, 4> kTreatments{
 
 // In a crater a straight line has only the new ground below it: what is missing is that, not depth.
 std::string reason_of(const ReportStride& stride, const ReportStiffness& k) {
-  const bool little =
-      k.reason == "too_shallow" || k.reason == "too_few_samples" || k.reason == "no_new_penetration";
+  const bool little = readable(k.reason) == "too shallow" || readable(k.reason) == "too few samples" ||
+                      readable(k.reason) == "no new penetration";
   if (!little || stride.crater_depth_m <= 0.0) return readable(k.reason);
   return fmt::format("too little new ground below the crater of {:.0f} mm", 1e3 * stride.crater_depth_m);
 }
