@@ -117,7 +117,9 @@ void OperatorChannel::take_lines(const std::vector<WordReader::Line>& lines, Req
 
 void OperatorChannel::tell(const Event& event) { outbox_->put(operator_text(event)); }
 void OperatorChannel::tell(const StrideResult& result) { outbox_->put(operator_text(result)); }
-void OperatorChannel::tell(const StrengthProfile& profile, const GroundSummary& ground) { outbox_->put(operator_text(profile, ground)); }
+void OperatorChannel::tell(const StrengthProfile& profile, const GroundSummary& ground) {
+  outbox_->put(operator_text(profile, ground));
+}
 void OperatorChannel::tell(const RequestRecord& answer) { outbox_->put(operator_text(answer)); }
 void OperatorChannel::tell(const SessionResult& result) { outbox_->put(operator_text(result)); }
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {

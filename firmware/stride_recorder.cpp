@@ -104,7 +104,8 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   }
   const JointSample sample = joint_sample(e, depth_m);
   if (depth_m > deepest_m_) {
-    if (virgin && e.force_velocity_mps > config_.min_speed_mps) accumulate_joint(sample, e.quasi_static_force_N);
+    if (virgin && e.force_velocity_mps > config_.min_speed_mps)
+      accumulate_joint(sample, e.quasi_static_force_N);
     deepest_m_ = depth_m;
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
@@ -122,8 +123,8 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m) cons
           .duration_s = sample_duration_s_};
 }
 
-// Below the old crater the estimated depth does not tell on which line the ground answers: a force greater than
-// any before does.
+// Below the old crater the estimated depth does not tell on which line the ground answers: a force greater
+// than any before does.
 void StrideRecorder::accumulate_joint(const JointSample& sample, double motor_force_N) noexcept {
   joint_.add(sample);
   if (sample.force_N >= crater_force_N_) profile_.add(sample, motor_force_N);

@@ -84,7 +84,8 @@ ModelCheck check(const Fit& fit, std::size_t departures) {
       covariance[i * kDepartures + j] = fit.covariance[(first + i) * kColumns + first + j];
   }
   const auto solved = Cholesky<kDepartures>(covariance).solve(value);
-  ModelCheck result{.statistic = 0.0, .limit = chi_squared_quantile(static_cast<double>(departures), 2.326348)};
+  ModelCheck result{.statistic = 0.0,
+                    .limit = chi_squared_quantile(static_cast<double>(departures), 2.326348)};
   for (std::size_t i = 0; i < departures; ++i) result.statistic += value[i] * solved[i];
   return result;
 }
@@ -132,7 +133,8 @@ class Summariser {
     const bool enough = observations >= solver_.config().joint.min_observations &&
                         to_m_ - from_m_ >= solver_.config().min_depth_span_m;
     const auto secant = solver_.force_N(kSecantDepth_m);
-    if (to_m_ >= kSecantDepth_m) s.secant_20mm_N_per_m = value_of(secant.value, secant.sd, 1.0 / kSecantDepth_m);
+    if (to_m_ >= kSecantDepth_m)
+      s.secant_20mm_N_per_m = value_of(secant.value, secant.sd, 1.0 / kSecantDepth_m);
     if (!enough) return s;
     line(s);
     power_law(s);
@@ -200,15 +202,17 @@ class Summariser {
                kProfileCell_m;
       };
       constexpr double kStep = 1e-4;
-      m.offset = cells([&](std::size_t j) { return tangent(j, 0.0, 0.0) - solver_.believed_N_per_m(j) +
-                                                   joint_.intercept_depth_m * solver_.intercept_N_per_m(j); });
+      m.offset = cells([&](std::size_t j) {
+        return tangent(j, 0.0, 0.0) - solver_.believed_N_per_m(j) +
+               joint_.intercept_depth_m * solver_.intercept_N_per_m(j);
+      });
       // The believed bed's intercept is taken away; its shape within a cell, too.
       m.offset[ProfileSolver::kIntercept] = -joint_.intercept_depth_m;
       m.pin(kAt, 0.0);
-      m.use(0, cells([&](std::size_t j) { return (tangent(j, kStep, 0.0) - tangent(j, 0.0, 0.0)) / kStep; }), 0.0,
-            kFree);
-      m.use(1, cells([&](std::size_t j) { return (tangent(j, 0.0, kStep) - tangent(j, 0.0, 0.0)) / kStep; }), 0.0,
-            kFree);
+      m.use(0, cells([&](std::size_t j) { return (tangent(j, kStep, 0.0) - tangent(j, 0.0, 0.0)) / kStep; }),
+            0.0, kFree);
+      m.use(1, cells([&](std::size_t j) { return (tangent(j, 0.0, kStep) - tangent(j, 0.0, 0.0)) / kStep; }),
+            0.0, kFree);
       fit = solve(solver_, m);
       if (pass + 1 == kPasses) break;
       log_a += std::clamp(fit.value[0], -0.5, 0.5);

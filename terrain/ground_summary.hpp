@@ -6,9 +6,9 @@
 #include "terrain/strength_profile.hpp"
 
 // One number for a strength profile, and whether it may be used: is the bed a line, a power law, two layers?
-// Each model is a linear family of profiles; beside it stand smooth departures from it (Legendre polynomials of
-// the tangent stiffness over the depths visited). Under the model their estimate divided by its covariance is
-// chi-squared distributed (Wald's test); the model is rejected at a level of 1 %.
+// Each model is a linear family of profiles; beside it stand smooth departures from it (Legendre polynomials
+// of the tangent stiffness over the depths visited). Under the model their estimate divided by its covariance
+// is chi-squared distributed (Wald's test); the model is rejected at a level of 1 %.
 namespace sandhopper {
 
 enum class GroundShape : std::uint8_t { unknown, line, power_law, crusted, layered, other };
@@ -49,8 +49,8 @@ struct GroundSummary {
   SummaryValue secant_20mm_N_per_m{};
   SummaryValue exponent{};  // of a power law
   ModelCheck line{}, power_law{}, layered{};
-  // Of the line on which the foot leaves its crater and returns; the upper end is infinite where the data allow
-  // a rigid ground, and all three are zero where there are none.
+  // Of the line on which the foot leaves its crater and returns; the upper end is infinite where the data
+  // allow a rigid ground, and all three are zero where there are none.
   SummaryValue reloading_N_per_m{};
   bool line_valid = false;
 
@@ -71,8 +71,8 @@ struct GroundSummary {
   }
 };
 
-// Stiffness of that line: fall of the force over the depth given back. The error of that depth is the drift of
-// the estimated one for so long, and its noise at both ends.
+// Stiffness of that line: fall of the force over the depth given back. The error of that depth is the drift
+// of the estimated one for so long, and its noise at both ends.
 SummaryValue reloading_stiffness(const CraterReturn& crater, const ProfileConfig& config) noexcept;
 
 // `last`: the sums of the last stride that the solver was given.

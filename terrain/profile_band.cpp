@@ -51,8 +51,8 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
     variance += row * x[j];
     gain += row * response_[cell][j];
   }
-  // The bed's fluctuation is part of its curve. The estimate follows it by `gain`, which the variance counts as
-  // an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
+  // The bed's fluctuation is part of its curve. The estimate follows it by `gain`, which the variance counts
+  // as an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
   const double fluctuation = config_.joint.fluctuation_relative * point.value;
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
   // What the curve does within a cell: its scatter there, and the change of slope between its neighbours.

@@ -68,7 +68,8 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
   const double new_ground = s.speed_mps * std::max(s.duration_s, 0.0) / config_.joint.fluctuation_length_m;
   const double share = std::clamp(new_ground, 0.0, 1.0);
   const double fluctuation = config_.joint.fluctuation_relative * s.force_N;
-  const double weight = share / (config_.joint.force_noise_N * config_.joint.force_noise_N + fluctuation * fluctuation);
+  const double weight =
+      share / (config_.joint.force_noise_N * config_.joint.force_noise_N + fluctuation * fluctuation);
   if (!std::isfinite(weight)) return;
 
   const double place = s.depth_m / kProfileCell_m;

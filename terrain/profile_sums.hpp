@@ -16,10 +16,20 @@ inline constexpr std::size_t kProfileCells = 28;
 inline constexpr double kProfileCell_m = 0.0025;
 inline constexpr double kProfileDepth_m = static_cast<double>(kProfileCells) * kProfileCell_m;
 
-// Features of a sample: 1, place in the cell (0 to 1), 1 - exp(-z/dz0), added mass term (joint_fit.hpp) [N], time since
-// contact [s], speed [m/s], direction of joint friction, force from the motors' current [N], and force beyond
-// the believed bed's [N].
-enum class ProfileFeature : std::size_t { one, place, intercept, added_mass, time, speed, friction, motor, force };
+// Features of a sample: 1, place in the cell (0 to 1), 1 - exp(-z/dz0), added mass term (joint_fit.hpp) [N],
+// time since contact [s], speed [m/s], direction of joint friction, force from the motors' current [N], and
+// force beyond the believed bed's [N].
+enum class ProfileFeature : std::size_t {
+  one,
+  place,
+  intercept,
+  added_mass,
+  time,
+  speed,
+  friction,
+  motor,
+  force
+};
 inline constexpr std::size_t kProfileFeatures = 9;
 inline constexpr std::size_t kProfileProducts = kProfileFeatures * (kProfileFeatures + 1) / 2;
 
@@ -30,7 +40,8 @@ struct ProfileCell {
 
   double product(ProfileFeature a, ProfileFeature b) const noexcept;
   // Of one feature with a combination of all.
-  double product_with(std::size_t feature, const std::array<double, kProfileFeatures>& factors) const noexcept;
+  double product_with(std::size_t feature,
+                      const std::array<double, kProfileFeatures>& factors) const noexcept;
 };
 
 // How the ground gives way back after the deepest point of a stride: from there to where it bears the least.

@@ -93,10 +93,11 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
 void ProfileSolver::add_stride_prior(Information& info, double landings) const noexcept {
   const double landing_m = std::sqrt(landings) * prior_.landing_depth_sd_m;
   const auto& joint = config_.joint;
-  const std::array<std::pair<std::size_t, double>, 4> priors{{{kSurface, std::sqrt(joint.surface_sd_m * joint.surface_sd_m + landing_m * landing_m)},
-                                                              {kDrift, landings > 0.0 ? prior_.landing_drift_sd_mps : joint.depth_drift_sd_mps},
-                                                              {kLag, prior_.depth_lag_sd_s},
-                                                              {kFriction, joint.joint_friction_sd_N}}};
+  const std::array<std::pair<std::size_t, double>, 4> priors{
+      {{kSurface, std::sqrt(joint.surface_sd_m * joint.surface_sd_m + landing_m * landing_m)},
+       {kDrift, landings > 0.0 ? prior_.landing_drift_sd_mps : joint.depth_drift_sd_mps},
+       {kLag, prior_.depth_lag_sd_s},
+       {kFriction, joint.joint_friction_sd_N}}};
   for (const auto& [term, sd] : priors) info.normal[term * kTerms + term] += 1.0 / (sd * sd);
   for (std::size_t i = 0; i < kShared; ++i) {
     info.moment[i] += kept_moment_[i];
@@ -214,8 +215,8 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
 
 void ProfileSolver::take_slopes() noexcept {
   for (std::size_t j = 0; j < kN; ++j)
-    slope_N_per_m_[j] = std::max(0.0, believed_N_per_m_[j] + posterior_.mean[j] +
-                                          intercept_N_per_m_[j] * posterior_.mean[kIntercept]);
+    slope_N_per_m_[j] = std::max(
+        0.0, believed_N_per_m_[j] + posterior_.mean[j] + intercept_N_per_m_[j] * posterior_.mean[kIntercept]);
 }
 
 // Coefficients by which a cell's features give what the posterior mean leaves of the force.
@@ -224,8 +225,15 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
   const double slope = slope_N_per_m_[s];
   double above = slope * m[kSurface];
   for (std::size_t j = 0; j < s; ++j) above += kProfileCell_m * m[j];
-  return {-above,           -kProfileCell_m * m[s], -prior_.believed_stiffness_N_per_m * m[kIntercept],
-          -m[kAddedMass], -slope * m[kDrift], -slope * m[kLag], -m[kFriction], -m[kScale], 1.0};
+  return {-above,
+          -kProfileCell_m * m[s],
+          -prior_.believed_stiffness_N_per_m * m[kIntercept],
+          -m[kAddedMass],
+          -slope * m[kDrift],
+          -slope * m[kLag],
+          -m[kFriction],
+          -m[kScale],
+          1.0};
 }
 
 // Sum of the weighted squares of what the posterior mean leaves in a cell.
@@ -265,8 +273,8 @@ double chi_squared_quantile(double degrees, double normal_quantile) noexcept {
   return n * root * root * root;
 }
 
-// Errors of the depth become errors of the force by the slope. What is left beyond them, at a level of 1 %, is
-// what the curve does within a cell.
+// Errors of the depth become errors of the force by the slope. What is left beyond them, at a level of 1 %,
+// is what the curve does within a cell.
 void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
   constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles of 1 % and 1 % / 28
   broken_cells_ = 0;
@@ -285,6 +293,10 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
 
 void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept {
   if (stride == 1) restart();
+  if (sums.samples == 0 && stride > 1) {  // no new ground: what is known stays
+    report(sums, stride);
+    return;
+  }
   noise_factor_.fill(1.0);
   unresolved_N2_.fill(0.0);
   jump_.fill(1.0);

@@ -5,23 +5,23 @@
 #include "config/fields.hpp"
 #include "terrain/profile_sums.hpp"
 
-// Quasi-static force of the ground over depth, F(z), from the strides of one trial, with a pointwise 95 % band.
-// The curve starts at zero and is linear in cells of 2.5 mm, beside the believed bed's own shape m(z):
+// Quasi-static force of the ground over depth, F(z), from the strides of one trial, with a pointwise 95 %
+// band. The curve starts at zero and is linear in cells of 2.5 mm, beside the believed bed's own shape m(z):
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
 //   force = F(z) + (d + r t + l v) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
 // with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
-// torque constant and l a lag between force and depth. The smoothness length L and the spread s are integrated
-// over a grid by their marginal likelihood, so the band knows that they are not known (Rasmussen & Williams
-// 2006, section 5.2). The depth is in error itself: F' is that of the posterior before, three times.
-// A measured force and the acceleration beside it are one measurement, F = M_f (a + g) + ..., so the likelihood of
-// c has the Jacobian prod (1 + c m_a / M_f): without it a rough curve would pass for little added mass.
-// A boundary is a jump of kappa, a crust an outlier: innovations of kappa have Student's distribution (their
-// variances by expectation maximisation), and a cell that the curve does not fit at a level of 1 % counts less and
-// has a wider band. The band holds the bed's own fluctuation and the depth's noise.
-// Between strides the information on kappa, c and e is kept and d, r, l and f are integrated out: the posterior
-// of a stride is the prior of the next. Everything is bounded; nothing is allocated.
+// torque constant and l a lag between force and depth. The smoothness length L and the spread s are
+// integrated over a grid by their marginal likelihood, so the band knows that they are not known (Rasmussen &
+// Williams 2006, section 5.2). The depth is in error itself: F' is that of the posterior before, three times.
+// A measured force and the acceleration beside it are one measurement, F = M_f (a + g) + ..., so the
+// likelihood of c has the Jacobian prod (1 + c m_a / M_f): without it a rough curve would pass for little
+// added mass. A boundary is a jump of kappa, a crust an outlier: innovations of kappa have Student's
+// distribution (their variances by expectation maximisation), and a cell that the curve does not fit at a
+// level of 1 % counts less and has a wider band. The band holds the bed's own fluctuation and the depth's
+// noise. Between strides the information on kappa, c and e is kept and d, r, l and f are integrated out: the
+// posterior of a stride is the prior of the next. Everything is bounded; nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: half-way through every cell and at its end.
@@ -155,12 +155,12 @@ class ProfileSolver {
 
   StiffnessConfig config_;
   ProfileConfig prior_;
-  std::array<double, kProfileCells> believed_N_per_m_{};  // mean tangent stiffness of each cell
+  std::array<double, kProfileCells> believed_N_per_m_{};   // mean tangent stiffness of each cell
   std::array<double, kProfileCells> intercept_N_per_m_{};  // slope of k (1 - exp(-z/dz0))
-  std::array<double, kProfileCells> slope_N_per_m_{};     // tangent stiffness of the posterior before
-  std::array<double, kProfileCells> noise_factor_{};      // variance of a cell's samples, of the weights' own
-  std::array<double, kProfileCells> unresolved_N2_{};     // what the curve does within a cell
-  std::array<double, kProfileCells> jump_{};              // variance of each innovation, of the prior's
+  std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the posterior before
+  std::array<double, kProfileCells> noise_factor_{};   // variance of a cell's samples, of the weights' own
+  std::array<double, kProfileCells> unresolved_N2_{};  // what the curve does within a cell
+  std::array<double, kProfileCells> jump_{};           // variance of each innovation, of the prior's
   std::array<Vector<kTerms>, kProfileCells> response_{};
   Matrix<kShared> kept_normal_{};
   Vector<kShared> kept_moment_{};

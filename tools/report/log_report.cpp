@@ -48,8 +48,8 @@ struct Feed {
   void take(const mcap::Message& message, ReportBuilder& builder) {
     if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
         pass_on(events, message, event, builder) || pass_on(strides, message, stride, builder) ||
-        pass_on(profiles, message, profile, builder) ||
-        pass_on(grounds, message, ground, builder) || pass_on(truths, message, truth, builder))
+        pass_on(profiles, message, profile, builder) || pass_on(grounds, message, ground, builder) ||
+        pass_on(truths, message, truth, builder))
       return;
     if (gaps.take(message, gap)) lost += gap.lost;
   }

@@ -52,7 +52,7 @@ struct ReportStride {
   double liftoff_s = 0.0;
   double touchdown_speed_mps = 0.0;
   double peak_force_N = 0.0;
-  double max_depth_m = 0.0;  // below where the first stride met the surface
+  double max_depth_m = 0.0;     // below where the first stride met the surface
   double crater_depth_m = 0.0;  // deepest point of the strides before
   ReportStiffness quasi_static_ols{};
   ReportStiffness observer_ols{};

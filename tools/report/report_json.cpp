@@ -32,8 +32,12 @@ Json profile_json(const StrengthProfile& profile, const GroundSummary& ground) {
     low.push_back(number(point.low()));
     high.push_back(number(point.high()));
   }
-  return {{"from_m", profile.depth_min_m}, {"to_m", profile.depth_max_m}, {"depth_m", depth},
-          {"force_N", force},              {"low_N", low},                {"high_N", high},
+  return {{"from_m", profile.depth_min_m},
+          {"to_m", profile.depth_max_m},
+          {"depth_m", depth},
+          {"force_N", force},
+          {"low_N", low},
+          {"high_N", high},
           {"shape", name_of(ground.shape)}};
 }
 
@@ -72,8 +76,9 @@ nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
             {"columns", columns_json(data.columns)},
             {"envelope_rows", envelope_run},
             {"configuration", data.configuration}};
-  json["bed_curve"] =
-      data.bed_depth_m.empty() ? Json(nullptr) : Json{{"depth_m", data.bed_depth_m}, {"force_N", data.bed_force_N}};
+  json["bed_curve"] = data.bed_depth_m.empty()
+                          ? Json(nullptr)
+                          : Json{{"depth_m", data.bed_depth_m}, {"force_N", data.bed_force_N}};
   json["phases"] = Json::array();
   for (const ReportPhase& phase : data.phases) {
     json["phases"].push_back({{"from_s", phase.from_s}, {"to_s", phase.to_s}, {"name", phase.name}});

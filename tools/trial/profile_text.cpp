@@ -15,9 +15,11 @@ std::string interval(const ProfilePoint& p, int digits) {
 }  // namespace
 
 std::string headline(const GroundSummary& g) {
-  const auto line = fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
-                                g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
-  const auto no_line = fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
+  const auto line =
+      fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
+                  g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
+  const auto no_line =
+      fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
   switch (g.shape) {
     case GroundShape::unknown:
       return "too little new ground for one number";
@@ -41,16 +43,17 @@ std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSum
   std::vector<std::string> lines;
   if (p.depth_max_m > 0.0) {
     lines.push_back(fmt::format("{:<24} {}", p.stride > 1 ? "ground, all strides" : "ground", headline(g)));
-    lines.push_back(fmt::format("  profile from {:.1f} to {:.1f} mm; deeper it is a guess", 1e3 * p.depth_min_m,
-                                1e3 * p.depth_max_m));
+    lines.push_back(fmt::format("  profile from {:.1f} to {:.1f} mm; deeper it is a guess",
+                                1e3 * p.depth_min_m, 1e3 * p.depth_max_m));
   }
   for (const double depth_m : {0.010, 0.020, 0.030, 0.040, 0.050}) {
     const bool known = depth_m >= p.depth_min_m && depth_m <= p.depth_max_m;
     if (!known) continue;
     const auto force = force_at(p, depth_m);
     const ProfilePoint secant{force.value / depth_m, force.sd / depth_m};
-    lines.push_back(fmt::format("  at {:2.0f} mm  {:>20} N   secant {:>20} N/m   tangent {:>20} N/m", 1e3 * depth_m,
-                                interval(force, 1), interval(secant, 0), interval(tangent_at(p, depth_m), 0)));
+    lines.push_back(fmt::format("  at {:2.0f} mm  {:>20} N   secant {:>20} N/m   tangent {:>20} N/m",
+                                1e3 * depth_m, interval(force, 1), interval(secant, 0),
+                                interval(tangent_at(p, depth_m), 0)));
   }
   const auto& reload = g.reloading_N_per_m;
   if (reload.ci95_low > 0.0)
@@ -92,16 +95,19 @@ nlohmann::ordered_json profile_json(const StrengthProfile& p, const GroundSummar
           {"added_mass_factor_sd", p.added_mass_factor_sd},
           {"smoothness_m", p.smoothness_m},
           {"shape", name_of(g.shape)},
-          {"line", {{"slope_N_per_m", g.line_N_per_m.value},
-                    {"ci95", {g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high}},
-                    {"valid", g.line_valid},
-                    {"chi_squared", g.line.statistic},
-                    {"limit", g.line.limit}}},
-          {"secant_20mm_N_per_m", {{"value", g.secant_20mm_N_per_m.value},
-                                   {"ci95", {g.secant_20mm_N_per_m.ci95_low, g.secant_20mm_N_per_m.ci95_high}}}},
+          {"line",
+           {{"slope_N_per_m", g.line_N_per_m.value},
+            {"ci95", {g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high}},
+            {"valid", g.line_valid},
+            {"chi_squared", g.line.statistic},
+            {"limit", g.line.limit}}},
+          {"secant_20mm_N_per_m",
+           {{"value", g.secant_20mm_N_per_m.value},
+            {"ci95", {g.secant_20mm_N_per_m.ci95_low, g.secant_20mm_N_per_m.ci95_high}}}},
           {"exponent", {{"value", g.exponent.value}, {"ci95", {g.exponent.ci95_low, g.exponent.ci95_high}}}},
-          {"reloading_N_per_m", {{"value", g.reloading_N_per_m.value},
-                                 {"ci95", {g.reloading_N_per_m.ci95_low, g.reloading_N_per_m.ci95_high}}}}};
+          {"reloading_N_per_m",
+           {{"value", g.reloading_N_per_m.value},
+            {"ci95", {g.reloading_N_per_m.ci95_low, g.reloading_N_per_m.ci95_high}}}}};
 }
 
 }  // namespace sandhopper

@@ -14,7 +14,8 @@ std::vector<std::string> profile_lines(const StrengthProfile& profile, const Gro
 std::string headline(const GroundSummary& ground);
 
 // The same for programs: depths at which the ground is known, and depth_m, force_N, ci95_N, secant_N_per_m,
-// tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell, the ground's shape and its numbers; null where there is none.
+// tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell, the ground's shape and its
+// numbers; null where there is none.
 nlohmann::ordered_json profile_json(const StrengthProfile& profile, const GroundSummary& ground);
 
 }  // namespace sandhopper

@@ -172,7 +172,8 @@ class Replay {
       return;
     }
     if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
-        strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch) || grounds_.take(message, result_.mismatch))
+        strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch) ||
+        grounds_.take(message, result_.mismatch))
       return;
     LogGap gap;
     if (gaps_.take(message, gap)) result_.gaps += gap.lost;
@@ -183,8 +184,7 @@ class Replay {
     last_ns_ = frame_.time_ns;
     outputs_.expect(controller_.step(frame_));
     for (const auto& event : controller_.events()) events_.expect(event);
-    if (controller_.stride_finished())
-      expect_stride(controller_.stride_sums());
+    if (controller_.stride_finished()) expect_stride(controller_.stride_sums());
   }
 
   void expect_stride(const StrideSums& sums) {

@@ -25,7 +25,8 @@ constexpr std::array<Named, 4> kTreatments{
 
 // In a crater a straight line has only the new ground below it: what is missing is that, not depth.
 std::string reason_of(const ReportStride& stride, const ReportStiffness& k) {
-  const bool little = k.reason == "too_shallow" || k.reason == "too_few_samples" || k.reason == "no_new_penetration";
+  const bool little = readable(k.reason) == "too shallow" || readable(k.reason) == "too few samples" ||
+                      readable(k.reason) == "no new penetration";
   if (!little || stride.crater_depth_m <= 0.0) return readable(k.reason);
   return fmt::format("too little new ground below the crater of {:.0f} mm", 1e3 * stride.crater_depth_m);
 }
@@ -69,10 +70,14 @@ nlohmann::ordered_json stride_json(const ReportStride& s) {
                         {"reason", k.valid ? "" : k.reason},
                         {"samples", k.samples}};
   }
-  return {{"stride", s.number},           {"touchdown_speed_mps", s.touchdown_speed_mps},
-          {"touchdown_s", s.touchdown_s}, {"switch_s", s.switch_s},
-          {"liftoff_s", s.liftoff_s},     {"peak_force_N", s.peak_force_N},
-          {"max_depth_m", s.max_depth_m}, {"stiffness_N_per_m", stiffness},
+  return {{"stride", s.number},
+          {"touchdown_speed_mps", s.touchdown_speed_mps},
+          {"touchdown_s", s.touchdown_s},
+          {"switch_s", s.switch_s},
+          {"liftoff_s", s.liftoff_s},
+          {"peak_force_N", s.peak_force_N},
+          {"max_depth_m", s.max_depth_m},
+          {"stiffness_N_per_m", stiffness},
           {"profile", profile_json(s.profile, s.ground)}};
 }
 

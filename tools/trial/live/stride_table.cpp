@@ -28,9 +28,9 @@ void draw_strides(Pane& pane, const TrialModel& model, int most) {
     const bool last = std::next(s) == model.strides.end();
     const bool line = s->joint.valid && s->ground.empty();
     pane.put(38, s->ground.empty() ? stiffness_text(s->joint) : s->ground,
-             !line           ? Style::faint
-             : last          ? Style::good
-                             : Style::plain);
+             !line  ? Style::faint
+             : last ? Style::good
+                    : Style::plain);
   }
   for (auto i = std::min<std::ptrdiff_t>(count, most); i < std::min(most, model.config.limits.strides); ++i) {
     pane.line();

@@ -65,9 +65,12 @@ void take_ground(TrialModel& model, const Json& json) {
 
 LiveStride stride_of(const Json& json) {
   const auto& stiffness = json.at("stiffness_N_per_m");
-  return {json.at("stride").get<std::uint32_t>(), number(json.at("touchdown_speed_mps")),
-          number(json.at("peak_force_N")),        number(json.at("max_depth_m")),
-          stiffness_of(stiffness.at("mo_wls")),   stiffness_of(stiffness.at("joint")),
+  return {json.at("stride").get<std::uint32_t>(),
+          number(json.at("touchdown_speed_mps")),
+          number(json.at("peak_force_N")),
+          number(json.at("max_depth_m")),
+          stiffness_of(stiffness.at("mo_wls")),
+          stiffness_of(stiffness.at("joint")),
           {}};
 }
 
