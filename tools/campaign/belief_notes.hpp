@@ -4,14 +4,10 @@
 
 namespace sandhopper {
 
-// What a key of nominal.toml does, in a few words, and why its default is what it is. Keys of [sensors] and
-// [spread] are explained by how they end. Empty for a key that is not listed.
-struct BeliefNote {
-  std::string does;
-  std::string default_reason;
-};
 // The unit at the end of a key, as one writes it: "N m s" of viscous_friction_Nm_s.
 std::string belief_unit(std::string_view key);
-BeliefNote belief_note(std::string_view table, std::string_view key);
+
+// Why the default of a key of nominal.toml is what it is; `path` is "table.key".
+std::string_view reason_of_default(std::string_view path);
 
 }  // namespace sandhopper

@@ -45,7 +45,6 @@ std::string table_of(const std::string& key) {
   const auto dot = key.find('.');
   return dot == std::string::npos ? "" : key.substr(0, dot);
 }
-std::string last_of(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 // [sensors] and [spread] of the simple plants are empty by default: a range at its far end is none.
 bool is_without_effect(CampaignPlant plant, const std::string& key) {
@@ -87,7 +86,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     } else {
       if (value == 0.0) ++used.off;
       if (value == 0.0 || is_without_effect(campaign.plant, key)) continue;
-      number.said_by = "default: " + belief_note(table_of(key), last_of(key)).default_reason;
+      number.said_by = fmt::format("default: {}", reason_of_default(key));
     }
     used.numbers.push_back(std::move(number));
   }

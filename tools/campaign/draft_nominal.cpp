@@ -8,6 +8,7 @@
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/campaign_draft.hpp"
+#include "tools/campaign/key_reference.hpp"
 
 namespace sandhopper {
 namespace {
@@ -54,9 +55,9 @@ class NominalWriter {
       return;
     const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
                         std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
-    const auto note = belief_note(table, key);
+    const auto meaning = meaning_of_key(table.empty() ? std::string(key) : fmt::format("{}.{}", table, key));
     std::string comment = belief_unit(key);
-    if (!note.does.empty()) comment += (comment.empty() ? "" : "; ") + note.does;
+    if (!meaning.empty()) comment += (comment.empty() ? "" : "; ") + std::string(meaning);
     text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
                          comment.empty() ? "" : "   # " + comment);
   }
