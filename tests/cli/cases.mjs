@@ -68,7 +68,7 @@ export const commands = [
   command('verb misspelt', ['docter'], "unknown verb 'docter'", "did you mean 'doctor'?"),
   command('verb of a verb misspelt', ['config', 'chekc'], "did you mean 'check'?"),
   command('verb of a verb missing', ['config'], 'needs one of: check, show, motor'),
-  command('option misspelt', ['doctor', '--bord', 'sim'], "unknown option '--bord'", "did you mean '--board'?"),
+  command('option misspelt', ['doctor', '--bord', 'sim'], "unknown option '--bord'", "did you mean '--board'"),
   command('option without its value', ['doctor', '--board'], '--board', "'hop doctor --help'"),
   command('value not among those', ['doctor', '--board', 'moon'], 'moon not in {linux,sim}', "'hop doctor --help'"),
   command('one argument too many', ['doctor', 'now'], "'now' is one argument too many", "'hop doctor --help'"),

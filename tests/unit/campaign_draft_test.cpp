@@ -27,7 +27,8 @@ struct Drafted {
 Drafted drafted(CampaignFolder& folder, const std::string& text,
                 std::optional<CampaignPlant> plant = std::nullopt) {
   folder.write("rec.csv", text);
-  Drafted out{.draft = draft_campaign({folder.path() / "rec.csv"}, plant, folder.path())};
+  Drafted out;
+  out.draft = draft_campaign({folder.path() / "rec.csv"}, plant, folder.path());
   folder.write("campaign.toml", out.draft.campaign_toml).write("nominal.toml", out.draft.nominal_toml);
   out.campaign = load_campaign(folder.path());
   out.recording = read_trial(out.campaign, out.campaign.trials.at(0));

@@ -65,6 +65,8 @@ TEST(DiagnoseNextTrial, PlansADropThatAirSlowsUntilItLands) {
   auto recordings = drops([](double, double, double v) { return -kDrag_kg_per_m * std::abs(v) * v; });
   recordings.belief.numbers["medium.drag_coefficient"] = kBelieved_kg_per_m / (0.5 * 1.2 * 0.01);
   std::ranges::fill(recordings.beliefs, recordings.belief);
+  recordings.available["payload_kg"] = {{0.1, 0.2, 0.6}, false, {}};
+  recordings.available["release_speed_mps"] = {{0.0, 8.0}, true, {}};
   const auto d = diagnose(recordings);
   ASSERT_EQ(d.next.purpose, "split");
   ASSERT_EQ(d.next.kind, "drop");

@@ -43,6 +43,7 @@ struct Tally {
   nlohmann::ordered_json trials = nlohmann::ordered_json::array();
   std::vector<ReportStride> strides;
   std::vector<SeriesTrial> series;
+  std::string last_line;  // what the newest trial says of the ground
 };
 
 std::string why_unusable(const Outcome& outcome, const ReportData& data) {
@@ -60,6 +61,7 @@ void take(Session& session, const TrialOptions& options, const Outcome& outcome,
   }
   session.say("trial {} of {}: {} strides", tally.trials.size() + 1, options.trials, data.strides.size());
   tell(session, outcome, data, page);
+  tally.last_line = trial_line(data);
   tally.trials.push_back(as_json(outcome, data, page));
   tally.strides.insert(tally.strides.end(), data.strides.begin(), data.strides.end());
   tally.all_good = tally.all_good && why_unusable(outcome, data).empty();
@@ -71,6 +73,10 @@ void tell_all(Session& session, const TrialOptions& options, const JointConfig& 
     session.result.update(tally.trials.front());
   else
     session.result["trials"] = tally.trials;
+  if (const auto& said = tally.last_line; tally.trials.size() == 1 && !said.empty()) {
+    session.say_line(said);
+    session.result["ground"] = said;
+  }
   if (const auto pooled = pooled_text(tally.strides, joint); !pooled.line.empty()) {
     session.say_line(pooled.line);
     session.result["pooled_stiffness_N_per_m"] = pooled.json;

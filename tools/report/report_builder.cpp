@@ -99,26 +99,34 @@ std::string in_words(std::string_view name) {
 // A fit that found nothing leaves zeros.
 double or_none(double value) { return value == 0.0 ? kNone : value; }
 
-ReportStiffness stiffness(const StiffnessEstimate& fit) {
+// In a crater a line has only the new ground below it: what is missing is that, not depth.
+std::string reason_of(Validity validity, double crater_depth_m) {
+  const bool is_little = validity == Validity::too_shallow || validity == Validity::too_few_samples ||
+                         validity == Validity::no_new_penetration;
+  if (!is_little || crater_depth_m <= 0.0) return in_words(name_of(validity));
+  return fmt::format("too little new ground below the crater of {:.0f} mm", 1e3 * crater_depth_m);
+}
+
+ReportStiffness stiffness(const StiffnessEstimate& fit, double crater_depth_m) {
   return {.value_N_per_m = or_none(fit.value_N_per_m),
           .ci95_low_N_per_m = fit.ci95_low_N_per_m,
           .ci95_high_N_per_m = fit.ci95_high_N_per_m,
           .intercept_N = fit.intercept_N,
           .samples = fit.samples,
           .valid = fit.validity == Validity::valid,
-          .reason = in_words(name_of(fit.validity)),
+          .reason = reason_of(fit.validity, crater_depth_m),
           .standard_error_N_per_m = fit.standard_error_N_per_m};
 }
 
 // Drawn as the quasi-static part beyond the first millimetres: F = k (z + z0).
-ReportStiffness stiffness(const JointEstimate& fit) {
+ReportStiffness stiffness(const JointEstimate& fit, double crater_depth_m) {
   return {.value_N_per_m = or_none(fit.value_N_per_m),
           .ci95_low_N_per_m = fit.ci95_low_N_per_m,
           .ci95_high_N_per_m = fit.ci95_high_N_per_m,
           .intercept_N = fit.value_N_per_m * fit.intercept_depth_m,
           .samples = fit.samples,
           .valid = fit.validity == Validity::valid,
-          .reason = in_words(name_of(fit.validity)),
+          .reason = reason_of(fit.validity, crater_depth_m),
           .standard_error_N_per_m = fit.standard_error_N_per_m};
 }
 
@@ -261,10 +269,10 @@ ReportData ReportBuilder::data() const {
                             .peak_force_N = summary.peak_force_N,
                             .max_depth_m = summary.max_depth_m,
                             .crater_depth_m = summary.crater_depth_m,
-                            .quasi_static_ols = stiffness(result.quasi_static_ols),
-                            .observer_ols = stiffness(result.observer_ols),
-                            .observer_wls = stiffness(result.observer_wls),
-                            .joint = stiffness(result.joint),
+                            .quasi_static_ols = stiffness(result.quasi_static_ols, summary.crater_depth_m),
+                            .observer_ols = stiffness(result.observer_ols, summary.crater_depth_m),
+                            .observer_wls = stiffness(result.observer_wls, summary.crater_depth_m),
+                            .joint = stiffness(result.joint, summary.crater_depth_m),
                             .profile = profiles_[i],
                             .ground = grounds_[i]});
   }

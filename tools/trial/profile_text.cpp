@@ -38,16 +38,18 @@ std::string headline(const GroundSummary& g) {
   return {};
 }
 
-std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSummary& g) {
+std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSummary& g, bool is_unchanged) {
   if (p.stride == 0) return {};
   std::vector<std::string> lines;
-  if (p.depth_max_m > 0.0) {
+  if (is_unchanged)
+    lines.push_back(fmt::format("{:<24} no new ground: as after the stride before", "ground"));
+  if (!is_unchanged && p.depth_max_m > 0.0) {
     lines.push_back(fmt::format("{:<24} {}", p.stride > 1 ? "ground, all strides" : "ground", headline(g)));
     lines.push_back(fmt::format("  profile from {:.1f} to {:.1f} mm; deeper it is a guess",
                                 1e3 * p.depth_min_m, 1e3 * p.depth_max_m));
   }
   for (const double depth_m : {0.010, 0.020, 0.030, 0.040, 0.050}) {
-    const bool known = depth_m >= p.depth_min_m && depth_m <= p.depth_max_m;
+    const bool known = !is_unchanged && depth_m >= p.depth_min_m && depth_m <= p.depth_max_m;
     if (!known) continue;
     const auto force = force_at(p, depth_m);
     const ProfilePoint secant{force.value / depth_m, force.sd / depth_m};

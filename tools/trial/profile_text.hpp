@@ -7,8 +7,10 @@
 
 namespace sandhopper {
 
-// What a strength profile says, for people; nothing where there is none.
-std::vector<std::string> profile_lines(const StrengthProfile& profile, const GroundSummary& ground);
+// What a strength profile says, for people; nothing where there is none. `is_unchanged`: this stride reached
+// no new ground, and the profile was told with the one before.
+std::vector<std::string> profile_lines(const StrengthProfile& profile, const GroundSummary& ground,
+                                       bool is_unchanged = false);
 
 // What a straight line is worth on this ground, in one sentence.
 std::string headline(const GroundSummary& ground);

@@ -23,23 +23,46 @@ constexpr std::array<Named, 4> kTreatments{
      {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls},
      {"joint", "joint fit", &ReportStride::joint}}};
 
-// In a crater a straight line has only the new ground below it: what is missing is that, not depth.
-std::string reason_of(const ReportStride& stride, const ReportStiffness& k) {
-  const bool little = readable(k.reason) == "too shallow" || readable(k.reason) == "too few samples" ||
-                      readable(k.reason) == "no new penetration";
-  if (!little || stride.crater_depth_m <= 0.0) return readable(k.reason);
-  return fmt::format("too little new ground below the crater of {:.0f} mm", 1e3 * stride.crater_depth_m);
+std::string stiffness_line(const char* name, const ReportStiffness& k) {
+  if (!std::isfinite(k.value_N_per_m))
+    return fmt::format("    {:<24} -                            not valid: {}", name, k.reason);
+  return fmt::format("    {:<24} {:6.0f} N/m  [{:6.0f}, {:6.0f}]  {}", name, k.value_N_per_m,
+                     k.ci95_low_N_per_m, k.ci95_high_N_per_m, k.valid ? "valid" : "not valid: " + k.reason);
 }
 
-std::string stiffness_line(const char* name, const ReportStride& stride, const ReportStiffness& k) {
-  if (!std::isfinite(k.value_N_per_m))
-    return fmt::format("    {:<24} -                            not valid: {}", name, reason_of(stride, k));
-  return fmt::format("    {:<24} {:6.0f} N/m  [{:6.0f}, {:6.0f}]  {}", name, k.value_N_per_m,
-                     k.ci95_low_N_per_m, k.ci95_high_N_per_m,
-                     k.valid ? "valid" : "not valid: " + reason_of(stride, k));
+// Strides that reached no ground deeper than those before: the profile after them is the one before.
+bool adds_nothing(const ReportData& data, std::size_t i) {
+  return i > 0 && data.strides[i].profile.stride > 0 &&
+         data.strides[i].profile.depth_max_m == data.strides[i - 1].profile.depth_max_m &&
+         data.strides[i].profile.observations == data.strides[i - 1].profile.observations;
+}
+
+std::string names_of(const std::vector<std::uint32_t>& numbers) {
+  std::string text = numbers.size() == 1 ? "stride " : "strides ";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ", numbers[i]);
+  return text;
 }
 
 }  // namespace
+
+std::string trial_line(const ReportData& data) {
+  if (data.strides.empty() || data.strides.back().profile.stride == 0) return "";
+  const auto& last = data.strides.back();
+  std::string text =
+      last.profile.depth_max_m > 0.0
+          ? fmt::format("ground: {}; known from {:.0f} to {:.0f} mm of depth", headline(last.ground),
+                        1e3 * last.profile.depth_min_m, 1e3 * last.profile.depth_max_m)
+          : std::string("ground: no stride says anything of it");
+  std::vector<std::uint32_t> nothing;
+  for (std::size_t i = 0; i < data.strides.size(); ++i)
+    if (adds_nothing(data, i)) nothing.push_back(data.strides[i].number);
+  if (!nothing.empty())
+    text += fmt::format(
+        ". No new ground in {}, which landed in the crater: prepare the bed anew, or `--strides {}`",
+        names_of(nothing), nothing.front() - 1);
+  return text + ".";
+}
 
 std::string readable(std::string name) {
   std::ranges::replace(name, '_', ' ');
@@ -48,14 +71,16 @@ std::string readable(std::string name) {
 
 std::vector<std::string> stride_lines(const ReportData& data) {
   std::vector<std::string> lines;
-  for (const auto& s : data.strides) {
+  for (std::size_t i = 0; i < data.strides.size(); ++i) {
+    const auto& s = data.strides[i];
     lines.push_back(
         fmt::format("  stride {}: touchdown {:.2f} m/s at {:.3f} s, switch {:.3f} s, liftoff {:.3f} s, peak "
                     "force {:.1f} N, depth {:.1f} mm",
                     s.number, s.touchdown_speed_mps, s.touchdown_s, s.switch_s, s.liftoff_s, s.peak_force_N,
                     1e3 * s.max_depth_m));
-    for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s, s.*t.member));
-    for (auto& line : profile_lines(s.profile, s.ground)) lines.push_back("    " + line);
+    for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s.*t.member));
+    for (auto& line : profile_lines(s.profile, s.ground, adds_nothing(data, i)))
+      lines.push_back("    " + line);
   }
   return lines;
 }
@@ -92,14 +117,17 @@ PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConf
   }
   const auto pooled = pool_strides(estimates, config);
   if (pooled.strides < 2) return {};
-  return {fmt::format(
-              "all {} valid strides together: {:.0f} N/m  [{:.0f}, {:.0f}], {:.0f} N/m from stride to stride",
-              pooled.strides, pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m,
-              pooled.between_strides_sd_N_per_m),
-          {{"value", pooled.value_N_per_m},
-           {"ci95", {pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m}},
-           {"between_strides_sd", pooled.between_strides_sd_N_per_m},
-           {"strides", pooled.strides}}};
+  const bool holds_zero = pooled.ci95_low_N_per_m <= 0.0;
+  return {
+      fmt::format(
+          "all {} valid strides together: {:.0f} N/m  [{:.0f}, {:.0f}], {:.0f} N/m from stride to stride{}",
+          pooled.strides, pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m,
+          pooled.between_strides_sd_N_per_m, holds_zero ? "  not valid: interval includes zero" : ""),
+      {{"value", pooled.value_N_per_m},
+       {"ci95", {pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m}},
+       {"valid", !holds_zero},
+       {"between_strides_sd", pooled.between_strides_sd_N_per_m},
+       {"strides", pooled.strides}}};
 }
 
 }  // namespace sandhopper

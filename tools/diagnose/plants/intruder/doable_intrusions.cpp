@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/diagnose/fit/statistics.hpp"
 #include "tools/diagnose/plants/doable.hpp"
 
 namespace sandhopper::diagnose {
@@ -58,14 +59,46 @@ PlannedIntrusion motion_of(const std::string& profile, double speed, double dept
   return m;
 }
 
+// The deepest recorded point, and the median over trials of the mean speed from the surface to the trial's
+// deepest point: what the rig did, where no set-up says it.
+struct Stroke {
+  double depth_m = 0.04, speed_mps = 0.3;
+};
+Stroke usual_stroke(const std::vector<Trial>& recorded) {
+  Stroke stroke;
+  double deepest_m = 0.0;
+  std::vector<double> speeds;
+  for (const auto& trial : recorded) {
+    const auto found = trial.channels.find("foot_z_m");
+    if (found == trial.channels.end()) continue;
+    double depth_m = 0.0, at_s = 0.0, surface_s = std::nan("");
+    for (std::size_t i = 0; i < found->second.size(); ++i) {
+      const double z = -found->second[i];
+      if (!std::isfinite(z)) continue;
+      if (z <= 0.0 && depth_m == 0.0) surface_s = trial.time_s[i];
+      if (z > depth_m) {
+        depth_m = z;
+        at_s = trial.time_s[i];
+      }
+    }
+    deepest_m = std::max(deepest_m, depth_m);
+    const double from_s = std::isfinite(surface_s) ? surface_s : trial.time_s.front();
+    if (depth_m > 0.0 && at_s > from_s) speeds.push_back(depth_m / (at_s - from_s));
+  }
+  if (deepest_m > 0.0) stroke.depth_m = deepest_m;
+  if (!speeds.empty()) stroke.speed_mps = median(speeds);
+  return stroke;
+}
+
 }  // namespace
 
 std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief,
                                            const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
-  const auto depths = extent_of(recorded, "depth_m", 0.04),
-             speeds = extent_of(recorded, "impact_speed_mps", 0.3);
+  const Stroke stroke = usual_stroke(recorded);
+  const auto depths = extent_of(recorded, "depth_m", stroke.depth_m),
+             speeds = extent_of(recorded, "impact_speed_mps", stroke.speed_mps);
   const double radius_m = belief.value("foot.radius_m", 0.04);
   const auto some = [](std::vector<double> values, double otherwise) {
     return values.empty() ? std::vector<double>{otherwise} : values;
