@@ -163,7 +163,8 @@ SessionResult run_session(const Session& s) {
   HopSession session(s.robot, s.board, s.logger,
                      {.event = [&](const Event& event) { s.channel.tell(event); },
                       .stride = [&](const StrideResult& result) { s.channel.tell(result); },
-                      .profile = [&](const StrengthProfile& profile, const GroundSummary& ground) { s.channel.tell(profile, ground); },
+                      .profile = [&](const StrengthProfile& profile,
+                                     const GroundSummary& ground) { s.channel.tell(profile, ground); },
                       .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }},
                      s.start);
   RequestBox requests;

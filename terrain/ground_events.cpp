@@ -51,7 +51,7 @@ struct Smoothness {
   double relative;
 };
 
-// Of force over depth, from the neighbours [N/m].
+// Slope of force over depth, from the neighbours [N/m].
 double slope_at(std::span<const Point> points, std::size_t i) {
   const auto& before = points[i == 0 ? 0 : i - 1];
   const auto& after = points[std::min(i + 1, points.size() - 1)];

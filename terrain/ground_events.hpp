@@ -114,7 +114,7 @@ struct DepthBins {
   std::int32_t out_of_range = 0;
 };
 
-// What the cycle keeps of one stance: bounded, copied as it is to the thread that searches.
+// The samples of one stance that the cycle keeps: bounded, copied as it is to the thread that searches.
 struct GroundEventSums {
   DepthBins down;  // new ground
   DepthBins up;    // the foot leaves

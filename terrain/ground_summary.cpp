@@ -173,7 +173,7 @@ class Summariser {
             0.0, kFree);
   }
 
-  // What physics forbids to be negative is held at zero: the intercept depth and the added mass.
+  // The intercept depth and the added mass cannot be negative: such values are held at zero.
   void hold(Model& m, const Fit& fit) const {
     if (fit.value[kAt] < -joint_.intercept_depth_m) m.pin(kAt, -joint_.intercept_depth_m);
     if (fit.value[kAt + 1] < 0.0) m.pin(kAt + 1, 0.0);

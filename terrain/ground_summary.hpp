@@ -49,8 +49,8 @@ struct GroundSummary {
   SummaryValue secant_20mm_N_per_m{};
   SummaryValue exponent{};  // of a power law
   ModelCheck line{}, power_law{}, layered{};
-  // Of the line on which the foot leaves its crater and returns; the upper end is infinite where the data
-  // allow a rigid ground, and all three are zero where there are none.
+  // Stiffness of the line on which the foot leaves its crater and returns; the upper end is infinite where
+  // the data allow a rigid ground, and all three are zero where there are none.
   SummaryValue reloading_N_per_m{};
   bool line_valid = false;
 

@@ -5,7 +5,7 @@
 
 namespace sandhopper {
 
-// By Gauss-Jordan elimination without pivoting: S is positive definite.
+// Gauss-Jordan elimination without pivoting, because S is positive definite.
 void NormalTest::invert() const {
   inverse_ = covariance_;
   double* const m = inverse_.data();

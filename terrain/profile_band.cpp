@@ -55,7 +55,7 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   // as an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
   const double fluctuation = config_.joint.fluctuation_relative * point.value;
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
-  // What the curve does within a cell: its scatter there, and the change of slope between its neighbours.
+  // Variance of the curve within a cell: its scatter there, and the change of slope between its neighbours.
   const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kProfileCells - 1);
   const double nearer = std::abs(share - 0.5);
   const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);

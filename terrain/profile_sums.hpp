@@ -39,12 +39,12 @@ struct ProfileCell {
   double weighted_force = 0.0;                      // sum of observations times force [N]
 
   double product(ProfileFeature a, ProfileFeature b) const noexcept;
-  // Of one feature with a combination of all.
+  // Product of one feature with a combination of all.
   double product_with(std::size_t feature,
                       const std::array<double, kProfileFeatures>& factors) const noexcept;
 };
 
-// How the ground gives way back after the deepest point of a stride: from there to where it bears the least.
+// Unloading of the ground after the deepest point of a stride, until the force is smallest.
 struct CraterReturn {
   double deepest_m = 0.0;
   double deepest_N = 0.0;

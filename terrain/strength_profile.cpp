@@ -105,7 +105,7 @@ void ProfileSolver::add_stride_prior(Information& info, double landings) const n
   }
 }
 
-// What kappa does from a cell to the next, in units of the prior: here * kappa_j + above * kappa_j-1.
+// Change of kappa from a cell to the next, in units of the prior: here * kappa_j + above * kappa_j-1.
 ProfileSolver::Innovation ProfileSolver::innovation(std::size_t j, double keep, double fresh,
                                                     double spread) const noexcept {
   if (j == 0) return {1.0 / (spread * believed_N_per_m_[0]), 0.0};

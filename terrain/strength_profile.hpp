@@ -84,10 +84,10 @@ struct ProfilePoint {
 
 // Linear between the points; NaN beyond the last.
 ProfilePoint force_at(const StrengthProfile& profile, double depth_m) noexcept;
-// Of the cell that holds this depth.
+// Index of the cell that holds this depth.
 ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept;
 
-// What a trial has shown so far.
+// Everything that the strides of a trial have shown so far.
 class ProfileSolver {
  public:
   static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
@@ -109,7 +109,7 @@ class ProfileSolver {
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
-  // What the strides say of kappa, c, e and b, without their prior.
+  // Information of the strides on kappa, c, e and b, without their prior.
   const Matrix<kShared>& normal() const noexcept { return kept_normal_; }
   const Vector<kShared>& moment() const noexcept { return kept_moment_; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }

@@ -17,7 +17,7 @@ struct TableCell {
 void split_csv_cells(std::string_view line, char separator, std::vector<TableCell>& cells);
 std::string_view trimmed_cell(std::string_view text);
 
-// How numbers are written: 1,234.5 has decimal '.' and thousands ','.
+// The signs with which numbers are written: 1,234.5 has decimal '.' and thousands ','.
 struct NumberStyle {
   char decimal = '.';
   char thousands = '\0';  // none
@@ -35,7 +35,7 @@ bool is_no_sample(std::string_view text);
 // UTC is taken off), else since midnight.
 //   2023-09-13T20:41:18.250Z   2023-09-13 20:41:18+02:00   13.09.2023 20:41:18,25   9/13/2023 8:41:18 PM
 //   20:41:18
-// Of 9/13/2023 and 13/9/2023 the number above 12 is the day; where both are not, the first is the month.
+// In 9/13/2023 and 13/9/2023 the number above 12 is the day; if neither is above 12, the first is the month.
 struct CellTime {
   double s = 0.0;
   bool has_date = false;

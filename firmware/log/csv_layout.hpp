@@ -8,10 +8,10 @@
 #include "firmware/log/csv_cells.hpp"
 #include "firmware/log/csv_text.hpp"
 
-// How the lines of a table are to be read: stated by its owner, or found by looking at its first lines.
+// The way to read the lines of a table: stated by its owner, or found by looking at its first lines.
 namespace sandhopper {
 
-// What the owner states, [format] of campaign.toml; the rest is found.
+// Statements of the owner, [format] of campaign.toml; the rest is found.
 struct CsvFormat {
   std::optional<TextEncoding> encoding{};
   std::optional<char> separator{};
@@ -34,7 +34,8 @@ struct CsvLayout {
   std::string header_mark{};  // in front of the names: "#"
   bool is_ambiguous = false;  // 1,234 may be 1234 or 1.234, and nothing in the file tells
   std::string ambiguous_cell{};
-  // What is unusual about the file, for its owner: "its names stand in line 3; lines 1 to 2 are passed over".
+  // Unusual things about the file, told to its owner: "its names stand in line 3; lines 1 to 2 are passed
+  // over".
   std::vector<std::string> said{};
 };
 

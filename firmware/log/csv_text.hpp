@@ -23,7 +23,8 @@ struct BinaryFormat {
   std::string_view name;
   std::string_view cure;
 };
-// By the first bytes of the file (magic numbers of the formats' specifications); empty for a text.
+// The name of a binary format, from the first bytes of the file (magic numbers of the formats'
+// specifications); empty for a text.
 std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes);
 
 // UTF-16 by its byte order mark or by every second byte being 0, Windows-1252 where the bytes are no UTF-8,

@@ -21,7 +21,7 @@ const reasons = [
   [/^ssh |robot\.local/, 'needs the robot'],
   [/\bhop conceal benchmark\b|tools\/benchmark\/page\.mjs/, 'takes hours'],
   [/tests\/fuzz\/|tools\/test\b|tools\/build\b|tools\/lint\b/, 'takes more than a quarter of an hour, or is the test itself'],
-  [/\bhop replay --can my_trace\.log/, 'needs a trace of your own and a CAN interface'],
+  [/\bhop replay --can (my_trace\.log|TRACE\.candump)/, 'needs a trace of your own'],
   [/\bother\.csv\b|\btaps\.mcap\b/, 'needs recordings of your own'],
   [/ config\/campaigns\//, 'needs recordings that are not part of the source; docs.ready_campaigns looks at what is said then'],
   [/\b(COMMAND|CODE|FOLDER)\b/, 'has a placeholder'],

@@ -1,5 +1,3 @@
-#include "tools/calibrate/foreign_table.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,6 +5,7 @@
 #include <fstream>
 
 #include "tests/unit/can_trace_text.hpp"
+#include "tools/calibrate/foreign_table.hpp"
 
 namespace sandhopper::calibrate {
 namespace {

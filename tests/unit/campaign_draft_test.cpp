@@ -23,7 +23,7 @@ struct Drafted {
   TrialRecording recording;
 };
 
-// What `hop campaign import` makes of a file, read back.
+// The campaign that `hop campaign import` makes of a file, read back.
 Drafted drafted(CampaignFolder& folder, const std::string& text,
                 std::optional<CampaignPlant> plant = std::nullopt) {
   folder.write("rec.csv", text);

@@ -80,7 +80,7 @@ TEST(GroundEvents, FindsSuctionWhileTheFootLeaves) {
   const auto wet = bed_family_of(BedFamily::wet);
   const auto found = find_ground_events(pushed(bed_of(wet, 5), 5), {}).suction;
   ASSERT_EQ(found.kind, GroundEventKind::suction) << found.statistic;
-  // Of the 10 N the null's smooth part takes some.
+  // The smooth part of the null takes some of the 10 N.
   EXPECT_GT(found.size, 0.5 * wet.suction_Pa * 0.005027);
   EXPECT_LT(found.size, 1.2 * wet.suction_Pa * 0.005027);
   EXPECT_NEAR(found.depth_m, 0.040, 0.006);

@@ -36,7 +36,7 @@ std::vector<std::byte> packed(const std::string& with, Bytes records) {
   return out;
 }
 
-// What another recorder would have written: the chunks of a log compressed.
+// A log as another recorder writes it: its chunks compressed.
 class Compressed : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {

@@ -15,14 +15,14 @@ struct AvailableValues {
   std::vector<std::string> words;
 };
 
-// By set-up key, its unit in its name.
+// One entry a set-up key; the key's name ends with its unit.
 using Available = std::map<std::string, AvailableValues>;
 
 // Reads the table [available] of a campaign.toml:
 //   plate_diameter_m = [0.06, 0.08]                these
 //   release_height_m = { from = 0.05, to = 0.30 }  any in between
 //   profile          = ["stop_and_withdraw"]       words
-// What cannot be understood becomes a finding in `findings`, with `file` as its place, and is left out.
+// A key that cannot be understood becomes a finding in `findings`, with `file` as its place, and is left out.
 Available read_available(const ConfigNode& table, const std::string& file, std::vector<Finding>& findings);
 
 }  // namespace sandhopper

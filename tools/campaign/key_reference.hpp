@@ -29,7 +29,7 @@ struct BeliefKey {
 // In the order of the file.
 std::vector<BeliefKey> belief_keys(CampaignPlant plant);
 
-// What a key of nominal.toml does; `path` is "table.key", or "key" at the top of the file. Empty: no such
+// Meaning of a key of nominal.toml; `path` is "table.key", or "key" at the top of the file. Empty: no such
 // key.
 std::string_view meaning_of_key(std::string_view path);
 

@@ -259,8 +259,8 @@ class PlausibilityChecker {
   const RecordingPlaces& places_;
 };
 
-// Of the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan, Venus,
-// Jupiter (NASA Planetary Fact Sheet), and none.
+// Gravity at the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan,
+// Venus, Jupiter (NASA Planetary Fact Sheet), and none.
 bool is_known_gravity(double g) {
   constexpr std::array kElsewhere{0.0, 1.62, 3.7, 3.71, 3.72, 3.73, 1.35, 8.87, 24.8, 24.79};
   return (g > 9.7 && g < 9.9) || std::any_of(kElsewhere.begin(), kElsewhere.end(),

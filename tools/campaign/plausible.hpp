@@ -27,7 +27,7 @@ std::span<const PlausibleBound> plausible_bounds();
 void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                      const RecordingPlaces& places);
 
-// What the belief holds that no laboratory has: a gravity of 1.0, a body denser than any metal.
+// Findings for numbers of the belief that no laboratory has: a gravity of 1.0, a body denser than any metal.
 std::vector<Finding> implausible_beliefs(const Campaign& campaign);
 
 }  // namespace sandhopper

@@ -117,7 +117,7 @@ class TableReader {
           fmt::format("{} records were lost when it was logged", exported.lost_records), "");
   }
 
-  // By the mapped name of the time, or by t_s where the file has no such column.
+  // The column of the mapped name of the time, or t_s where the file has no such column.
   CsvTable parse(std::istream& in) {
     CsvReadOptions options;
     options.gap_steps = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ class TableReader {
     return read_csv(in, options);
   }
 
-  // What was found about the file and is not plain, in one note.
+  // One note of all that is unusual about the file.
   void describe_format() {
     const auto& layout = out_.table.layout;
     if (out_.own_log || layout.said.empty() || any_unusable(findings_)) return;
@@ -155,7 +155,7 @@ class TableReader {
     findings_.push_back({kind, severity, out_.file, line, line, "", std::move(what), std::move(cure)});
     findings_.back().column = line > 0 ? 1 : 0;
   }
-  // What the trial's entry in campaign.toml asks for and cannot have.
+  // Findings for columns that the trial's entry in campaign.toml names and the file lacks.
   void complain(FindingKind kind, std::string what, std::string cure) {
     findings_.push_back({kind, trial_unusable, campaign_.file.string(), trial_.position.line,
                          trial_.position.column, "file", std::move(what), std::move(cure)});

@@ -24,15 +24,16 @@ std::optional<TrialTable> read_table(const Campaign& campaign, const CampaignTri
                                      std::vector<Finding>& findings);
 
 const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view channel);
-// By the name as written, or as it stands behind the mark of a remark ("# t_s"). Null where there is none.
+// The column of a name as written, or as it stands behind the mark of a remark ("# t_s"). Null where there is
+// none.
 const std::vector<double>* find_column(const CsvTable& table, std::string_view name);
 // The mapped column of the time, else t_s; null where the file has neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
 
 // The column that looks like a time, by its name; t_s is not looked for.
 std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant plant);
-// What to write where no column is the time: the column that looks like it, with its scale. Empty where no
-// column looks like a time.
+// Advice for a file in which no column is the time: the column that looks like it, with its scale. Empty
+// where no column looks like a time.
 std::string cure_for_time(const CsvTable& table, CampaignPlant plant);
 
 }  // namespace sandhopper

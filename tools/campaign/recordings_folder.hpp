@@ -13,7 +13,7 @@ namespace sandhopper {
 std::optional<std::filesystem::path> recordings_folder(const std::filesystem::path& campaign_folder,
                                                        std::string_view name);
 
-// What to tell the user where there is none: how to get the recordings, and the two ways to say where they
+// Message for the user if there is none: how to get the recordings, and the two ways to say where they
 // are.
 std::string how_to_get_recordings(std::string_view name, std::string_view source);
 

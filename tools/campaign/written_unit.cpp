@@ -228,7 +228,7 @@ std::optional<WrittenUnit> known_unit(std::string_view text) {
   return std::nullopt;
 }
 
-// What the name's last brackets hold.
+// The text in the last brackets of the name.
 std::optional<std::string_view> bracketed(std::string_view name) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const auto end = name.rfind(close);

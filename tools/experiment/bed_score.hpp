@@ -8,7 +8,7 @@
 #include "terrain/ground_events.hpp"
 #include "tools/experiment/bed_strides.hpp"
 
-// How right is what a stride says of beds it was not made for: coverage and width of a force profile, events
+// Score of what a stride says about beds of every family: coverage and width of a force profile, events
 // that were found, missed and false, per family of beds.
 namespace sandhopper {
 

@@ -13,7 +13,7 @@
 // what the firmware knew of each, beside the true bed.
 namespace sandhopper {
 
-// What a bed is made of in a set of strides, and its name in tables.
+// The bed of a set of strides, and its name in tables.
 struct BedCase {
   std::string name;
   BedFamilyParameters family{};

@@ -7,12 +7,12 @@
 
 namespace sandhopper {
 
-// What a strength profile says, for people; nothing where there is none. `is_unchanged`: this stride reached
-// no new ground, and the profile was told with the one before.
+// A strength profile in words and numbers, for people; nothing where there is none. `is_unchanged`: this
+// stride reached no new ground, and the profile was told with the one before.
 std::vector<std::string> profile_lines(const StrengthProfile& profile, const GroundSummary& ground,
                                        bool is_unchanged = false);
 
-// What a straight line is worth on this ground, in one sentence.
+// One sentence: the shape of the ground, and whether a straight line describes it.
 std::string headline(const GroundSummary& ground);
 
 // The same for programs: depths at which the ground is known, and depth_m, force_N, ci95_N, secant_N_per_m,

@@ -19,8 +19,8 @@ class Reach {
         std::map<std::string, std::set<std::string>> words);
 
   bool is_anything() const { return anything_; }
-  // Values of a key that can be set to any number: of `grid` those in reach, and the ends of what is in reach.
-  // Empty where the key is neither listed nor recorded.
+  // Values of a key that can be set to any number: of `grid` those in reach, and the ends of what is in
+  // reach. Empty where the key is neither listed nor recorded.
   std::vector<double> settings(const std::string& key, const std::vector<double>& grid) const;
   // Values of a key that stands for a part one has or has not: a plate, a weight.
   std::vector<double> parts(const std::string& key, const std::vector<double>& grid) const;

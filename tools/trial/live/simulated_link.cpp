@@ -129,7 +129,8 @@ void SimulatedLink::run(const SimTrialSetup& setup, double speed) {
   HopSession session(robot, board, logger,
                      {.event = [this](const Event& event) { say(operator_text(event)); },
                       .stride = [this](const StrideResult& result) { say(operator_text(result)); },
-                      .profile = [this](const StrengthProfile& profile, const GroundSummary& ground) { say(operator_text(profile, ground)); },
+                      .profile = [this](const StrengthProfile& profile,
+                                        const GroundSummary& ground) { say(operator_text(profile, ground)); },
                       .request = [this](const RequestRecord& answer) { say(operator_text(answer)); }});
   Heartbeat heart;
   PacedTime time(speed);

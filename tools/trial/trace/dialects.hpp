@@ -11,7 +11,7 @@
 
 namespace sandhopper::trace {
 
-// What the identifiers of a trace say about its drives, whatever is configured: HARDWARE 1.0 to 1.5.
+// The dialect of each drive as the identifiers of a trace show it, whatever is configured.
 struct DialectsSeen {
   std::map<int, std::uint64_t> status;           // frames 29xx, servo or v3, by drive
   std::map<int, std::uint64_t> mit_replies;      // standard frames that look like replies, by drive

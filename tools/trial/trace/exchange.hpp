@@ -39,7 +39,7 @@ struct Exchange {
 Exchange examine_exchange(const std::vector<Frame>& frames, const Roles& roles, Side side,
                           const CanConfig& config);
 
-// What of a trial the robot would itself have called a fault, limits.motor_reply_misses and
+// Events that the robot would itself have called a fault in a trial, limits.motor_reply_misses and
 // supervision.motor_reply_share of robot.toml.
 struct ReplyLimits {
   int misses = 3;

@@ -22,7 +22,7 @@ class MotorFrames {
         longest_reply_ns_(longest_reply_ns) {}
 
   bool has_command_id(const Frame& f) const { return codec_.is_command_id(f.id); }
-  // By identifier and first byte; on the command's identifier it may still be a command.
+  // Identifier and first byte decide; on the command's identifier it may still be a command.
   bool may_be_reply(const Frame& f) const {
     if (f.is_remote() || f.is_error()) return false;
     if (config_.dialect != Dialect::mit) return f.id == (CAN_EFF_FLAG | kServoStatus | id_);

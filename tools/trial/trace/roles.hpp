@@ -24,7 +24,7 @@ struct Part {
   Side side = Side::left;
 };
 
-// How the replies of a motor were told from commands to it.
+// The way in which a motor's replies were told from commands to it.
 enum class Evidence : std::uint8_t {
   identifier,  // they have identifiers of their own
   direction,   // the trace says which frames were sent (candump -x)

@@ -16,7 +16,7 @@
 
 namespace sandhopper::trace {
 
-// What a trace is held against, from robot.toml.
+// Limits that a trace is held against, from robot.toml.
 struct TraceLimits {
   ReplyLimits replies{};
   int cycle_gap = 20;  // supervision.cycle_gap: periods in which nothing comes
