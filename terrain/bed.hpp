@@ -124,7 +124,7 @@ class Bed {
   // Slope of the curve between 0.1 mm and this depth where it is greatest, over steps of 0.1 mm.
   double greatest_stiffness_N_per_m(double to_depth_m) const noexcept;
   double unloading_line_N_per_m() const noexcept;
-  // Of a wet bed, where the crater is deep enough for its full length.
+  // Largest pull of a wet bed on the foot, reached where the crater is deep enough; 0 for a dry bed.
   double greatest_suction_N() const noexcept { return family_.parameters().suction_Pa * area_m2_; }
 
   // Depth at which a foot that unloads from `max_depth_m` at rest loses contact: the crater's floor.

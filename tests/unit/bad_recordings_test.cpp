@@ -26,12 +26,6 @@ TrialRecording read(const std::string& csv, const std::string& plant = "intruder
   return read_trial(campaign, campaign.trials.at(0));
 }
 
-const Finding* find(const TrialRecording& recording, FindingKind kind) {
-  for (const auto& finding : recording.findings)
-    if (finding.kind == kind) return &finding;
-  return nullptr;
-}
-
 struct Place {
   std::uint64_t line, column;
   bool operator==(const Place&) const = default;

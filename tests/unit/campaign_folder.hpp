@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "tools/campaign/trial_recording.hpp"
+
 namespace sandhopper {
 
 // A campaign in a folder of its own, gone with the object.
@@ -30,5 +32,12 @@ class CampaignFolder {
  private:
   std::filesystem::path path_;
 };
+
+// The first finding of a kind; null where there is none.
+inline const Finding* find(const TrialRecording& recording, FindingKind kind) {
+  for (const auto& finding : recording.findings)
+    if (finding.kind == kind) return &finding;
+  return nullptr;
+}
 
 }  // namespace sandhopper

@@ -12,8 +12,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kMs = 1e-3;
-
 CanReplaySetup dialect_of(Dialect dialect) {
   CanReplaySetup setup;
   for (auto& motor : setup.config.motor) motor.dialect = dialect;

@@ -11,9 +11,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kMs = 1e-3;
-constexpr double kReply = 0.26e-3;
-
 TEST(CanTrace, CommandsWhoseFirstByteIsTheDrivesNumberAreNotReplies) {
   TraceText trace;
   for (int i = 0; i < 30; ++i)

@@ -13,6 +13,9 @@
 
 namespace sandhopper::trace {
 
+constexpr double kMs = 1e-3;
+constexpr double kReply = 0.26e-3;  // s after its command
+
 // Makes `candump -L` text line by line.
 class TraceText {
  public:

@@ -33,12 +33,6 @@ TrialRecording read(const std::string& csv, const Rig& rig) {
   return read_trial(campaign, campaign.trials.at(0));
 }
 
-const Finding* find(const TrialRecording& recording, FindingKind kind) {
-  for (const auto& finding : recording.findings)
-    if (finding.kind == kind) return &finding;
-  return nullptr;
-}
-
 // A plate that sinks 0.3 mm a row, in the units of the file.
 std::string press(const std::string& depth, const std::string& force, double depth_per_m,
                   double force_per_N) {

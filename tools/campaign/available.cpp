@@ -6,21 +6,20 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/config_number.hpp"
+
 namespace sandhopper {
 namespace {
 
 using Kind = ConfigNode::Kind;
 
-std::optional<double> number_in(const ConfigNode* node) {
-  if (node == nullptr) return std::nullopt;
-  const double value = node->kind == Kind::real      ? node->real
-                       : node->kind == Kind::integer ? static_cast<double>(node->integer)
-                                                     : std::nan("");
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+std::optional<double> finite_number_in(const ConfigNode* node) {
+  const auto number = node == nullptr ? std::nullopt : number_of(*node);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::optional<AvailableValues> range_in(const ConfigNode& node) {
-  const auto from = number_in(node.find("from")), to = number_in(node.find("to"));
+  const auto from = finite_number_in(node.find("from")), to = finite_number_in(node.find("to"));
   if (!from || !to || *from > *to || node.children.size() != 2) return std::nullopt;
   return AvailableValues{{*from, *to}, true, {}};
 }
@@ -28,7 +27,7 @@ std::optional<AvailableValues> range_in(const ConfigNode& node) {
 std::optional<AvailableValues> list_in(const ConfigNode& node) {
   AvailableValues list;
   for (const auto& child : node.children)
-    if (const auto number = number_in(&child))
+    if (const auto number = finite_number_in(&child))
       list.values.push_back(*number);
     else if (child.kind == Kind::text && !child.text.empty())
       list.words.push_back(child.text);

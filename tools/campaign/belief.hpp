@@ -181,7 +181,7 @@ struct RotaryAxisBelief {
 // In the order of CampaignPlant.
 using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, RotaryAxisBelief>;
 
-// What the plant believes when nothing is said: for a hopper this project's robot in its bed.
+// Belief of a plant without nominal.toml: for a hopper this project's robot in its bed.
 Belief default_belief(CampaignPlant plant);
 // The same without physics that a file of its owner must ask for: no friction of rail and joints, no cogging,
 // and of the bed only the straight line, without intercept, added mass, drag and an unloading line of its

@@ -6,6 +6,7 @@
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/config_number.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/recordings_folder.hpp"
 #include "tools/campaign/table_format.hpp"
@@ -19,12 +20,6 @@ using Kind = ConfigNode::Kind;
 [[noreturn]] void refuse(const fs::path& file, ConfigPosition position, const std::string& key,
                          const std::string& text) {
   throw ConfigError({{file.string(), position, key, text}});
-}
-
-std::optional<double> number_of(const ConfigNode& node) {
-  if (node.kind == Kind::real) return node.real;
-  if (node.kind == Kind::integer) return static_cast<double>(node.integer);
-  return std::nullopt;
 }
 
 template <NamedEnum E>

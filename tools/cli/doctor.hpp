@@ -22,7 +22,7 @@ struct Finding {
 // Kernel, priorities, memory locking, processors, clocks, disk space.
 std::vector<Finding> examine_machine(const RobotConfig& robot);
 
-// Of these, disk space and date.
+// Disk space and date only.
 std::vector<Finding> examine_storage();
 
 // CAN interface, device nodes and GPIO lines of the board's file: looked up, not opened for use.

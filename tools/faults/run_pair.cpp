@@ -238,7 +238,7 @@ void PairTrial::judge_harshness() {
 void PairTrial::judge_times() {
   const auto late = [&](const Planted& fault, std::size_t raised) {
     const auto found = result_.raised[raised];
-    // What was found before it had shown all it must is not late.
+    // A fault that is found before all its signs are visible is not late.
     const int cycles =
         fault.visible_at == 0 ? 0 : static_cast<int>(raised_at_[raised]) - static_cast<int>(fault.visible_at);
     if (cycles > entry_of(found).cycles)
@@ -257,8 +257,8 @@ void PairTrial::judge_times() {
       result_.cycles = late(second_, i);
 }
 
-// Whatever the new session did, before it was armed it made no more than the small torque that tries the
-// drives; and when it armed and hopped, it found the fault.
+// Before it is armed, the new session commands at most the small torque that tries the drives; once it arms
+// and hops, it finds the fault.
 void PairTrial::judge_restart() {
   const double tried_Nm = robot_.arming.confirm_torque_Nm + kNoTorque_Nm;
   if (!armed_ && rig_.board().bus().most_torque_Nm() > tried_Nm)

@@ -12,7 +12,7 @@ namespace sandhopper::diagnose {
 // Set-ups that the lab can make: what the campaign lists under [available], and what it has recorded.
 class Reach {
  public:
-  // Whatever a plant can plan, whoever has the means for it.
+  // Every set-up that a plant can plan, without regard to what the lab has.
   static Reach anything();
   // `words`: the recorded set-ups that are no numbers, by key.
   Reach(const std::vector<Trial>& recorded, Available available,

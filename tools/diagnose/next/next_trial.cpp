@@ -299,8 +299,8 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
 
 // The trial of most worth within `reach`.
 void propose_within(const Reach& reach, Problem& problem, const Recordings& recordings, Search& search,
-                    const Posterior& belief, const FreeGain* rest, const Diagnosis& diagnosis,
-                    NextTrial& next) {
+                    const Posterior& belief, const std::vector<Rivals>& rivals, const FreeGain* rest,
+                    const Diagnosis& diagnosis, NextTrial& next) {
   const Point& point = search.best().fit.point;
   const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
   const PlannedTrials planned(problem,
@@ -309,7 +309,6 @@ void propose_within(const Reach& reach, Problem& problem, const Recordings& reco
     next.why = "No trial can be planned from the set-ups of this campaign.";
     return;
   }
-  const auto rivals = rivals_of(problem, search, belief);
   if (!diagnosis.unknown.empty() && rest != nullptr)
     map_further(problem, planned, search, *rest, next);
   else if (search.best().set.empty())
@@ -327,10 +326,11 @@ void propose_next_trial(Problem& problem, const Recordings& recordings, Search& 
   NextTrial& next = diagnosis.next;
   if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
   const Reach reach(recordings.trials, recordings.available, recordings.words);
-  propose_within(reach, problem, recordings, search, belief, rest, diagnosis, next);
-  if (!next.kind.empty() || rivals_of(problem, search, belief).empty()) return;
+  const auto rivals = rivals_of(problem, search, belief);
+  propose_within(reach, problem, recordings, search, belief, rivals, rest, diagnosis, next);
+  if (!next.kind.empty() || rivals.empty()) return;
   NextTrial beyond;
-  propose_within(Reach::anything(), problem, recordings, search, belief, rest, diagnosis, beyond);
+  propose_within(Reach::anything(), problem, recordings, search, belief, rivals, rest, diagnosis, beyond);
   if (beyond.kind.empty()) return;
   next.why += fmt::format(
       " A set-up that this campaign has neither recorded nor lists under [available] "

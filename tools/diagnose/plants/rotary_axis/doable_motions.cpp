@@ -92,18 +92,12 @@ double triangle(double turns) {  // -1 to 1, from 0 upwards
   return 2.0 / kPi * std::asin(std::sin(2.0 * kPi * turns));
 }
 
-// Values of a key in reach; the grid itself where nothing is known of the key: the motions are then held
-// against those recorded.
-struct Values {
-  const Reach& reach;
-  std::vector<double> operator()(const char* key, const std::vector<double>& grid) const {
+std::vector<Wish> wishes(double duration_s, const Reach& reach) {
+  // The grid itself where nothing is known of the key: such motions are then held against those recorded.
+  const auto of = [&](const char* key, const std::vector<double>& grid) {
     const auto values = reach.settings(key, grid);
     return values.empty() ? grid : values;
-  }
-};
-
-std::vector<Wish> wishes(double duration_s, const Reach& reach) {
-  const Values of{reach};
+  };
   std::vector<Wish> all;
   for (const double angle : of("position_rad", {0.5, 1.57, 2.4}))
     all.push_back({"", {{"position_rad", angle}}, [=](double) { return angle; }});

@@ -1,0 +1,15 @@
+#pragma once
+#include <optional>
+
+#include "config/node.hpp"
+
+namespace sandhopper {
+
+// A number written with or without a decimal point; nothing for a value of another kind.
+inline std::optional<double> number_of(const ConfigNode& node) {
+  if (node.kind == ConfigNode::Kind::real) return node.real;
+  if (node.kind == ConfigNode::Kind::integer) return static_cast<double>(node.integer);
+  return std::nullopt;
+}
+
+}  // namespace sandhopper
