@@ -19,7 +19,7 @@ std::uint64_t origin_of(std::int64_t time_ns, std::uint64_t cycle) {
 
 class Search {
  public:
-  explicit Search(const LogRecovery::Cycles& log) : origin_(origin_of(log.first_ns, log.first)) {}
+  explicit Search(const LoggedCycles& log) : origin_(origin_of(log.first_ns, log.first)) {}
 
   void look_at_ring(const std::filesystem::path& file) {
     const MappedFile map(file);
@@ -69,7 +69,7 @@ class Search {
 
 }  // namespace
 
-std::optional<NewestCycles> find_newest_cycles(const LogRecovery::Cycles& log,
+std::optional<NewestCycles> find_newest_cycles(const LoggedCycles& log,
                                                const std::vector<std::filesystem::path>& folders) {
   Search search(log);
   const auto each = [&](const std::filesystem::path& folder, std::string_view ending, auto look) {

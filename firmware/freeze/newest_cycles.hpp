@@ -16,7 +16,7 @@ struct NewestCycles {
 // The last cycles of the trial that this log is of, from a ring, a dump or a freeze frame in one of the
 // folders; of several the one that goes on longest. Same trial: the cycles of both lie on the same grid of
 // time, to the nanosecond.
-std::optional<NewestCycles> find_newest_cycles(const LogRecovery::Cycles& log,
+std::optional<NewestCycles> find_newest_cycles(const LoggedCycles& log,
                                                const std::vector<std::filesystem::path>& folders);
 
 }  // namespace sandhopper

@@ -11,6 +11,19 @@
 
 namespace sandhopper {
 
+// Cycles of a log, by the cycle counter in /frame.
+struct LoggedCycles {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  std::int64_t first_ns = 0;  // the cycles' own times, CLOCK_MONOTONIC
+  std::int64_t last_ns = 0;
+  std::uint64_t missing_inside = 0;  // between first and last; skipped ones are not among them
+  std::uint64_t skipped = 0;         // grid points that the cycle did not run in: its overruns
+  std::uint64_t restored = 0;        // after `last`, from the freeze ring; they are in the copy
+  // After `last`, and not restored. 0 of a log that was closed; nothing when nobody knows.
+  std::optional<std::uint64_t> missing_at_end;
+};
+
 // What is in a log and what is missing from it.
 struct LogRecovery {
   bool whole = false;  // closed in order and undamaged: nothing to do, no file is made
@@ -35,19 +48,8 @@ struct LogRecovery {
   std::uint64_t gaps = 0;               // that the log itself records, and the records missing in them
   std::uint64_t lost_in_gaps = 0;
 
-  // By the cycle counter in /frame; nothing where the log has no such records of this build.
-  struct Cycles {
-    std::uint64_t first = 0;
-    std::uint64_t last = 0;
-    std::int64_t first_ns = 0;  // the cycles' own times, CLOCK_MONOTONIC
-    std::int64_t last_ns = 0;
-    std::uint64_t missing_inside = 0;  // between first and last; skipped ones are not among them
-    std::uint64_t skipped = 0;         // grid points that the cycle did not run in: its overruns
-    std::uint64_t restored = 0;        // after `last`, from the freeze ring; they are in the copy
-    // After `last`, and not restored. 0 of a log that was closed; nothing when nobody knows.
-    std::optional<std::uint64_t> missing_at_end;
-  };
-  std::optional<Cycles> cycles;
+  // Nothing where the log has no cycles of this build.
+  std::optional<LoggedCycles> cycles;
 
   // All that is missing is counted in lost(): the log was closed, or its end was restored.
   bool end_is_known() const { return !cut_at || (cycles && cycles->missing_at_end); }
