@@ -70,6 +70,12 @@ class Path {
 struct Intrusion {
   double speed_mps;
   double diameter_m;
+
+  // The bed has one pressure at one depth: the foot's stiffness in the ratio of the areas.
+  double stiffness_N_per_m(double of_foot_N_per_m, double foot_radius_m) const {
+    const double size = 0.5 * diameter_m / foot_radius_m;
+    return of_foot_N_per_m * size * size;
+  }
 };
 Intrusion intrusion(int number) {
   constexpr std::array<double, 5> kSpeeds{0.022, 0.1, 0.3, 0.7, 1.1};
@@ -83,8 +89,8 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
   constexpr double kAccelNoise_mps2 = 0.1;
   const TrialDraw draw(world, {.seed = seed, .noise = true, .start_ns = 0});
   BedParameters parameters = draw.bed().parameters();
-  const double size = 0.5 * what.diameter_m / world.robot.leg.foot_radius_m;
-  parameters.stiffness_N_per_m *= size * size;  // the believed bed has one pressure at one depth
+  parameters.stiffness_N_per_m =
+      what.stiffness_N_per_m(parameters.stiffness_N_per_m, world.robot.leg.foot_radius_m);
   const Bed bed(parameters, 0.5 * what.diameter_m, {}, draw.bed_family());
   Random noise(seed, 77);
   const double bias_mps2 = world.spread.imu_bias_mps2 * noise.normal();
@@ -117,11 +123,12 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
 // What the simulation has and a nominal.toml must ask for.
 std::string bed_keys(const BedParameters& bed) {
   return fmt::format(
-      "[terrain]\nintercept_depth_m         = {}\nadded_mass_factor         = {}\ndrag_factor               "
+      "[terrain]\nstiffness_N_per_m         = {}\nintercept_depth_m         = {}\nadded_mass_factor         "
+      "= {}\ndrag_factor               "
       "= {}\n"
       "unloading_stiffness_ratio = {}\nunloading_damping_ratio   = {}\n",
-      bed.intercept_depth_m, bed.added_mass_factor, bed.drag_factor, bed.unloading_stiffness_ratio,
-      bed.unloading_damping_ratio);
+      bed.stiffness_N_per_m, bed.intercept_depth_m, bed.added_mass_factor, bed.drag_factor,
+      bed.unloading_stiffness_ratio, bed.unloading_damping_ratio);
 }
 
 }  // namespace
@@ -169,8 +176,10 @@ void make_intrusion_campaign(const CampaignMakerSetup& setup) {
     record_intrusion(setup.world, what, setup.seed + static_cast<std::uint64_t>(i),
                      open(setup.folder / trial_file(i)));
     out << fmt::format(
-        "\n[[trial]]\nfile = \"{}\"\nkind = \"intrusion\"\nimpact_speed_mps = {}\nplate_diameter_m = {}\n",
-        trial_file(i), what.speed_mps, what.diameter_m);
+        "\n[[trial]]\nfile = \"{}\"\nkind = \"intrusion\"\nimpact_speed_mps = {}\nplate_diameter_m = {}\n"
+        "stiffness_N_per_m = {}\n",
+        trial_file(i), what.speed_mps, what.diameter_m,
+        what.stiffness_N_per_m(setup.world.terrain.stiffness_N_per_m, setup.world.robot.leg.foot_radius_m));
     if (setup.progress) setup.progress(i + 1);
   }
 }

@@ -10,8 +10,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kFewSamples = 10;
-constexpr double kNotSampled = 1e4;   // variance of a reading that there is not, m^2 or m^2/s^2
-constexpr double kAccelError = 0.01;  // of the hardest acceleration: scale and interpolation between samples
+constexpr double kAccelError = 0.01;  // of an acceleration: the sensor's scale
 
 double largest(const std::vector<double>& values) {
   double most = 0.0;
@@ -34,49 +33,80 @@ std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
   return known;
 }
 
+// The sample that stands nearest to each step of the grid: its value, down positive, and how much later it
+// is.
+struct AtStep {
+  std::vector<double> value, late_s;
+  std::vector<bool> known;
+};
+AtStep at_steps(const Samples& samples, const IntruderMotion& m) {
+  const std::size_t n = m.depth_m.size();
+  AtStep at{std::vector<double>(n), std::vector<double>(n), std::vector<bool>(n, false)};
+  for (std::size_t k = 0; k < samples.time_s.size(); ++k) {
+    const double place = std::round((samples.time_s[k] - m.start_s) / m.step_s);
+    if (place < 0.0 || place >= static_cast<double>(n)) continue;
+    const auto i = static_cast<std::size_t>(place);
+    const double late_s = samples.time_s[k] - m.start_s - m.step_s * place;
+    if (at.known[i] && std::abs(late_s) >= std::abs(at.late_s[i])) continue;
+    at.known[i] = true;
+    at.value[i] = -samples.value[k];
+    at.late_s[i] = late_s;
+  }
+  return at;
+}
+
 void smooth_jointly(IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a) {
-  using Eigen::Matrix2d, Eigen::Vector2d;
+  using Eigen::Matrix3d, Eigen::RowVector3d, Eigen::Vector3d;
   const std::size_t n = m.depth_m.size();
   const double dt = m.step_s;
-  const Matrix2d advance{{1.0, dt}, {0.0, 1.0}};
-  const Vector2d push{0.5 * dt * dt, dt};
+  const Matrix3d advance{{1.0, dt, -0.5 * dt * dt}, {0.0, 1.0, -dt}, {0.0, 0.0, 1.0}};
+  const Vector3d push{0.5 * dt * dt, dt, 0.0};
   const double hardest = largest(m.accel_mps2);
-  const double accel_sd = std::hypot(m.accel_sd_mps2.front(), kAccelError * hardest);
-  const auto process = [&](double sd) -> Matrix2d {
-    return sd * sd * push * push.transpose() + 1e-24 * Matrix2d::Identity();
+  // Of the mean acceleration from step i - 1 to i; unknown inside a gap. Where it changes it may have jumped
+  // at any instant between: its mean lies evenly between both values.
+  const auto accel_sd = [&](std::size_t i, bool known) {
+    if (!known) return hardest;
+    const double here = m.accel_mps2[i], change = here - m.accel_mps2[i - 1];
+    return std::hypot(m.accel_sd_mps2[i], kAccelError * here, change / std::sqrt(12.0));
   };
-  const Matrix2d process_known = process(accel_sd), process_unknown = process(hardest);
-  const Vector2d sensor{m.depth_sd_m * m.depth_sd_m, m.speed_sd_mps * m.speed_sd_mps};
-  const auto z_known = sampled(z, m), v_known = sampled(v, m), a_known = sampled(a, m);
-  std::vector<Vector2d> before(n), after(n);
-  std::vector<Matrix2d> before_cov(n), after_cov(n);
-  Vector2d x{m.depth_m[0], m.speed_mps[0]};
-  Matrix2d p = sensor.asDiagonal();
+  const double depth_variance = m.depth_sd_m * m.depth_sd_m, speed_variance = m.speed_sd_mps * m.speed_sd_mps;
+  const AtStep depth = at_steps(z, m), speed = at_steps(v, m);
+  const auto a_known = sampled(a, m);
+  std::vector<Vector3d> before(n), after(n);
+  std::vector<Matrix3d> before_cov(n), after_cov(n);
+  Vector3d x{m.depth_m[0], m.speed_mps[0], 0.0};
+  Matrix3d p =
+      Vector3d{depth_variance, hardest * hardest * dt * dt + speed_variance, hardest * hardest}.asDiagonal();
+  const auto take = [&](const RowVector3d& of, double seen, double variance) {
+    const Vector3d gain = p * of.transpose() / (of.dot(p * of.transpose()) + variance);
+    x += gain * (seen - of.dot(x));
+    p = (Matrix3d::Identity() - gain * of) * p;
+  };
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0) {
+      const double sd = accel_sd(i, a_known[i]);
       x = advance * x + push * 0.5 * (m.accel_mps2[i - 1] + m.accel_mps2[i]);
-      p = advance * p * advance.transpose() + (a_known[i] ? process_known : process_unknown);
+      p = advance * p * advance.transpose() + sd * sd * push * push.transpose() +
+          1e-24 * Matrix3d::Identity();
     }
     before[i] = x;
     before_cov[i] = p;
-    if (i > 0) {
-      const Vector2d noise{z_known[i] ? sensor[0] : kNotSampled, v_known[i] ? sensor[1] : kNotSampled};
-      const Matrix2d gain = p * (p + Matrix2d(noise.asDiagonal())).inverse();
-      x += gain * (Vector2d{m.depth_m[i], m.speed_mps[i]} - x);
-      p = (Matrix2d::Identity() - gain) * p;
-    }
+    if (i > 0 && depth.known[i]) take({1.0, depth.late_s[i], 0.0}, depth.value[i], depth_variance);
+    if (i > 0 && speed.known[i])
+      take({0.0, 1.0, 0.0}, speed.value[i] - m.accel_mps2[i] * speed.late_s[i], speed_variance);
     after[i] = x;
     after_cov[i] = p;
   }
-  Vector2d variance = Vector2d::Zero();
+  Vector3d variance = Vector3d::Zero();
   for (std::size_t i = n; i-- > 0;) {
     if (i + 1 < n) {
-      const Matrix2d back = after_cov[i] * advance.transpose() * before_cov[i + 1].inverse();
+      const Matrix3d back = after_cov[i] * advance.transpose() * before_cov[i + 1].inverse();
       after[i] += back * (after[i + 1] - before[i + 1]);
       after_cov[i] += back * (after_cov[i + 1] - before_cov[i + 1]) * back.transpose();
     }
     m.depth_m[i] = after[i][0];
     m.speed_mps[i] = after[i][1];
+    m.accel_mps2[i] -= after[i][2];
     variance += after_cov[i].diagonal() / static_cast<double>(n);
   }
   m.depth_sd_m = std::sqrt(variance[0]);
@@ -118,17 +148,38 @@ void refine(IntruderMotion& m) {
 constexpr double kClear = 4.0;                             // standard errors
 constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // less moves no force by what a cell can see
 
+std::vector<double> at_times(const std::vector<double>& time_s, const std::vector<double>& values,
+                             const std::vector<double>& wanted_s) {
+  const double step_s = median_step_s(time_s);
+  const auto count = static_cast<std::size_t>((time_s.back() - time_s.front()) / step_s) + 1;
+  const Signal signal = on_grid({time_s, values}, time_s.front(), step_s, count, false);
+  std::vector<double> out;
+  for (const double t : wanted_s) out.push_back(signal.at(t));
+  return out;
+}
+
 // By how much a position is late and its clock fast, with standard errors.
 struct OutOfTime {
   double late_s, drift, late_se_s, drift_se;
 };
 std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const Samples& a) {
-  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;  // samples to each side
-  constexpr std::size_t kLeastRows = 50;
+  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;  // samples of `other` to each side
+  constexpr std::size_t kLeastRows = 50, kLeastHalf = 3;
   const bool by_speed = z.time_s == v.time_s;
-  if (z.time_s.size() < kLeastRows || (!by_speed && z.time_s != a.time_s)) return std::nullopt;
-  const std::size_t half = by_speed ? kOfRate : kOfCurvature;
-  const auto position = smooth(z, half), other = smooth(by_speed ? v : a, half);
+  const Samples& recorded = by_speed ? v : a;
+  if (z.time_s.size() < kLeastRows || recorded.time_s.size() < kLeastRows) return std::nullopt;
+  const std::size_t half_other = by_speed ? kOfRate : kOfCurvature;
+  // As long a time on both sides, also where the position comes more slowly.
+  const double slower = median_step_s(z.time_s) / median_step_s(recorded.time_s);
+  const auto half = std::max(
+      kLeastHalf,
+      static_cast<std::size_t>(std::lround(static_cast<double>(half_other) / std::max(slower, 1.0))));
+  const auto position = smooth(z, half);
+  Smoothed other = smooth(recorded, half_other);
+  if (z.time_s != recorded.time_s) {
+    other.value = at_times(recorded.time_s, other.value, z.time_s);
+    other.rate = at_times(recorded.time_s, other.rate, z.time_s);
+  }
   const auto& derived = by_speed ? position.rate : position.curvature;
   const double order = by_speed ? 1.0 : 2.0;
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -156,15 +207,17 @@ std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const S
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a) {
   constexpr double kSmoothing_s = 0.004, kQuantum_m = 2e-6;
   IntruderMotion m;
-  m.step_s = std::clamp(median_step_s(z.time_s), 2.5e-4, 0.02);
   m.start_s = z.time_s.front();
-  m.speed_from_position = v.value.size() <= kFewSamples;
-  m.accel_from_position = m.speed_from_position && a.value.size() <= kFewSamples;
   // What is late does not belong to the same motion.
   const auto apart = out_of_time(z, v, a);
   const bool late = apart && (std::abs(apart->late_s) > std::max(kLeastLate_s, kClear * apart->late_se_s) ||
                               std::abs(apart->drift) > std::max(kLeastDrift, kClear * apart->drift_se));
-  const bool joined = !m.speed_from_position && a.value.size() > kFewSamples && !late;
+  const bool joined = a.value.size() > kFewSamples && !late;
+  m.speed_from_position = v.value.size() <= kFewSamples && !joined;
+  m.accel_from_position = m.speed_from_position && a.value.size() <= kFewSamples;
+  const double depth_step_s = median_step_s(z.time_s);
+  m.step_s =
+      std::clamp(joined ? std::min(depth_step_s, median_step_s(a.time_s)) : depth_step_s, 2.5e-4, 0.02);
   const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / m.step_s, 2.0, 8.0));
   const auto count = static_cast<std::size_t>((z.time_s.back() - z.time_s.front()) / m.step_s) + 1;
   const auto put = [&](std::vector<double>& into, const Samples& samples) {

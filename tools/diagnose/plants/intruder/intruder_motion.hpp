@@ -17,11 +17,14 @@ struct IntruderMotion {
   bool speed_from_position = false, accel_from_position = false;
 };
 
-// Heights z, velocities v and accelerations a upward; v and a may be empty. Where all three were recorded
-// and agree in time they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of x = (z, v) driven
-// by a:
-//   z' = v, v' = a,   noise of z, v and a from their own fast fluctuation;
-// otherwise speeds and accelerations come from local parabolas over n samples, with a standard deviation of
+// Heights z, velocities v and accelerations a upward; v and a may be empty. Where accelerations were recorded
+// and agree in time with the position they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of
+// x = (z, v, b) driven by a, on the finer of their grids:
+//   z' = v, v' = a - b, b' = 0,   b: the accelerometer's offset, free;
+// noise of z, v and a from their own fast fluctuation; a's is joined by 1 % of it (scale) and by change /
+// sqrt(12) of it between two steps, for it may have jumped at any instant between; each sample of z and v is
+// taken at its own time. Otherwise speeds and accelerations come from local parabolas over n samples, with a
+// standard deviation of
 //   s sqrt(12/n^3)/dt from speeds, s sqrt(720/n^5)/dt^2 from positions,
 // and what parabolas twice as long make of it as what they flatten. Over gaps of one the smoother goes by the
 // others. Where the foot is fast the grid is finer than the recording's.

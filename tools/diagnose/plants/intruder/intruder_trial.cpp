@@ -30,7 +30,7 @@ constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
 constexpr double kClose_N = 1e-6;       // a force to itself where the rig has yielded
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
-enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kFirstKnot };
+enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kTurning, kFirstKnot };
 
 // The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of
 // `f` is there.
@@ -105,6 +105,10 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
+    // By how much the deepest point, from which the steep line back is counted, was deeper than its one
+    // reading says: in all rows after it alike.
+    add_nuisance("turning_depth_m", motion_.depth_sd_m, motion_.depth_sd_m);
+    trial_nuisances.back().may_lean = false;
     add_knots();
     if (!ages.empty()) {
       age_nuisance_ = trial_nuisances.size();
@@ -204,6 +208,7 @@ class IntruderTrial final : public TrialModel {
     if (const double k = belief_.value("rig.stiffness_N_per_m"); k > 0.0) compliance_m_per_N = 1.0 / k;
     compliance_m_per_N = edits.edited("rig.compliance_m_per_N", compliance_m_per_N);
     const double surface_m = edits.edited("surface_height_m", nuisances[kSurface]);
+    const double turning_m = nuisances[kTurning];
     const Read read = reading(edits);
     const auto cell = edits.at("load_cell");
     const double depth_band_m = kNoiseBand * motion_.depth_sd_m;
@@ -212,7 +217,7 @@ class IntruderTrial final : public TrialModel {
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
     double deepest_m = 0.0, known_m = -1.0, known_N = 0.0, deeper_m = laws.deeper_m();
     double before_N = 0.0, slope = 0.0;
-    bool touching = false, touched = false;
+    bool touching = false, touched = false, down_before = false;
     double asked_before_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
@@ -242,12 +247,15 @@ class IntruderTrial final : public TrialModel {
           known_m = deepest_m;
           known_N = bed.curve_N(deepest_m);
         }
-        const double at_m = down ? std::max(depth_m, deepest_m) : std::min(depth_m, deepest_m);
+        const double at_m = !down         ? std::min(depth_m - turning_m, deepest_m)
+                            : down_before ? depth_m
+                                          : std::max(depth_m, deepest_m);
+        const double turned_m = down ? std::min(at_m, deepest_m) : deepest_m;
         contact = {.depth_m = std::max(0.0, at_m),
                    .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
-                   .max_depth_m = deepest_m,
+                   .max_depth_m = turned_m,
                    .damping_mass_kg = 0.0,
-                   .deepest_N = known_m == deepest_m ? known_N : kNotKnown_N};
+                   .deepest_N = known_m == turned_m ? known_N : kNotKnown_N};
         reaction = bed.reaction(contact);
         return reaction.at_acceleration(-read.accel_mps2(i));
       };
@@ -264,7 +272,9 @@ class IntruderTrial final : public TrialModel {
         run.force.values[i - 1] += met_between_N(bed, contact, force_N, asked_before_m, asked_m);
       touched = touching;
       asked_before_m = asked_m;
-      if (down) deepest_m = std::max(deepest_m, depth_m);
+      // On the way down the newest depth counts, not the largest: the largest of many readings is too deep.
+      if (down) deepest_m = down_before ? depth_m : std::max(deepest_m, depth_m);
+      down_before = down;
       before_N = force_N;
       run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
     }
