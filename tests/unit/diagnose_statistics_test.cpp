@@ -29,6 +29,8 @@ TEST(DiagnoseStatistics, StudentTailsAreThoseOfTables) {
   EXPECT_NEAR(student_t_two_sided(4.604, 4.0), 0.01, 1e-4);
   EXPECT_NEAR(student_t_quantile(0.05, 10.0), 2.228, 1e-3);
   EXPECT_NEAR(student_t_two_sided(0.0, 3.0), 1.0, 1e-12);
+  EXPECT_EQ(student_t_two_sided(std::nan(""), 3.0), 1.0);
+  EXPECT_EQ(student_t_two_sided(HUGE_VAL, 3.0), 0.0);
 }
 
 TEST(DiagnoseStatistics, TrialsThatDisagreeAreNoEvidence) {

@@ -1,6 +1,7 @@
 #include "tools/diagnose/fit/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -10,34 +11,7 @@ namespace {
 
 constexpr double kModelTrials = 4.0;
 
-// Continued fraction of the incomplete beta function (Lentz).
-double beta_fraction(double a, double b, double x) {
-  constexpr double kTiny = 1e-300;
-  double c = 1.0, d = 1.0 - (a + b) * x / (a + 1.0);
-  d = 1.0 / (std::abs(d) < kTiny ? kTiny : d);
-  double h = d;
-  for (int m = 1; m <= 300; ++m) {
-    for (const double numerator : {m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
-                                   -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))}) {
-      d = 1.0 + numerator * d;
-      c = 1.0 + numerator / c;
-      d = 1.0 / (std::abs(d) < kTiny ? kTiny : d);
-      if (std::abs(c) < kTiny) c = kTiny;
-      h *= d * c;
-    }
-    if (std::abs(d * c - 1.0) < 1e-12) break;
-  }
-  return h;
-}
-
-double incomplete_beta(double a, double b, double x) {
-  if (x <= 0.0) return 0.0;
-  if (x >= 1.0) return 1.0;
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
-  return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(a, b, x) / a
-                                       : 1.0 - front * beta_fraction(b, a, 1.0 - x) / b;
-}
+using StudentT = boost::math::students_t;
 
 double sum(const std::vector<double>& values) {
   double s = 0.0;
@@ -48,17 +22,12 @@ double sum(const std::vector<double>& values) {
 }  // namespace
 
 double student_t_two_sided(double t, double nu) {
-  if (!std::isfinite(t)) return 0.0;
-  return incomplete_beta(0.5 * nu, 0.5, nu / (nu + t * t));
+  if (std::isnan(t)) return 1.0;  // says nothing
+  return 2.0 * cdf(complement(StudentT(nu), std::abs(t)));
 }
 
 double student_t_quantile(double two_sided, double nu) {
-  double low = 0.0, high = 1e3;
-  for (int i = 0; i < 80; ++i) {
-    const double middle = 0.5 * (low + high);
-    (student_t_two_sided(middle, nu) > two_sided ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return quantile(complement(StudentT(nu), 0.5 * two_sided));
 }
 
 double TrialEvidence::size() const {

@@ -5,8 +5,7 @@
 
 namespace sandhopper::diagnose {
 
-// Two-sided tail probability of Student's t, accurate to about 1e-6 relative; by the incomplete beta
-// function.
+// Two-sided tail probability of Student's t; 1 where t is no number.
 double student_t_two_sided(double t, double degrees_of_freedom);
 // Value that a two-sided probability belongs to.
 double student_t_quantile(double two_sided, double degrees_of_freedom);
