@@ -34,7 +34,8 @@ constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
 constexpr double kLikelierThanNot = 0.5;
-constexpr double kMostOfTheGap = 0.5;  // DIAGNOSIS 2.5: less, and what is missing is on no list
+constexpr double kMostOfTheGap =
+    0.5;  // of the explainable held-out energy; less, and what is missing is on no list
 // Names that close most of the gap, and what is left: it may be the form of one of their laws.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
