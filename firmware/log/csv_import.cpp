@@ -167,11 +167,23 @@ class Reading {
     const auto value = number_in_cell(cell.text, table_.layout.numbers);
     if (value && std::isfinite(*value)) return *value;
     if (!value && is_silent(cell.text)) return kEmpty;
+    if (const auto* word = value ? nullptr : word_for(cell.text, name)) {
+      if (!word->note.empty())
+        report({Severity::note, cell.column, CsvFault::word_as_number, name}, std::string(word->note));
+      return word->value;
+    }
     if (const auto time = value ? std::nullopt : time_in_cell(cell.text)) return seconds(*time);
     const bool is_number = value.has_value();
     report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
            "\"" + printable(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
     return kEmpty;
+  }
+
+  const CsvWord* word_for(std::string_view text, const std::string& name) const {
+    const auto same = [](char a, char b) { return a == b || ((a | 0x20) == (b | 0x20) && (a | 0x20) >= 'a'); };
+    for (const auto& word : options_.words)
+      if (word.column == name && std::ranges::equal(word.text, text, same)) return &word;
+    return nullptr;
   }
 
   bool is_silent(std::string_view text) const {
@@ -288,6 +300,7 @@ std::string_view cure_for(CsvFault fault) {
     case CsvFault::time_stands_still:
       return "give every row a time of its own";
     case CsvFault::gap:
+    case CsvFault::word_as_number:
     case CsvFault::not_a_text:
       return "";
     case CsvFault::ambiguous_number:

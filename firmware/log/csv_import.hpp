@@ -24,7 +24,8 @@ enum class CsvFault : std::uint8_t {
   time_stands_still,
   gap,
   not_a_text,
-  ambiguous_number
+  ambiguous_number,
+  word_as_number
 };
 
 // What the recording's owner can do about it; empty where nothing is lost.
@@ -64,6 +65,14 @@ struct CsvTable {
   bool has_errors() const;
 };
 
+// A text that stands for a number in the cells of one column; upper and lower case are the same.
+struct CsvWord {
+  std::string column;
+  std::string_view text;
+  double value;             // NaN: no sample
+  std::string_view note{};  // told once where the word is used
+};
+
 struct CsvReadOptions {
   std::string time_column = "t_s";  // empty: rows have no time
   double gap_steps = 5.0;           // a step longer than this many median steps is a gap
@@ -71,6 +80,7 @@ struct CsvReadOptions {
   bool check_order = true;   // false: rows may step back in time
   bool list_repeats = true;  // false: the same fault in the same column is listed once and then counted
   CsvFormat format{};        // what is known of the file
+  std::vector<CsvWord> words{};
 };
 
 // Reads a recording: a header of unique names, then numbers; a cell that is empty or says NaN, -, #N/A is no

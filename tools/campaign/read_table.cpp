@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "firmware/log/csv_channels.hpp"
 #include "firmware/log/csv_export.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "tools/campaign/column_names.hpp"
@@ -124,6 +125,8 @@ class TableReader {
     options.list_repeats = false;
     options.max_issues = 1000;
     options.format = trial_.format;
+    const auto* phase = mapping_of(trial_, "phase");
+    options.words = phase_words(phase == nullptr ? "phase" : phase->column);
     const auto* time = mapping_of(trial_, "t_s");
     if (!trial_.rows.column.empty()) options.check_order = false;
     if (time == nullptr) return read_csv(in, options);
@@ -166,6 +169,19 @@ class TableReader {
   std::vector<Finding>& findings_;
   TrialTable out_;
 };
+
+// Names of a hop's phases: those of `hop export`, and the robot's further states, which are no phase.
+std::vector<CsvWord> phase_words(const std::string& column) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CsvWord> words;
+  for (std::size_t i = 0; i < kCsvPhaseNames.size(); ++i)
+    words.push_back({column, kCsvPhaseNames[i], static_cast<double>(i)});
+  words.push_back({column, "stance", 1.0,
+                   "\"stance\" is taken for compression: the table does not say when extension begins"});
+  for (const auto name : EnumNames<State>::value)
+    if (std::ranges::find(kCsvPhaseNames, name) == kCsvPhaseNames.end()) words.push_back({column, name, kNone});
+  return words;
+}
 
 bool is_called_time(std::string_view name) {
   std::string lower(name);

@@ -42,6 +42,8 @@ FaultMeaning meaning_of(CsvFault fault) {
       return {FindingKind::time_stands_still, note};
     case gap:
       return {FindingKind::gap, note};
+    case word_as_number:
+      return {FindingKind::file_format, note};
     case not_a_text:
     case ambiguous_number:
       return {FindingKind::file_format, trial_unusable};
