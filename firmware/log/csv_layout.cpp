@@ -69,13 +69,12 @@ struct Seen {
   double score = 0.0;
 };
 
-// True where the next lines that hold cells, three at most, are rows of as many cells; false where one is
-// not.
-bool rows_follow(const std::vector<LineShape>& shapes, std::size_t row, std::size_t cells) {
+// True where the next lines that hold cells, three at most, hold numbers.
+bool numbers_follow(const std::vector<LineShape>& shapes, std::size_t row) {
   std::size_t seen = 0;
   for (std::size_t i = row + 1; i < shapes.size() && seen < 3; ++i) {
     if (shapes[i].cells == 0) continue;
-    if (!shapes[i].is_row() || shapes[i].cells != cells) return false;
+    if (shapes[i].numbers == 0) return false;
     ++seen;
   }
   return seen > 0;
@@ -105,7 +104,7 @@ Seen look(const Lines& lines, const Division& division) {
     if (!shapes[i].is_row() || shapes[i].cells != seen.cells) continue;
     // A line of numbers among the names ("ID",1,1,2) is followed by lines that are no rows.
     if (seen.first_row == lines.size()) seen.first_row = i;
-    if (rows_follow(shapes, i, seen.cells)) {
+    if (numbers_follow(shapes, i)) {
       seen.first_row = i;
       break;
     }

@@ -113,6 +113,9 @@ class Drafter {
                                  guess.is_downward      ? ", counted downward"
                                  : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
                                                         : ""));
+    if (const auto other = time_ ? other_part_of_time() : std::nullopt)
+      said.push_back(fmt::format("t_s is column \"{}\" and column \"{}\"", table_.names[*time_],
+                                 table_.names[other->first]));
     if (!time_ && table_.find("t_s") == nullptr) said.emplace_back("no column is a time");
     std::vector<std::string> unused;
     for (std::size_t i = 0; i < table_.names.size(); ++i)

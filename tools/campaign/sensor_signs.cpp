@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/written_unit.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -147,17 +149,25 @@ class SignChecker {
           "m", -1.0);
   }
 
+  // `unit` alone gives the scale.
+  static double factor_of(const ColumnMapping& mapping) {
+    const auto unit = mapping.has_scale ? std::nullopt : read_unit(mapping.unit, true);
+    const auto wanted = unit_of_channel(mapping.channel);
+    return unit && wanted ? factor_between(*unit, *wanted).value_or(mapping.scale) : mapping.scale;
+  }
+
   void add(std::string_view channel, std::string what, std::string_view unit, double factor) {
     const auto* m = mapping(channel);
     const bool stated = m != nullptr && m->is_stated();
-    const double scale = (m == nullptr ? 1.0 : m->scale) * factor;
-    push_back(
-        channel, std::move(what),
-        stated ? "taken as stated in [columns]"
-               : fmt::format("write {} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }} into [columns]",
-                             channel, m == nullptr ? channel : m->column,
-                             m == nullptr || m->unit.empty() ? unit : std::string_view(m->unit), scale),
-        stated ? note : trial_unusable);
+    const double scale = (m == nullptr || unit == "g" ? 1.0 : factor_of(*m)) * factor;
+    push_back(channel, std::move(what),
+              stated ? "taken as stated in [columns]"
+                     : fmt::format(
+                           "write {} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }} into [columns]",
+                           channel, m == nullptr ? channel : m->column,
+                           m == nullptr || m->unit.empty() || unit == "g" ? unit : std::string_view(m->unit),
+                           scale),
+              stated ? note : trial_unusable);
   }
 
   void push_back(std::string_view channel, std::string what, std::string cure, FindingSeverity severity) {

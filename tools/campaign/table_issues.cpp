@@ -82,7 +82,7 @@ bool drops_rows(CsvFault fault) {
 FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, const CampaignTrial& trial) {
   const std::uint64_t count = issue.repeats + 1;
   const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite ||
-                        issue.fault == CsvFault::date_in_channel;
+                        issue.fault == CsvFault::date_in_channel || issue.fault == CsvFault::out_of_range;
   const auto* column = table.table.find(issue.name);
   if (in_cells && column != nullptr && count * 5 > samples_in(*column) + count) return channel_unusable;
   if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial))
