@@ -44,6 +44,7 @@ bool is_number_or_time(std::string_view cell, NumberStyle style) {
 
 struct LineShape {
   std::size_t cells = 0, numbers = 0, silent = 0;
+  bool has_words() const { return numbers + silent < cells; }
   bool is_row() const { return numbers > 0 && 2 * (numbers + silent) >= cells; }
 };
 
@@ -104,7 +105,7 @@ Seen look(const Lines& lines, const Division& division) {
     if (!shapes[i].is_row() || shapes[i].cells != seen.cells) continue;
     // A line of numbers among the names ("ID",1,1,2) is followed by lines that are no rows.
     if (seen.first_row == lines.size()) seen.first_row = i;
-    if (numbers_follow(shapes, i)) {
+    if (!shapes[i].has_words() || numbers_follow(shapes, i)) {
       seen.first_row = i;
       break;
     }
