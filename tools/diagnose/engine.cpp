@@ -224,6 +224,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();
+  diagnosis.belief = options.belief;
   note_what_is_missing(prepared, diagnosis);
   if (problem.trials.empty()) {
     diagnosis.verdict = "insufficient_data";
@@ -280,6 +281,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_trial_to_trial(problem, search, diagnosis);
   report_residuals(problem, residuals, diagnosis);
   report_absent(problem, search, diagnosis);
+  report_belief(problem, search.best().fit.point, diagnosis);
   report_where(problem, search, residuals, diagnosis);
   report_traces(problem, clean, residuals, diagnosis);
   propose_next_trial(problem, clean, search, belief, law, diagnosis);
