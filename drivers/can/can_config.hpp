@@ -87,7 +87,8 @@ constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
   return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
 }
 
-// Facts of the protocols (HARDWARE 1.2 to 1.5) that limits of the robot are held against, too.
+// Facts of the protocols (AK Series Module Driver User Manual V1.0.18) that limits of the robot are held
+// against, too.
 inline constexpr double kServoCurrentRange_A = 60.0;  // of a current command, servo dialect
 inline constexpr double kBusVoltageRange_V = 40.0;    // full scale of reply = "bus_voltage"
 // Part of the position range beyond which a reply counts as near its end: 11 rad of 12.5.
@@ -112,8 +113,7 @@ void check_motors(const MotorConfigs& motor, Problem&& problem) {
 }
 
 // Worst-case share of a 1 Mbit/s bus at 1 kHz: every frame with all its stuff bits and the intermission, 55 +
-// 10 n bits with a standard identifier and n bytes, 80 + 10 n with an extended one (ISO 11898-1;
-// HARDWARE 2.6).
+// 10 n bits with a standard identifier and n bytes, 80 + 10 n with an extended one (ISO 11898-1).
 struct CanConfig;
 double bus_load(const CanConfig& config) noexcept;
 int in_percent(double share) noexcept;

@@ -18,7 +18,7 @@ constexpr std::int64_t kListen_ns = 100'000'000;
 constexpr double kRateShare = 0.7;  // of the configured status rate, at least
 constexpr std::int64_t kShutDownStep_ns = 1'000'000;
 // Motor mode is entered below this speed: well over the noise of a drive's velocity at rest, and a leg at
-// this speed turns 0.5 mrad in a cycle. Entered at speed a drive jumps (HARDWARE 8).
+// this speed turns 0.5 mrad in a cycle. A drive that is entered at speed jumps.
 constexpr double kStill_radps = 0.5;
 
 constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }

@@ -16,7 +16,8 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kResetWait_ns = 50 * kMillisecond_ns;
 constexpr std::int64_t kSettle_ns = 100 * kMillisecond_ns;
 constexpr int kResetTries = 20;
-// After power comes on the chip answers within 10 ms (HARDWARE 3.6): its identity is read once a millisecond.
+// After power comes on the chip answers within 10 ms (datasheet, power-on): its identity is read once a
+// millisecond.
 constexpr int kIdentityTries = 10;
 
 bool no_answer(std::uint8_t identity) { return identity == 0x00 || identity == 0xFF; }

@@ -14,8 +14,8 @@ namespace {
 constexpr std::int64_t kByteWait_ns = 50'000'000;
 constexpr std::int64_t kAnswerWait_ns = 300'000'000;
 constexpr int kTries = 3;
-// Quality of a result [%]. 1: the sensor's own verdict that it is invalid; PX4's driver drops these, too
-// (HARDWARE 4). 0: firmware that gives no quality. The values above are logged and not judged.
+// Quality of a result [%]. 1: the sensor's own verdict that it is invalid; PX4's driver drops these, too.
+// 0: firmware that gives no quality. The values above are logged and not judged.
 constexpr std::uint8_t kInvalidQuality = 1;
 
 std::string device_of(const TofConfig& config) {

@@ -39,7 +39,7 @@ std::uint32_t command_id_of(const MotorLimits& motor) noexcept {
   return CAN_EFF_FLAG | mode | motor.can_id;
 }
 
-// HARDWARE 1.3: position 7FFF, velocity 7FF, torque 7FF in the order of the dialect; servo: 0 mA.
+// Codes nearest to zero: position 7FFF, velocity 7FF, torque 7FF in the order of the dialect; servo: 0 mA.
 std::array<std::uint8_t, 8> zero_bytes(Dialect dialect) noexcept {
   if (dialect == Dialect::mit) return {0x7F, 0xFF, 0x7F, 0xF0, 0x00, 0x00, 0x07, 0xFF};
   if (dialect == Dialect::v3) return {0x00, 0x00, 0x00, 0x7F, 0xFF, 0x7F, 0xF7, 0xFF};

@@ -36,7 +36,8 @@ struct State {
   double velocity_radps = 0.0;
 };
 
-// Frames to and from one drive, decoded from HARDWARE 1.1 to 1.5 alone: x = lo + u (hi - lo) / (2^n - 1).
+// Frames to and from one drive, decoded from the drives' manuals alone (AK Series Module
+// Driver User Manual V1.0.18 and V3.0.1), without the driver's code: x = lo + u (hi - lo) / (2^n - 1).
 // Zero is no code of a signed field; the two codes beside the middle count as zero.
 class FrameDecoder {
  public:

@@ -6,8 +6,8 @@
 namespace sandhopper::transmit {
 namespace {
 
-// A command takes 135 to 160 us on the wire, its reply as long, the other motor's frame may stand before it
-// (HARDWARE 1.6, 2.6). Later than this it was lost.
+// A command takes 135 to 160 us on the wire, its reply as long, the other motor's frame may stand before it:
+// 55 + 10 n bits at 1 Mbit/s, 80 + 10 n with an extended identifier. Later than this it was lost.
 constexpr std::int64_t kReplyTime_ns = 500'000;
 // Two cycles of a full bus: what may gather where one cycle is late and the next is not.
 constexpr double kMostWaiting_bits = 2000.0;
@@ -26,7 +26,7 @@ bool within(double value, double limit, double count) noexcept {
   return std::abs(value) <= limit * (1.0 + kRounding) + count;
 }
 
-// HARDWARE 2.6: worst-case stuff bits and intermission.
+// With the most stuff bits and the intermission (ISO 11898-1).
 double standard_bits(int bytes) noexcept { return 55.0 + 10.0 * bytes; }
 double extended_bits(int bytes) noexcept { return 80.0 + 10.0 * bytes; }
 

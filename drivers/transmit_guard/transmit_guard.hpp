@@ -33,8 +33,8 @@ struct CycleState {
 //   servo, v3 (no enter frame): a command without torque was sent,
 // and at least two replies (servo: status frames) arrived afterwards; the first of them may still belong to
 // a command before. A leave frame, an open e-stop or Allowance::no_torque ends it. Torque and stiffness
-// further need a reply within the last `most_unanswered` frames. That a lost enter frame shows in no reply
-// (HARDWARE 1.2) the guard cannot see: that is the driver's to find out.
+// further need a reply within the last `most_unanswered` frames. A drive answers every command,
+// entered or not, so the guard cannot see that an enter frame was lost: that is the driver's to find out.
 //
 // After its first refusal only frames without torque and gains pass, until a restart.
 class TransmitGuard {

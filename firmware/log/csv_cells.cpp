@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 namespace sandhopper {
 namespace {
@@ -31,6 +32,49 @@ bool has_groups(std::string_view whole, char mark) {
     at = next;
   }
   return true;
+}
+
+// A mark between digits that no locale uses for decimals: no-break, narrow and thin spaces. One byte here.
+constexpr char kGroup = '\x01';
+
+// Minus signs, apostrophes and spaces beyond ASCII as the characters that are read; the exponent of Fortran
+// (1.5D-03) as E; a number that a spreadsheet was told to leave alone (="0.5", '0.5) without its guard.
+std::string plainly_written(std::string_view text) {
+  struct Sign {
+    std::string_view written;
+    char plain;
+  };
+  constexpr std::array<Sign, 6> kSigns{{{"\xE2\x88\x92", '-'},
+                                        {"\xE2\x80\x93", '-'},
+                                        {"\xE2\x80\x99", '\''},
+                                        {"\xC2\xA0", kGroup},
+                                        {"\xE2\x80\xAF", kGroup},
+                                        {"\xE2\x80\x89", kGroup}}};
+  if (text.starts_with("=\"") && text.ends_with('"') && text.size() > 3)
+    text = text.substr(2, text.size() - 3);
+  if (text.starts_with('\'')) text.remove_prefix(1);
+  std::string out;
+  while (!text.empty()) {
+    const auto* sign = std::find_if(kSigns.begin(), kSigns.end(),
+                                    [&](const Sign& s) { return text.starts_with(s.written); });
+    if (sign != kSigns.end()) {
+      out.push_back(sign->plain);
+      text.remove_prefix(sign->written.size());
+      continue;
+    }
+    const bool is_exponent = (text.front() == 'D' || text.front() == 'd') && !out.empty() &&
+                             (is_digit(out.back()) || out.back() == '.') && text.size() > 1 &&
+                             (is_digit(text[1]) || text[1] == '-' || text[1] == '+');
+    out.push_back(is_exponent ? 'E' : text.front());
+    text.remove_prefix(1);
+  }
+  return out;
+}
+
+bool needs_rewriting(std::string_view text) {
+  return text.starts_with('=') || text.starts_with('\'') || std::any_of(text.begin(), text.end(), [](char c) {
+           return (c & 0x80) != 0 || c == 'D' || c == 'd';
+         });
 }
 
 // Reads the parts of a date or time one after the other.
@@ -78,20 +122,36 @@ class TimeReader {
   std::string_view rest_;
 };
 
-// Days since 1970-01-01.
-std::optional<double> days_in(TimeReader& in) {
+// "Sep" in 13-Sep-2023: 9.
+std::optional<int> month_named_in(TimeReader& in) {
+  constexpr std::array<std::string_view, 12> kMonths{"JAN", "FEB", "MAR", "APR", "MAY", "JUN",
+                                                     "JUL", "AUG", "SEP", "OCT", "NOV", "DEC"};
+  for (std::size_t i = 0; i < kMonths.size(); ++i)
+    if (in.word(kMonths[i])) return static_cast<int>(i) + 1;
+  return std::nullopt;
+}
+
+struct Days {
+  double since_1970 = 0.0;
+  bool is_ambiguous = false;  // 03/04/2023: a number each that may be the month
+};
+
+std::optional<Days> days_in(TimeReader& in, bool day_first) {
   const auto first = in.number(4);
   if (!first) return std::nullopt;
   const char mark = in.rest().empty() ? '\0' : in.rest().front();
-  if (!in.mark("-/.")) return std::nullopt;
-  const auto second = in.number(2);
+  if (!in.mark("-/. ")) return std::nullopt;
+  const auto named = month_named_in(in);
+  const auto second = named ? named : in.number(2);
   if (!second || in.rest().empty() || in.rest().front() != mark || !in.mark("-/.")) return std::nullopt;
   const auto third = in.number(4);
   if (!third) return std::nullopt;
+  if (mark == ' ' && !named) return std::nullopt;
   int year = *third, month = *first, day = *second;
+  const bool ambiguous = mark == '/' && !named && *first <= 12 && *second <= 12;
   if (*first > 31) {
     year = *first, month = *second, day = *third;
-  } else if (mark != '/' || *first > 12) {
+  } else if (named || mark != '/' || *first > 12 || day_first) {
     day = *first, month = *second;
   }
   if (year < 100) year += 2000;
@@ -99,26 +159,52 @@ std::optional<double> days_in(TimeReader& in) {
                                          std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
   if (year < 1900 || year > 2200 || !date.ok()) return std::nullopt;
-  return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+  return Days{static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count()), ambiguous};
 }
 
-std::optional<double> seconds_of_day_in(TimeReader& in) {
-  const auto hour = in.number(2);
+// Behind a colon stand whole ms, us or ns; fewer digits are unclear: 18:5 may be 5 ms or half a second.
+struct Fraction {
+  double s = 0.0;
+  bool is_unclear = false;
+};
+Fraction fraction_in(TimeReader& in) {
+  const bool by_colon = in.mark(":");
+  if (!by_colon && !in.mark(".,")) return {};
+  const auto before = in.rest().size();
+  const double value = in.fraction();
+  const auto digits = before - in.rest().size();
+  return {value, by_colon && digits % 3 != 0};
+}
+
+struct TimeOfDay {
+  double s = 0.0;
+  bool has_two_parts = false;
+  bool has_unclear_fraction = false;
+};
+
+std::optional<TimeOfDay> time_of_day_in(TimeReader& in) {
+  const auto hour = in.number(3);
   if (!hour || !in.mark(":")) return std::nullopt;
   const auto minute = in.number(2);
   if (!minute || *minute > 59) return std::nullopt;
   double seconds = 3600.0 * *hour + 60.0 * *minute;
+  const bool two_parts = in.rest().empty() || in.rest().front() != ':';
+  if (two_parts && !in.rest().empty() && (in.rest().front() == '.' || in.rest().front() == ',')) {
+    return TimeOfDay{seconds / 60.0 + fraction_in(in).s};  // 01:02.5: minutes and seconds
+  }
+  bool unclear = false;
   if (in.mark(":")) {
     const auto whole = in.number(2);
     if (!whole || *whole > 60) return std::nullopt;
-    seconds += *whole;
-    if (in.mark(".,:")) seconds += in.fraction();
+    const auto fraction = fraction_in(in);
+    seconds += *whole + fraction.s;
+    unclear = fraction.is_unclear;
   }
   in.blanks();
   const bool morning = in.word("AM"), evening = !morning && in.word("PM");
   if ((morning && *hour == 12)) seconds -= 43200.0;
   if (evening && *hour < 12) seconds += 43200.0;
-  return seconds;
+  return TimeOfDay{seconds, two_parts && !morning && !evening, unclear};
 }
 
 // "Z", "+02:00", "-0500"; empty where nothing is stated.
@@ -157,12 +243,20 @@ void split_csv_cells(std::string_view line, char separator, std::vector<TableCel
 }
 
 std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
-  if (style == NumberStyle{}) return plain_number(text);
-  constexpr std::string_view kMinus = "\xE2\x88\x92";  // U+2212
-  std::string plain;
-  bool negative = text.starts_with('-');
+  if (style == NumberStyle{})
+    if (const auto value = plain_number(text)) return value;
+  std::string rewritten, plain;
+  if (needs_rewriting(text)) {
+    rewritten = plainly_written(text);
+    const std::string_view digits = std::string_view(rewritten).substr(rewritten.starts_with('-'));
+    const bool grouped = rewritten.find(kGroup) != std::string::npos;
+    if (grouped && !has_groups(digits.substr(0, digits.find(style.decimal)), kGroup)) return std::nullopt;
+    std::erase(rewritten, kGroup);
+    text = rewritten;
+  }
+  const bool negative = text.starts_with('-');
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  if (text.starts_with(kMinus)) negative = true, text.remove_prefix(kMinus.size());
+  if (text.starts_with('-') || text.starts_with('+')) return std::nullopt;
   const auto whole_end = std::min({text.find(style.decimal), text.find('e'), text.find('E'), text.size()});
   std::string_view whole = text.substr(0, whole_end);
   if (whole.find(',') != std::string_view::npos || whole.find('.') != std::string_view::npos ||
@@ -184,37 +278,77 @@ std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
 }
 
 bool is_no_sample(std::string_view text) {
-  constexpr std::array<std::string_view, 16> kWords{"nan",     "na",     "n/a",   "#n/a",   "#nv", "#value!",
-                                                    "#div/0!", "#wert!", "null",  "none",   "-",   "--",
-                                                    "---",     "nil",    "#num!", "missing"};
+  // The last ones are what Microsoft's C library prints for a NaN.
+  constexpr std::array<std::string_view, 22> kWords{
+      "nan",     "na",     "n/a",     "#n/a",     "#nv",       "#value!", "#div/0!", "#wert!",
+      "null",    "none",   "nil",     "#num!",    "#ref!",     "missing", "invalid", "-nan",
+      "1.#qnan", "1.#ind", "-1.#ind", "nan(ind)", "-nan(ind)", "1.#snan"};
   if (text.empty()) return true;
-  if (text.size() > 8) return false;
+  // "-", "--.---", ".": a display without a value; "#####": a spreadsheet's column that was too narrow.
+  if (text.find_first_not_of("-.") == std::string_view::npos ||
+      text.find_first_not_of('#') == std::string_view::npos)
+    return true;
+  if (text.size() > 9) return false;
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
 }
 
-std::optional<CellTime> time_in_cell(std::string_view text) {
+bool is_out_of_range(std::string_view text) {
+  constexpr std::array<std::string_view, 12> kWords{"ol",   "+ol",   "-ol", "ovl",      "ovld",   "ovfl",
+                                                    "over", "ovrng", "ofl", "overload", "1.#inf", "-1.#inf"};
+  if (text.size() > 8 || text.size() < 2) return false;
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
+}
+
+std::optional<CellTime> time_in_cell(std::string_view text, bool day_first) {
   if (text.size() < 4 || (!is_digit(text.front()))) return std::nullopt;
   CellTime time;
   TimeReader in(text);
-  TimeReader dated(text);
-  if (const auto days = days_in(dated)) {
+  TimeReader dated(text), counted(text);
+  const auto count = counted.number(4);  // "0 days 00:00:01.5"
+  counted.blanks();
+  if (count && (counted.word("DAYS") || counted.word("DAY"))) {
+    time.s = 86400.0 * *count;
+    in = counted;
+    in.blanks();
+  } else if (const auto days = days_in(dated, day_first)) {
     time.has_date = true;
-    time.s = 86400.0 * *days;
+    time.may_be_day_first = days->is_ambiguous;
+    time.s = 86400.0 * days->since_1970;
     in = dated;
     in.blanks();
     in.mark("T");
     in.blanks();
     if (in.at_end()) return time;
   }
-  const auto seconds = seconds_of_day_in(in);
-  if (!seconds) return std::nullopt;
+  const auto of_day = time_of_day_in(in);
+  if (!of_day) return std::nullopt;
   const auto offset = offset_from_utc(in);
   if (!offset || !in.at_end()) return std::nullopt;
-  time.s += *seconds - *offset;
+  time.s += of_day->s - *offset;
+  time.has_two_parts = of_day->has_two_parts && !time.has_date;
+  time.has_unclear_fraction = of_day->has_unclear_fraction;
   return time;
+}
+
+// Control characters as '?': a terminal obeys them.
+std::string printable_cell(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return out;
+}
+
+std::string shown_number(double value) {
+  std::ostringstream text;
+  text.precision(9);
+  text << value;
+  return text.str();
 }
 
 }  // namespace sandhopper

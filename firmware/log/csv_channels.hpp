@@ -84,5 +84,7 @@ inline constexpr std::array<std::string_view, 2> kCsvUnservedStates{"STATE_IDLE"
 // Value of `phase` by the state's constant in the schema.
 inline constexpr std::array<std::string_view, 3> kCsvPhases{"STATE_FLIGHT", "STATE_COMPRESSION",
                                                             "STATE_EXTENSION"};
+// The same by name, as `hop export` writes them.
+inline constexpr std::array<std::string_view, 3> kCsvPhaseNames{"flight", "compression", "extension"};
 
 }  // namespace sandhopper

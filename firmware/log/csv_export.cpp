@@ -91,7 +91,7 @@ struct ExportCell {
 class Exporter {
  public:
   Exporter(const std::filesystem::path& file, std::ostream& out, CsvExportOptions options)
-      : log_(file), out_(out) {
+      : log_(file), out_(out), phase_names_(options.phase_names) {
     for (Source& source : sources_) source.open(log_);
     if (!frame_.layout)
       throw mcap::Error(file.string() + ": holds no " + frame_.topic + "; not a trial's log");
@@ -154,7 +154,12 @@ class Exporter {
     append_seconds(line_, time_ns - *start_ns_);
     for (ExportCell& cell : cells_) {
       line_ += ',';
-      if (const auto value = cell.value()) append_number(line_, *value);
+      const auto value = cell.value();
+      if (!value) continue;
+      if (phase_names_ && cell.channel->when == CsvCell::phase)
+        line_ += kCsvPhaseNames[static_cast<std::size_t>(*value)];
+      else
+        append_number(line_, *value);
     }
     line_ += '\n';
     out_ << line_;
@@ -164,6 +169,7 @@ class Exporter {
 
   mcap::Reader log_;
   std::ostream& out_;
+  bool phase_names_ = false;
   std::array<Source, 3> sources_{Source{topic::kFrame}, Source{topic::kOutput}, Source{topic::kTruth}};
   Source& frame_ = sources_[0];
   const RecordLayout::Field* time_ = nullptr;

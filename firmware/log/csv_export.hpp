@@ -12,6 +12,7 @@ struct CsvExportOptions {
   // Gyroscopes, bus voltage and the firmware's own estimates besides. A cycle's force estimates belong to the
   // instant of its newest motor reply, up to a cycle earlier than t_s.
   bool optional_channels = false;
+  bool phase_names = false;  // `phase` as "flight", "compression", "extension" in place of 0, 1, 2
 };
 
 struct CsvExportResult {

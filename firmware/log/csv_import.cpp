@@ -11,25 +11,12 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/log/csv_row_times.hpp"
+
 namespace sandhopper {
 namespace {
 
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
-// Control characters as '?': a terminal obeys them.
-std::string printable(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  return out;
-}
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text.precision(9);
-  text << value;
-  return text.str();
-}
-
 class Reading {
  public:
   Reading(std::istream& in, const CsvReadOptions& options)
@@ -40,10 +27,11 @@ class Reading {
     table_.layout = find_layout(lines_.ahead(), lines_.encoding(), options_.format);
     if (!read_header()) return std::move(table_);
     while (next_line())
-      if (line_number_ >= table_.layout.first_row_line && !is_remark(line_) && !trimmed_cell(line_).empty())
-        read_row();
+      if (is_wanted() && !is_remark(line_) && !trimmed_cell(line_).empty()) read_row();
+    leave_out_cut_row();
+    explain_back_steps();
     note_gaps();
-    if (table_.rows() == 0) report({Severity::error, 1, CsvFault::no_rows}, "no rows below the header");
+    if (table_.rows() == 0) report_no_rows();
     std::stable_sort(table_.issues.begin(), table_.issues.end(),
                      [](const CsvIssue& a, const CsvIssue& b) { return a.line < b.line; });
     return std::move(table_);
@@ -58,21 +46,35 @@ class Reading {
     return true;
   }
 
+  bool is_wanted() const {
+    return line_number_ >= std::max(table_.layout.first_row_line, options_.first_line) &&
+           line_number_ <= options_.last_line;
+  }
+
   void split() { split_csv_cells(line_, table_.layout.separator, cells_); }
 
   bool is_text() {
-    const auto binary = binary_format_of(lines_.first_bytes());
-    if (!binary) return true;
-    report({Severity::error, 1, CsvFault::not_a_text},
-           "is " + std::string(binary->name) + ", not a table; " + std::string(binary->cure));
-    return false;
+    if (const auto binary = binary_format_of(lines_.first_bytes())) {
+      report({Severity::error, 1, CsvFault::not_a_text},
+             "is " + std::string(binary->name) + ", not a table; " + std::string(binary->cure));
+      return false;
+    }
+    for (const auto& line : lines_.ahead()) {
+      if (trimmed_cell(line).empty()) continue;
+      const auto other = other_text_of(line);
+      if (other)
+        report({Severity::error, 1, CsvFault::not_a_text},
+               "is " + other->name + ", not a table; " + other->cure);
+      return !other;
+    }
+    return true;
   }
 
   bool read_header() {
     const auto& layout = table_.layout;
     if (layout.is_ambiguous)
       report({Severity::error, 1, CsvFault::ambiguous_number},
-             "\"" + layout.ambiguous_cell + "\" may have a decimal comma or one between thousands");
+             "\"" + layout.ambiguous_cell + "\" may have a decimal sign or one between thousands");
     std::vector<std::string> units;
     const std::uint64_t last = std::max(layout.header_line, layout.units_line);
     std::string header;
@@ -87,6 +89,11 @@ class Reading {
       split_csv_cells(line_, ',', cells_);
       line_number_ = 0;
     } else if (layout.header_line == 0 || trimmed_cell(line_).empty()) {
+      if (layout.misfit_cells > 1) {
+        line_number_ = layout.misfit_line;
+        report_misfit(layout.misfit_cells);
+        return false;
+      }
       line_number_ = 1;
       report({Severity::error, 1, CsvFault::no_header},
              "no header: a line above the numbers must name the columns");
@@ -95,7 +102,8 @@ class Reading {
       std::string mark;
       const auto names = without_mark(line_, mark);
       const auto skipped = static_cast<std::uint64_t>(names.data() - line_.data());
-      split_csv_cells(names, layout.separator, cells_);
+      split_names(names, layout.header_separator, layout.row_cells, cells_);
+      if (layout.has_unused_names) cells_.pop_back();
       for (auto& cell : cells_) cell.column += skipped;
     }
     const std::uint64_t behind = std::exchange(line_number_, header_at);
@@ -108,7 +116,7 @@ class Reading {
   std::vector<std::string> texts() {
     std::string mark;
     std::vector<std::string> out;
-    split_csv_cells(without_mark(line_, mark), table_.layout.separator, cells_);
+    split_names(without_mark(line_, mark), table_.layout.separator, table_.layout.row_cells, cells_);
     for (const auto& cell : cells_) out.emplace_back(cell.text);
     return out;
   }
@@ -139,9 +147,11 @@ class Reading {
     split();
     // Some programs end every row with a separator, and not the header.
     if (cells_.size() == place_of_cell_.size() + 1 && cells_.back().text.empty()) cells_.pop_back();
+    if (cells_.size() == place_of_cell_.size() + 1 && table_.layout.rows_are_counted)
+      cells_.erase(cells_.begin());
     if (cells_.size() == 1 && place_of_cell_.size() > 1) {
       report({Severity::error, 1, CsvFault::ragged_row},
-             "\"" + printable(cells_.front().text.substr(0, 40)) + "\" is no row of " +
+             "\"" + printable_cell(cells_.front().text.substr(0, 40)) + "\" is no row of " +
                  std::to_string(place_of_cell_.size()) + " cells and is passed over");
       return;
     }
@@ -152,6 +162,11 @@ class Reading {
       return;
     }
     std::uint64_t time_column = 1;
+    if (!cells_.empty()) {
+      last_cell_ = cells_.back().text.size();
+      if (table_.rows() > 0) shortest_cell_ = std::min(shortest_cell_, previous_cell_);
+      previous_cell_ = last_cell_;
+    }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (!place_of_cell_[i]) continue;
       row_[*place_of_cell_[i]] = number(cells_[i], table_.names[*place_of_cell_[i]]);
@@ -165,47 +180,146 @@ class Reading {
   double number(const TableCell& cell, const std::string& name) {
     if (is_no_sample(cell.text)) return kEmpty;
     const auto value = number_in_cell(cell.text, table_.layout.numbers);
+    if (is_silent(cell.text, value)) return kEmpty;
+    if ((value && std::isfinite(*value) && std::abs(*value) >= kScpiInfinity) ||
+        (!value && is_out_of_range(cell.text))) {
+      report({Severity::note, cell.column, CsvFault::out_of_range, name},
+             "\"" + printable_cell(cell.text) +
+                 "\" is a value beyond the meter's range and is taken for no sample");
+      return kEmpty;
+    }
     if (value && std::isfinite(*value)) return *value;
-    if (!value && is_silent(cell.text)) return kEmpty;
-    if (const auto time = value ? std::nullopt : time_in_cell(cell.text)) return seconds(*time);
+    if (const auto* word = value ? nullptr : word_for(cell.text, name)) {
+      if (!word->note.empty())
+        report({Severity::note, cell.column, CsvFault::word_as_number, name}, std::string(word->note));
+      return word->value;
+    }
+    if (!value)
+      if (const auto time = time_in_cell(cell.text, options_.format.day_first.value_or(false)))
+        return time_of(cell, name, *time);
     const bool is_number = value.has_value();
     report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
-           "\"" + printable(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
+           "\"" + printable_cell(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
     return kEmpty;
   }
 
-  bool is_silent(std::string_view text) const {
-    const auto& words = options_.format.no_sample;
-    return std::find(words.begin(), words.end(), text) != words.end();
+  const CsvWord* word_for(std::string_view text, const std::string& name) const {
+    const auto same = [](char a, char b) {
+      return a == b || ((a | 0x20) == (b | 0x20) && (a | 0x20) >= 'a');
+    };
+    for (const auto& word : options_.words)
+      if (word.column == name && std::ranges::equal(word.text, text, same)) return &word;
+    return nullptr;
   }
 
-  // A time of day goes on beyond midnight.
-  double seconds(const CellTime& time) {
-    constexpr double kDay_s = 86400.0;
-    if (time.has_date) return time.s;
-    if (last_of_day_s_ && time.s + days_s_ < *last_of_day_s_ - 0.5 * kDay_s) days_s_ += kDay_s;
-    last_of_day_s_ = time.s + days_s_;
-    return *last_of_day_s_;
+  // [format] no_sample: the same text, or the same number (-999 and -999.0).
+  bool is_silent(std::string_view text, std::optional<double> value) const {
+    return std::ranges::any_of(options_.format.no_sample, [&](const std::string& word) {
+      return text == word || (value && number_in_cell(word, {}) == value);
+    });
+  }
+
+  double time_of(const TableCell& cell, const std::string& name, CellTime time) {
+    const bool is_first = name == options_.time_column;
+    const bool is_time = options_.time_column.empty() || is_first || name == options_.second_time_column;
+    const std::string shown = "\"" + printable_cell(cell.text) + "\" ";
+    if (!is_time) {
+      report(
+          {Severity::error, cell.column, CsvFault::date_in_channel, name},
+          shown + "is a date or a time of day, not a number: a spreadsheet may have made it of one like 1.5");
+      return kEmpty;
+    }
+    if (table_.clocks.empty() || table_.clocks.back() != name) table_.clocks.push_back(name);
+    if (time.has_unclear_fraction)
+      report({Severity::error, cell.column, CsvFault::ambiguous_time, name},
+             shown + "ends in less than three digits behind a colon: ms, or a part of a second?");
+    if (time.has_two_parts && !options_.format.minutes_first)
+      report({Severity::error, cell.column, CsvFault::ambiguous_time, name},
+             shown + "may be minutes and seconds, or hours and minutes");
+    if (time.has_two_parts && options_.format.minutes_first.value_or(false)) time.s /= 60.0;
+    if (time.may_be_day_first && !options_.format.day_first.has_value()) {
+      const double day = std::floor(time.s / 86400.0);
+      if (day_ && *day_ != day)
+        report({Severity::error, cell.column, CsvFault::ambiguous_time, name},
+               shown + "follows on another day, and either of its numbers may be the month");
+      day_ = day;
+    }
+    // A date of its own column already counts the midnights.
+    return options_.second_time_column.empty() ? times_.seconds(time) : time.s;
   }
 
   bool time_is_in_order(std::uint64_t column) {
     if (!time_) return true;
-    const double time_s = row_[*time_];
-    const auto& times_s = table_.columns[*time_];
+    double& time_s = row_[*time_];
     if (std::isnan(time_s)) {
       report({Severity::error, column, CsvFault::no_time, options_.time_column}, "no time; row left out");
       return false;
     }
-    if (times_s.empty() || time_s > times_s.back() || !options_.check_order) return true;
-    const std::string times = " from " + shown(times_s.back()) + " to " + shown(time_s) + " s";
-    if (time_s < times_s.back()) {
+    if (!options_.check_order) return true;
+    const std::string times = " from " + shown_number(times_.last()) + " to " + shown_number(time_s) + " s";
+    const auto order = times_.take(time_s, line_number_);
+    if (order == CsvRowTimes::Order::grows) return true;
+    if (order == CsvRowTimes::Order::went_on) {
+      report({Severity::note, column, CsvFault::counter_wrapped, options_.time_column},
+             "the counter of 32 bits begins again at 0, and is taken as going on");
+      return true;
+    }
+    if (order == CsvRowTimes::Order::back) {
       report({Severity::error, column, CsvFault::time_backwards, options_.time_column},
              "time goes backwards," + times + "; row left out");
       return false;
     }
     report({Severity::note, column, CsvFault::time_stands_still, options_.time_column},
-           "time stands still at " + shown(time_s) + " s");
+           "time stands still at " + shown_number(time_s) + " s");
     return true;
+  }
+
+  // Rows whose time goes back are told one by one, or as what they are together.
+  void explain_back_steps() {
+    const auto kind = times_.back_steps();
+    if (kind == CsvRowTimes::BackSteps::slips) return;
+    const auto is_back = [](const CsvIssue& issue) { return issue.fault == CsvFault::time_backwards; };
+    const auto first = std::ranges::find_if(table_.issues, is_back);
+    if (first == table_.issues.end()) return;
+    auto issue = *first;
+    std::erase_if(table_.issues, is_back);
+    issue.fault = CsvFault::several_recordings;
+    issue.repeats = 0;
+    issue.text = kind == CsvRowTimes::BackSteps::upside_down
+                     ? "the time falls from row to row: the table stands upside down, or its time counts down"
+                     : "the time begins again in this line: several recordings one below the other, " +
+                           times_.recordings() + times_.clock_set_back();
+    table_.issues.push_back(std::move(issue));
+  }
+
+  // A file whose last line has no end and whose last cell is shorter than in every other row was cut there.
+  void leave_out_cut_row() {
+    constexpr std::size_t kFewestRows = 10;
+    const bool is_last = !table_.lines.empty() && table_.lines.back() == line_number_;
+    if (lines_.last_is_ended() || !is_last || table_.rows() < kFewestRows || last_cell_ >= shortest_cell_)
+      return;
+    for (auto& column : table_.columns) column.pop_back();
+    table_.lines.pop_back();
+    report({Severity::error, line_.size() + 1, CsvFault::cut_row},
+           "the file ends within this line: its last cell is shorter than in every other row; row left out");
+  }
+
+  void report_no_rows() {
+    const auto cells = table_.layout.row_cells;
+    const bool fits = cells == 0 || cells == place_of_cell_.size();
+    line_number_ = std::max<std::uint64_t>(table_.layout.header_line, 1);
+    if (fits)
+      report({Severity::error, 1, CsvFault::no_rows}, "no rows below the header");
+    else
+      report_misfit(place_of_cell_.size());
+  }
+  void report_misfit(std::size_t names) {
+    const auto cells = table_.layout.row_cells;
+    std::string text = std::to_string(names) + " columns are named here, and the rows have " +
+                       std::to_string(cells) + " cells";
+    if (cells == 2 * names)
+      text += ": twice as many, as decimal commas between commas make; export with points or semicolons";
+    report({Severity::error, 1, CsvFault::names_do_not_fit}, std::move(text));
   }
 
   void note_gaps() {
@@ -221,7 +335,8 @@ class Reading {
       if (steps_s[i] <= options_.gap_steps * *middle) continue;
       line_number_ = table_.lines[i + 1];
       report({Severity::note, 1, CsvFault::gap, options_.time_column},
-             "a gap of " + shown(steps_s[i]) + " s before this row (median step " + shown(*middle) + " s)");
+             "a gap of " + shown_number(steps_s[i]) + " s before this row (median step " +
+                 shown_number(*middle) + " s)");
     }
   }
 
@@ -260,80 +375,15 @@ class Reading {
   std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
-  double days_s_ = 0.0;  // midnights passed by times without a date
-  std::optional<double> last_of_day_s_{};
+  CsvRowTimes times_;
+  std::optional<double> day_{};  // of the last date whose month may be its other number
+  // Characters in the last cell of the newest row, and of all rows before it the fewest.
+  std::size_t last_cell_ = 0, previous_cell_ = 0, shortest_cell_ = SIZE_MAX;
 };
 
 }  // namespace
 
-std::string_view cure_for(CsvFault fault) {
-  switch (fault) {
-    case CsvFault::no_header:
-      return "write the columns' names in the first line: t_s,…";
-    case CsvFault::no_rows:
-      return "record the trial again or leave it out";
-    case CsvFault::no_time_column:
-      return "name the column of the time";
-    case CsvFault::duplicate_column:
-      return "rename one of them";
-    case CsvFault::ragged_row:
-      return "give every row as many cells as the header";
-    case CsvFault::not_a_number:
-    case CsvFault::not_finite:
-      return "leave the cell empty where there is no sample";
-    case CsvFault::no_time:
-      return "give every row its time";
-    case CsvFault::time_backwards:
-      return "sort the rows, or record with a clock that is not set back";
-    case CsvFault::time_stands_still:
-      return "give every row a time of its own";
-    case CsvFault::gap:
-    case CsvFault::not_a_text:
-      return "";
-    case CsvFault::ambiguous_number:
-      return "say which: [format] decimal = \",\" or thousands = \",\" in campaign.toml";
-  }
-  return "";
-}
-
-std::string describe(std::string_view file, const CsvIssue& issue) {
-  std::string text(file);
-  text += ':' + std::to_string(issue.line) + ':' + std::to_string(issue.column) + ": ";
-  if (!issue.name.empty()) text += issue.name + ": ";
-  text += issue.text;
-  if (const auto cure = cure_for(issue.fault); !cure.empty()) text.append("; ").append(cure);
-  return text;
-}
-
-const std::vector<double>* CsvTable::find(std::string_view name) const {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
-}
-
-bool CsvTable::has_errors() const {
-  return std::any_of(issues.begin(), issues.end(),
-                     [](const CsvIssue& issue) { return issue.severity == CsvIssue::Severity::error; });
-}
-
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
-
-std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number,
-                                 const CsvFormat& format) {
-  std::ifstream in(file);
-  if (!in) return 1;
-  TextLines lines(in, format.encoding);
-  const auto layout = find_layout(lines.ahead(), lines.encoding(), format);
-  std::string text;
-  bool is_there = true;
-  for (std::uint64_t i = 1; i <= line && is_there; ++i) is_there = lines.next(text);
-  std::string mark;
-  const std::string_view cells_text =
-      line == layout.header_line ? without_mark(text, mark) : std::string_view(text);
-  std::vector<TableCell> cells;
-  split_csv_cells(cells_text, layout.separator, cells);
-  if (!is_there || number < 1 || number > cells.size()) return 1;
-  return cells[number - 1].column + static_cast<std::uint64_t>(cells_text.data() - text.data());
-}
 
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {
   std::ifstream in(file);

@@ -24,7 +24,15 @@ enum class CsvFault : std::uint8_t {
   time_stands_still,
   gap,
   not_a_text,
-  ambiguous_number
+  ambiguous_number,
+  word_as_number,
+  date_in_channel,     // a date or time where a number is due
+  ambiguous_time,      // 12:30, 03/04/2023
+  out_of_range,        // a meter's OL, or its 9.9e37
+  counter_wrapped,     // of 32 bits
+  several_recordings,  // one below the other: the time begins again
+  cut_row,             // the file ends within its last cell
+  names_do_not_fit     // the names are more or fewer than the cells of a row
 };
 
 // What the recording's owner can do about it; empty where nothing is lost.
@@ -54,14 +62,23 @@ struct CsvTable {
   std::vector<std::vector<double>> columns;  // as names; NaN: no sample
   std::vector<std::uint64_t> numbers;        // as names: number of the column in the file, from 1
   std::vector<std::uint64_t> lines;          // of the file, for each row
-  std::vector<CsvIssue> issues;      // in the order of the file, at most CsvReadOptions::max_issues …
-  std::uint64_t more_issues = 0;     // … and this many besides
-  std::vector<std::string> units{};  // as names: the cell of the row of units, empty without one
+  std::vector<CsvIssue> issues;       // in the order of the file, at most CsvReadOptions::max_issues …
+  std::uint64_t more_issues = 0;      // … and this many besides
+  std::vector<std::string> units{};   // as names: the cell of the row of units, empty without one
+  std::vector<std::string> clocks{};  // columns whose cells are dates or times of day: in s
   CsvLayout layout{};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   const std::vector<double>* find(std::string_view name) const;  // null when there is none
   bool has_errors() const;
+};
+
+// A text that stands for a number in the cells of one column; upper and lower case are the same.
+struct CsvWord {
+  std::string column;
+  std::string_view text;
+  double value;             // NaN: no sample
+  std::string_view note{};  // told once where the word is used
 };
 
 struct CsvReadOptions {
@@ -71,6 +88,9 @@ struct CsvReadOptions {
   bool check_order = true;   // false: rows may step back in time
   bool list_repeats = true;  // false: the same fault in the same column is listed once and then counted
   CsvFormat format{};        // what is known of the file
+  std::vector<CsvWord> words{};
+  std::string second_time_column{};  // holds a part of the time: a time of day beside a date
+  std::uint64_t first_line = 0, last_line = UINT64_MAX;  // rows outside are not read
 };
 
 // Reads a recording: a header of unique names, then numbers; a cell that is empty or says NaN, -, #N/A is no
@@ -79,7 +99,8 @@ struct CsvReadOptions {
 // between rows are passed over, and so is an empty cell at every row's end. What is wrong is listed with its
 // place and left out, the rest is read: a cell that is not a number (infinity included) becomes an empty one;
 // a row with a missing or extra cell, without a time, or whose time goes backwards is dropped. A second
-// column of the same name is an error and ignored.
+// column of the same name is an error and ignored. A date or time of day is a number in the columns of the
+// time alone; with no `time_column` in all.
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options = {});
 // Character, from 1, at which cell `number` of a line begins; 1 where there is no such cell.
 std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_t line, std::uint64_t number,

@@ -18,7 +18,7 @@ constexpr std::size_t kEnoughRows = 60;  // show how a table is written
 
 // In the order of preference: where two read equally many numbers the first counts.
 std::vector<Division> divisions(const CsvFormat& stated, std::optional<char> declared) {
-  constexpr std::array kSeparators{',', ';', '\t', ' '};
+  constexpr std::array kSeparators{',', ';', '\t', ' ', '|'};
   constexpr std::array<NumberStyle, 6> kStyles{NumberStyle{'.', '\0'}, NumberStyle{',', '\0'},
                                                NumberStyle{'.', ','},  NumberStyle{',', '.'},
                                                NumberStyle{'.', '\''}, NumberStyle{',', ' '}};
@@ -44,6 +44,7 @@ bool is_number_or_time(std::string_view cell, NumberStyle style) {
 
 struct LineShape {
   std::size_t cells = 0, numbers = 0, silent = 0;
+  bool has_words() const { return numbers + silent < cells; }
   bool is_row() const { return numbers > 0 && 2 * (numbers + silent) >= cells; }
 };
 
@@ -69,6 +70,17 @@ struct Seen {
   double score = 0.0;
 };
 
+// True where the next lines that hold cells, three at most, hold numbers.
+bool numbers_follow(const std::vector<LineShape>& shapes, std::size_t row) {
+  std::size_t seen = 0;
+  for (std::size_t i = row + 1; i < shapes.size() && seen < 3; ++i) {
+    if (shapes[i].cells == 0) continue;
+    if (shapes[i].numbers == 0) return false;
+    ++seen;
+  }
+  return seen > 0;
+}
+
 // Lines of one number of cells that hold numbers; the number of cells that most of them have counts.
 Seen look(const Lines& lines, const Division& division) {
   std::vector<TableCell> cells;
@@ -91,8 +103,12 @@ Seen look(const Lines& lines, const Division& division) {
     if (sum > seen.score) seen.score = sum, seen.cells = count;
   for (std::size_t i = 0; i < shapes.size() && seen.cells > 0; ++i) {
     if (!shapes[i].is_row() || shapes[i].cells != seen.cells) continue;
-    seen.first_row = i;
-    break;
+    // A line of numbers among the names ("ID",1,1,2) is followed by lines that are no rows.
+    if (seen.first_row == lines.size()) seen.first_row = i;
+    if (!shapes[i].has_words() || numbers_follow(shapes, i)) {
+      seen.first_row = i;
+      break;
+    }
   }
   return seen;
 }
@@ -116,7 +132,9 @@ Seen best_division(const Lines& lines, const CsvFormat& stated, std::optional<ch
   best.first_row = lines.size();
   for (const auto& division : divisions(stated, declared)) {
     const auto seen = look(lines, division);
-    if (seen.score > best.score) best = seen;
+    // Blanks divide only where nothing else does: a line may hold tabs, and blanks within its cells.
+    const double favour = division.separator == ' ' && best.cells > 1 ? 1.1 : 1.0;
+    if (seen.score > favour * best.score) best = seen;
     if (is_plain(seen, division, lines.size())) break;
   }
   return best;
@@ -132,10 +150,15 @@ class Finder {
     seen_ = best_division(lines_, stated_, declared);
     if (seen_.cells == 0) return without_numbers(declared);
     out_.separator = seen_.division.separator;
+    out_.header_separator = out_.separator;
     out_.numbers = seen_.division.numbers;
+    out_.row_cells = seen_.cells;
     out_.first_row_line = seen_.first_row + 1;
     find_names();
-    look_for_ambiguity();
+    if (!stated_.decimal && !stated_.thousands) {
+      out_.ambiguous_cell = ambiguous_cell_in(lines_, seen_.first_row, out_);
+      out_.is_ambiguous = !out_.ambiguous_cell.empty();
+    }
     describe(declared.has_value());
     return std::move(out_);
   }
@@ -154,6 +177,7 @@ class Finder {
       }
     if (declared) out_.separator = *declared;
     if (stated_.separator) out_.separator = *stated_.separator;
+    out_.header_separator = out_.separator;
     without_mark(line, out_.header_mark);
     out_.header_line = at < lines_.size() ? at + 1 : 0;
     out_.first_row_line = out_.header_line + 1;
@@ -164,7 +188,7 @@ class Finder {
   std::vector<std::string> cells_above(std::size_t i) const {
     std::string mark;
     std::vector<TableCell> cells;
-    split_csv_cells(without_mark(lines_[i], mark), out_.separator, cells);
+    split_names(without_mark(lines_[i], mark), out_.header_separator, seen_.cells, cells);
     std::vector<std::string> texts;
     for (const auto& cell : cells) texts.emplace_back(cell.text);
     while (texts.size() > seen_.cells && texts.back().empty()) texts.pop_back();
@@ -174,13 +198,22 @@ class Finder {
   // As many cells as a row has (one less where rows end with a separator), none of them a number.
   bool may_name(std::size_t i) const {
     const auto cells = cells_above(i);
-    const bool count = cells.size() == seen_.cells || cells.size() + 1 == seen_.cells;
+    const bool count = cells.size() == seen_.cells || cells.size() + 1 == seen_.cells ||
+                       (cells.size() == seen_.cells + 1 && is_remarks(cells.back()));
     if (!count || cells.empty() || is_silent(cells)) return false;
     return std::none_of(cells.begin(), cells.end(),
                         [&](const auto& cell) { return is_number_or_time(cell, out_.numbers); });
   }
+  // The name of a column for words, which rows may end before.
+  static bool is_remarks(std::string name) {
+    constexpr std::array<std::string_view, 8> kNames{"comment", "comments", "remark",    "remarks",
+                                                     "note",    "notes",    "kommentar", "bemerkung"};
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+  }
   static bool is_silent(const std::vector<std::string>& cells) {
-    return std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
+    return std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return is_no_sample(cell); });
   }
   // A row of units has them below most of the names, and not the names again.
   bool holds_units(std::size_t i) const {
@@ -191,16 +224,82 @@ class Finder {
     return units > 0 && 3 * units >= 2 * filled;
   }
 
-  void find_names() {
-    out_.header_line = 0;
-    std::vector<std::size_t> rows;  // upwards
+  // Lines above the rows that may name the columns, upwards.
+  std::vector<std::size_t> lines_of_names() const {
+    std::vector<std::size_t> rows;
     for (std::size_t i = seen_.first_row; i-- > 0 && rows.size() < 3;) {
-      if (trimmed_cell(lines_[i]).empty()) continue;
+      if (trimmed_cell(lines_[i]).empty() || is_rule(i)) continue;
       if (may_name(i))
         rows.push_back(i);
       else if (!rows.empty() || !is_remark(lines_[i]))
         break;
     }
+    return rows;
+  }
+
+  // A sketch that prints "Time, Force" and then rows with tabs: the line above is divided in another way.
+  std::vector<std::size_t> lines_divided_otherwise() {
+    for (const char other : {',', ';', '\t', '|'}) {
+      if (other == out_.separator) continue;
+      out_.header_separator = other;
+      if (auto rows = lines_of_names(); !rows.empty()) return rows;
+    }
+    out_.header_separator = out_.separator;
+    return {};
+  }
+
+  // "|---|---|" between names and rows.
+  bool is_rule(std::size_t i) const {
+    return lines_[i].find('-') != std::string::npos && is_silent(cells_above(i));
+  }
+
+  bool has_gaps(std::size_t i) const {
+    const auto cells = cells_above(i);
+    return std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
+  }
+
+  // The nearest line above the rows that is divided as they are, into other numbers of cells.
+  void find_misfit() {
+    std::vector<TableCell> cells;
+    for (std::size_t i = seen_.first_row; i-- > 0;) {
+      if (trimmed_cell(lines_[i]).empty() || is_remark(lines_[i])) continue;
+      split_csv_cells(lines_[i], out_.separator, cells);
+      out_.misfit_line = i + 1;
+      out_.misfit_cells = cells.size();
+      return;
+    }
+  }
+
+  void divide_stated_names(std::size_t header) {
+    for (const char separator : {out_.separator, ',', ';', '\t', '|'}) {
+      out_.header_separator = separator;
+      if (cells_above(header).size() == seen_.cells) return;
+    }
+    out_.header_separator = out_.separator;
+  }
+
+  // R writes the number of a row in front of it and no name above it.
+  void find_extra_cells(std::size_t header) {
+    const std::size_t names = header < lines_.size() ? cells_above(header).size() : 0;
+    out_.has_unused_names = names == seen_.cells + 1;
+    if (names + 1 != seen_.cells) return;
+    std::vector<TableCell> cells;
+    std::size_t count = 0;
+    for (std::size_t i = seen_.first_row; i < lines_.size(); ++i) {
+      split_csv_cells(lines_[i], out_.separator, cells);
+      if (cells.size() != seen_.cells) continue;
+      if (cells.back().text.empty() || cells.front().text != std::to_string(++count)) return;
+    }
+    out_.rows_are_counted = count > 2;
+  }
+
+  void find_names() {
+    out_.header_line = 0;
+    auto rows = lines_of_names();
+    if (rows.empty() && seen_.cells > 1 && !stated_.header_line) rows = lines_divided_otherwise();
+    // Below the names may stand what was done to each value, which only some of them have.
+    while (rows.size() > 1 && has_gaps(rows[0]) && !has_gaps(rows[1])) rows.erase(rows.begin());
+    if (rows.empty()) find_misfit();
     std::size_t header = lines_.size();
     if (stated_.header_line) {
       if (*stated_.header_line > 0) header = *stated_.header_line - 1;
@@ -208,12 +307,14 @@ class Finder {
       header = rows.front();
       if (rows.size() > 1 && holds_units(header)) header = rows[1];
     }
+    if (header < lines_.size() && stated_.header_line) divide_stated_names(header);
     if (header < lines_.size()) {
       out_.header_line = header + 1;
       without_mark(lines_[header], out_.header_mark);
       out_.first_row_line = std::max<std::uint64_t>(out_.first_row_line, header + 2);
     }
     if (stated_.header_line && *stated_.header_line == 0) out_.first_row_line = seen_.first_row + 1;
+    find_extra_cells(header);
     find_units(header);
   }
 
@@ -228,31 +329,6 @@ class Finder {
         }
     }
     out_.first_row_line = std::max(out_.first_row_line, out_.units_line + 1);
-  }
-
-  // 1,234 between semicolons: three digits behind every comma, and nothing else to tell what it means.
-  void look_for_ambiguity() {
-    const auto style = out_.numbers;
-    const bool by_comma = out_.separator == ',';
-    if (by_comma || stated_.decimal || stated_.thousands) return;
-    const char mark = style.decimal == ',' ? ',' : style.thousands;
-    if (mark != ',' && !(style == NumberStyle{',', '.'})) return;
-    const NumberStyle other =
-        style == NumberStyle{',', '\0'} ? NumberStyle{'.', ','} : NumberStyle{',', '\0'};
-    std::vector<TableCell> cells;
-    std::string example;
-    for (std::size_t i = seen_.first_row; i < lines_.size(); ++i) {
-      if (is_remark(lines_[i])) continue;
-      split_csv_cells(lines_[i], out_.separator, cells);
-      for (const auto& cell : cells) {
-        const auto a = number_in_cell(cell.text, style), b = number_in_cell(cell.text, other);
-        if (!a) continue;
-        if (!b) return;  // this cell decides
-        if (example.empty() && *a != *b) example = cell.text;
-      }
-    }
-    out_.is_ambiguous = !example.empty();
-    out_.ambiguous_cell = example;
   }
 
   void describe(bool declared) {
@@ -270,6 +346,9 @@ class Finder {
     }
     if (out_.units_line > 0) say("line " + std::to_string(out_.units_line) + " holds units");
     if (out_.separator == ' ') say("the columns are divided by blanks");
+    if (out_.header_separator != out_.separator) say("the names are divided in another way than the rows");
+    if (out_.rows_are_counted) say("each row begins with its number, which has no name and is passed over");
+    if (out_.has_unused_names) say("rows end before the last name, which is that of remarks");
     if (out_.numbers.decimal == ',') say("numbers have a decimal comma");
     if (out_.numbers.thousands != '\0')
       say(std::string("thousands are divided by \"") + out_.numbers.thousands + "\"");
@@ -286,46 +365,6 @@ class Finder {
 CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding,
                       const CsvFormat& stated) {
   return Finder(first_lines, stated).run(encoding);
-}
-
-bool is_remark(std::string_view line) {
-  while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
-  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
-}
-
-std::string_view without_mark(std::string_view line, std::string& mark) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  std::string_view rest = line;
-  while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
-  if (!is_remark(rest)) return line;
-  std::size_t length = 0;
-  while (length < rest.size() && std::string_view("#%/").find(rest[length]) != std::string_view::npos)
-    ++length;
-  mark = std::string(rest.substr(0, length));
-  rest.remove_prefix(length);
-  while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
-  return rest;
-}
-
-bool looks_like_unit(std::string_view text) {
-  text = trimmed_cell(text);
-  const auto pair = [&](char a, char b) { return text.size() >= 2 && text.front() == a && text.back() == b; };
-  if (pair('[', ']') || pair('(', ')')) return true;
-  constexpr std::array<std::string_view, 66> kWords{
-      "s",          "ms",    "us",    "\xC2\xB5s", "\xCE\xBCs",    "ns",       "sec",
-      "min",        "h",     "m",     "mm",        "cm",           "um",       "N",
-      "kN",         "mN",    "lbf",   "lb",        "kgf",          "gf",       "kg",
-      "g",          "t",     "rad",   "mrad",      "deg",          "\xC2\xB0", "rpm",
-      "1/min",      "rad/s", "deg/s", "dps",       "\xC2\xB0/s",   "m/s",      "mm/s",
-      "cm/s",       "km/h",  "m/s^2", "m/s2",      "m/s\xC2\xB2",  "A",        "mA",
-      "V",          "mV",    "W",     "Nm",        "N m",          "N.m",      "N*m",
-      "N\xC2\xB7m", "mNm",   "Ncm",   "Pa",        "kPa",          "MPa",      "hPa",
-      "bar",        "mbar",  "psi",   "C",         "\xC2\xB0\x43", "K",        "%",
-      "-",          "Hz",    "in"};
-  if (std::find(kWords.begin(), kWords.end(), text) != kWords.end()) return true;
-  return text == "ft" || text == "degC" || text == "count" || text == "counts" || text == "rev" ||
-         text == "U/min" || text == "seconds" || text == "raw" || text == "degrees" || text == "newton" ||
-         text == "meter";
 }
 
 }  // namespace sandhopper

@@ -21,7 +21,10 @@ struct CsvFormat {
   std::optional<std::uint64_t> units_line{};   // 0: none
   std::vector<std::string> names{};            // of the columns, where the file has none
   std::vector<std::string> no_sample{};        // further words that say so
-  bool spread_times = false;  // rows that share a time came evenly: times with too few digits
+  bool spread_times = false;            // rows that share a time came evenly: times with too few digits
+  std::optional<bool> day_first{};      // 03/04/2023 is 3 April; false: March 4
+  std::optional<bool> minutes_first{};  // 12:30 is 12 min 30 s; false: half past twelve
+  double row_every_s = 0.0;  // the file has no time, a row comes every so many seconds; 0: not stated
 };
 
 struct CsvLayout {
@@ -31,8 +34,14 @@ struct CsvLayout {
   std::uint64_t header_line = 1;  // 0: none
   std::uint64_t units_line = 0;   // 0: none
   std::uint64_t first_row_line = 2;
-  std::string header_mark{};  // in front of the names: "#"
-  bool is_ambiguous = false;  // 1,234 may be 1234 or 1.234, and nothing in the file tells
+  std::string header_mark{};      // in front of the names: "#"
+  char header_separator = ',';    // of the names; nearly always `separator`
+  std::size_t row_cells = 0;      // that most rows have
+  bool rows_are_counted = false;  // each begins with its number, which has no name (R)
+  std::uint64_t misfit_line = 0;  // nearest line above the rows that may name other numbers of columns …
+  std::size_t misfit_cells = 0;   // … and its cells; 0: the names were found
+  bool has_unused_names = false;  // the last name is that of remarks, and rows end before it (LabVIEW)
+  bool is_ambiguous = false;      // 1,234 may be 1234 or 1.234, and nothing in the file tells
   std::string ambiguous_cell{};
   // Unusual things about the file, told to its owner: "its names stand in line 3; lines 1 to 2 are passed
   // over".
@@ -44,6 +53,14 @@ struct CsvLayout {
 // `sep=;` is obeyed. Of several ways to divide the lines the one with most numbers counts.
 CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding,
                       const CsvFormat& stated);
+
+// Cells of the line of the names. Where blanks divide, "Load (N)" is one name if that gives `wanted` of them.
+void split_names(std::string_view line, char separator, std::size_t wanted, std::vector<TableCell>& cells);
+
+// A cell that may be read in two ways where no other cell decides: 1,234 between semicolons, with three
+// digits behind every comma; 1.001 beside 3,5. Empty where there is none.
+std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t first_row,
+                              const CsvLayout& layout);
 
 // A line that holds no cells: blank, or a remark ("#", "%", "//") behind the header.
 bool is_remark(std::string_view line);

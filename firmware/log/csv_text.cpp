@@ -5,6 +5,8 @@
 #include <istream>
 #include <iterator>
 
+#include "firmware/log/csv_cells.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -12,6 +14,7 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kLookedAt = 1 << 16;  // bytes
+constexpr std::size_t kMostBreaks = 8;      // lines that the names of a table may be spread over
 
 constexpr std::string_view kSaveAsCsv =
     "open it in the program that wrote it and save it as CSV UTF-8 (Excel: File, Save as, \"CSV UTF-8\"), "
@@ -94,6 +97,28 @@ bool is_utf8(std::string_view bytes) {
   return true;
 }
 
+// "t:0.1,F:2.3" or "t=0.1 F=2.3": the name before every value. Empty where the line is not written so.
+std::vector<std::string> labels_in(std::string_view line) {
+  std::vector<std::string> labels;
+  const auto is_part_of_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  while (!line.empty()) {
+    std::size_t n = 0;
+    while (n < line.size() && is_part_of_name(line[n])) ++n;
+    if (n == 0 || n == line.size() || (line[n] != ':' && line[n] != '=') ||
+        (line[0] >= '0' && line[0] <= '9'))
+      return {};
+    labels.emplace_back(line.substr(0, n));
+    line.remove_prefix(n + 1);
+    const auto end = line.find_first_of(",; \t");
+    if (!number_in_cell(trimmed_cell(line.substr(0, end)), {})) return {};
+    line.remove_prefix(std::min(line.size(), end));
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(",; \t")));
+  }
+  return labels.size() > 1 ? labels : std::vector<std::string>{};
+}
+
 std::string from_utf16(std::string_view bytes, bool big_endian) {
   std::string out;
   out.reserve(bytes.size() / 2);
@@ -116,6 +141,25 @@ std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes) {
   for (const auto& magic : kMagic)
     if (first_bytes.starts_with(magic.bytes)) return magic.format;
   return std::nullopt;
+}
+
+std::optional<OtherText> other_text_of(std::string_view line) {
+  line = trimmed_cell(line);
+  if (line.starts_with('<'))
+    return OtherText{"a page of HTML or XML (some programs call it .xls)", std::string(kSaveAsCsv)};
+  if (line.starts_with("{\"") || line.starts_with("[{") || line == "{" || line == "[")
+    return OtherText{
+        "JSON",
+        "write it as a table: python3 -c \"import pandas as pd; pd.read_json('FILE', "
+        "lines=True).to_csv('FILE.csv', index=False)\" (without lines=True where it is one list)"};
+  const auto labels = labels_in(line);
+  if (labels.empty()) return std::nullopt;
+  std::string names;
+  for (const auto& label : labels) names += (names.empty() ? "\"" : ", \"") + label + '"';
+  return OtherText{"a text with a name before every value",
+                   "take the names away: sed -E 's/[A-Za-z0-9_]+[:=]//g' FILE > FILE.csv, and write [format] "
+                   "header_line = 0 and names = [" +
+                       names + "] into campaign.toml"};
 }
 
 TextEncoding encoding_of(std::string_view bytes) {
@@ -165,6 +209,26 @@ TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
   is_old_mac_ = held_.find('\n') == std::string::npos && held_.find('\r') != std::string::npos;
   std::string line;
   while (ahead_.size() < kAhead && read(line)) ahead_.push_back(line);
+  join_broken_names();
+}
+
+// A line break within quotes: "Load<line break>(N)" in the names of a spreadsheet. The cells are put into the
+// first of the lines, and the others are left empty, so that lines keep their numbers.
+void TextLines::join_broken_names() {
+  const auto is_open = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '"') % 2 == 1;
+  };
+  for (std::size_t i = 0; i + 1 < ahead_.size(); ++i) {
+    if (!is_open(ahead_[i])) continue;
+    std::string joined = ahead_[i];
+    std::size_t last = i;
+    const std::size_t most = std::min(ahead_.size() - 1, i + kMostBreaks);
+    while (last < most && is_open(joined)) joined += ' ' + ahead_[++last];
+    if (is_open(joined)) continue;  // an inch sign, or a quote that is never closed
+    ahead_[i] = joined;
+    for (std::size_t k = i + 1; k <= last; ++k) ahead_[k].clear();
+    i = last;
+  }
 }
 
 bool TextLines::next(std::string& line) {
@@ -180,18 +244,23 @@ bool TextLines::raw_line(std::string& line) {
     const auto stop = held_.find(end, at_);
     line = held_.substr(at_, stop == std::string::npos ? stop : stop - at_);
     at_ = stop == std::string::npos ? held_.size() : stop + 1;
+    last_is_ended_ = stop != std::string::npos;
     if (stop != std::string::npos || !in_) return true;
     std::string rest;  // the line goes on behind what was looked at
-    if (std::getline(in_, rest, end)) line += rest;
+    if (std::getline(in_, rest, end)) line += rest, last_is_ended_ = !in_.eof();
     return true;
   }
   if (!held_.empty()) std::string().swap(held_), at_ = 0;
-  return static_cast<bool>(std::getline(in_, line, end));
+  const bool is_there = static_cast<bool>(std::getline(in_, line, end));
+  if (is_there) last_is_ended_ = !in_.eof();
+  return is_there;
 }
 
 bool TextLines::read(std::string& line) {
   if (!raw_line(line)) return false;
-  if (line.ends_with('\r')) line.pop_back();
+  while (line.ends_with('\r')) line.pop_back();
+  // A card that was allocated beforehand ends in zeros.
+  if (encoding_ == TextEncoding::utf8 || encoding_ == TextEncoding::windows_1252) std::erase(line, '\0');
   const auto has_high_byte = [&] {
     return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; });
   };

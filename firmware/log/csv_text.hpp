@@ -27,6 +27,13 @@ struct BinaryFormat {
 // specifications); empty for a text.
 std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes);
 
+// A text that is no table, by its first line that is not empty: a page, JSON, a name before every value.
+struct OtherText {
+  std::string name;
+  std::string cure;
+};
+std::optional<OtherText> other_text_of(std::string_view line);
+
 // UTF-16 by its byte order mark or by every second byte being 0, Windows-1252 where the bytes are no UTF-8,
 // else UTF-8. The last character may be cut.
 TextEncoding encoding_of(std::string_view bytes);
@@ -44,10 +51,12 @@ class TextLines {
   const std::deque<std::string>& ahead() const { return ahead_; }
   std::string_view first_bytes() const { return first_bytes_; }  // as they stand in the file
   bool next(std::string& line);                                  // false at the end
+  bool last_is_ended() const { return last_is_ended_; }          // the last line that was read has its end
 
  private:
   bool read(std::string& line);
   bool raw_line(std::string& line);
+  void join_broken_names();
 
   std::istream& in_;
   TextEncoding encoding_;
@@ -56,6 +65,7 @@ class TextLines {
   std::string first_bytes_;
   std::deque<std::string> ahead_;
   bool is_old_mac_ = false;  // \r alone ends a line
+  bool last_is_ended_ = true;
 };
 
 }  // namespace sandhopper

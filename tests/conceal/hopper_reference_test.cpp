@@ -1,5 +1,5 @@
 // The hopper of the concealed campaigns against the noise-free strides of ../shared/data/reference_strides:
-// what a belief of PHYSICS 2.5 holds must be what a campaign with nothing hidden does.
+// what the default belief of a hopper holds must be what a campaign with nothing hidden does.
 #include <gtest/gtest.h>
 
 #include <cmath>

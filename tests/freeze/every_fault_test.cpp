@@ -146,7 +146,7 @@ TEST(FaultChecks, EveryFaultHasItsOwnAndEveryLimitIsAKeyOfTheRobotsFile) {
   const auto robot = to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
   for (const auto& entry : kFaults) {
     if (entry.fault == Fault::none) continue;
-    EXPECT_TRUE(has_check(entry.fault)) << entry.name << ": add a line to tools/explain/fault_checks.hpp";
+    EXPECT_TRUE(has_check(entry.fault)) << entry.name << ": add a line to firmware/fault_checks.hpp";
     for (std::string_view keys = check_of(entry.fault).limit; !keys.empty();) {
       const auto bar = keys.find('|');
       EXPECT_TRUE(number_at(robot, keys.substr(0, bar))) << keys;

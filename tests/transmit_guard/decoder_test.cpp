@@ -27,7 +27,7 @@ void expect_law(const Decoded& got, const LawFields& expected) {
   EXPECT_NEAR(got.torque_Nm, expected.torque_Nm, 36.0 / 4095);
 }
 
-// HARDWARE 1.3, both ways of rounding.
+// Vectors in exact arithmetic, for codes cut off and for codes rounded to the nearest.
 TEST(TransmitDecoder, ReadsTheTestVectorsOfTheMitDialect) {
   const auto decoder = decoder_of(Dialect::mit);
   expect_law(decoder.command(bytes_of(1, {0x8A, 0x3C, 0x85, 0x10, 0x51, 0x33, 0x38, 0x38})),
@@ -44,7 +44,7 @@ TEST(TransmitDecoder, ReadsTheTestVectorsOfTheMitDialect) {
     EXPECT_EQ(decoder.command(zero).meaning, Meaning::zero);
 }
 
-// HARDWARE 1.4: MV3's examples decode with +-12.5, +-50, +-65, to one count.
+// The examples of the V3 manual decode with +-12.5, +-50, +-65, to one count.
 TEST(TransmitDecoder, ReadsTheExamplesOfTheV3Dialect) {
   MotorLimits motor;
   motor.dialect = Dialect::v3;
@@ -64,7 +64,7 @@ TEST(TransmitDecoder, ReadsTheExamplesOfTheV3Dialect) {
   EXPECT_NEAR(position.torque_Nm, 0.0, 0.02);
 }
 
-// HARDWARE 1.5.
+// Servo mode: extended identifier (mode << 8) | id, 32 bits of mA.
 TEST(TransmitDecoder, ReadsCurrentsOfTheServoDialect) {
   const auto decoder = decoder_of(Dialect::servo, 0x68);
   const std::uint32_t id = CAN_EFF_FLAG | 0x168U;
@@ -110,7 +110,7 @@ TEST(TransmitDecoder, PutsDrivesAndLinksTogetherBySignGearAndConstants) {
 
 TEST(TransmitDecoder, TakesRepliesFromTheDriveInItsDialectOnly) {
   const auto mit = decoder_of(Dialect::mit);
-  auto reply = bytes_of(0x11, {0x01, 0x8A, 0x3D, 0x7D, 0x78, 0x8E, 0x46, 0x00});  // HARDWARE 1.3
+  auto reply = bytes_of(0x11, {0x01, 0x8A, 0x3D, 0x7D, 0x78, 0x8E, 0x46, 0x00});
   ASSERT_TRUE(mit.reply(reply));
   EXPECT_NEAR(mit.reply(reply)->position_rad, 1.000038, 1e-6);
   EXPECT_NEAR(mit.reply(reply)->velocity_radps, -0.989011, 1e-6);

@@ -23,8 +23,8 @@ void collect(const std::filesystem::path& file, std::set<std::string>& seen) {
   }
 }
 
-// What is written here from HARDWARE alone must stay so: else one error in the driver would be the guard's,
-// too.
+// The guard is written from the drives' manuals alone and must stay so: else one error in the driver would be
+// the guard's, too.
 TEST(TransmitGuardFolder, ReachesNothingOfTheDriverButItsPort) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kSource / "drivers/transmit_guard")) {

@@ -291,7 +291,7 @@ TEST(TransmitGuard, KeepsOneCommandOutstanding) {
   EXPECT_EQ(line.send(torque), Rule::none) << "lost by now";
 }
 
-// HARDWARE 2.6: two V3 drives take 64 % of the bus at 1 kHz.
+// Two V3 drives take 4 frames of 160 bits a cycle: 64 % of 1 Mbit/s at 1 kHz.
 TEST(TransmitGuard, KeepsTheBusLoadBelowItsShare) {
   for (const auto& [step_ns, held] : {std::pair{1'000'000, true}, std::pair{600'000, false}}) {
     auto limits = limits_of(Dialect::v3);

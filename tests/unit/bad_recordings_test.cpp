@@ -73,10 +73,19 @@ TEST(BadRecording, InfiniteCellsAreOneFindingWithTheirNumber) {
 
 TEST(BadRecording, AColumnThatIsMostlyTextIsNotUsed) {
   const auto recording =
-      read(intrusion(400, [](int i) { return i % 2 == 0 ? std::string("OVL") : live(i); }));
+      read(intrusion(400, [](int i) { return i % 2 == 0 ? std::string("lost") : live(i); }));
   expect_finding(recording, non_numeric_cell, channel_unusable, {2, 17});
   EXPECT_FALSE(recording.has("force_N"));
   EXPECT_TRUE(recording.has("foot_z_m"));
+}
+
+TEST(BadRecording, AMeterThatWasMostlyBeyondItsRangeIsNotUsed) {
+  const auto often = read(intrusion(400, [](int i) { return i % 2 == 0 ? std::string("OVL") : live(i); }));
+  expect_finding(often, saturated, channel_unusable, {2, 17});
+  EXPECT_FALSE(often.has("force_N"));
+  const auto seldom = read(intrusion(400, [](int i) { return i % 50 == 0 ? std::string("OVL") : live(i); }));
+  expect_finding(seldom, saturated, note, {2, 17});
+  EXPECT_TRUE(seldom.has("force_N"));
 }
 
 TEST(BadRecording, ColumnsThatNobodyReadsMayHoldAnything) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "campaign_folder.hpp"
@@ -175,7 +176,68 @@ TEST(ForeignTable, WordsForNoSampleAreNoSamples) {
   const auto stated = read("t_s,force_N\n0,1\n0.1,-999\n0.2,OVER\n0.3,4\n",
                            {.plant = "intruder", .campaign = "[format]\nno_sample = [\"OVER\", \"-999\"]\n"});
   EXPECT_TRUE(stated.findings.empty()) << told(stated);
+  EXPECT_TRUE(std::isnan(stated.channel("force_N")[1]));
   EXPECT_TRUE(std::isnan(stated.channel("force_N")[2]));
+  EXPECT_EQ(stated.channel("force_N")[3], 4.0);
+}
+
+TEST(ForeignTable, WhatIsStatedOfTimesIsObeyed) {
+  const std::string clock = "Time,force_N\n00:01,1\n00:02,2\n00:04,3\n";
+  const std::string time = "[columns]\nt_s = \"Time\"\n";
+  for (const auto& [word, last_s] : {std::pair{"mm:ss", 3.0}, std::pair{"hh:mm", 180.0}}) {
+    const auto got = read(
+        clock, {.plant = "intruder", .campaign = fmt::format("[format]\nclock = \"{}\"\n{}", word, time)});
+    ASSERT_TRUE(got.usable()) << told(got);
+    EXPECT_NEAR(got.t_s[2] - got.t_s[0], last_s, 1e-9);
+  }
+  const std::string dates = "Time,force_N\n03/04/2023 23:59:59,1\n04/04/2023 00:00:01,2\n";
+  for (const auto& [first, last_s] : {std::pair{"true", 2.0}, std::pair{"false", 30 * 86400.0 + 2}}) {
+    const auto got = read(
+        dates, {.plant = "intruder", .campaign = fmt::format("[format]\nday_first = {}\n{}", first, time)});
+    ASSERT_TRUE(got.usable()) << told(got);
+    EXPECT_NEAR(got.t_s[1] - got.t_s[0], last_s, 1e-3);
+  }
+  const auto even =
+      read("force_N,foot_z_m\n1,0\n\n2,-0.1\n\nbroken\n\n3,-0.3\n\n4,-0.4\n\n5,-0.5\n\n6,-0.6\n",
+           {.plant = "intruder", .campaign = "[format]\nrow_every_s = 0.5\n"});
+  ASSERT_TRUE(even.usable()) << told(even);
+  EXPECT_EQ(even.t_s, (std::vector<double>{0.0, 0.5, 1.5, 2.0, 2.5, 3.0}))
+      << "a row that is left out leaves a gap";
+}
+
+TEST(ForeignTable, LinesOfAFileAreSelected) {
+  const std::string two = "t_s,force_N\n0,1\n1,2\n2,3\nt_s,force_N\n0,10\n1,20\n2,30\n";
+  CampaignFolder folder;
+  folder
+      .write("campaign.toml",
+             "plant = \"intruder\"\n[[trial]]\nfile = \"a.csv\"\nselect = { to_line = 4 }\n[[trial]]\nfile = "
+             "\"a.csv\"\nselect = { from_line = 6, to_line = 7 }\n")
+      .write("a.csv", two);
+  const auto campaign = load_campaign(folder.path());
+  ASSERT_EQ(campaign.trials.size(), 2U);
+  const auto first = read_trial(campaign, campaign.trials[0]),
+             second = read_trial(campaign, campaign.trials[1]);
+  ASSERT_TRUE(first.usable()) << told(first);
+  EXPECT_EQ(first.channel("force_N").back(), 3.0);
+  ASSERT_TRUE(second.usable()) << told(second);
+  EXPECT_EQ(second.rows(), 2U);
+  EXPECT_EQ(second.channel("force_N").front(), 10.0);
+}
+
+TEST(ForeignTable, PhasesMayHaveTheirNames) {
+  std::string text = "t_s,phase,load_cell_force_N\n";
+  const std::array<const char*, 5> names{"armed", "flight", "compression", "Extension", "soft_stop"};
+  for (int i = 0; i < 5; ++i)
+    text += fmt::format("{},{},{}\n", 0.001 * i, names[static_cast<std::size_t>(i)], i);
+  const auto named = read(text, {.plant = "hopper"});
+  ASSERT_TRUE(named.has("phase")) << told(named);
+  const auto phase = named.channel("phase");
+  EXPECT_TRUE(std::isnan(phase[0]) && std::isnan(phase[4]));
+  EXPECT_EQ((std::vector<double>{phase[1], phase[2], phase[3]}), (std::vector<double>{0.0, 1.0, 2.0}));
+  const auto stance =
+      read("t_s,phase,load_cell_force_N\n0,flight,0\n0.001,stance,3\n0.002,stance,4\n", {.plant = "hopper"});
+  EXPECT_EQ(stance.channel("phase")[1], 1.0) << told(stance);
+  EXPECT_THAT(told(stance), HasSubstr("taken for compression"));
 }
 
 TEST(ForeignTable, DatesAndTimesOfDayBecomeSeconds) {

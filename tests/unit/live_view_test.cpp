@@ -128,6 +128,9 @@ TEST(LiveView, AFaultIsShownInFullWithItsCureOnTheSmallestScreen) {
   for (const auto& entry : kFaults) {
     if (entry.fault == Fault::none) continue;
     auto model = in_state(State::fault);
+    model.robot = to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
+    Event event{.kind = EventKind::fault_raised, .fault = entry.fault, .values = {1.0, 1.0, 0.0, 0.0}};
+    model.take(operator_text(event));
     model.status->fault = model.fault = entry.fault;
     for (int i = 0; i < 5; ++i) model.take(operator_text(solved_stride()));
     std::string text;
@@ -137,6 +140,7 @@ TEST(LiveView, AFaultIsShownInFullWithItsCureOnTheSmallestScreen) {
       if (c != ' ' || (!joined.empty() && joined.back() != ' ')) joined += c;
     EXPECT_NE(joined.find(entry.meaning), std::string::npos) << entry.name;
     EXPECT_NE(joined.find(entry.cure), std::string::npos) << entry.name << "\n" << text;
+    EXPECT_NE(joined.find(in_words(read_fault(event, &model.robot))), std::string::npos) << text;
   }
 }
 

@@ -121,6 +121,10 @@ TEST_F(CsvExport, RowsHoldFreshSamplesOnly) {
   EXPECT_EQ(cells("tof_height_m"), (Cells{"0.300000", "0.300000", "", "0.300000"}));
   EXPECT_EQ(cells("mocap_body_z_m"), (Cells{"0.500000", "", "0.500000", ""}));
   EXPECT_EQ(cells("phase"), (Cells{"", "", "0.000000", "2.000000"}));
+  std::ostringstream named;
+  export_csv(log_, named, {.phase_names = true});
+  EXPECT_NE(named.str().find(",flight"), std::string::npos);
+  EXPECT_NE(named.str().find(",extension"), std::string::npos);
   EXPECT_EQ((*table.find("load_cell_force_N"))[2], 1.0 / 3.0) << "every digit survives";
   EXPECT_EQ(table.find("estimate_body_z_m"), nullptr);
 }

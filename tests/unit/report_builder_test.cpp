@@ -96,6 +96,24 @@ TEST(ReportBuilder, FaultIsSaidWithItsCure) {
   EXPECT_THAT(builder.data().notes, ElementsAre(HasSubstr("data-ready line")));
 }
 
+TEST(ReportBuilder, AFaultIsSaidWithWhatWasSeenAndWhatIsAllowed) {
+  const auto robot = to_node(load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config"));
+  for (const auto& entry : kFaults) {
+    if (entry.fault == Fault::none) continue;
+    ReportBuilder builder;
+    builder.set_robot(robot);
+    Event event{.time_ns = kStart_ns, .kind = EventKind::fault_raised, .fault = entry.fault};
+    event.values = {1.0, 1.0, 0.0, 0.0};
+    builder.add(event);
+    const auto reading = read_fault(event, &robot);
+    EXPECT_THAT(builder.data().notes,
+                ElementsAre(AllOf(HasSubstr(std::string(entry.name)), HasSubstr(": " + reading.value_text),
+                                  HasSubstr("allowed: " + reading.limit_text))))
+        << entry.name;
+    EXPECT_THAT(builder.data().events.front().values, HasSubstr("allowed: " + reading.limit_text));
+  }
+}
+
 TEST(ReportBuilder, StrideThatWasCutShortHasNoLiftoff) {
   ReportBuilder builder;
   builder.add(output_at(0));

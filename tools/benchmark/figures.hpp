@@ -6,7 +6,8 @@
 
 namespace sandhopper::benchmark {
 
-// One row of DIAGNOSIS section 6.
+// One row of the table of targets: a count or share, and the bound it has to keep
+// (tools/benchmark/README.md).
 struct Figure {
   std::string name;
   std::size_t count = 0, of = 0;

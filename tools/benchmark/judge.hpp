@@ -37,7 +37,7 @@ bool passed(const Judged& judged);
 Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis);
 
 // The parameter of the claim that is the same quantity as the truth's `key`: the same name, else the only one
-// of its unit on either side. The unit is the name's ending (RECORDING.md).
+// of its unit on either side. The unit is the name's ending (config/hint.hpp).
 const Claim::Value* counterpart(const Truth::Effect& effect, const std::string& key, const Claim& claim);
 
 }  // namespace sandhopper::benchmark

@@ -4,7 +4,7 @@
 
 namespace sandhopper::benchmark {
 
-// The benchmark's report as a page: figures of DIAGNOSIS section 6 with the baselines beside them,
+// The benchmark's report as a page: the table of targets with the baselines beside them,
 // reliability, size ladder, what became of each effect, and every case.
 Study score_study(const std::vector<Column>& columns, const std::vector<Figure>& splits,
                   const std::vector<double>& seconds);

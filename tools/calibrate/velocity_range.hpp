@@ -16,7 +16,7 @@ struct SpeedRatio {
 };
 
 // Sets `refusals`: too_few_points (fewer than three recordings), moved_too_little, interval_too_wide, and
-// velocity_range_wrong where the interval does not hold 1 (HARDWARE 1.4: some firmware has half the manual's
+// velocity_range_wrong where the interval does not hold 1 (some firmware has half the manual's
 // velocity range).
 SpeedRatio check_velocity_range(const std::vector<Recording>& moved, std::size_t motor,
                                 const CubeMarsConfig& config, std::vector<Refusal>& refusals);

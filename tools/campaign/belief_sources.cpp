@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <type_traits>
 
@@ -91,6 +92,21 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     used.numbers.push_back(std::move(number));
   }
   return used;
+}
+
+double usual_error(const UsedNumber& n) {
+  constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
+  const double size = std::max(std::abs(n.low), std::abs(n.high));
+  if (n.source == UsedNumber::Source::plant_default)
+    return n.key == "gravity_mps2" ? kGravityOverTheEarth_mps2 : size;
+  const auto text = fmt::format("{}", size);  // as few digits as give it back
+  const auto exponent_at = text.find('e');
+  const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(text.substr(exponent_at + 1));
+  const auto digits = text.substr(0, exponent_at);
+  const auto point = digits.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(digits.size() - point) - 1;
+  const bool is_whole = point == std::string::npos || digits.substr(point) == ".0";
+  return 0.5 * std::pow(10.0, exponent - (is_whole ? 0 : decimals));
 }
 
 std::string to_string(const UsedNumber& n) {

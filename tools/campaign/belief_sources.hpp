@@ -30,6 +30,11 @@ struct UsedNumbers {
 };
 UsedNumbers used_numbers(const Campaign& campaign);
 
+// As far as a number may be off by the way it was written: half a unit of its last digit (1.20 counts
+// as 1.2). A default may be off by its whole size, for nobody stated it; gravity by what it differs over the
+// Earth.
+double usual_error(const UsedNumber& number);
+
 std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 kg m^2 (nominal.toml, line 3)"
 
 }  // namespace sandhopper

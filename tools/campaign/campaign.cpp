@@ -108,7 +108,7 @@ class Loader {
   std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
     std::vector<ColumnMapping> columns;
     for (const auto& child : table.children) {
-      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false};
+      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false, {}};
       bool right = true;
       if (child.kind == Kind::text) {
         mapping.column = child.text;
@@ -123,6 +123,8 @@ class Loader {
             mapping.unit = part.text;
           else if (part.key == "offset" && number)
             mapping.offset = *number;
+          else if (part.key == "plus" && part.kind == Kind::table && child.key == "t_s")
+            right = right && read_plus(part, mapping.plus);
           else
             right = false;
         }
@@ -138,6 +140,19 @@ class Loader {
       columns.push_back(std::move(mapping));
     }
     return columns;
+  }
+
+  bool read_plus(const ConfigNode& table, AddedColumn& plus) {
+    for (const auto& part : table.children) {
+      const auto number = number_of(part);
+      if (part.key == "column" && part.kind == Kind::text)
+        plus.column = part.text;
+      else if (part.key == "scale" && number)
+        plus.scale = *number;
+      else
+        return false;
+    }
+    return !plus.column.empty();
   }
 
   bool take_format(const ConfigNode& table, CsvFormat& format) {
@@ -234,10 +249,16 @@ class Loader {
         trial.rows.from_s = *number;
       else if (part.key == "to_s" && number)
         trial.rows.to_s = *number;
+      else if (part.key == "from_line" && number && *number >= 1.0)
+        trial.rows.from_line = static_cast<std::uint64_t>(*number);
+      else if (part.key == "to_line" && number && *number >= 1.0)
+        trial.rows.to_line = static_cast<std::uint64_t>(*number);
       else {
         add(FindingKind::set_up, FindingSeverity::trial_unusable, part.key_position, "select." + part.key,
             "cannot be understood",
-            "write select = { column = \"NAME\", value = 1, from_s = 0.0, to_s = 1.0 }, any of them");
+            "write select = { column = \"NAME\", value = 1, from_s = 0.0, to_s = 1.0, from_line = 2, to_line "
+            "= "
+            "41 }, any of them");
         return false;
       }
     }

@@ -16,7 +16,13 @@
 
 namespace sandhopper {
 
-// channel = scale x column + offset
+// A second column of the same quantity: seconds and nanoseconds, a date and a time of day.
+struct AddedColumn {
+  std::string column{};  // empty: none
+  double scale = 1.0;
+};
+
+// channel = scale x column + offset, and for the time + the scaled second column
 struct ColumnMapping {
   std::string channel{};
   std::string column{};
@@ -25,6 +31,7 @@ struct ColumnMapping {
   ConfigPosition position{};  // in campaign.toml
   std::string unit{};         // of the column's numbers, as the experimenter states it; empty: not stated
   bool has_scale = false;     // `scale` is written down
+  AddedColumn plus{};
 
   bool is_stated() const { return !unit.empty() && has_scale; }  // its experimenter knows what it holds
 };
@@ -35,6 +42,8 @@ struct RowSelection {
   double value = 0.0;
   double from_s = -std::numeric_limits<double>::infinity();
   double to_s = std::numeric_limits<double>::infinity();
+  std::uint64_t from_line = 0;  // of the file, from 1
+  std::uint64_t to_line = std::numeric_limits<std::uint64_t>::max();
 };
 
 // A second recording of the same trial on the same clock, e.g. of a force plate with its own rate.
@@ -89,7 +98,9 @@ struct Campaign {
 // Reads FOLDER/campaign.toml (or that file itself) and its model. Beyond name, plant, model, [columns] and
 // [[trial]] with file, kind and set-up, a trial may have:
 //   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
-//   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file
+//   columns = { t_s = { column = "secs", plus = { column = "nsecs", scale = 1e-9 } } }
+//   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file,
+//             or { from_line = 2, to_line = 41 }
 //   also    = { file = "plate.csv", columns = { t_s = "t" } }                  a second file of the trial
 //   format  = { decimal = ",", header_line = 4 }                               how its file is written
 // [format] says the last for all trials (table_format.hpp), [every_trial] holds keys that each [[trial]] has

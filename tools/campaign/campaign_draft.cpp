@@ -9,7 +9,10 @@
 #include <stdexcept>
 
 #include "firmware/log/csv_import.hpp"
+#include "tools/campaign/column_checks.hpp"
+#include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/read_table.hpp"
+#include "tools/campaign/unit_check.hpp"
 #include "tools/campaign/written_unit.hpp"
 
 namespace sandhopper {
@@ -18,73 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using enum CampaignPlant;
 
-struct Naming {
-  std::string_view channel;
-  CampaignPlant plant;
-  std::string_view dimension;
-  std::array<std::string_view, 12> words;  // lower case; any of them in the column's name
-  bool is_downward = false;                // the words mean a depth: the channel counts upward
-};
-constexpr std::array kNamings{
-    Naming{"foot_z_m",
-           intruder,
-           "length",
-           {"sinkage", "depth", "penetration", "einsink", "tiefe", "indent", "enfonc"},
-           true},
-    Naming{"foot_z_m",
-           intruder,
-           "length",
-           {"foot_z", "position", "displacement", "extension", "crosshead", "travel", "height", "weg", "z"},
-           false},
-    Naming{"force_N", intruder, "force", {"force", "load", "kraft", "fz", "last"}, false},
-    Naming{"foot_velocity_mps", intruder, "speed", {"velocity", "speed", "geschwindigkeit"}, false},
-    Naming{"foot_accel_mps2", intruder, "acceleration", {"accel", "acc", "beschl"}, false},
-    Naming{"height_m",
-           falling_body,
-           "length",
-           {"height", "altitude", "hoehe", "höhe", "position", "y", "z", "h"},
-           false},
-    Naming{"accel_mps2", falling_body, "acceleration", {"accel", "acc", "beschl"}, false},
-    Naming{"pressure_Pa", falling_body, "pressure", {"pressure", "druck", "pore"}, false},
-    Naming{"position_rad",
-           rotary_axis,
-           "angle",
-           {"angle", "position", "theta", "phi", "winkel", "encoder", "pos"},
-           false},
-    Naming{"velocity_radps",
-           rotary_axis,
-           "angular rate",
-           {"speed", "velocity", "omega", "drehzahl", "rpm", "vel"},
-           false},
-    Naming{"torque_Nm", rotary_axis, "torque", {"torque", "moment", "tau", "drehmoment"}, false}};
-
-struct Guess {
-  std::size_t column = 0;
-  std::string channel{};
-  std::optional<WrittenUnit> unit{};
-  double scale = 1.0;
-  bool is_downward = false;
-};
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return out;
-}
-
-// One letter must be the whole quantity: "z (mm)", not the z in "size".
-bool has_word(const std::string& lower, std::string_view word) {
-  if (word.empty()) return false;
-  if (word.size() > 1) return lower.find(word) != std::string::npos;
-  return lower.starts_with(word) &&
-         (lower.size() == 1 || std::string_view(" _[(").find(lower[1]) != std::string_view::npos);
-}
-
 class Drafter {
  public:
-  Drafter(const std::vector<fs::path>& files, std::optional<CampaignPlant> plant, const fs::path& folder)
-      : files_(files), plant_(plant), folder_(folder) {}
+  Drafter(const std::vector<fs::path>& files, std::optional<CampaignPlant> plant, const fs::path& folder,
+          const std::vector<std::string>& names)
+      : files_(files), plant_(plant), folder_(folder), names_(names) {}
 
   CampaignDraft run() {
     look();
@@ -100,17 +41,20 @@ class Drafter {
   void look() {
     std::ifstream in(files_.front(), std::ios::binary);
     if (!in) throw std::runtime_error(files_.front().string() + " cannot be opened");
-    table_ = read_csv(in, {.time_column = "", .list_repeats = false});
+    CsvFormat format;
+    if (!names_.empty()) format.names = names_, format.header_line = 0;
+    table_ = read_csv(in, {.time_column = "", .list_repeats = false, .format = format});
     for (const auto& issue : table_.issues)
-      if (issue.fault == CsvFault::not_a_text || issue.fault == CsvFault::no_header)
+      if (issue.fault == CsvFault::not_a_text || issue.fault == CsvFault::no_header ||
+          issue.fault == CsvFault::names_do_not_fit)
         throw std::runtime_error(describe_issue(issue));
     if (table_.names.empty()) throw std::runtime_error(files_.front().string() + " holds no table");
   }
   std::string describe_issue(const CsvIssue& issue) const {
     return files_.front().string() + ": " + issue.text +
-           (issue.fault == CsvFault::no_header
-                ? "; write them above the numbers, or [format] header_line = 0 and names = […]"
-                : "");
+           (issue.fault == CsvFault::not_a_text
+                ? ""
+                : "; write them above the numbers, or give --names t_s,force_N,…");
   }
 
   std::optional<WrittenUnit> unit_of(std::size_t i) const {
@@ -124,7 +68,7 @@ class Drafter {
     std::array<int, 4> votes{};
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
       const auto unit = unit_of(i);
-      const auto lower = lower_case(table_.names[i]);
+      const auto lower = in_lower_case(table_.names[i]);
       const auto is = [&](std::string_view dimension) { return unit && unit->dimension == dimension; };
       votes[static_cast<std::size_t>(rotary_axis)] +=
           3 * (is("angle") || is("angular rate") || is("torque")) + has_word(lower, "torque") +
@@ -142,39 +86,16 @@ class Drafter {
     time_ = time_like_column(table_, out_.plant);
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
       if (time_ == i || table_.names[i] == "t_s") continue;
-      if (const auto guess = guess_of(i)) guesses_.push_back(*guess);
+      if (auto guess = guess_column(table_.names[i], unit_of(i), out_.plant, guesses_)) {
+        guess->column = i;
+        guesses_.push_back(*guess);
+      }
     }
   }
 
   bool is_taken(std::string_view channel) const {
     return std::any_of(guesses_.begin(), guesses_.end(),
-                       [&](const Guess& g) { return g.channel == channel; });
-  }
-
-  std::optional<Guess> guess_of(std::size_t i) const {
-    const auto& name = table_.names[i];
-    const auto unit = unit_of(i);
-    if (find_channel(out_.plant, name) != nullptr) return made(i, name, unit, false);
-    const auto lower = lower_case(name);
-    for (const bool by_word : {true, false})
-      for (const auto& naming : kNamings) {
-        if (naming.plant != out_.plant || is_taken(naming.channel)) continue;
-        const bool word = std::any_of(naming.words.begin(), naming.words.end(),
-                                      [&](std::string_view w) { return has_word(lower, w); });
-        const auto wanted = unit_of_channel(naming.channel);
-        const bool fits = unit && wanted && factor_between(*unit, *wanted);
-        if (by_word ? word && (fits || !unit) : fits)
-          return made(i, naming.channel, unit, word && naming.is_downward);
-      }
-    return std::nullopt;
-  }
-
-  static Guess made(std::size_t i, std::string_view channel, const std::optional<WrittenUnit>& unit,
-                    bool downward) {
-    const auto wanted = unit_of_channel(channel);
-    const auto factor = unit && wanted ? factor_between(*unit, *wanted) : std::nullopt;
-    return {i, std::string(channel), factor ? unit : std::nullopt,
-            factor.value_or(1.0) * (downward ? -1.0 : 1.0), downward};
+                       [&](const ColumnGuess& g) { return g.channel == channel; });
   }
 
   void describe() {
@@ -189,8 +110,32 @@ class Drafter {
     for (const auto& guess : guesses_)
       said.push_back(fmt::format("{} is column \"{}\" in {}{}", guess.channel, table_.names[guess.column],
                                  guess.unit ? guess.unit->text : "an unknown unit: state it",
-                                 guess.is_downward ? ", counted downward" : ""));
+                                 guess.is_downward      ? ", counted downward"
+                                 : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
+                                                        : ""));
+    if (const auto other = time_ ? other_part_of_time() : std::nullopt)
+      said.push_back(fmt::format("t_s is column \"{}\" and column \"{}\"", table_.names[*time_],
+                                 table_.names[other->first]));
     if (!time_ && table_.find("t_s") == nullptr) said.emplace_back("no column is a time");
+    std::vector<std::string> unused;
+    for (std::size_t i = 0; i < table_.names.size(); ++i)
+      if (is_unused(i)) unused.push_back(table_.names[i]);
+    if (!unused.empty()) said.push_back(fmt::format("not used: {}", fmt::join(unused, ", ")));
+    std::vector<std::string> times;
+    for (const auto& name : table_.names)
+      if (is_called_time(name)) times.push_back(name);
+    if (times.size() > 1)
+      said.push_back(
+          fmt::format("{} columns are called a time ({}): recordings side by side need a [[trial]] each with "
+                      "`columns` of its own",
+                      times.size(), fmt::join(times, ", ")));
+  }
+
+  bool is_unused(std::size_t i) const {
+    const auto other = time_ ? other_part_of_time() : std::nullopt;
+    return time_ != i && (!other || other->first != i) && table_.names[i] != "t_s" &&
+           std::none_of(guesses_.begin(), guesses_.end(),
+                        [&](const ColumnGuess& g) { return g.column == i; });
   }
 
   std::string separator_word() const {
@@ -201,6 +146,8 @@ class Drafter {
         return "blanks";
       case ';':
         return "semicolons";
+      case '|':
+        return "bars";
       default:
         return "commas";
     }
@@ -222,24 +169,37 @@ class Drafter {
                                   : l.separator == ' ' ? "blank"
                                                        : std::string(1, l.separator);
     std::string text = "\n[format]   # how the files are written; found by looking\n";
-    text += fmt::format("separator   = \"{}\"   # \",\", \";\", \"tab\" or \"blank\"\n", separator);
-    text += fmt::format("decimal     = \"{}\"\n", l.numbers.decimal);
-    text += fmt::format("thousands   = \"{}\"   # \"\": none\n",
+    text += fmt::format("separator   = \"{}\"   # \",\", \";\", \"|\", \"tab\" or \"blank\"\n", separator);
+    const std::string mark = l.is_ambiguous ? "# " : "";  // to be stated by the owner
+    text += fmt::format("{}decimal     = \"{}\"\n", mark, l.numbers.decimal);
+    text += fmt::format("{}thousands   = \"{}\"   # \"\": none\n", mark,
                         l.numbers.thousands == '\0' ? std::string() : std::string(1, l.numbers.thousands));
     text += fmt::format("encoding    = \"{}\"   # utf-8, utf-16, utf-16-be or windows-1252\n",
                         name_of(l.encoding));
     text += fmt::format("header_line = {}   # of the columns' names; 0: none, and `names` gives them\n",
                         l.header_line);
     text += fmt::format("units_line  = {}   # 0: none\n", l.units_line);
-    text += "# names        = [\"t_s\", \"force_N\"]\n";
+    text += names_.empty() ? "# names        = [\"t_s\", \"force_N\"]\n"
+                           : fmt::format("names       = [\"{}\"]\n", fmt::join(names_, "\", \""));
     text +=
         "# no_sample    = [\"OVER\", \"-999\"]   # further cells without a sample; NaN, -, #N/A are known\n";
+    text += "# clock        = \"mm:ss\"   # 12:30 is 12 min 30 s; \"hh:mm\": half past twelve\n";
+    text += "# day_first    = true   # 03/04/2023 is 3 April\n";
+    text += "# row_every_s  = 0.001   # for a file without times: from row to row\n";
     text += "# spread_times = true   # rows that share a time came evenly\n";
     return text;
   }
 
-  std::string mapping(const std::string& channel, const std::string& column, const std::string& unit,
-                      double scale) const {
+  // An acceleration without gravity, as telephones have it, lacks what a specific force holds.
+  double offset_of(const ColumnGuess& g) const {
+    const auto lower = in_lower_case(table_.names[g.column]);
+    const bool without =
+        lower.find("linear acc") != std::string::npos || lower.find("without g") != std::string::npos;
+    return without && g.channel == "accel_mps2" ? 9.81 : 0.0;
+  }
+
+  std::string mapping(std::string_view channel, const std::string& column, std::string_view unit,
+                      double scale, double offset = 0.0, const std::string& plus = "") const {
     std::string literal = column;
     std::string escaped;
     for (const char c : literal) {
@@ -248,8 +208,13 @@ class Drafter {
     }
     const std::string number = fmt::format("{:.12g}", scale);
     const bool real = number.find_first_of(".e") != std::string::npos;
-    return fmt::format("{} = {{ column = \"{}\", unit = \"{}\", scale = {}{} }}\n", channel, escaped, unit,
-                       number, real ? "" : ".0");
+    // `unit` and `scale` together are the owner's word, which goes before every doubt: a draft gives the
+    // unit, and a scale alone where the sign changes.
+    std::string how = fmt::format("unit = \"{}\"", unit);
+    if (scale < 0.0) how = fmt::format("scale = {}{}", number, real ? "" : ".0");
+    if (scale < 0.0 && unit == kUnknownUnit) how = fmt::format("unit = \"{}\", {}", kUnknownUnit, how);
+    return fmt::format("{} = {{ column = \"{}\", {}{}{} }}\n", channel, escaped, how,
+                       offset == 0.0 ? "" : fmt::format(", offset = {}", offset), plus);
   }
 
   std::string columns() const {
@@ -259,12 +224,17 @@ class Drafter {
     if (time_) text += time_line();
     for (const auto& g : guesses_) {
       const auto wanted = unit_of_channel(g.channel);
+      const bool unknown = !g.unit && wanted && g.channel != table_.names[g.column];
       text += mapping(g.channel, table_.names[g.column],
-                      g.unit   ? g.unit->text
-                      : wanted ? wanted->text
-                               : "",
-                      g.scale);
-      if (!g.unit) text.insert(text.size() - 1, "   # the file states no unit: check it");
+                      g.unit    ? g.unit->text
+                      : unknown ? kUnknownUnit
+                      : wanted  ? wanted->text
+                                : "",
+                      g.scale, offset_of(g));
+      if (unknown)
+        text.insert(text.size() - 1,
+                    fmt::format("   # the file states no unit: write \"{}\" if it is so, and the scale to it",
+                                wanted->text));
     }
     for (const auto& channel : known_channels())
       if (channel.plant == out_.plant && !is_taken(channel.name)) {
@@ -272,9 +242,7 @@ class Drafter {
         text += "# " + mapping(std::string(channel.name), "NAME", wanted ? wanted->text : "", 1.0);
       }
     for (std::size_t i = 0; i < table_.names.size(); ++i)
-      if (time_ != i &&
-          std::none_of(guesses_.begin(), guesses_.end(), [&](const Guess& g) { return g.column == i; }))
-        text += fmt::format("# not used: column \"{}\"\n", table_.names[i]);
+      if (is_unused(i)) text += fmt::format("# not used: column \"{}\"\n", table_.names[i]);
     return text;
   }
 
@@ -291,7 +259,32 @@ class Drafter {
                              : scale == 1e-6 ? "us"
                              : scale == 1e-9 ? "ns"
                                              : "s";
-    return mapping("t_s", table_.names[*time_], name, scale);
+    const bool is_clock = std::ranges::find(table_.clocks, table_.names[*time_]) != table_.clocks.end();
+    const bool is_doubtful = !unit && !is_clock && doubt_time(values, "").has_value() && scale == 1.0;
+    return mapping("t_s", table_.names[*time_], is_doubtful ? kUnknownUnit : name, scale, 0.0, second_time());
+  }
+
+  // "header.stamp.secs" beside "header.stamp.nsecs", "Date" beside "Time"; with the scale of the second.
+  std::optional<std::pair<std::size_t, std::string>> other_part_of_time() const {
+    const auto lower = in_lower_case(table_.names[*time_]);
+    const bool is_seconds = lower.ends_with("secs") || lower.ends_with("sec");
+    const bool is_date = lower.starts_with("date");
+    for (std::size_t i = 0; i < table_.names.size(); ++i) {
+      const auto other = in_lower_case(table_.names[i]);
+      if (i == *time_) continue;
+      if (is_date && other.starts_with("time")) return std::pair{i, std::string()};
+      if (is_seconds && (other.ends_with("nsecs") || other.ends_with("nanosec") || other.ends_with("nsec")))
+        return std::pair{i, std::string(", scale = 1e-9")};
+      if (is_seconds && (other.ends_with("usecs") || other.ends_with("usec")))
+        return std::pair{i, std::string(", scale = 1e-6")};
+    }
+    return std::nullopt;
+  }
+
+  std::string second_time() const {
+    if (const auto other = other_part_of_time())
+      return fmt::format(", plus = {{ column = \"{}\"{} }}", table_.names[other->first], other->second);
+    return "";
   }
 
   std::string trials() const {
@@ -322,18 +315,19 @@ class Drafter {
   const std::vector<fs::path>& files_;
   std::optional<CampaignPlant> plant_;
   fs::path folder_;
+  const std::vector<std::string>& names_;  // of the columns, where the file has none
   CsvTable table_;
   std::optional<std::size_t> time_;
-  std::vector<Guess> guesses_;
+  std::vector<ColumnGuess> guesses_;
   CampaignDraft out_;
 };
 
 }  // namespace
 
 CampaignDraft draft_campaign(const std::vector<fs::path>& files, std::optional<CampaignPlant> plant,
-                             const fs::path& folder) {
+                             const fs::path& folder, const std::vector<std::string>& names) {
   if (files.empty()) throw std::runtime_error("no file to look at");
-  return Drafter(files, plant, folder).run();
+  return Drafter(files, plant, folder, names).run();
 }
 
 }  // namespace sandhopper

@@ -20,9 +20,10 @@ struct CampaignDraft {
 // which channel, by unit and name; `plant` is guessed from these where it is not given. Both texts hold every
 // key, with unit and a comment; keys that state physics are remarks until somebody wants them. Files are
 // named relative to `folder`. Throws std::runtime_error where a file cannot be read as a table, with the way
-// out.
+// out. `names` are those of the columns where the file has none.
 CampaignDraft draft_campaign(const std::vector<std::filesystem::path>& files,
-                             std::optional<CampaignPlant> plant, const std::filesystem::path& folder);
+                             std::optional<CampaignPlant> plant, const std::filesystem::path& folder,
+                             const std::vector<std::string>& names = {});
 
 // Every key of the plant's nominal.toml; those without which nothing can be said are stated, the rest are
 // remarks.

@@ -33,7 +33,7 @@ constexpr std::array kChannelMeanings{
     Entry{"load_cell_force_N", "force of the ground on the foot, compression positive, tare removed"},
     Entry{"mocap_body_z_m", "height of the body, by motion capture"},
     Entry{"mocap_foot_z_m", "height of the sole, by motion capture; 0 at the undisturbed surface"},
-    Entry{"phase", "what the controller believed: 0 flight, 1 compression, 2 extension"},
+    Entry{"phase", "what the controller believed: flight, compression, extension, or 0, 1, 2"},
     Entry{"imu_body_gyro_x_radps", "turning rate of the body"},
     Entry{"imu_body_gyro_y_radps", "turning rate of the body"},
     Entry{"imu_body_gyro_z_radps", "turning rate of the body"},

@@ -9,8 +9,10 @@
 #include <limits>
 #include <sstream>
 
+#include "firmware/log/csv_channels.hpp"
 #include "firmware/log/csv_export.hpp"
 #include "firmware/log/mcap_reader.hpp"
+#include "firmware/records.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/table_issues.hpp"
 #include "tools/campaign/written_unit.hpp"
@@ -20,6 +22,20 @@ namespace {
 
 namespace fs = std::filesystem;
 using enum FindingSeverity;
+
+// Names of a hop's phases: those of `hop export`, and the robot's further states, which are no phase.
+std::vector<CsvWord> phase_words(const std::string& column) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CsvWord> words;
+  for (std::size_t i = 0; i < kCsvPhaseNames.size(); ++i)
+    words.push_back({column, kCsvPhaseNames[i], static_cast<double>(i)});
+  words.push_back({column, "stance", 1.0,
+                   "\"stance\" is taken for compression: the table does not say when extension begins"});
+  for (const auto name : EnumNames<State>::value)
+    if (std::ranges::find(kCsvPhaseNames, name) == kCsvPhaseNames.end())
+      words.push_back({column, name, kNone});
+  return words;
+}
 
 class TableReader {
  public:
@@ -124,10 +140,16 @@ class TableReader {
     options.list_repeats = false;
     options.max_issues = 1000;
     options.format = trial_.format;
+    const auto* phase = mapping_of(trial_, "phase");
+    options.words = phase_words(phase == nullptr ? "phase" : phase->column);
     const auto* time = mapping_of(trial_, "t_s");
     if (!trial_.rows.column.empty()) options.check_order = false;
+    options.first_line = trial_.rows.from_line;
+    options.last_line = trial_.rows.to_line;
     if (time == nullptr) return read_csv(in, options);
     options.time_column = time->column;
+    options.second_time_column = time->plus.column;
+    if (!time->plus.column.empty()) options.check_order = false;  // of both together
     auto table = read_csv(in, options);
     if (table.find(time->column) != nullptr || table.names.empty()) return table;
     const auto* other = find_column(table, time->column);
@@ -167,6 +189,8 @@ class TableReader {
   TrialTable out_;
 };
 
+}  // namespace
+
 bool is_called_time(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
@@ -176,11 +200,11 @@ bool is_called_time(std::string_view name) {
   constexpr std::array<std::string_view, 9> kBegin{"time",      "zeit",  "temps",   "tiempo", "tempo",
                                                    "timestamp", "stamp", "elapsed", "uhrzeit"};
   return std::any_of(kBegin.begin(), kBegin.end(), [&](auto word) { return lower.starts_with(word); }) ||
-         lower.ends_with("timestamp") || lower.ends_with("_time") || lower == "sec" || lower == "seconds" ||
-         lower == "ms";
+         lower.ends_with("timestamp") || lower.ends_with("_time") || lower.ends_with(": time (s)") ||
+         lower.ends_with("stamp.secs") || lower.ends_with("stamp.sec") || lower == "sec" || lower == "secs" ||
+         lower == "seconds" || lower == "ms" || lower == "millis" || lower == "micros" || lower == "clock" ||
+         lower == "x_value";  // of LabVIEW
 }
-
-}  // namespace
 
 const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view channel) {
   for (const auto& mapping : trial.columns)
@@ -205,6 +229,12 @@ std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const auto misnamed = misnamed_unit(table.names[i], plant);
     if (is_called_time(table.names[i]) || (misnamed && misnamed->channel == "t_s")) return i;
+  }
+  // A name in another language, with a unit of time.
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    auto unit = read_unit(table.units[i], true);
+    if (!unit) unit = unit_in_name(table.names[i]);
+    if (unit && unit->is_certain && unit->dimension == "time") return i;
   }
   return std::nullopt;
 }

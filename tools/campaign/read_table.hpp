@@ -30,6 +30,8 @@ const std::vector<double>* find_column(const CsvTable& table, std::string_view n
 // The mapped column of the time, else t_s; null where the file has neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
 
+// "Time (s)", "timestamp", "t", "millis", "Zeit".
+bool is_called_time(std::string_view name);
 // The column that looks like a time, by its name; t_s is not looked for.
 std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant plant);
 // Advice for a file in which no column is the time: the column that looks like it, with its scale. Empty

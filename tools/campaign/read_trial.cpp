@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "config/hint.hpp"
 #include "tools/campaign/check_channels.hpp"
+#include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_times.hpp"
+#include "tools/campaign/sensor_signs.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
 #include "tools/campaign/unit_check.hpp"
@@ -49,6 +52,7 @@ class Reader {
     if (!out_.own_log) {
       check_held_samples(out_, places_);
       check_plausible(out_, campaign_, trial_, places_);
+      check_signs(out_, campaign_, trial_, places_);
     }
     if (out_.has_time) note_gaps(out_, places_);
     check_channels(out_, campaign_.plant, places_);
@@ -81,7 +85,7 @@ class Reader {
     const auto* mapping = mapping_of(trial_, "t_s");
     const auto* column = time_column(table_, trial_);
     places_.lines = table_.lines;
-    if (column == nullptr) return;  // judge_time
+    if (column == nullptr) return count_rows();  // else judge_time
     const auto i = index_of(*column);
     const bool mapped = mapping != nullptr && find_column(table_, mapping->column) == column;
     const auto scale = unit_scale(i, mapped ? *mapping : ColumnMapping{"t_s", table_.names[i]});
@@ -93,13 +97,51 @@ class Reader {
       return;
     }
     used_[i] = true;
+    const auto* second =
+        mapped && !mapping->plus.column.empty() ? find_column(table_, mapping->plus.column) : nullptr;
+    if (mapped && !mapping->plus.column.empty() && second == nullptr)
+      return complain_at(mapping->position, FindingKind::missing_column, trial_unusable, "t_s",
+                         fmt::format("no column is called \"{}\"; the columns are {}", mapping->plus.column,
+                                     fmt::join(table_.names, ", ")),
+                         "correct plus = { column = \"NAME\" }");
     out_.t_s = *column;
-    for (double& time_s : out_.t_s) time_s = *scale * time_s + (mapped ? mapping->offset : 0.0);
+    for (std::size_t row = 0; row < out_.t_s.size(); ++row) {
+      double& time_s = out_.t_s[row];
+      time_s = *scale * time_s + (mapped ? mapping->offset : 0.0);
+      if (second != nullptr) time_s += mapping->plus.scale * (*second)[row];
+    }
+    if (second != nullptr) used_[index_of(*second)] = true;
+    if (!out_.own_log && !has_unit_of_time(i, mapped ? mapping : nullptr)) doubt(i);
+  }
+
+  // [format] row_every_s: rows by their lines, so that one which had to be left out leaves a gap.
+  void count_rows() {
+    const double step_s = trial_.format.row_every_s;
+    if (!(step_s > 0.0) || table_.lines.empty()) return;
+    std::uint64_t stride = std::numeric_limits<std::uint64_t>::max();
+    for (std::size_t row = 1; row < table_.lines.size(); ++row)
+      stride = std::min(stride, table_.lines[row] - table_.lines[row - 1]);
+    for (const auto line : table_.lines)
+      out_.t_s.push_back(step_s * static_cast<double>((line - table_.lines.front()) / stride));
+    add(FindingKind::no_time, note, table_.layout.header_line, 1, "t_s",
+        fmt::format("the file has no time; rows come every {:.6g} s, as [format] says", step_s), "");
+  }
+
+  // A name or a row of units that says it, dates, seconds since 1970, or the mapping.
+  bool has_unit_of_time(std::size_t i, const ColumnMapping* mapping) const {
+    if (mapping != nullptr && (mapping->has_scale || !mapping->unit.empty())) return true;
+    const bool is_clock = std::ranges::find(table_.clocks, table_.names[i]) != table_.clocks.end();
+    return is_clock || read_unit(table_.units[i], true) || unit_in_name(table_.names[i]);
+  }
+  void doubt(std::size_t i) {
+    if (const auto doubt = doubt_time(table_.columns[i], table_.names[i]))
+      add(FindingKind::unknown_unit, trial_unusable, table_.layout.header_line, header_character(i),
+          table_.names[i], doubt->what, doubt->cure);
   }
 
   // Force against depth needs no time: rows are then taken in the order of the file.
   void judge_time() {
-    if (time_column(table_, trial_) != nullptr) return;
+    if (time_column(table_, trial_) != nullptr || !out_.t_s.empty()) return;
     const auto* mapping = mapping_of(trial_, "t_s");
     const std::string wanted = mapping == nullptr ? "t_s" : mapping->column;
     const std::string cure = cure_for_time(table_, campaign_.plant);
@@ -119,7 +161,7 @@ class Reader {
     add(FindingKind::no_time, trial_unusable, table_.layout.header_line, 1, wanted,
         fmt::format("no column is called \"{}\"; the columns are {}", wanted, fmt::join(table_.names, ", ")),
         cure.empty() ? "add a column of the time, in s, and name it: [columns] t_s = { column = \"NAME\", "
-                       "scale = 1.0 }"
+                       "scale = 1.0 }; rows that come evenly need none: [format] row_every_s = 0.001"
                      : cure);
   }
 
@@ -169,9 +211,42 @@ class Reader {
     const bool empty =
         std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
     if (empty) return;  // as if it were not there
+    if (!out_.own_log) look_at_numbers(i, mapping, values);
     for (double& value : values) value = *scale * value + mapping.offset;
+    if (!out_.own_log && mapping.channel.ends_with("position_rad")) unwrap(i, mapping, values);
     out_.channels.push_back({mapping.channel, std::move(values)});
     places_.numbers.push_back(table_.numbers[i]);
+  }
+
+  void look_at_numbers(std::size_t i, const ColumnMapping& mapping, const std::vector<double>& values) {
+    const auto line = [&](std::size_t row) { return row < table_.lines.size() ? table_.lines[row] : 1; };
+    if (const auto fill = fill_value_in(values))
+      add(FindingKind::implausible, mapping.is_stated() ? note : trial_unusable, line(fill->first_row), 1,
+          table_.names[i],
+          fmt::format("reads {:.10g} in {} rows, far from all others: written where there is no sample?",
+                      fill->value, fill->rows),
+          mapping.is_stated()
+              ? "taken as stated in [columns]"
+              : fmt::format(
+                    "if so write [format] no_sample = [\"{:.10g}\"]; if it was measured, state unit and "
+                    "scale of the column",
+                    fill->value));
+    const auto* time = time_column(table_, trial_);
+    if (time != nullptr && equals_time(values, *time))
+      add(FindingKind::implausible, trial_unusable, line(0), 1, table_.names[i],
+          "holds the same numbers as the time: the names stand over the wrong columns",
+          "export the table again, or give names = [...] in [format] with header_line = 0");
+  }
+
+  void unwrap(std::size_t i, const ColumnMapping& mapping, std::vector<double>& values) {
+    const auto steps = put_turns_back(values);
+    if (steps == 0) return;
+    add(FindingKind::file_format, note, table_.layout.header_line, header_character(i), table_.names[i],
+        fmt::format(
+            "for {}: jumps by a whole turn {} times, as an angle does that is counted within one turn; the "
+            "turns are put back",
+            mapping.channel, steps),
+        "");
   }
 
   void leave(std::size_t i) {

@@ -16,8 +16,8 @@ struct Word {
   std::string_view text;
   char value;
 };
-constexpr std::array kSeparators{Word{",", ','},   Word{";", ';'},     Word{"tab", '\t'},
-                                 Word{"\t", '\t'}, Word{"blank", ' '}, Word{" ", ' '}};
+constexpr std::array kSeparators{Word{",", ','},     Word{";", ';'}, Word{"tab", '\t'}, Word{"\t", '\t'},
+                                 Word{"blank", ' '}, Word{" ", ' '}, Word{"|", '|'}};
 constexpr std::array kDecimals{Word{".", '.'}, Word{",", ','}};
 constexpr std::array kThousands{Word{"", '\0'}, Word{".", '.'}, Word{",", ','}, Word{"'", '\''},
                                 Word{" ", ' '}};
@@ -35,13 +35,19 @@ class FormatReader {
     if (node.key == "units_line") return line(node, format_.units_line);
     if (node.key == "names") return words(node, format_.names);
     if (node.key == "no_sample") return words(node, format_.no_sample);
+    if (node.key == "clock") return clock(node);
+    if (node.key == "day_first" && node.kind == Kind::boolean) {
+      format_.day_first = node.boolean;
+      return;
+    }
+    if (node.key == "row_every_s") return row_every(node);
     if (node.key == "spread_times" && node.kind == Kind::boolean) {
       format_.spread_times = node.boolean;
       return;
     }
-    static const std::vector<std::string> kKeys{"separator", "decimal",     "thousands",
-                                                "encoding",  "header_line", "units_line",
-                                                "names",     "no_sample",   "spread_times"};
+    static const std::vector<std::string> kKeys{"separator",    "decimal",    "thousands", "encoding",
+                                                "header_line",  "units_line", "names",     "no_sample",
+                                                "spread_times", "clock",      "day_first", "row_every_s"};
     wrong(node, cure_for_unknown_key(node.key, std::nullopt, kKeys));
   }
   std::vector<ConfigProblem> take_problems() { return std::move(problems_); }
@@ -76,6 +82,20 @@ class FormatReader {
     if (node.kind != Kind::integer || node.integer < 0)
       return wrong(node, "is no number of a line: from 1; 0 for none");
     out = static_cast<std::uint64_t>(node.integer);
+  }
+
+  void clock(const ConfigNode& node) {
+    if (node.kind != Kind::text || (node.text != "mm:ss" && node.text != "hh:mm"))
+      return wrong(node, "is neither \"mm:ss\" nor \"hh:mm\"");
+    format_.minutes_first = node.text == "mm:ss";
+  }
+
+  void row_every(const ConfigNode& node) {
+    const double step_s = node.kind == Kind::real      ? node.real
+                          : node.kind == Kind::integer ? static_cast<double>(node.integer)
+                                                       : 0.0;
+    if (!(step_s > 0.0)) return wrong(node, "is no time between two rows, in s");
+    format_.row_every_s = step_s;
   }
 
   void words(const ConfigNode& node, std::vector<std::string>& out) {

@@ -42,6 +42,22 @@ FaultMeaning meaning_of(CsvFault fault) {
       return {FindingKind::time_stands_still, note};
     case gap:
       return {FindingKind::gap, note};
+    case word_as_number:
+      return {FindingKind::file_format, note};
+    case date_in_channel:
+      return {FindingKind::non_numeric_cell, note};
+    case ambiguous_time:
+      return {FindingKind::file_format, trial_unusable};
+    case out_of_range:
+      return {FindingKind::saturated, note};
+    case counter_wrapped:
+      return {FindingKind::time_backwards, note};
+    case several_recordings:
+      return {FindingKind::time_backwards, trial_unusable};
+    case cut_row:
+      return {FindingKind::ragged_row, note};
+    case names_do_not_fit:
+      return {FindingKind::no_header, trial_unusable};
     case not_a_text:
     case ambiguous_number:
       return {FindingKind::file_format, trial_unusable};
@@ -65,7 +81,8 @@ bool drops_rows(CsvFault fault) {
 
 FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, const CampaignTrial& trial) {
   const std::uint64_t count = issue.repeats + 1;
-  const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite;
+  const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite ||
+                        issue.fault == CsvFault::date_in_channel || issue.fault == CsvFault::out_of_range;
   const auto* column = table.table.find(issue.name);
   if (in_cells && column != nullptr && count * 5 > samples_in(*column) + count) return channel_unusable;
   if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial))
@@ -78,7 +95,19 @@ FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, cons
 
 // Cells of a number with a comma and three digits, or of any text: the cure depends on what they hold.
 std::string cure_of(const CsvIssue& issue) {
-  const bool is_comma = issue.fault == CsvFault::not_a_number && issue.text.find(',') != std::string::npos;
+  constexpr std::string_view kDigits = "0123456789";
+  const auto last = issue.text.rfind("\" is not a number");
+  const bool has_letters_behind =
+      issue.fault == CsvFault::not_a_number && last != std::string::npos && last > 1 &&
+      kDigits.find(issue.text[last - 1]) == std::string_view::npos &&
+      (kDigits.find(issue.text[1]) != std::string_view::npos || issue.text[1] == '-');
+  if (has_letters_behind)
+    return "if the cells hold a unit or a prefix (k, m) behind the number, write the unit into the column's "
+           "name and "
+           "numbers alone below it";
+  const bool is_comma = issue.fault == CsvFault::not_a_number && issue.text.find(',') != std::string::npos &&
+                        issue.text.find(',') == issue.text.rfind(',') &&
+                        issue.text.find('.') == std::string::npos;
   if (is_comma) return "if that is a decimal comma write [format] decimal = \",\" into campaign.toml";
   return std::string(cure_for(issue.fault));
 }

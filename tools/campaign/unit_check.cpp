@@ -62,6 +62,11 @@ UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
 
 UnitVerdict check_unit(const ColumnUnits& c) {
   const auto wanted = unit_of_channel(c.channel);
+  if (c.stated_unit == kUnknownUnit)
+    return {c.scale, "neither the file nor campaign.toml states its unit",
+            fmt::format(
+                "write its unit in place of \"?\" in [columns]: {} = {{ column = \"{}\", unit = \"{}\" }}",
+                c.channel, c.column, wanted ? wanted->text : "…")};
   if (!wanted) return {c.scale, "", ""};
   if (!c.stated_unit.empty()) return stated(c, *wanted);
   const bool has_row = !c.row_unit.empty();

@@ -7,6 +7,9 @@
 
 namespace sandhopper {
 
+// `unit` of a column whose unit its experimenter has not stated yet: nothing is computed from it.
+inline constexpr std::string_view kUnknownUnit = "?";
+
 // A column that is to become a channel, and what is known of its unit.
 struct ColumnUnits {
   std::string column;

@@ -97,7 +97,12 @@ std::optional<TrialSheet> gather_sheet(Session& session, const TrialOptions& opt
   if (options.payload_kg >= 0.0) sheet.payload_kg = options.payload_kg;
   if (options.release_height_given) sheet.release_height_m = options.release_height_m;
   auto missing = missing_keys(sheet);
-  if (!missing.empty() && can_ask(session) && ask_for_missing(sheet)) missing = missing_keys(sheet);
+  if (!missing.empty() && can_ask(session)) {
+    if (!ask_for_missing(sheet))
+      throw Failure(ExitCode::no, "ended at the trial sheet: nothing was started",
+                    "answer its questions, or give a file with them with --sheet");
+    missing = missing_keys(sheet);
+  }
   if (missing.empty()) return sheet;
   std::string keys, options_text;
   for (const auto& key : missing) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "config/consistency.hpp"
+#include "config/dump.hpp"
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "tools/cli/failure.hpp"
@@ -127,6 +128,7 @@ TrialModel TrialRunner::model_of(int number, const fs::path& log) const {
   model.log = log.string();
   if (sheet_) model.sheet = entries_of(*sheet_);
   model.config = cycle_config(robot_);
+  model.robot = to_node(robot_);
   return model;
 }
 

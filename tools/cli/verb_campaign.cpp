@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> files;  // to import
   std::string import_plant;
   std::string import_output;
+  std::string import_names;
 };
 
 nlohmann::ordered_json as_json(const Finding& f) {
@@ -119,13 +120,24 @@ std::optional<CampaignPlant> plant_named(const std::string& name) {
   return static_cast<CampaignPlant>(found - names.begin());
 }
 
+// "t_s,force_N"
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const auto end = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 ExitCode import_files(Session& session, const Options& options) {
   const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
   const auto folder = options.import_output.empty() ? std::filesystem::absolute(files.front()).parent_path()
                                                     : std::filesystem::path(options.import_output);
   CampaignDraft draft;
   try {
-    draft = draft_campaign(files, plant_named(options.import_plant), folder);
+    draft = draft_campaign(files, plant_named(options.import_plant), folder, parts_of(options.import_names));
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::no, error.what(),
                   "name a table: rows of numbers under the names of their columns");
@@ -179,6 +191,8 @@ Run set_up(Arguments& arguments) {
       .existing_file();
   importing.add_option("--plant", options->import_plant, "default: guessed from the columns")
       .one_of({"hopper", "intruder", "falling_body", "rotary_axis"});
+  importing.add_option("--names", options->import_names,
+                       "of the columns, in order and divided by commas, for a file that has none");
   importing.add_option("--output", options->import_output,
                        "folder for campaign.toml and nominal.toml; default: that of the first file");
   return [options, checking, keys, importing](Session& session) {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -42,17 +44,32 @@ std::filesystem::path corrected_file(const std::filesystem::path& folder,
   return file;
 }
 
-// The numbers that the answer rests on, and who said them; those of [sensors] and [spread] by default are
-// counted.
-void tell_belief(Session& session, const UsedNumbers& used) {
+std::vector<sandhopper::diagnose::BelievedNumber> believed(const UsedNumbers& used) {
+  std::vector<sandhopper::diagnose::BelievedNumber> numbers;
+  for (const auto& n : used.numbers)
+    numbers.push_back({n.key, n.low, n.high, n.unit, n.said_by, usual_error(n), 0.0});
+  return numbers;
+}
+
+// The numbers that the answer rests on, who said them, and which of them matter; those of [sensors] and
+// [spread] by default are counted.
+void tell_belief(Session& session, const UsedNumbers& used,
+                 const std::vector<sandhopper::diagnose::BelievedNumber>& numbers) {
   std::size_t counted = 0;
   for (const auto& number : used.numbers) {
     const bool is_default = number.source == UsedNumber::Source::plant_default;
     const bool of_sensors = number.key.starts_with("sensors.") || number.key.starts_with("spread.");
-    if (is_default && of_sensors)
+    if (is_default && of_sensors) {
       ++counted;
-    else
-      session.say("belief {}", to_string(number));
+      continue;
+    }
+    const auto found = std::ranges::find(numbers, number.key, &sandhopper::diagnose::BelievedNumber::key);
+    std::string shows;
+    if (found != numbers.end() && std::isfinite(found->error_that_shows) && found->error_that_shows > 0.0)
+      shows = fmt::format(
+          "; an error of {:.2g} would show{}", found->error_that_shows,
+          found->matters() ? fmt::format(", and {:.2g} is usual: it matters", found->usual_error) : "");
+    session.say("belief {}{}", to_string(number), shows);
   }
   session.say(
       "belief {} numbers of sensors and spread are defaults (in diagnosis.json), {} more are 0: not assumed",
@@ -83,6 +100,8 @@ ExitCode diagnose(Session& session, const Options& options) {
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;
+  const auto used = used_numbers(campaign);
+  engine.belief = believed(used);
   Progress progress("diagnosing", 1.0);
   engine.progress = [&](double share, const std::string& text) {
     progress.at(share);
@@ -92,15 +111,11 @@ ExitCode diagnose(Session& session, const Options& options) {
   if (options.search)
     for (const auto& line : diagnosis.log) session.say_line(line);
   session.result = sandhopper::diagnose::to_json(diagnosis);
-  auto& belief = session.result["belief"] = nlohmann::ordered_json::array();
-  for (const auto& n : used_numbers(campaign).numbers)
-    belief.push_back(
-        {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}});
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
-  tell_belief(session, used_numbers(campaign));
+  tell_belief(session, used, diagnosis.belief);
   if (!diagnosis.corrected_model_toml.empty()) {
     const auto file = corrected_file(folder, campaign.model);
     write(file, diagnosis.corrected_model_toml);

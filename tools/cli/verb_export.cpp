@@ -15,6 +15,7 @@ struct Options {
   std::string log;
   std::string output;
   bool all = false;
+  bool phase_numbers = false;
   std::string layouts;
 };
 
@@ -74,7 +75,7 @@ ExitCode export_log(Session& session, const Options& options) {
                   "name a file you may write with --output");
   CsvExportResult result;
   try {
-    result = export_csv(options.log, out, {.optional_channels = options.all});
+    result = export_csv(options.log, out, {.optional_channels = options.all, .phase_names = !options.phase_numbers});
   } catch (const mcap::Error& error) {
     throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial");
   }
@@ -98,6 +99,8 @@ Run set_up(Arguments& arguments) {
   auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
   arguments.add_option("--output", options->output, "CSV file; default: beside the log");
   arguments.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
+  arguments.add_flag("--phase-numbers", options->phase_numbers,
+                     "write `phase` as 0, 1, 2 in place of flight, compression, extension");
   arguments.add_option(
       "--layouts", options->layouts,
       "write into this folder: layouts for PlotJuggler and Foxglove, loaders for Python and MATLAB or "

@@ -95,8 +95,11 @@ ExitCode trial(Session& session, TrialOptions options) {
   TrialRunner runner(session, options);
   Tally tally;
   for (int number = 0; number < options.trials; ++number) {
-    if (options.series > 0 && can_ask(session) && !prepare_next(session, number, options.trials, *sheet))
+    if (options.series > 0 && can_ask(session) && !prepare_next(session, number, options.trials, *sheet)) {
+      session.say("\nThe series was ended before trial {}: {} of {} trials are recorded.", number + 1, number,
+                  options.trials);
       break;
+    }
     const Outcome outcome = runner.run(number, options.trials, sheet);
     take(session, options, outcome, tally);
     if (sheet) tally.series.back().sheet = *sheet;

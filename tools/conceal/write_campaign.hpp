@@ -5,8 +5,9 @@
 
 namespace sandhopper::conceal {
 
-// Writes FOLDER/campaign.toml, FOLDER/nominal.toml and FOLDER/trials/001.csv … (RECORDING.md). `extra` trials
-// are recorded after the case's own. Throws std::runtime_error when a file cannot be written.
+// Writes FOLDER/campaign.toml, FOLDER/nominal.toml and FOLDER/trials/001.csv …
+// (tools/docs/guide/recordings.md). `extra` trials are recorded after the case's own. Throws
+// std::runtime_error when a file cannot be written.
 void write_campaign(const std::filesystem::path& folder, const Case& c, const std::vector<Setup>& extra = {});
 
 // The sealed answer, whose place is outside every campaign's folder (README.md).

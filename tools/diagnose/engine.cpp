@@ -34,7 +34,8 @@ constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
 constexpr double kLikelierThanNot = 0.5;
-constexpr double kMostOfTheGap = 0.5;  // DIAGNOSIS 2.5: less, and what is missing is on no list
+constexpr double kMostOfTheGap =
+    0.5;  // of the explainable held-out energy; less, and what is missing is on no list
 // Names that close most of the gap, and what is left: it may be the form of one of their laws.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
@@ -223,6 +224,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();
+  diagnosis.belief = options.belief;
   note_what_is_missing(prepared, diagnosis);
   if (problem.trials.empty()) {
     diagnosis.verdict = "insufficient_data";
@@ -279,6 +281,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_trial_to_trial(problem, search, diagnosis);
   report_residuals(problem, residuals, diagnosis);
   report_absent(problem, search, diagnosis);
+  report_belief(problem, search.best().fit.point, diagnosis);
   report_where(problem, search, residuals, diagnosis);
   report_traces(problem, clean, residuals, diagnosis);
   propose_next_trial(problem, clean, search, belief, law, diagnosis);

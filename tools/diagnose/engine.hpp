@@ -8,7 +8,8 @@ namespace sandhopper::diagnose {
 
 struct EngineOptions {
   std::size_t most_effects = 3;
-  bool tell_evidence = false;  // of what the search puts first, in the log
+  bool tell_evidence = false;            // of what the search puts first, in the log
+  std::vector<BelievedNumber> belief{};  // what the answer says of them is added to it
   // Called with the share of work done; the first call with a text other than empty is the quick verdict.
   std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};
 };

@@ -126,11 +126,9 @@ std::vector<std::string> notes_of(const Recording& recording, const Explanation&
 
 std::string fault_lines(const ExplainedFault& f) {
   const FaultEntry& entry = entry_of(f.fault);
-  const auto device = f.reading.device.empty() ? "" : f.reading.device + ": ";
   return fmt::format(
-      "  check:    {}{}: {}; allowed: {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n",
-      device, f.reading.quantity, f.reading.value_text, f.reading.limit_text, entry.meaning,
-      name_of(entry.reaction), name_of(entry.latch), entry.cure);
+      "  check:    {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n", in_words(f.reading),
+      entry.meaning, name_of(entry.reaction), name_of(entry.latch), entry.cure);
 }
 
 }  // namespace

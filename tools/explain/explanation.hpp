@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/explain/fault_check.hpp"
+#include "firmware/fault_check.hpp"
 #include "tools/explain/recording.hpp"
 #include "tools/report/report_data.hpp"
 

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "firmware/fault_check.hpp"
 #include "firmware/refusal_text.hpp"
 
 namespace sandhopper {
 
-std::string values_of(const Event& event) {
+std::string values_of(const Event& event, const ConfigNode* robot) {
   const auto& v = event.values;
   switch (event.kind) {
     case EventKind::zero_check:
@@ -24,7 +25,7 @@ std::string values_of(const Event& event) {
                          1e3 * v[0], v[1], 1e3 * v[2], v[3]);
     case EventKind::fault_raised:
     case EventKind::disarm_refused:
-      return fmt::format("{}: {:.4g}, {:.4g}", entry_of(event.fault).meaning, v[0], v[1]);
+      return in_words(read_fault(event, robot));
     case EventKind::clock_stepped:
       return fmt::format("the date was set {} by {:.3f} s, or the computer slept",
                          v[0] < 0.0 ? "back" : "forward", v[0] < 0.0 ? -v[0] : v[0]);

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "firmware/log/topics.hpp"
+#include "config/node.hpp"
+#include "firmware/log/trial_description.hpp"
 #include "firmware/log/trial_sheet.hpp"
 #include "tools/plant/bed_truth.hpp"
 #include "tools/report/report_builder.hpp"
@@ -139,6 +141,9 @@ ReportData report_data_from_log(const std::filesystem::path& file) {
     feed.take(message, builder);
   }
 
+  for (const auto& attachment : log.attachments())
+    if (attachment.name == kRobotAttachment)
+      builder.set_robot(parse_config_text(file.string(), std::string(mcap::text_of(attachment.data))).root);
   ReportData data = builder.data();
   data.title = "Hop trial " + file.stem().string();
   if (began_ns) data.facts.emplace_back("date", utc(*began_ns));

@@ -248,13 +248,15 @@ ReportData ReportBuilder::data() const {
   for (const std::int64_t time_ns : row_ns_) data.time_s.push_back(seconds(time_ns));
   add_columns(data);
   add_phases(data);
+  const ConfigNode* robot = robot_ ? &*robot_ : nullptr;
   for (const Event& event : events_) {
     data.events.push_back({seconds(event.time_ns), event.stride, in_words(name_of(event.kind)),
-                           in_words(name_of(event.reason)), values_of(event)});
+                           in_words(name_of(event.reason)), values_of(event, robot)});
     if (event.kind == EventKind::fault_raised) {
       const FaultEntry& entry = entry_of(event.fault);
       data.notes.push_back(
-          fmt::format("Fault at {:.3f} s: {}. {}", seconds(event.time_ns), entry.meaning, entry.cure));
+          fmt::format("Fault {} at {:.3f} s: {}. It means: {}. Cure: {}.", entry.name, seconds(event.time_ns),
+                      values_of(event, robot), entry.meaning, entry.cure));
     }
   }
   for (std::size_t i = 0; i < strides_.size(); ++i) {

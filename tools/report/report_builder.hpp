@@ -1,8 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "config/node.hpp"
 #include "firmware/event.hpp"
 #include "firmware/records.hpp"
 #include "firmware/sensor_frame.hpp"
@@ -26,6 +29,8 @@ class ReportBuilder {
 
   // The records so far; title, facts, notes beyond faults, and configuration are the caller's.
   ReportData data() const;
+  // The configuration that the log carries, which gives the limits of faults.
+  void set_robot(ConfigNode robot) { robot_ = std::move(robot); }
 
  private:
   struct Point {
@@ -39,6 +44,7 @@ class ReportBuilder {
   void add_columns(ReportData& data) const;
   void add_phases(ReportData& data) const;
 
+  std::optional<ConfigNode> robot_{};
   std::vector<std::int64_t> row_ns_;  // of the cycles
   std::vector<State> state_;
   std::vector<Point> points_;

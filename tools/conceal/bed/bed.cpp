@@ -28,7 +28,7 @@ double stiffness_N_per_m(const Bed& b) {
   return b.per_area_N_per_m3 > 0.0 ? b.per_area_N_per_m3 * b.area_m2() : b.stiffness_N_per_m;
 }
 
-// Aguilar and Goldman's cone (PHYSICS 1.4): mass and its gradient.
+// Aguilar and Goldman's cone (Nature Physics 12, 2016): mass and its gradient.
 struct Cone {
   double mass_kg, gradient_kg_per_m;
 };

@@ -6,7 +6,8 @@
 
 namespace sandhopper::conceal {
 
-// A granular bed under a round flat foot: the nominal law of PHYSICS 2.5 and 2.6, and what may be hidden in
+// A granular bed under a round flat foot: the nominal law (stiffness, intercept, added mass, drag,
+// unloading line: the members below), and what may be hidden in
 // it. Depth z and speed v are positive downward.
 struct Bed {
   double stiffness_N_per_m = 1500.0, intercept_depth_m = 3e-3, intercept_growth_depth_m = 3e-3;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-// Sizes follow DIAGNOSIS section 3; forces are scaled with the bed's own force at 20 mm.
+// Sizes are typical ones (tools/conceal/README.md); forces are scaled with the bed's own force at 20 mm.
 namespace sandhopper::conceal {
 namespace {
 

@@ -8,7 +8,8 @@ namespace sandhopper::conceal {
 
 using Json = nlohmann::ordered_json;
 
-// What the experimenter wrote down about one trial: keys of RECORDING.md's [[trial]], without the file.
+// What the experimenter wrote down about one trial: keys of a [[trial]] (tools/docs/guide/recordings.md),
+// without the file.
 struct Setup {
   Json keys = Json::object();
 

@@ -10,7 +10,7 @@
 namespace sandhopper::conceal {
 
 struct EffectInfo {
-  std::string id;     // DIAGNOSIS section 5; outside that list any word
+  std::string id;     // as in diagnosis.json; outside that list any word
   std::string port;   // where an effect outside the list acts; empty for those on it
   std::string group;  // effects of one group are not hidden together
 };

@@ -11,7 +11,7 @@ struct Column {
   std::vector<double> values;  // NaN: no fresh sample, an empty cell
 };
 
-// One recording: rows in time, columns as RECORDING.md names them.
+// One recording: rows in time, columns as tools/docs/guide/recordings.md names them.
 struct Table {
   std::vector<Column> columns;
 

@@ -11,8 +11,8 @@ struct Seen {
   double t_s, angle_rad, angle_rate_radps, foot_over_surface_m;
 };
 
-// The 1 kHz controller of PHYSICS 2.5 on measured values; torques leave with the CAN frame's resolution. The
-// hidden departures from what is configured are in it.
+// The nominal 1 kHz controller (virtual springs in stance, position hold in flight) on measured values;
+// torques leave with the CAN frame's resolution. The hidden departures from what is configured are in it.
 class Controller {
  public:
   Controller(const World& world, const Setup& setup);

@@ -6,7 +6,7 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// The hopper: believed parameters of PHYSICS 2.2 and 2.5, then what may be hidden, off by default.
+// The hopper: believed parameters of robot, controller and sensors, then what may be hidden, off by default.
 namespace sandhopper::conceal::hopper {
 
 struct Robot {

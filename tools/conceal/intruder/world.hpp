@@ -6,7 +6,7 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// A plate on a linear actuator pressed into the bed along a prescribed motion (PHYSICS 2.6).
+// A plate on a linear actuator pressed into the bed along a prescribed motion.
 namespace sandhopper::conceal::intruder {
 
 struct World {

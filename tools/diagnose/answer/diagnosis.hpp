@@ -94,6 +94,23 @@ struct Bound {  // of an effect that was looked for and not found
   double typicals = 0.0;  // the same, of the size at which the effect matters
 };
 
+// One number that the answer rests on.
+struct BelievedNumber {
+  std::string key;               // "axis.inertia_kg_m2"
+  double low = 0.0, high = 0.0;  // over the trials
+  std::string unit{};
+  std::string said_by{};
+  // As far as it may be off, by the way it was written: half a unit of its last digit; a default that nobody
+  // stated, by its whole size.
+  double usual_error = 0.0;
+  // Beyond this error the recordings would contradict it (95 %), what differs from trial to trial fitted
+  // along; infinite: they do not depend on it.
+  double error_that_shows = 0.0;
+
+  double size() const { return low < 0.0 && -low > high ? -low : high; }
+  bool matters() const { return usual_error >= error_that_shows; }
+};
+
 struct Curve {
   std::string variable;
   std::vector<double> at, value, sd;
@@ -144,6 +161,7 @@ struct Diagnosis {
   double gap_closed = 1.0;       // by the effects on the list, of what can be explained
   std::vector<ChannelFit> fits;  // the channel that shows most first
   std::vector<Bound> absent;
+  std::vector<BelievedNumber> belief;
   std::vector<UnknownForce> unknown;
   std::vector<std::string> notes;  // missing channels, trials left out, weaker tests
   std::vector<PhaseError> phase_errors;

@@ -1,5 +1,7 @@
 #include "tools/diagnose/answer/diagnosis_json.hpp"
 
+#include <cmath>
+
 namespace sandhopper::diagnose {
 
 using Json = nlohmann::ordered_json;
@@ -86,6 +88,17 @@ Json to_json(const Diagnosis& d) {
   for (const auto& b : d.absent)
     json["absent"].push_back(
         {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}});
+  json["belief"] = Json::array();
+  for (const auto& n : d.belief)
+    json["belief"].push_back(
+        {{"key", n.key},
+         {"low", n.low},
+         {"high", n.high},
+         {"unit", n.unit},
+         {"said_by", n.said_by},
+         {"usual_error", n.usual_error},
+         {"error_that_shows", std::isfinite(n.error_that_shows) ? Json(n.error_that_shows) : Json(nullptr)},
+         {"matters", n.matters()}});
   json["baselines"] = {
       {"largest_correlation", {{"id", d.simple.largest_correlation}, {"correlation", d.simple.correlation}}},
       {"fit_every_parameter", {{"id", d.simple.fit_every_parameter}, {"typicals", d.simple.typicals}}}};

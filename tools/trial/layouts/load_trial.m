@@ -8,9 +8,17 @@ function trial = load_trial(file)
     error('load_trial: cannot open %s', file);
   end
   names = strsplit(strtrim(fgetl(id)), ',');
-  cells = textscan(id, repmat('%f', 1, numel(names)), 'Delimiter', ',', 'EmptyValue', NaN, 'CollectOutput', true);
+  formats = repmat({'%f'}, 1, numel(names));
+  formats(strcmp(names, 'phase')) = {'%s'};
+  cells = textscan(id, [formats{:}], 'Delimiter', ',', 'EmptyValue', NaN);
   fclose(id);
   for k = 1:numel(names)
-    trial.(names{k}) = cells{1}(:, k);
+    column = cells{k};
+    if iscell(column)  % phase: 0 flight, 1 compression, 2 extension
+      [~, at] = ismember(column, {'flight', 'compression', 'extension', '0', '1', '2'});
+      column = mod(at - 1, 3);
+      column(at == 0) = NaN;
+    end
+    trial.(names{k}) = column;
   end
 end

@@ -11,15 +11,22 @@ import math
 import sys
 
 
+PHASES = {"flight": 0.0, "compression": 1.0, "extension": 2.0}
+
+
+def number(cell):
+    return PHASES[cell] if cell in PHASES else float(cell) if cell else math.nan
+
+
 def load_trial(path):
-    """Columns by name, in SI units; the unit is the end of the name."""
+    """Columns by name, in SI units; the unit is the end of the name. `phase`: 0 flight, 1 compression, 2 extension."""
     with open(path, newline="") as file:
         rows = csv.reader(file)
         names = next(rows)
         columns = {name: [] for name in names}
         for row in rows:
             for name, cell in zip(names, row):
-                columns[name].append(float(cell) if cell else math.nan)
+                columns[name].append(number(cell))
     return columns
 
 

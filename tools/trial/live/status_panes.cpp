@@ -76,8 +76,11 @@ std::vector<std::string> fault_text(const TrialModel& model) {
   if (!model.error.empty()) return {"ERROR " + model.error};
   if (model.fault == Fault::none) return {};
   const auto& entry = entry_of(model.fault);
-  return {fmt::format("FAULT {} {}: {}", static_cast<int>(model.fault), entry.name, entry.meaning),
-          fmt::format("cure: {}", entry.cure)};
+  std::vector<std::string> lines{
+      fmt::format("FAULT {} {}: {}", static_cast<int>(model.fault), entry.name, entry.meaning)};
+  if (!model.fault_values.empty()) lines.push_back(model.fault_values);
+  lines.push_back(fmt::format("cure: {}", entry.cure));
+  return lines;
 }
 
 double leg_length_m(const TrialModel& model) {

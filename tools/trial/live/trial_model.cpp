@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "firmware/event.hpp"
+#include "firmware/fault_check.hpp"
 #include "firmware/request_box.hpp"
 #include "tools/trial/trial_text.hpp"
 
@@ -79,6 +81,14 @@ std::string time_text(const TrialModel& model, std::int64_t time_ns) {
   return fmt::format("{:+.3f} s  ", static_cast<double>(time_ns - *model.released_ns) * 1e-9);
 }
 
+std::string values_of_fault(const Json& json, Fault fault, const ConfigNode& robot) {
+  Event event;
+  event.kind = EventKind::fault_raised;
+  event.fault = fault;
+  for (std::size_t i = 0; i < event.values.size(); ++i) event.values[i] = number(json.at("values").at(i));
+  return in_words(read_fault(event, &robot));
+}
+
 std::string event_text(EventKind kind, const Json& json, Fault fault) {
   const auto value = [&](std::size_t i) { return number(json.at("values").at(i)); };
   switch (kind) {
@@ -121,17 +131,22 @@ void take_event(TrialModel& model, const Json& json) {
   if (kind == EventKind::armed) model.zero_checked = true;
   if (kind == EventKind::released) model.released_ns = time_ns;
   if (kind == EventKind::stopped && model.released_ns) model.over = true;
-  if (kind == EventKind::fault_raised) model.fault = fault;
+  if (kind == EventKind::fault_raised) {
+    model.fault = fault;
+    model.fault_values = values_of_fault(json, fault, model.robot);
+  }
   if (kind == EventKind::disarmed) model.fault = Fault::none;
   const bool drives_go_off =
       kind == EventKind::stopped || kind == EventKind::disarmed || kind == EventKind::fault_raised;
   if (drives_go_off) model.zero_checked = false;
-  if (const auto text = event_text(kind, json, fault); !text.empty())
-    model.say(time_text(model, time_ns) + text);
+  auto text = event_text(kind, json, fault);
+  if (kind == EventKind::fault_raised) text += ": " + model.fault_values;
+  if (!text.empty()) model.say(time_text(model, time_ns) + text);
 }
 
 void take_status(TrialModel& model, const Json& json) {
   model.status = status_of(json);
+  if (model.status->fault != model.fault) model.fault_values.clear();
   model.fault = model.status->fault;
   if (model.status->state == State::idle) model.zero_checked = false;
   model.history.push_back(*model.status);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/node.hpp"
 #include "firmware/controller_config.hpp"
 #include "firmware/live_status.hpp"
 
@@ -34,6 +35,7 @@ struct TrialModel {
   std::string log;                                         // its file
   std::vector<std::pair<std::string, std::string>> sheet;  // the trial sheet: name, text
   CycleConfig config{};
+  ConfigNode robot{};       // robot.toml: limits of faults
   std::string to_do = "a arms: the drives hold the leg, the encoders are checked";  // before arming
 
   bool ready = false;         // takes words
@@ -43,6 +45,7 @@ struct TrialModel {
   bool ended = false;  // the log is closed
   State last_state = State::idle;
   Fault fault = Fault::none;
+  std::string fault_values;  // what the fault's check saw and allows
   std::string error;
   std::optional<LiveStatus> status;
   std::optional<std::int64_t> released_ns;

@@ -23,16 +23,22 @@ struct Magic {
   const char* cure;  // {0} the file, {1} the file with the ending .log
 };
 
-// python-can reads ASC, BLF, TRC, MF4, CSV and its own database, and writes candump text by the ending .log.
+// python-can reads ASC, BLF, TRC, CSV and its own database, and writes candump text by the ending .log.
 constexpr const char* kPythonCan = "python3 -m can.logconvert '{0}' '{1}' (Debian: python3-can)";
+// MF4 came with python-can 4.2 and needs asammdf; Debian 12 has 4.1.
+constexpr const char* kPythonCanOfToday =
+    "pip install 'python-can[mf4]', then python3 -m can.logconvert '{0}' '{1}'";
+// Identifiers of more than 11 bits have eight digits; tshark 4 prints them as decimal numbers.
 constexpr const char* kCapture =
-    "tshark -r '{0}' -T fields -e frame.time_epoch -e can.id -e data.data shows its frames; better record "
-    "again "
-    "with candump -L can0";
+    "tshark -r '{0}' -T fields -e frame.time_epoch -e can.flags.xtd -e can.id -e data.data | awk '{{ "
+    "printf($2 ~ "
+    "/^(1|True)$/ ? \"(%.6f) can0 %08X#%s\\n\" : \"(%.6f) can0 %03X#%s\\n\", $1, $3, toupper($4)) }}' > "
+    "'{1}' "
+    "(Debian: tshark)";
 
 constexpr std::array kMagics{
     Magic{"LOGG"sv, "a Vector BLF log", kPythonCan},
-    Magic{"MDF     "sv, "an ASAM MDF file", kPythonCan},
+    Magic{"MDF     "sv, "an ASAM MDF file", kPythonCanOfToday},
     Magic{"SQLite format 3"sv, "a database of python-can", kPythonCan},
     Magic{";$FILEVERSION="sv, "a PEAK trace", kPythonCan},
     Magic{"\x89MCAP"sv, "an MCAP log", "replay it without --can: hop replay '{0}'"},

@@ -38,8 +38,8 @@ struct Roles {
 };
 
 // Finds commands and replies by looking at both directions together, frames in the order of their times.
-// A drive of the MIT dialect may answer on identifier 0, its master_id, or the identifier of its commands
-// (HARDWARE 1.2); the first byte of an answer is the drive's number, and may be that of a command, too. So a
+// A drive of the MIT dialect may answer on identifier 0, its master_id, or the identifier of its commands;
+// the first byte of an answer is the drive's number, and may be that of a command, too. So a
 // frame on the command's identifier is an answer only if the drive answers on no other identifier and the
 // frame follows a command. Servo and v3 have identifiers of their own for each direction.
 Roles find_roles(const std::vector<Frame>& frames, const CanConfig& config);

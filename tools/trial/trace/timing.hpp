@@ -4,7 +4,7 @@
 
 #include "drivers/can/can_config.hpp"
 
-// Facts of the bus that limits of a trace follow from: HARDWARE 1.6 and 2.6.
+// Facts of the bus that limits of a trace follow from (ISO 11898-1).
 namespace sandhopper::trace {
 
 // The shortest classic frame, standard identifier and no data, takes 47 bits: 47 us at 1 Mbit/s. Two frames

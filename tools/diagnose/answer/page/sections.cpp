@@ -174,6 +174,30 @@ StudySection absent_section(const Diagnosis& d) {
   return {"What is absent", {table}};
 }
 
+StudySection belief_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"number",      "who said it",           "value",  "unit",
+                   "usual error", "error that would show", "matters"};
+  table.text_columns = 2;
+  for (const auto& n : d.belief) {
+    const auto value =
+        n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
+    table.rows.push_back(
+        {n.key, n.said_by, value, n.unit, number(n.usual_error),
+         std::isfinite(n.error_that_shows) ? number(n.error_that_shows) : std::string("none"),
+         n.matters() ? "yes" : ""});
+  }
+  table.note =
+      "Every number that the answer rests on. Usual error: half a unit of the last digit that was written, "
+      "or the "
+      "whole of a default that nobody stated. Beyond the error that would show, the recordings contradict "
+      "the number "
+      "(95 %), with what differs from trial to trial fitted along. A number matters where its usual error is "
+      "larger: "
+      "then the answer rests on how well it is known.";
+  return {"What was believed", {table}};
+}
+
 StudySection remarks_section(const Diagnosis& d, const PageFacts& facts) {
   StudyTable table;
   table.columns = {"remark"};
@@ -207,6 +231,7 @@ std::vector<StudySection> page_sections(const Diagnosis& d, const PageFacts& fac
   if (!d.trial_to_trial.empty()) sections.push_back(trial_to_trial_section(d));
   if (!d.next.time_s.empty()) sections.push_back(next_trial_section(d));
   if (!d.absent.empty()) sections.push_back(absent_section(d));
+  if (!d.belief.empty()) sections.push_back(belief_section(d));
   if (!facts.findings.empty() || !d.notes.empty()) sections.push_back(remarks_section(d, facts));
   for (std::size_t i = 1; i < trials.size(); ++i) {
     sections.push_back(trial_section(d, trials[i]));

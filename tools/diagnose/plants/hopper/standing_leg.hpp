@@ -7,7 +7,8 @@
 
 namespace sandhopper::diagnose {
 
-// Whether the belief is a leg without mass on rigid ground (PHYSICS 2.6).
+// Whether the belief is a leg without mass on rigid ground: no body or foot moves but the
+// leg, and its force is that of the virtual springs.
 bool is_standing_leg(const WorldConfig& world);
 
 // Stance of such a leg: the foot stands still, the recorded angle moves the leg, the recorded command its

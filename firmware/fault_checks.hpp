@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "tools/explain/fault_check.hpp"
+#include "firmware/fault_check.hpp"
 
 // One entry a fault: what its check compares with what. A new fault adds a line; a test demands it.
 namespace sandhopper {

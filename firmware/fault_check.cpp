@@ -1,11 +1,11 @@
-#include "tools/explain/fault_check.hpp"
+#include "firmware/fault_check.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "tools/explain/fault_checks.hpp"
+#include "firmware/fault_checks.hpp"
 
 namespace sandhopper {
 namespace {
@@ -106,6 +106,11 @@ FaultReading read_fault(const Event& event, const ConfigNode* robot) {
   reading.value_text = with_unit(reading.value, reading.unit);
   reading.limit_text = limit_text(check, reading.limits);
   return reading;
+}
+
+std::string in_words(const FaultReading& reading) {
+  return fmt::format("{}{}{}: {}; allowed: {}", reading.device, reading.device.empty() ? "" : ": ",
+                     reading.quantity, reading.value_text, reading.limit_text);
 }
 
 }  // namespace sandhopper

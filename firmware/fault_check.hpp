@@ -44,6 +44,8 @@ struct FaultReading {
 
 // `robot` is the configuration that the log carries; null: the limits' numbers are not known.
 FaultReading read_fault(const Event& event, const ConfigNode* robot);
+// "left motor: speed: 31.2 rad/s; allowed: between plus and minus 30 rad/s (limits.motor_speed_radps)"
+std::string in_words(const FaultReading& reading);
 
 // The number under a dotted key, "estimator.kalman.tof_gate_sigma".
 std::optional<double> number_at(const ConfigNode& root, std::string_view dotted_key);

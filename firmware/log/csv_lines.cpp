@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+
+#include "firmware/log/csv_layout.hpp"
+
+// One line of a table: its names, its remarks, its units.
+namespace sandhopper {
+
+void split_names(std::string_view line, char separator, std::size_t wanted, std::vector<TableCell>& cells) {
+  split_csv_cells(line, separator, cells);
+  if (separator != ' ' || cells.size() <= wanted) return;
+  std::vector<TableCell> joined;
+  for (const auto& cell : cells) {
+    const bool is_unit = cell.text.starts_with('(') || cell.text.starts_with('[');
+    if (!is_unit || joined.empty()) {
+      joined.push_back(cell);
+      continue;
+    }
+    const char* const begin = joined.back().text.data();
+    const auto end = cell.text.data() + cell.text.size();
+    joined.back().text = std::string_view(begin, static_cast<std::size_t>(end - begin));
+  }
+  if (joined.size() == wanted) cells = std::move(joined);
+}
+
+bool is_remark(std::string_view line) {
+  while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+std::string_view without_mark(std::string_view line, std::string& mark) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  std::string_view rest = line;
+  while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
+  if (!is_remark(rest)) return line;
+  std::size_t length = 0;
+  while (length < rest.size() && std::string_view("#%/").find(rest[length]) != std::string_view::npos)
+    ++length;
+  mark = std::string(rest.substr(0, length));
+  rest.remove_prefix(length);
+  while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
+  return rest;
+}
+
+bool looks_like_unit(std::string_view text) {
+  text = trimmed_cell(text);
+  const auto pair = [&](char a, char b) { return text.size() >= 2 && text.front() == a && text.back() == b; };
+  if (pair('[', ']') || pair('(', ')')) return true;
+  constexpr std::array<std::string_view, 66> kWords{
+      "s",          "ms",    "us",    "\xC2\xB5s", "\xCE\xBCs",    "ns",       "sec",
+      "min",        "h",     "m",     "mm",        "cm",           "um",       "N",
+      "kN",         "mN",    "lbf",   "lb",        "kgf",          "gf",       "kg",
+      "g",          "t",     "rad",   "mrad",      "deg",          "\xC2\xB0", "rpm",
+      "1/min",      "rad/s", "deg/s", "dps",       "\xC2\xB0/s",   "m/s",      "mm/s",
+      "cm/s",       "km/h",  "m/s^2", "m/s2",      "m/s\xC2\xB2",  "A",        "mA",
+      "V",          "mV",    "W",     "Nm",        "N m",          "N.m",      "N*m",
+      "N\xC2\xB7m", "mNm",   "Ncm",   "Pa",        "kPa",          "MPa",      "hPa",
+      "bar",        "mbar",  "psi",   "C",         "\xC2\xB0\x43", "K",        "%",
+      "-",          "Hz",    "in"};
+  if (std::find(kWords.begin(), kWords.end(), text) != kWords.end()) return true;
+  return text == "ft" || text == "degC" || text == "count" || text == "counts" || text == "rev" ||
+         text == "U/min" || text == "seconds" || text == "raw" || text == "degrees" || text == "newton" ||
+         text == "meter" || text == "TS" ||
+         text == "RN";  // a logger's time stamp and record number (Campbell, TOA5)
+}
+
+namespace {
+
+// Calls `look` for every cell of the rows until it returns false.
+template <class Look>
+void for_each_cell(const std::deque<std::string>& lines, std::size_t first_row, char separator, Look&& look) {
+  std::vector<TableCell> cells;
+  for (std::size_t i = first_row; i < lines.size(); ++i) {
+    if (is_remark(lines[i])) continue;
+    split_csv_cells(lines[i], separator, cells);
+    for (const auto& cell : cells)
+      if (!look(cell.text)) return;
+  }
+}
+
+// 1.001 beside 3,5 and no number like 1.234,5: a column with decimal points beside one with decimal commas?
+std::string written_in_two_ways(const std::deque<std::string>& lines, std::size_t first_row,
+                                const CsvLayout& layout) {
+  const auto style = layout.numbers;
+  if (style.thousands != '.' && style.thousands != ',') return "";
+  std::string example;
+  bool has_decimals = false;
+  for_each_cell(lines, first_row, layout.separator, [&](std::string_view text) {
+    if (!number_in_cell(text, style)) return true;
+    const bool grouped = text.find(style.thousands) != std::string_view::npos;
+    const bool decimal = text.find(style.decimal) != std::string_view::npos;
+    has_decimals = has_decimals || decimal;
+    if (grouped && example.empty()) example = text;
+    if (grouped && decimal) example.clear(), has_decimals = false;  // this cell decides
+    return !(grouped && decimal);
+  });
+  return has_decimals ? example : "";
+}
+
+}  // namespace
+
+std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t first_row,
+                              const CsvLayout& layout) {
+  const auto style = layout.numbers;
+  if (layout.separator == ',') return "";
+  if (auto cell = written_in_two_ways(lines, first_row, layout); !cell.empty()) return cell;
+  const char mark = style.decimal == ',' ? ',' : style.thousands;
+  if (mark != ',' && !(style == NumberStyle{',', '.'})) return "";
+  const NumberStyle other = style == NumberStyle{',', '\0'} ? NumberStyle{'.', ','} : NumberStyle{',', '\0'};
+  std::string example;
+  for_each_cell(lines, first_row, layout.separator, [&](std::string_view text) {
+    const auto a = number_in_cell(text, style), b = number_in_cell(text, other);
+    if (a && !b) example.clear();
+    if (a && b && example.empty() && *a != *b) example = text;
+    return !a || b;  // a cell that can be read in one way decides
+  });
+  return example;
+}
+
+}  // namespace sandhopper

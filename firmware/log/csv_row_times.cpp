@@ -1,0 +1,69 @@
+#include "firmware/log/csv_row_times.hpp"
+
+#include <cmath>
+
+namespace sandhopper {
+namespace {
+
+constexpr double kDay_s = 86400.0;
+constexpr double kCounter = 4294967296.0;  // values of 32 bits
+
+// micros() and millis() of an Arduino count in 32 bits.
+bool is_full_counter(double last, double now) {
+  const bool whole = last == std::floor(last) && now == std::floor(now);
+  return whole && last < kCounter && now >= 0.0 && last - now > 0.9 * kCounter;
+}
+
+}  // namespace
+
+double CsvRowTimes::seconds(const CellTime& time) {
+  if (time.has_date) return time.s;
+  if (last_of_day_s_ && time.s + midnights_s_ < *last_of_day_s_ - 0.5 * kDay_s) midnights_s_ += kDay_s;
+  last_of_day_s_ = time.s + midnights_s_;
+  return *last_of_day_s_;
+}
+
+CsvRowTimes::Order CsvRowTimes::take(double& time, std::uint64_t line) {
+  ++rows_;
+  bool wrapped = false;
+  if (has_last_ && wraps_ == 0.0 && is_full_counter(last_, time)) wraps_ = kCounter, wrapped = true;
+  time += wraps_;
+  if (recordings_.size() == 1 && time < previous_) first_step_ = previous_ - time;
+  if (recordings_.empty() || time < previous_) recordings_.push_back({line, line});
+  recordings_.back().last_line = line;
+  previous_ = time;
+  const auto order = !has_last_ || time > last_ ? (wrapped ? Order::went_on : Order::grows)
+                     : time == last_            ? Order::stands
+                                                : Order::back;
+  if (order == Order::back) {
+    ++left_out_;
+    return order;
+  }
+  has_last_ = true;
+  last_ = time;
+  return order;
+}
+
+CsvRowTimes::BackSteps CsvRowTimes::back_steps() const {
+  constexpr std::uint64_t kRowsOfARecording = 4;
+  const std::uint64_t steps = recordings_.empty() ? 0 : recordings_.size() - 1;
+  if (2 * steps > rows_) return BackSteps::upside_down;
+  const bool long_ones = steps > 0 && left_out_ >= kRowsOfARecording * steps;
+  return long_ones ? BackSteps::several_recordings : BackSteps::slips;
+}
+
+std::string CsvRowTimes::recordings() const {
+  constexpr std::size_t kShown = 6;
+  std::string text = "lines ";
+  for (std::size_t i = 0; i < recordings_.size() && i < kShown; ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(recordings_[i].first_line) + " to " +
+            std::to_string(recordings_[i].last_line);
+  return recordings_.size() > kShown ? text + ", …" : text;
+}
+
+std::string CsvRowTimes::clock_set_back() const {
+  const bool hour = std::abs(first_step_ - 3600.0) < 60.0;
+  return hour ? "; or the clock was set back by an hour, as at the end of summer time" : "";
+}
+
+}  // namespace sandhopper

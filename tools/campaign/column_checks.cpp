@@ -1,0 +1,102 @@
+#include "tools/campaign/column_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace sandhopper {
+namespace {
+
+// Ends of 16, 24 and 32 bits, and the fill values of meteorology, well logging (LAS), netCDF and C.
+constexpr std::array kFills{999.0,        9999.0,       99999.0,      999999.0,  999.25,    999.9,
+                            32767.0,      32768.0,      65535.0,      8388607.0, 8388608.0, 16777215.0,
+                            2147483647.0, 2147483648.0, 4294967295.0, 1e20,      1e30,      9.96921e36};
+
+bool is_fill(double magnitude) {
+  return std::ranges::any_of(kFills, [&](double fill) { return std::abs(magnitude / fill - 1.0) < 1e-6; });
+}
+
+bool is_whole(double value) { return value == std::floor(value); }
+
+}  // namespace
+
+std::optional<FillValue> fill_value_in(const std::vector<double>& values) {
+  FillValue found;
+  double rest = 0.0;
+  std::size_t samples = 0;
+  for (const double value : values)
+    if (!std::isnan(value) && is_fill(std::abs(value)) && std::abs(value) > std::abs(found.value))
+      found.value = value;
+  if (found.value == 0.0) return std::nullopt;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row])) continue;
+    ++samples;
+    if (values[row] != found.value) {
+      rest = std::max(rest, std::abs(values[row]));
+    } else if (found.rows++ == 0) {
+      found.first_row = row;
+    }
+  }
+  const bool is_apart = 3.0 * rest < std::abs(found.value) && 2 * found.rows < samples;
+  return is_apart ? std::optional(found) : std::nullopt;
+}
+
+std::optional<TimeDoubt> doubt_time(const std::vector<double>& times, const std::string& column) {
+  constexpr std::size_t kFewest = 10;
+  if (times.size() < kFewest) return std::nullopt;
+  const double first = times.front(), span = times.back() - first;
+  const double step = span / static_cast<double>(times.size() - 1);
+  const auto in_unit = [&](std::string_view unit) {
+    return fmt::format("t_s = {{ column = \"{}\", unit = \"{}\" }}", column, unit);
+  };
+  const bool is_epoch = std::abs(first) > 0.5e9 && std::abs(first) < 6e9;  // s since 1970 or 1904
+  if (std::ranges::all_of(times, is_whole) && step > 1.0 && !is_epoch)
+    return TimeDoubt{
+        fmt::format("holds whole numbers, {:.4g} from row to row, and no unit is stated: s, ms, us, or "
+                    "the number of a row?",
+                    step),
+        fmt::format("say which in [columns]: {}", in_unit("ms"))};
+  // A day has 86,400 s: in days, rows of a logger lie less than 1e-4 apart.
+  struct Origin {
+    double from, to;
+    std::string_view who;
+  };
+  constexpr std::array kOrigins{Origin{36500.0, 73000.0, "a spreadsheet"}, Origin{7.2e5, 7.7e5, "MATLAB"}};
+  for (const auto& origin : kOrigins)
+    if (first > origin.from && first < origin.to && step > 0.0 && step < 1e-4)
+      return TimeDoubt{
+          fmt::format("begins at {:.9g} and grows by {:.3g} from row to row: days as {} counts them?", first,
+                      step, origin.who),
+          fmt::format("if so write t_s = {{ column = \"{}\", unit = \"d\", scale = 86400.0 }} into "
+                      "[columns], else {}",
+                      column, in_unit("s"))};
+  return std::nullopt;
+}
+
+std::size_t put_turns_back(std::vector<double>& angle_rad) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  double low = INFINITY, high = -INFINITY;
+  for (const double value : angle_rad)
+    if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
+  if (!(high - low < 1.001 * kTurn) || high - low < 0.9 * kTurn) return 0;
+  std::size_t steps = 0;
+  double turns = 0.0, last = NAN;
+  for (double& value : angle_rad) {
+    if (std::isnan(value)) continue;
+    const double step = value - last;
+    last = value;
+    if (std::abs(std::abs(step) / kTurn - 1.0) < 0.1) turns -= std::copysign(kTurn, step), ++steps;
+    value += turns;
+  }
+  return steps;
+}
+
+bool equals_time(const std::vector<double>& values, const std::vector<double>& times) {
+  constexpr std::size_t kFewest = 10;
+  return values.size() >= kFewest && values.size() == times.size() && values == times;
+}
+
+}  // namespace sandhopper

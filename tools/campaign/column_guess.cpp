@@ -1,0 +1,94 @@
+#include "tools/campaign/column_guess.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace sandhopper {
+namespace {
+
+using enum CampaignPlant;
+
+struct Naming {
+  std::string_view channel;
+  CampaignPlant plant;
+  std::string_view dimension;
+  std::array<std::string_view, 12> words;  // lower case; any of them in the column's name
+  bool is_downward = false;                // the words mean a depth: the channel counts upward
+};
+constexpr std::array kNamings{
+    Naming{"foot_z_m",
+           intruder,
+           "length",
+           {"sinkage", "depth", "penetration", "einsink", "tiefe", "indent", "enfonc", "profond"},
+           true},
+    Naming{"foot_z_m",
+           intruder,
+           "length",
+           {"foot_z", "position", "displacement", "extension", "crosshead", "travel", "height", "weg", "z"},
+           false},
+    Naming{"force_N", intruder, "force", {"force", "load", "kraft", "fz", "last"}, false},
+    Naming{"foot_velocity_mps", intruder, "speed", {"velocity", "speed", "geschwindigkeit"}, false},
+    Naming{"foot_accel_mps2", intruder, "acceleration", {"accel", "acc", "beschl"}, false},
+    Naming{"height_m",
+           falling_body,
+           "length",
+           {"height", "altitude", "hoehe", "höhe", "position", "y", "z", "h"},
+           false},
+    Naming{"accel_mps2", falling_body, "acceleration", {"accel", "acc", "beschl"}, false},
+    Naming{"pressure_Pa", falling_body, "pressure", {"pressure", "druck", "pore"}, false},
+    Naming{"position_rad",
+           rotary_axis,
+           "angle",
+           {"angle", "position", "theta", "phi", "winkel", "encoder", "pos"},
+           false},
+    Naming{"velocity_radps",
+           rotary_axis,
+           "angular rate",
+           {"speed", "velocity", "omega", "drehzahl", "rpm", "vel"},
+           false},
+    Naming{"torque_Nm", rotary_axis, "torque", {"torque", "moment", "tau", "drehmoment"}, false}};
+
+ColumnGuess made(std::string_view channel, const std::optional<WrittenUnit>& unit, bool downward) {
+  const auto wanted = unit_of_channel(channel);
+  const auto factor = unit && wanted ? factor_between(*unit, *wanted) : std::nullopt;
+  return {0, std::string(channel), factor ? unit : std::nullopt,
+          factor.value_or(1.0) * (downward ? -1.0 : 1.0), downward};
+}
+
+}  // namespace
+
+std::string in_lower_case(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return out;
+}
+
+bool has_word(const std::string& lower, std::string_view word) {
+  if (word.empty()) return false;
+  if (word.size() > 1) return lower.find(word) != std::string::npos;
+  return lower.starts_with(word) &&
+         (lower.size() == 1 || std::string_view(" _[(").find(lower[1]) != std::string_view::npos);
+}
+
+std::optional<ColumnGuess> guess_column(const std::string& name, const std::optional<WrittenUnit>& unit,
+                                        CampaignPlant plant, const std::vector<ColumnGuess>& taken) {
+  if (find_channel(plant, name) != nullptr) return made(name, unit, false);
+  const auto is_taken = [&](std::string_view channel) {
+    return std::ranges::find(taken, channel, &ColumnGuess::channel) != taken.end();
+  };
+  const auto lower = in_lower_case(name);
+  for (const bool by_word : {true, false})
+    for (const auto& naming : kNamings) {
+      if (naming.plant != plant || is_taken(naming.channel)) continue;
+      const bool word =
+          std::ranges::any_of(naming.words, [&](std::string_view w) { return has_word(lower, w); });
+      const auto wanted = unit_of_channel(naming.channel);
+      const bool fits = unit && wanted && factor_between(*unit, *wanted);
+      if (by_word ? word && (fits || !unit) : fits)
+        return made(naming.channel, unit, word && naming.is_downward);
+    }
+  return std::nullopt;
+}
+
+}  // namespace sandhopper

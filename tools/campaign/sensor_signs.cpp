@@ -1,0 +1,192 @@
+#include "tools/campaign/sensor_signs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tools/campaign/written_unit.hpp"
+
+namespace sandhopper {
+namespace {
+
+using enum FindingSeverity;
+
+struct Range {
+  double low = INFINITY, high = -INFINITY;
+  void take(double value) {
+    if (std::isnan(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double width() const { return high - low; }
+  double most() const { return std::max(std::abs(low), std::abs(high)); }
+};
+
+Range range_of(std::span<const double> values) {
+  Range range;
+  for (const double value : values) range.take(value);
+  return range;
+}
+
+// Means over stretches of a fifth of the recording in which the values keep to a tenth of their whole range.
+std::vector<double> means_at_rest(std::span<const double> values) {
+  constexpr std::size_t kStretches = 5, kFewest = 10;
+  std::vector<double> fresh;
+  for (const double value : values)
+    if (!std::isnan(value)) fresh.push_back(value);
+  const std::size_t length = fresh.size() / kStretches;
+  std::vector<double> means;
+  if (length < kFewest) return means;
+  const double whole = range_of(fresh).width();
+  for (std::size_t begin = 0; begin + length <= fresh.size(); begin += std::max<std::size_t>(1, length / 4)) {
+    const std::span<const double> part(fresh.data() + begin, length);
+    if (range_of(part).width() > 0.1 * whole) continue;
+    double sum = 0.0;
+    for (const double value : part) sum += value;
+    means.push_back(sum / static_cast<double>(length));
+  }
+  return means;
+}
+
+class SignChecker {
+ public:
+  SignChecker(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+              const RecordingPlaces& places)
+      : recording_(recording), campaign_(campaign), trial_(trial), places_(places) {}
+
+  void run() {
+    constexpr std::array<std::string_view, 3> kSpecificForces{"accel_mps2", "imu_body_accel_z_mps2",
+                                                              "imu_foot_accel_z_mps2"};
+    if (recording_.has_time)
+      for (const auto channel : kSpecificForces) check_rest(channel);
+    check_name();
+    const bool pushes = campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped;
+    if (pushes) check_push();
+  }
+
+ private:
+  const ColumnMapping* mapping(std::string_view channel) const {
+    const auto found = std::ranges::find(trial_.columns, channel, &ColumnMapping::channel);
+    return found == trial_.columns.end() ? nullptr : &*found;
+  }
+
+  void check_rest(std::string_view channel) {
+    if (!recording_.has(channel)) return;
+    constexpr double kGravity_mps2 = 9.81, kNear = 0.06;
+    const auto near = [](double mean, double value) {
+      return std::abs(mean - value) < kNear * std::abs(value);
+    };
+    const auto means = means_at_rest(recording_.channel(channel));
+    const auto any_at = [&](double value) {
+      return std::ranges::any_of(means, [&](double mean) { return near(mean, value); });
+    };
+    if (any_at(kGravity_mps2)) return;
+    const double most = range_of(recording_.channel(channel)).most();
+    const bool beyond = std::ranges::any_of(means, [&](double mean) { return std::abs(mean) > 1.1; });
+    for (const double sign : {1.0, -1.0})
+      if (any_at(sign) && !beyond && most < 200.0)
+        return add(channel,
+                   fmt::format("reads {:.3g} at rest, where gravity alone is 9.81 m/s2: it is in g{}", sign,
+                               sign < 0 ? ", and its axis points downward" : ""),
+                   "g", sign * 9.80665);
+    if (any_at(-kGravity_mps2))
+      add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward",
+          "m/s^2", -1.0);
+  }
+
+  // Telephones write an acceleration without gravity, which a specific force is not.
+  void check_name() {
+    for (const auto& mapping : trial_.columns) {
+      if (mapping.channel != "accel_mps2" || mapping.offset != 0.0 || !recording_.has(mapping.channel))
+        continue;
+      std::string lower = mapping.column;
+      for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+      if (lower.find("linear acc") == std::string::npos && lower.find("without g") == std::string::npos)
+        continue;
+      push_back(
+          mapping.channel,
+          fmt::format("column \"{}\" is an acceleration without gravity by its name, and the channel is a "
+                      "specific force",
+                      mapping.column),
+          fmt::format("add the gravity: {} = {{ column = \"{}\", offset = 9.81 }}", mapping.channel,
+                      mapping.column),
+          trial_unusable);
+    }
+  }
+
+  // Rows in the upper fifth of the forces, against the range of positions.
+  void check_push() {
+    if (!recording_.has("force_N") || !recording_.has("foot_z_m")) return;
+    const auto force = recording_.channel("force_N"), z = recording_.channel("foot_z_m");
+    Range forces, heights;
+    std::vector<double> pairs_force, pairs_z;
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      if (std::isnan(force[i]) || std::isnan(z[i])) continue;
+      forces.take(force[i]);
+      heights.take(z[i]);
+      pairs_force.push_back(force[i]);
+      pairs_z.push_back(z[i]);
+    }
+    constexpr std::size_t kFewest = 20;
+    if (pairs_z.size() < kFewest || !(heights.width() > 0.0) || !(forces.most() > 0.0)) return;
+    const bool negative = -forces.low > 5.0 * std::max(forces.high, 0.0);
+    if (negative)
+      return add("force_N",
+                 "is negative where it is largest: a bed pushes, and the channel counts compression", "N",
+                 -1.0);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < pairs_z.size(); ++i)
+      if (pairs_force[i] > forces.low + 0.8 * forces.width()) sum += pairs_z[i], count += 1.0;
+    const double place = (sum / count - heights.low) / heights.width();  // 0 lowest, 1 highest
+    if (place > 0.8 && heights.low > -0.1 * heights.width())
+      add("foot_z_m",
+          "is highest where the force is largest: it counts the depth downward, and the channel counts "
+          "upward",
+          "m", -1.0);
+  }
+
+  // `unit` alone gives the scale.
+  static double factor_of(const ColumnMapping& mapping) {
+    const auto unit = mapping.has_scale ? std::nullopt : read_unit(mapping.unit, true);
+    const auto wanted = unit_of_channel(mapping.channel);
+    return unit && wanted ? factor_between(*unit, *wanted).value_or(mapping.scale) : mapping.scale;
+  }
+
+  void add(std::string_view channel, std::string what, std::string_view unit, double factor) {
+    const auto* m = mapping(channel);
+    const bool stated = m != nullptr && m->is_stated();
+    const double scale = (m == nullptr || unit == "g" ? 1.0 : factor_of(*m)) * factor;
+    push_back(channel, std::move(what),
+              stated ? "taken as stated in [columns]"
+                     : fmt::format(
+                           "write {} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }} into [columns]",
+                           channel, m == nullptr ? channel : m->column,
+                           m == nullptr || m->unit.empty() || unit == "g" ? unit : std::string_view(m->unit),
+                           scale),
+              stated ? note : trial_unusable);
+  }
+
+  void push_back(std::string_view channel, std::string what, std::string cure, FindingSeverity severity) {
+    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
+    recording_.findings.push_back({FindingKind::implausible, severity, places_.file, line, 1,
+                                   std::string(channel), std::move(what), std::move(cure)});
+  }
+
+  TrialRecording& recording_;
+  const Campaign& campaign_;
+  const CampaignTrial& trial_;
+  const RecordingPlaces& places_;
+};
+
+}  // namespace
+
+void check_signs(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                 const RecordingPlaces& places) {
+  SignChecker(recording, campaign, trial, places).run();
+}
+
+}  // namespace sandhopper

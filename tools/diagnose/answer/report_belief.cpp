@@ -1,0 +1,60 @@
+#include <cmath>
+#include <limits>
+
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kStep = 0.01;      // of a number, for its derivative
+constexpr double kTwoSided = 1.96;  // standard deviations of a 95 % interval
+constexpr std::size_t kTrialsOfCostly = 8;
+
+// A rig's stiffness is edited as its compliance, one over it.
+Edits with_number(Edits edits, const std::string& key) {
+  if (key == "rig.stiffness_N_per_m")
+    edits.scale("rig.compliance_m_per_N", 1.0 / (1.0 + kStep));
+  else
+    edits.scale(key, 1.0 + kStep);
+  return edits;
+}
+
+}  // namespace
+
+// With g_i(r) the whitened derivative of trial i by the number's relative change, what nuisances take up
+// integrated out, the recordings know the number to  sd = 1 / sqrt(sum_i |g_i|^2)  of its size.
+void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagnosis) {
+  std::vector<Direction> directions;
+  std::vector<BelievedNumber*> numbers;
+  const Edits edits = edits_for(problem, answer.hypothesis, answer.tolerances);
+  for (auto& number : diagnosis.belief) {
+    number.error_that_shows = std::numeric_limits<double>::infinity();
+    const bool simulated = !number.key.starts_with("sensors.") && !number.key.starts_with("spread.");
+    if (!simulated || number.size() == 0.0) continue;
+    directions.push_back({with_number(edits, number.key), kStep});
+    numbers.push_back(&number);
+  }
+  if (directions.empty() || problem.trials.empty()) return;
+  LineariseOptions options;
+  if (problem.plant->is_costly())
+    options.every = std::max<std::size_t>(1, problem.trials.size() / kTrialsOfCostly);
+  const auto trials = linearise_all(problem, answer, directions, options);
+  std::size_t looked_at = 0;
+  std::vector<double> information(numbers.size(), 0.0);
+  for (const auto& trial : trials) {
+    if (trial.gram.rows() <= static_cast<Eigen::Index>(numbers.size())) continue;
+    ++looked_at;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k) + 1;
+      information[k] += trial.gram(i, i);
+    }
+  }
+  const double share =
+      looked_at == 0 ? 1.0 : static_cast<double>(problem.trials.size()) / static_cast<double>(looked_at);
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (information[k] > 0.0)
+      numbers[k]->error_that_shows = kTwoSided / std::sqrt(share * information[k]) * numbers[k]->size();
+}
+
+}  // namespace sandhopper::diagnose
