@@ -116,7 +116,7 @@ class StudyFigure {
 
   drawSeries(series) {
     const group = svgElement('g', { class: 'series', 'data-label': series.label });
-    const color = `var(--${series.color})`;
+    const color = colorOf(series);
     const known = i => series.x[i] !== null && series.y[i] !== null && !(this.figure.log_x && series.x[i] <= 0) && !(this.figure.log_y && series.y[i] <= 0);
     const indices = series.x.map((_, i) => i).filter(known);
     if (series.mark === 'band') group.append(this.area(series, indices, color));

@@ -1,0 +1,247 @@
+#include "tools/terrain/profile_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "tools/terrain/figure_text.hpp"
+#include "tools/terrain/mean_json.hpp"
+
+namespace sandhopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view source_text(CurveSource source) {
+  switch (source) {
+    case CurveSource::firmware:
+      return "hops, firmware's own estimate";
+    case CurveSource::load_cell:
+      return "hops, load cell and motion capture";
+    case CurveSource::press:
+      return "plates pressed slowly";
+    case CurveSource::stroke:
+      return "a foot driven in";
+    case CurveSource::drop:
+      return "drops";
+  }
+  return "";
+}
+
+std::string trials_text(std::size_t trials) {
+  return fmt::format("{} trial{}", trials, trials == 1 ? "" : "s");
+}
+
+std::string limits(double low, double high, double scale) {
+  if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial]";
+  return fmt::format("[{}, {}]", figure_number(scale * low), figure_number(scale * high));
+}
+
+double mm(double depth_m) { return 1e3 * depth_m; }
+
+Json value_json(const PooledValue& v, double scale = 1.0) {
+  return {{"value", number_or_null(scale * v.value)},
+          {"ci95_of_the_mean", {number_or_null(scale * v.mean_low), number_or_null(scale * v.mean_high)}},
+          {"ci95_of_one_new_trial", {number_or_null(scale * v.new_low), number_or_null(scale * v.new_high)}},
+          {"sd_between_trials", v.trials > 1 ? number_or_null(scale * v.between_sd) : Json(nullptr)},
+          {"trials", v.trials}};
+}
+
+Json in_band_json(const std::vector<CurveInBand>& trials) {
+  Json list = Json::array();
+  for (const auto& t : trials)
+    list.push_back({{"trial", t.trial},
+                    {"depths", t.depths},
+                    {"inside", t.inside},
+                    {"force_over_the_band_s_middle", number_or_null(t.force_ratio)}});
+  return list;
+}
+
+// Depths of all trials that lie inside, and all.
+std::pair<std::size_t, std::size_t> inside_of(const std::vector<CurveInBand>& trials) {
+  std::size_t inside = 0, depths = 0;
+  for (const auto& t : trials) {
+    inside += t.inside;
+    depths += t.depths;
+  }
+  return {inside, depths};
+}
+
+std::string inside_text(const std::vector<CurveInBand>& trials) {
+  const auto [inside, depths] = inside_of(trials);
+  std::vector<std::string> shares;
+  for (const auto& t : trials)
+    if (shares.size() < 6) shares.push_back(fmt::format("{:.0f}", 100.0 * t.share()));
+  const std::string_view more = trials.size() > shares.size() ? ", …" : "";
+  return fmt::format("{} of {} depths = {:.0f} % ({}{} % trial by trial)", inside, depths,
+                     depths > 0 ? 100.0 * static_cast<double>(inside) / static_cast<double>(depths) : 0.0,
+                     fmt::join(shares, ", "), more);
+}
+
+std::string table_line(const PooledDepth& p) {
+  const double z = p.depth_m;
+  return fmt::format("  {:>6} mm  {:>24} N  {:>16} N  {:>22} N/m  {:>3}", figure_number(mm(z)),
+                     pooled_text(p.force_N), new_trial_text(p.force_N), pooled_text(p.force_N, 1.0 / z),
+                     p.force_N.trials);
+}
+
+}  // namespace
+
+std::string group_title(const CurveGroup& group) {
+  return fmt::format("{}, {} of {} mm, {}", source_text(group.source),
+                     group.source == CurveSource::press ? "plate" : "foot",
+                     figure_number(mm(group.diameter_m)), trials_text(group.curves.size()));
+}
+
+std::vector<double> told_depths_m(const CurveGroup& group) {
+  std::vector<double> told;
+  if (group.depths.empty()) return told;
+  constexpr std::array kSteps_m{0.001, 0.002, 0.005, 0.010, 0.020, 0.050, 0.100, 0.200, 0.500, 1.0};
+  constexpr double kMost = 8.0;
+  const double deepest_m = group.depths.back().depth_m;
+  double step_m = kSteps_m.back();
+  for (const double candidate_m : kSteps_m)
+    if (deepest_m / candidate_m <= kMost) step_m = std::min(step_m, candidate_m);
+  for (double depth_m = step_m; depth_m <= deepest_m + 1e-9; depth_m += step_m)
+    if (group.at(depth_m) != nullptr) told.push_back(depth_m);
+  return told;
+}
+
+std::string pooled_text(const PooledValue& v, double scale) {
+  if (std::isnan(v.value)) return "–";
+  return fmt::format("{} {}", figure_number(scale * v.value), limits(v.mean_low, v.mean_high, scale));
+}
+
+std::string new_trial_text(const PooledValue& v, double scale) {
+  if (std::isnan(v.value)) return "–";
+  return limits(v.new_low, v.new_high, scale);
+}
+
+std::string numbers_text(const CurveGroup& g) {
+  std::vector<std::string> parts;
+  if (g.slope_N_per_m.trials > 0)
+    parts.push_back(fmt::format("slope from {} to {} mm {} N/m", figure_number(mm(g.slope_from_m)),
+                                figure_number(mm(g.slope_to_m)), pooled_text(g.slope_N_per_m)));
+  if (g.secant_20mm_N_per_m.trials > 0)
+    parts.push_back(fmt::format("secant at 20 mm {} N/m", pooled_text(g.secant_20mm_N_per_m)));
+  if (g.exponent.trials > 0)
+    parts.push_back(fmt::format("exponent of a power law {}", pooled_text(g.exponent)));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string shapes_text(const CurveGroup& g) {
+  std::map<GroundShape, std::size_t> counts;
+  for (const auto& curve : g.curves) ++counts[curve.shape];
+  std::vector<std::string> parts;
+  constexpr std::array<const char*, 6> kTexts{"too little ground",   "a line", "a power law",
+                                              "a line with a crust", "layers", "none of these"};
+  for (const auto& [shape, count] : counts)
+    parts.push_back(fmt::format("{} in {}", kTexts[static_cast<std::size_t>(shape)], count));
+  return fmt::format("Simplest shape that each trial allows: {}.", fmt::join(parts, ", "));
+}
+
+std::string left_out_text(const CurveGroup& g) {
+  if (g.left_out.empty()) return "";
+  return fmt::format("Each trial in the band of one new trial made of the others: {}.",
+                     inside_text(g.left_out));
+}
+
+std::string prediction_text(const ProfilePrediction& p) {
+  double ratio = 0.0;
+  for (const auto& t : p.trials) ratio += t.force_ratio / static_cast<double>(p.trials.size());
+  return fmt::format(
+      "{} mm from {} mm, {} ({}): {} in the band of one new trial; their force is {} of the "
+      "predicted.",
+      figure_number(mm(p.diameter_m)), figure_number(mm(p.from_diameter_m)), p.law, p.text,
+      inside_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–");
+}
+
+std::string profile_answer(const CurveGroup& g) {
+  const auto depths = told_depths_m(g);
+  if (depths.empty()) return "";
+  const auto middle = depths[depths.size() / 2];
+  const auto& force = g.at(middle)->force_N;
+  const auto foot = fmt::format("foot of {} mm", figure_number(mm(g.diameter_m)));
+  if (force.trials < 2)
+    return fmt::format("At {} mm of depth the ground bears {} N ({}, one trial: others may differ).",
+                       figure_number(mm(middle)), figure_number(force.value), foot);
+  return fmt::format(
+      "At {} mm of depth the ground bears {} N, 95 % interval {} to {} N ({}, mean of {}); "
+      "one new trial: {} to {} N.",
+      figure_number(mm(middle)), figure_number(force.value), figure_number(force.mean_low),
+      figure_number(force.mean_high), foot, trials_text(force.trials), figure_number(force.new_low),
+      figure_number(force.new_high));
+}
+
+std::vector<std::string> profile_lines(const ProfileConclusion& conclusion) {
+  std::vector<std::string> lines;
+  for (const auto& g : conclusion.groups) {
+    lines.push_back("strength profile: " + group_title(g));
+    lines.push_back(fmt::format("  {:>9}  {:>26}  {:>18}  {:>26}  {:>6}", "depth",
+                                "force, mean of the ground", "one new trial", "secant", "trials"));
+    for (const double depth_m : told_depths_m(g)) lines.push_back(table_line(*g.at(depth_m)));
+    if (const auto text = numbers_text(g); !text.empty()) lines.push_back("  " + text);
+    lines.push_back("  " + shapes_text(g));
+    if (const auto text = left_out_text(g); !text.empty()) lines.push_back("  " + text);
+  }
+  for (const auto& p : conclusion.predictions) lines.push_back("  held out: " + prediction_text(p));
+  return lines;
+}
+
+std::string profile_csv(const ProfileConclusion& conclusion) {
+  std::string csv =
+      "source,foot_diameter_m,depth_m,trials,force_N,force_mean_low_N,force_mean_high_N,force_new_low_N,"
+      "force_new_high_N,force_between_sd_N,secant_N_per_m,tangent_N_per_m,tangent_mean_low_N_per_m,"
+      "tangent_mean_high_N_per_m,tangent_new_low_N_per_m,tangent_new_high_N_per_m\n";
+  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{:.7g}", value) : ""; };
+  for (const auto& g : conclusion.groups)
+    for (const auto& p : g.depths) {
+      const auto &f = p.force_N, &k = p.tangent_N_per_m;
+      csv += fmt::format("{},{:.6g},{:.6g},{}", name_of(g.source), g.diameter_m, p.depth_m, f.trials);
+      for (const double value :
+           {f.value, f.mean_low, f.mean_high, f.new_low, f.new_high, f.trials > 1 ? f.between_sd : NAN,
+            f.value / p.depth_m, k.value, k.mean_low, k.mean_high, k.new_low, k.new_high})
+        csv += "," + cell(value);
+      csv += "\n";
+    }
+  return csv;
+}
+
+Json profile_json(const ProfileConclusion& conclusion) {
+  Json json = Json::object();
+  for (const auto& g : conclusion.groups) {
+    Json depths = Json::array();
+    for (const auto& p : g.depths)
+      depths.push_back({{"depth_m", p.depth_m},
+                        {"force_N", value_json(p.force_N)},
+                        {"secant_N_per_m", value_json(p.force_N, 1.0 / p.depth_m)},
+                        {"tangent_N_per_m", value_json(p.tangent_N_per_m)}});
+    Json slope = value_json(g.slope_N_per_m);
+    slope["from_m"] = g.slope_from_m;
+    slope["to_m"] = g.slope_to_m;
+    json["groups"].push_back({{"source", name_of(g.source)},
+                              {"foot_diameter_m", g.diameter_m},
+                              {"trials", g.curves.size()},
+                              {"slope_N_per_m", std::move(slope)},
+                              {"line_N_per_m", value_json(g.line_N_per_m)},
+                              {"secant_20mm_N_per_m", value_json(g.secant_20mm_N_per_m)},
+                              {"exponent", value_json(g.exponent)},
+                              {"leave_one_trial_out", in_band_json(g.left_out)},
+                              {"depths", std::move(depths)}});
+  }
+  for (const auto& p : conclusion.predictions) {
+    const auto [inside, depths] = inside_of(p.trials);
+    json["held_out"].push_back({{"law", p.law},
+                                {"from_diameter_m", p.from_diameter_m},
+                                {"diameter_m", p.diameter_m},
+                                {"depths", depths},
+                                {"inside", inside},
+                                {"trials", in_band_json(p.trials)}});
+  }
+  return json;
+}
+
+}  // namespace sandhopper
