@@ -10,8 +10,8 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kGrid = 200;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kTauGrid = 200;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 using Values = std::vector<TrialValue>;
 
@@ -19,7 +19,7 @@ using Values = std::vector<TrialValue>;
 struct Component {
   double tau = 0.0, mean = 0.0, variance = 0.0, weight = 0.0;
 };
-using Mixture = std::array<Component, kGrid>;
+using Mixture = std::array<Component, kTauGrid>;
 
 // Logarithm of the posterior of tau, mu integrated out. A grid of equal steps of ln(tau) adds one factor tau.
 Component component_at(const Values& trials, double tau, double& log_weight) {
@@ -46,14 +46,14 @@ Component component_at(const Values& trials, double tau, double& log_weight) {
 Mixture posterior_of(const Values& trials, double scale) {
   constexpr double kDecades = 4.0;
   Mixture mixture;
-  std::array<double, kGrid> log_weight{};
-  for (std::size_t i = 0; i < kGrid; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(kGrid - 1);
+  std::array<double, kTauGrid> log_weight{};
+  for (std::size_t i = 0; i < kTauGrid; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(kTauGrid - 1);
     mixture[i] = component_at(trials, scale * std::pow(10.0, kDecades * (2.0 * share - 1.0)), log_weight[i]);
   }
   const double best = *std::ranges::max_element(log_weight);
   double total = 0.0;
-  for (std::size_t i = 0; i < kGrid; ++i) total += mixture[i].weight = std::exp(log_weight[i] - best);
+  for (std::size_t i = 0; i < kTauGrid; ++i) total += mixture[i].weight = std::exp(log_weight[i] - best);
   for (auto& c : mixture) c.weight /= total;
   return mixture;
 }
@@ -105,7 +105,7 @@ PooledValue pool_trials(std::span<const TrialValue> given, double shared_sd_rela
   PooledValue out{.value = std::numeric_limits<double>::quiet_NaN(), .trials = trials.size()};
   if (trials.empty()) return out;
   const double first = trials.front().value;
-  if (trials.size() == 1) return {first, -kInfinity, kInfinity, -kInfinity, kInfinity, 0.0, 1};
+  if (trials.size() == 1) return {first, -kUnbounded, kUnbounded, -kUnbounded, kUnbounded, 0.0, 1};
   const double scale = scale_of(trials);
   if (scale <= 0.0) return {first, first, first, first, first, 0.0, trials.size()};
   const auto mixture = posterior_of(trials, scale);

@@ -12,7 +12,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kFewestSamples = 10;
+constexpr std::size_t kFewestLoadingSamples = 10;
 
 // Depth counted in units of `unit` metres: lengths and speeds of the prior become smaller, stiffnesses
 // greater. The added mass grows with the cube of a length and acts on an acceleration.
@@ -121,7 +121,7 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
   std::vector<LoadingSample> samples;
   for (const auto& s : loading)
     if (s.depth_m > 0.0 && (samples.empty() || s.depth_m > samples.back().depth_m)) samples.push_back(s);
-  if (samples.size() < kFewestSamples)
+  if (samples.size() < kFewestLoadingSamples)
     return {.source = facts.source, .diameter_m = facts.diameter_m, .held_out = facts.held_out};
   const double unit = unit_for(samples.back().depth_m);
   const StiffnessConfig config = in_units(config_for(samples, facts), unit);
