@@ -121,7 +121,10 @@ ExitCode export_log(Session& session, const Options& options) {
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
-  arguments.add_option("--output", options->output, "CSV file; default: beside the log");
+  arguments.add_option("--output", options->output,
+                       "CSV file, a row a cycle; default: beside the log. The ground, a row a stride, goes "
+                       "into .profile.csv and "
+                       ".ground.csv beside it");
   arguments.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
   arguments.add_option(
       "--layouts", options->layouts,

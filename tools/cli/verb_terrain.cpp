@@ -177,6 +177,11 @@ Run set_up(Arguments& arguments) {
       .show_default();
   arguments.add_flag("!--no-report", options->report, "write no page");
   arguments.footer(
+      "First comes the strength profile: the ground's quasi-static force at each depth. \"mean of the "
+      "ground\" is "
+      "the mean over\ntrials with its 95 % interval; \"one new trial\" is where the next trial's force will "
+      "lie, "
+      "95 % of the time. The trial is\nthe unit of every interval.\n"
       "Broken recordings are named with file, line, column and cure; the good trials are analysed all the "
       "same.\n"
       "Exit status 1: no trial could be used. A campaign to try it on: hop campaign make --output FOLDER");
