@@ -129,6 +129,20 @@ TEST(StrengthPool, DepthsThatOnlySomeTrialsReachedCountThoseTrials) {
   EXPECT_NEAR(group.slope_to_m, 0.02, 1e-9);
 }
 
+TEST(StrengthPool, GroundOnWhichNoDepthIsSeenIsRigidAtLeastSoMuch) {
+  std::vector<StrengthCurve> curves;
+  for (int i = 0; i < 4; ++i)
+    curves.push_back({.diameter_m = 0.08, .to_m = 2e-4, .greatest_N = 100.0 + i, .depth_sd_m = 7e-4});
+  const auto group = pool_curves(curves).front();
+  EXPECT_TRUE(group.depths.empty());
+  const double bound = 101.5 / (2e-4 + 1.959964 * 7e-4);
+  EXPECT_LT(group.at_least_N_per_m, bound);
+  EXPECT_GT(group.at_least_N_per_m, 0.95 * bound);
+  EXPECT_THAT(profile_answer(group), StartsWith("The ground is rigid: at least 63"));
+  for (auto& curve : curves) curve.greatest_N = 4.0;  // a touch shows nothing
+  EXPECT_THAT(profile_answer(pool_curves(curves).front()), StartsWith("The ground is not shown to be rigid"));
+}
+
 // Force in proportion to the area: true for these made-up plates, and false by a factor for others.
 TEST(ProfilePrediction, CarriesTheBandOverToAnotherPlateByItsArea) {
   auto curves = presses(5, 0.05);

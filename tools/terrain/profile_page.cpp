@@ -125,6 +125,10 @@ StudySection section_of(const ProfileConclusion& conclusion) {
       "Each trial's force over depth is found by itself, as the firmware does after a stride. The trials are "
       "then put together with the trial as the unit: how much they differ is estimated at every depth."));
   for (const auto& group : conclusion.groups) {
+    if (group.depths.empty()) {
+      section.items.emplace_back(group_title(group) + ". " + bound_text(group));
+      continue;
+    }
     section.items.emplace_back(group_figure(group));
     std::string numbers = numbers_text(group);
     if (!numbers.empty()) {

@@ -9,6 +9,7 @@
 
 #include "tools/terrain/figure_text.hpp"
 #include "tools/terrain/mean_json.hpp"
+#include "tools/terrain/rigid_ground.hpp"
 
 namespace sandhopper {
 namespace {
@@ -159,9 +160,22 @@ std::string prediction_text(const ProfilePrediction& p) {
       inside_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–");
 }
 
+std::string bound_text(const CurveGroup& g) {
+  double deepest_m = 0.0, force_N = 0.0;
+  for (const auto& curve : g.curves) {
+    deepest_m = std::max(deepest_m, curve.to_m);
+    force_N = std::max(force_N, curve.greatest_N);
+  }
+  return fmt::format(
+      "The ground is {}: at least {} N/m. It bore {} N, and the foot went in by {} mm, which cannot be "
+      "told from none.",
+      g.at_least_N_per_m > stiffest_granular_N_per_m() ? "rigid" : "not shown to be rigid",
+      figure_number(g.at_least_N_per_m), figure_number(force_N), figure_number(mm(deepest_m)));
+}
+
 std::string profile_answer(const CurveGroup& g) {
   const auto depths = told_depths_m(g);
-  if (depths.empty()) return "";
+  if (depths.empty()) return bound_text(g);
   const auto middle = depths[depths.size() / 2];
   const auto& force = g.at(middle)->force_N;
   const auto foot = fmt::format("foot of {} mm", figure_number(mm(g.diameter_m)));
@@ -180,6 +194,10 @@ std::vector<std::string> profile_lines(const ProfileConclusion& conclusion) {
   std::vector<std::string> lines;
   for (const auto& g : conclusion.groups) {
     lines.push_back("strength profile: " + group_title(g));
+    if (g.depths.empty()) {
+      lines.push_back("  " + bound_text(g));
+      continue;
+    }
     lines.push_back(fmt::format("  {:>9}  {:>26}  {:>18}  {:>26}  {:>6}", "depth",
                                 "force, mean of the ground", "one new trial", "secant", "trials"));
     for (const double depth_m : told_depths_m(g)) lines.push_back(table_line(*g.at(depth_m)));
@@ -222,15 +240,18 @@ Json profile_json(const ProfileConclusion& conclusion) {
     Json slope = value_json(g.slope_N_per_m);
     slope["from_m"] = g.slope_from_m;
     slope["to_m"] = g.slope_to_m;
-    json["groups"].push_back({{"source", name_of(g.source)},
-                              {"foot_diameter_m", g.diameter_m},
-                              {"trials", g.curves.size()},
-                              {"slope_N_per_m", std::move(slope)},
-                              {"line_N_per_m", value_json(g.line_N_per_m)},
-                              {"secant_20mm_N_per_m", value_json(g.secant_20mm_N_per_m)},
-                              {"exponent", value_json(g.exponent)},
-                              {"leave_one_trial_out", in_band_json(g.left_out)},
-                              {"depths", std::move(depths)}});
+    json["groups"].push_back(
+        {{"source", name_of(g.source)},
+         {"foot_diameter_m", g.diameter_m},
+         {"trials", g.curves.size()},
+         {"at_least_N_per_m", g.depths.empty() ? Json(g.at_least_N_per_m) : Json(nullptr)},
+         {"rigid", g.depths.empty() && g.at_least_N_per_m > stiffest_granular_N_per_m()},
+         {"slope_N_per_m", std::move(slope)},
+         {"line_N_per_m", value_json(g.line_N_per_m)},
+         {"secant_20mm_N_per_m", value_json(g.secant_20mm_N_per_m)},
+         {"exponent", value_json(g.exponent)},
+         {"leave_one_trial_out", in_band_json(g.left_out)},
+         {"depths", std::move(depths)}});
   }
   for (const auto& p : conclusion.predictions) {
     const auto [inside, depths] = inside_of(p.trials);

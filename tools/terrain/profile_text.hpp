@@ -16,6 +16,7 @@ std::string numbers_text(const CurveGroup& group);  // slope, line, secant and e
 std::string shapes_text(const CurveGroup& group);
 std::string left_out_text(const CurveGroup& group);  // empty: too few trials
 std::string prediction_text(const ProfilePrediction& prediction);
+std::string bound_text(const CurveGroup& group);  // of ground on which no depth was seen
 std::string profile_answer(const CurveGroup& group);
 std::vector<std::string> profile_lines(const ProfileConclusion& conclusion);
 std::string profile_csv(const ProfileConclusion& conclusion);

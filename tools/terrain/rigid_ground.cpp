@@ -65,11 +65,13 @@ std::optional<BlowBound> bound_of(const LegHop& hop, double tare_N, double mass_
 
 }  // namespace
 
-RigidGround rigid_ground(std::span<const LegHop> hops, double tare_N, double mass_kg) {
+double stiffest_granular_N_per_m() {
   const ProfileConfig prior;
+  return prior.believed_stiffness_N_per_m * (1.0 + 1.959964 * prior.stiffness_spread_relative);
+}
+
+RigidGround rigid_ground(std::span<const LegHop> hops, double tare_N, double mass_kg) {
   RigidGround out;
-  out.granular_N_per_m =
-      prior.believed_stiffness_N_per_m * (1.0 + 1.959964 * prior.stiffness_spread_relative);
   std::vector<double> bounds;
   for (const auto& hop : hops)
     if (auto bound = bound_of(hop, tare_N, mass_kg)) {
@@ -97,7 +99,7 @@ nlohmann::ordered_json rigid_json(const RigidGround& ground) {
   return {{"rigid", ground.rigid()},
           {"stiffness_N_per_m", nullptr},
           {"at_least_N_per_m", number_or_null(ground.at_least_N_per_m)},
-          {"rigid_above_N_per_m", ground.granular_N_per_m},
+          {"rigid_above_N_per_m", stiffest_granular_N_per_m()},
           {"landings", ground.landings.size()}};
 }
 
@@ -116,7 +118,7 @@ StudyTable rigid_table(const RigidGround& ground) {
       "of "
       "the mean over hops. Ground is called rigid above {} N/m, the stiffest granular bed that the strength "
       "profile's prior expects. No depth of the foot was recorded, so there is no profile.",
-      figure_number(ground.granular_N_per_m));
+      figure_number(stiffest_granular_N_per_m()));
   return table;
 }
 

@@ -24,13 +24,14 @@ struct BlowBound {
   double stiffness_N_per_m = 0.0;
 };
 
+// Greatest stiffness of a granular bed that the strength profile's prior gives (95 %): ground above it is
+// called rigid.
+double stiffest_granular_N_per_m();
+
 struct RigidGround {
   std::vector<BlowBound> landings{};
   double at_least_N_per_m = 0.0;  // lower 95 % limit of the mean of the bounds over hops; 0: no bound
-  // Greatest stiffness of a granular bed that the profile's prior gives (95 %): above it the ground is called
-  // rigid.
-  double granular_N_per_m = 0.0;
-  bool rigid() const { return at_least_N_per_m > granular_N_per_m; }
+  bool rigid() const { return at_least_N_per_m > stiffest_granular_N_per_m(); }
 };
 
 // `mass_kg` as the plate weighs it. Hops that start in contact give no bound.

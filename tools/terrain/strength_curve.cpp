@@ -59,7 +59,9 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
 
 // Points of the curve at the depths visited, in metres again.
 StrengthCurve points_of(const ProfileSolver& solver, const GroundSummary& summary, double unit,
-                        const CurveFacts& facts) {
+                        double greatest_N, const CurveFacts& facts) {
+  const auto& joint = solver.config().joint;
+  const double noise_m = solver.config().profile_or_default().depth_noise_m;
   const StrengthProfile& p = solver.profile();
   StrengthCurve curve{.source = facts.source,
                       .diameter_m = facts.diameter_m,
@@ -67,6 +69,8 @@ StrengthCurve points_of(const ProfileSolver& solver, const GroundSummary& summar
                       .cell_m = unit * kProfileCell_m,
                       .from_m = unit * p.depth_min_m,
                       .to_m = unit * p.depth_max_m,
+                      .greatest_N = greatest_N,
+                      .depth_sd_m = unit * std::hypot(joint.surface_sd_m, noise_m),
                       .shared_sd_relative = facts.shared_sd_relative,
                       .line_N_per_m = {kNone, kNone},
                       .exponent = {kNone, kNone},
@@ -96,6 +100,11 @@ std::string series_name(CurveSource source, std::string_view what) {
 }
 
 }  // namespace
+
+double StrengthCurve::at_least_N_per_m() const {
+  constexpr double kNormal975 = 1.959964;
+  return greatest_N / (to_m + kNormal975 * depth_sd_m);
+}
 
 TrialValue StrengthCurve::force_at(double depth_m) const {
   if (!(depth_m >= from_m && depth_m <= to_m)) return {kNone, kNone};
@@ -142,7 +151,8 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
   }
   ProfileSolver solver(config);
   solver.add(regression.sums(), 1);
-  return points_of(solver, summarise(solver, regression.sums()), unit, facts);
+  const double greatest_N = std::ranges::max(samples, {}, &LoadingSample::force_N).force_N;
+  return points_of(solver, summarise(solver, regression.sums()), unit, greatest_N, facts);
 }
 
 StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const double> force_N,
@@ -156,8 +166,9 @@ StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const do
   return curve_of(samples, slow);
 }
 
-StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, const CurveFacts& facts) {
-  return points_of(solver, summarise(solver, last), 1.0, facts);
+StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, double greatest_N,
+                       const CurveFacts& facts) {
+  return points_of(solver, summarise(solver, last), 1.0, greatest_N, facts);
 }
 
 double believed_stiffness_N_per_m(const IntruderBelief& belief) {
@@ -168,13 +179,14 @@ double believed_stiffness_N_per_m(const IntruderBelief& belief) {
 }
 
 void keep_curve(const StrengthCurve& curve, TrialResult& result) {
-  if (curve.force_N.empty()) return;
+  if (curve.force_N.empty() && curve.greatest_N <= 0.0) return;
   const auto keep = [&](std::string_view what, std::vector<double> values) {
     result.series[series_name(curve.source, what)] = std::move(values);
   };
-  keep("", {curve.diameter_m, curve.held_out ? 1.0 : 0.0, curve.cell_m, curve.from_m, curve.to_m,
-            curve.shared_sd_relative, curve.line_N_per_m.value, curve.line_N_per_m.sd, curve.exponent.value,
-            curve.exponent.sd, static_cast<double>(curve.shape)});
+  keep("",
+       {curve.greatest_N, curve.depth_sd_m, curve.diameter_m, curve.held_out ? 1.0 : 0.0, curve.cell_m,
+        curve.from_m, curve.to_m, curve.shared_sd_relative, curve.line_N_per_m.value, curve.line_N_per_m.sd,
+        curve.exponent.value, curve.exponent.sd, static_cast<double>(curve.shape)});
   keep("force_N", curve.force_N);
   keep("force_sd_N", curve.force_sd_N);
   keep("tangent_N_per_m", curve.tangent_N_per_m);
@@ -191,19 +203,21 @@ std::vector<StrengthCurve> curves_of(const TrialResult& result) {
     const auto of = [&](std::string_view what) { return result.series.at(series_name(source, what)); };
     curves.push_back({.trial = result.trial,
                       .source = source,
-                      .diameter_m = n.at(0),
-                      .held_out = n.at(1) > 0.0,
-                      .cell_m = n.at(2),
-                      .from_m = n.at(3),
-                      .to_m = n.at(4),
-                      .shared_sd_relative = n.at(5),
+                      .diameter_m = n.at(2),
+                      .held_out = n.at(3) > 0.0,
+                      .cell_m = n.at(4),
+                      .from_m = n.at(5),
+                      .to_m = n.at(6),
+                      .greatest_N = n.at(0),
+                      .depth_sd_m = n.at(1),
+                      .shared_sd_relative = n.at(7),
                       .force_N = of("force_N"),
                       .force_sd_N = of("force_sd_N"),
                       .tangent_N_per_m = of("tangent_N_per_m"),
                       .tangent_sd_N_per_m = of("tangent_sd_N_per_m"),
-                      .line_N_per_m = {n.at(6), n.at(7)},
-                      .exponent = {n.at(8), n.at(9)},
-                      .shape = static_cast<GroundShape>(n.at(10))});
+                      .line_N_per_m = {n.at(8), n.at(9)},
+                      .exponent = {n.at(10), n.at(11)},
+                      .shape = static_cast<GroundShape>(n.at(12))});
   }
   return curves;
 }

@@ -31,6 +31,8 @@ struct StrengthCurve {
   bool held_out = false;
   double cell_m = kProfileCell_m;  // points are half a cell apart, tangents belong to whole cells
   double from_m = 0.0, to_m = 0.0;
+  double greatest_N = 0.0;                      // force that the ground bore
+  double depth_sd_m = 0.0;                      // of the depths as a whole, against the surface
   double shared_sd_relative = 0.0;              // error of every force that all trials of the campaign share
   std::vector<double> force_N{}, force_sd_N{};  // at (i + 1) cell_m / 2
   std::vector<double> tangent_N_per_m{}, tangent_sd_N_per_m{};  // in cell j
@@ -38,6 +40,9 @@ struct StrengthCurve {
   TrialValue exponent{};      // of a power law; likewise
   GroundShape shape = GroundShape::unknown;
 
+  // Force over depth that the ground has at least, where no depth can be told from none: the greatest force
+  // over the deepest point's upper 95 % limit.
+  double at_least_N_per_m() const;
   // Between the points; NaN where the trial was not.
   TrialValue force_at(double depth_m) const;
   TrialValue tangent_at(double depth_m) const;
@@ -66,8 +71,9 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
 StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const double> force_N,
                              const CurveFacts& facts);
 
-// After the strides of a hop; `last`: the sums of the last one.
-StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, const CurveFacts& facts);
+// After the strides of a hop; `last`: the sums of the last one, `greatest_N` the force that the ground bore.
+StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, double greatest_N,
+                       const CurveFacts& facts);
 
 // Of the bed under this foot; zero where the belief has none.
 double believed_stiffness_N_per_m(const IntruderBelief& belief);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "terrain/none.hpp"
+#include "terrain/trial_statistics.hpp"
 
 namespace sandhopper {
 namespace {
@@ -86,6 +87,12 @@ void leave_out(CurveGroup& group) {
   }
 }
 
+double bound_of(std::span<const StrengthCurve> curves) {
+  std::vector<double> bounds;
+  for (const auto& curve : curves) bounds.push_back(curve.at_least_N_per_m());
+  return bounds.size() > 1 ? std::max(mean_over_trials(bounds).ci95_low, 0.0) : bounds.front();
+}
+
 }  // namespace
 
 double CurveInBand::share() const {
@@ -111,7 +118,7 @@ double CurveGroup::deepest_all_m() const {
 std::vector<CurveGroup> pool_curves(std::span<const StrengthCurve> curves) {
   std::vector<CurveGroup> groups;
   for (const auto& curve : curves) {
-    if (curve.held_out || curve.force_N.empty()) continue;
+    if (curve.held_out) continue;
     const auto same = std::ranges::find_if(groups, [&](const CurveGroup& group) {
       return group.source == curve.source && std::abs(group.diameter_m - curve.diameter_m) < 1e-6;
     });
@@ -122,6 +129,10 @@ std::vector<CurveGroup> pool_curves(std::span<const StrengthCurve> curves) {
   }
   for (auto& group : groups) {
     group.depths = pool_depths(group.curves, true);
+    if (group.depths.empty()) {
+      group.at_least_N_per_m = bound_of(group.curves);
+      continue;
+    }
     pool_numbers(group);
     leave_out(group);
   }
