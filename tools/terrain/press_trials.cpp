@@ -42,7 +42,7 @@ void PressTrials::analyse(const CampaignTrial& trial, const TrialRecording& reco
   if (depth == result.series.end()) return;
   const auto& belief = std::get<IntruderBelief>(trial.belief);
   keep_curve(curve_of_press(depth->second, result.series.at("press_loading_force_N"),
-                            {.source = CurveSource::press,
+                            {.source = CurveSource::rig,
                              .diameter_m = 2.0 * belief.foot.radius_m,
                              .held_out = trial.flag("held_out").value_or(false),
                              .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief)}),

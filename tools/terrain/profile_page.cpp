@@ -29,7 +29,7 @@ StudySeries band(std::string label, std::span<const PooledDepth> depths, const s
   for (const auto& p : depths) {
     if (!std::isfinite(p.force_N.new_high)) continue;
     series.x.push_back(1e3 * p.depth_m);
-    series.y.push_back(further ? NAN : p.force_N.value);
+    series.y.push_back(p.force_N.value);
     series.low.push_back(further ? p.force_N.new_low : p.force_N.mean_low);
     series.high.push_back(further ? p.force_N.new_high : p.force_N.mean_high);
   }

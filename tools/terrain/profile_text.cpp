@@ -22,10 +22,8 @@ std::string_view source_text(CurveSource source) {
       return "hops, firmware's own estimate";
     case CurveSource::load_cell:
       return "hops, load cell and motion capture";
-    case CurveSource::press:
-      return "plates pressed slowly";
-    case CurveSource::stroke:
-      return "a foot driven in";
+    case CurveSource::rig:
+      return "plates pressed or driven in";
     case CurveSource::drop:
       return "drops";
   }
@@ -57,7 +55,8 @@ Json in_band_json(const std::vector<CurveInBand>& trials) {
     list.push_back({{"trial", t.trial},
                     {"depths", t.depths},
                     {"inside", t.inside},
-                    {"force_over_the_band_s_middle", number_or_null(t.force_ratio)}});
+                    {"force_over_middle", number_or_null(t.force_ratio)},
+                    {"half_width_over_middle", number_or_null(t.half_width)}});
   return list;
 }
 
@@ -71,6 +70,18 @@ std::pair<std::size_t, std::size_t> inside_of(const std::vector<CurveInBand>& tr
   return {inside, depths};
 }
 
+double share_of(const std::vector<CurveInBand>& trials) {
+  const auto [inside, depths] = inside_of(trials);
+  return depths > 0 ? static_cast<double>(inside) / static_cast<double>(depths) : 0.0;
+}
+
+// A wide band holds everything: its width belongs to the share.
+std::string width_text(const std::vector<CurveInBand>& trials) {
+  double width = 0.0;
+  for (const auto& t : trials) width += t.half_width / static_cast<double>(trials.size());
+  return fmt::format("that band is ±{:.0f} % wide", 100.0 * width);
+}
+
 std::string inside_text(const std::vector<CurveInBand>& trials) {
   const auto [inside, depths] = inside_of(trials);
   std::vector<std::string> shares;
@@ -78,8 +89,7 @@ std::string inside_text(const std::vector<CurveInBand>& trials) {
     if (shares.size() < 6) shares.push_back(fmt::format("{:.0f}", 100.0 * t.share()));
   const std::string_view more = trials.size() > shares.size() ? ", …" : "";
   return fmt::format("{} of {} depths = {:.0f} % ({}{} % trial by trial)", inside, depths,
-                     depths > 0 ? 100.0 * static_cast<double>(inside) / static_cast<double>(depths) : 0.0,
-                     fmt::join(shares, ", "), more);
+                     100.0 * share_of(trials), fmt::join(shares, ", "), more);
 }
 
 std::string table_line(const PooledDepth& p) {
@@ -93,7 +103,9 @@ std::string table_line(const PooledDepth& p) {
 
 std::string group_title(const CurveGroup& group) {
   return fmt::format("{}, {} of {} mm, {}", source_text(group.source),
-                     group.source == CurveSource::press ? "plate" : "foot",
+                     group.source == CurveSource::rig    ? "plate"
+                     : group.source == CurveSource::drop ? "body"
+                                                         : "foot",
                      figure_number(mm(group.diameter_m)), trials_text(group.curves.size()));
 }
 
@@ -146,18 +158,31 @@ std::string shapes_text(const CurveGroup& g) {
 
 std::string left_out_text(const CurveGroup& g) {
   if (g.left_out.empty()) return "";
-  return fmt::format("Each trial in the band of one new trial made of the others: {}.",
-                     inside_text(g.left_out));
+  return fmt::format("Each trial in the band of one new trial made of the other {}: {}; {}.",
+                     g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
+}
+
+// By which power of the area the force grows, if the held-out force is to be met on average.
+std::string area_power_text(const ProfilePrediction& p, double ratio) {
+  const double area = std::pow(p.diameter_m / p.from_diameter_m, 2);
+  if (p.law != kAreaLaw || std::abs(area - 1.0) < 0.01 || !(ratio > 0.0)) return "";
+  return fmt::format(" The force grows with the area to the power {:.2f} on average, not 1{}.",
+                     1.0 + std::log(ratio) / std::log(area),
+                     share_of(p.trials) < 0.8
+                         ? ": the assumption that does not hold. A floor, a wall or a layer near "
+                           "the plate makes it more; a bed that hardens with depth, less"
+                         : "");
 }
 
 std::string prediction_text(const ProfilePrediction& p) {
   double ratio = 0.0;
   for (const auto& t : p.trials) ratio += t.force_ratio / static_cast<double>(p.trials.size());
   return fmt::format(
-      "{} mm from {} mm, {} ({}): {} in the band of one new trial; their force is {} of the "
-      "predicted.",
+      "{} mm from {} mm, {} ({}): {} in the band of one new trial; {}. Their force is {} of the "
+      "predicted.{}",
       figure_number(mm(p.diameter_m)), figure_number(mm(p.from_diameter_m)), p.law, p.text,
-      inside_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–");
+      inside_text(p.trials), width_text(p.trials),
+      std::isfinite(ratio) ? fmt::format("{:.2f} times", ratio) : "–", area_power_text(p, ratio));
 }
 
 std::string bound_text(const CurveGroup& g) {

@@ -95,8 +95,9 @@ ProfileConclusion conclude_profile(std::span<const StrengthCurve> curves, std::s
   ProfileConclusion out{.groups = pool_curves(curves)};
   for (const auto& curve : curves)
     if (curve.held_out && !curve.force_N.empty()) out.held_out.push_back(curve);
-  std::vector<AreaWay> ways{
-      {.law = "area law", .text = "in proportion to the area at the same depth", .ratio = area_ratio}};
+  std::vector<AreaWay> ways{{.law = std::string(kAreaLaw),
+                             .text = "in proportion to the area at the same depth",
+                             .ratio = area_ratio}};
   ways.insert(ways.end(), laws.begin(), laws.end());
   for (const auto& group : out.groups)
     for (const auto& way : ways)

@@ -16,11 +16,13 @@ class ProfileTrials : public TrialAnalysis {
   CampaignConclusions conclude(std::span<const TrialResult* const> results) const override;
 };
 
+inline constexpr std::string_view kAreaLaw = "area law";
+
 // Held-out curves against the band that a group gives for their size of foot.
 struct ProfilePrediction {
   std::string law{};   // "area law"
   std::string text{};  // how the force is carried over to the other foot
-  CurveSource source = CurveSource::press;
+  CurveSource source = CurveSource::rig;
   double from_diameter_m = 0.0, diameter_m = 0.0;
   std::vector<PooledDepth> band{};
   std::vector<CurveInBand> trials{};

@@ -14,13 +14,12 @@ namespace sandhopper {
 enum class CurveSource : std::uint8_t {
   firmware,   // a hop through the firmware's own estimators
   load_cell,  // a hop's load cell and motion capture
-  press,      // a plate pressed slowly
-  stroke,     // a foot driven in at a speed
+  rig,        // a plate that a rig presses or drives in
   drop        // a falling body's accelerometers
 };
 template <>
 struct EnumNames<CurveSource> {
-  static constexpr std::array<std::string_view, 5> value{"firmware", "load_cell", "press", "stroke", "drop"};
+  static constexpr std::array<std::string_view, 4> value{"firmware", "load_cell", "rig", "drop"};
 };
 
 // Strength of the ground over depth as one trial shows it, at the depths that it visited.
@@ -54,7 +53,7 @@ struct LoadingSample {
 };
 
 struct CurveFacts {
-  CurveSource source = CurveSource::press;
+  CurveSource source = CurveSource::rig;
   double diameter_m = 0.0;
   bool held_out = false;
   double believed_stiffness_N_per_m = 0.0;  // not positive: the trial's own mean slope

@@ -26,6 +26,12 @@ PooledValue pooled(std::span<const StrengthCurve> curves, Value&& value, double 
   return pool_trials(values, shared_sd_relative);
 }
 
+// Dry ground does not pull: no interval of the force goes below zero.
+void keep_positive(PooledValue& force_N) {
+  if (std::isfinite(force_N.mean_low)) force_N.mean_low = std::max(force_N.mean_low, 0.0);
+  if (std::isfinite(force_N.new_low)) force_N.new_low = std::max(force_N.new_low, 0.0);
+}
+
 std::vector<PooledDepth> pool_depths(std::span<const StrengthCurve> curves, bool tangents) {
   double cell_m = 0.0, deepest_m = 0.0;
   for (const auto& curve : curves) {
@@ -39,6 +45,7 @@ std::vector<PooledDepth> pool_depths(std::span<const StrengthCurve> curves, bool
     point.force_N = pooled(
         curves, [&](const auto& c) { return c.force_at(depth_m); }, shared);
     if (point.force_N.trials == 0) continue;
+    keep_positive(point.force_N);
     if (tangents)
       point.tangent_N_per_m = pooled(
           curves, [&](const auto& c) { return c.tangent_at(depth_m); }, shared);
@@ -152,15 +159,21 @@ std::vector<PooledDepth> scaled(const CurveGroup& group, const DepthRatio& ratio
 }
 
 CurveInBand in_band(const StrengthCurve& curve, std::span<const PooledDepth> band) {
+  constexpr double kNormal975 = 1.959964;
   CurveInBand out{.trial = curve.trial};
   for (const auto& point : band) {
     const auto force = curve.force_at(point.depth_m);
     if (std::isnan(force.value) || !std::isfinite(point.force_N.new_high)) continue;
     ++out.depths;
-    out.inside += point.force_N.new_low <= force.value && force.value <= point.force_N.new_high;
-    out.force_ratio += force.value / point.force_N.value;
+    const auto& f = point.force_N;
+    const double half_N = force.value > f.value ? f.new_high - f.value : f.value - f.new_low;
+    out.inside += std::abs(force.value - f.value) <= std::hypot(half_N, kNormal975 * force.sd);
+    out.force_ratio += force.value / f.value;
+    out.half_width += 0.5 * (f.new_high - f.new_low) / f.value;
   }
-  out.force_ratio = out.depths > 0 ? out.force_ratio / static_cast<double>(out.depths) : kNone;
+  const double count = out.depths > 0 ? static_cast<double>(out.depths) : kNone;
+  out.force_ratio /= count;
+  out.half_width /= count;
   return out;
 }
 

@@ -18,11 +18,13 @@ struct PooledDepth {
   double secant_N_per_m(double force_N) const { return force_N / depth_m; }
 };
 
-// Share of the depths at which a curve lies in the band of one new trial, and how far it is from the mean.
+// Share of the depths at which a curve lies in the band of one new trial, widened by the curve's own error,
+// and how far it is from the mean.
 struct CurveInBand {
   std::string trial{};
   std::size_t depths = 0, inside = 0;
   double force_ratio = 0.0;  // mean over these depths of its force over the band's middle
+  double half_width = 0.0;   // mean of the band's half width over its middle
   double share() const;
 };
 

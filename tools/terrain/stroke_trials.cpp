@@ -174,7 +174,7 @@ class Stroke {
     auto loading = loading_;
     if (!inertia_known_)
       for (auto& s : loading) s.accel_mps2 = 0.0;
-    keep_curve(curve_of(loading, {.source = CurveSource::stroke,
+    keep_curve(curve_of(loading, {.source = CurveSource::rig,
                                   .diameter_m = 2.0 * belief_.foot.radius_m,
                                   .held_out = held_out_,
                                   .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief_)}),

@@ -20,6 +20,16 @@ class StudyFigure {
     this.svg.onpointermove = event => this.hover(event);
     this.svg.onpointerleave = () => this.point(null);
     this.draw();
+    new ResizeObserver(() => this.resize()).observe(this.svg);
+  }
+
+  // Letters keep their size on a narrow screen: one unit of the drawing is one pixel.
+  resize() {
+    const width = Math.round(this.svg.clientWidth);
+    if (width < 200 || width === this.width) return;
+    this.width = width;
+    this.svg.setAttribute('viewBox', `0 0 ${width} ${this.height}`);
+    this.draw();
   }
 
   static swatch(series) {
