@@ -9,7 +9,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kNamedCurves = 8;   // more are one entry of the legend
+constexpr std::size_t kNamedCurves = 12;  // more are one entry of the legend
 constexpr std::size_t kDrawnCurves = 40;  // more hide one another
 
 StudySeries line_of(const StrengthCurve& curve) {
@@ -25,7 +25,10 @@ StudySeries line_of(const StrengthCurve& curve) {
 
 StudySeries band(std::string label, std::span<const PooledDepth> depths, const std::string& color,
                  bool further) {
-  StudySeries series{.label = std::move(label), .mark = StudySeries::Mark::band, .color = color};
+  StudySeries series{.label = std::move(label),
+                     .mark = StudySeries::Mark::band,
+                     .color = color,
+                     .shade = further ? 0.5 : 0.0};
   for (const auto& p : depths) {
     if (!std::isfinite(p.force_N.new_high)) continue;
     series.x.push_back(1e3 * p.depth_m);
@@ -95,9 +98,9 @@ StudyTable group_table(const CurveGroup& group) {
                        "over depth. Tangent: slope of the curve at that depth."};
   for (const double depth_m : told_depths_m(group)) {
     const auto& p = *group.at(depth_m);
-    table.rows.push_back({figure_number(1e3 * depth_m), pooled_text(p.force_N), new_trial_text(p.force_N),
+    table.rows.push_back({short_number(1e3 * depth_m), pooled_text(p.force_N), new_trial_text(p.force_N),
                           pooled_text(p.force_N, 1.0 / p.depth_m), pooled_text(p.tangent_N_per_m),
-                          p.force_N.trials > 1 ? figure_number(p.force_N.between_sd) : "–",
+                          p.force_N.trials > 1 ? short_number(p.force_N.between_sd) : "–",
                           fmt::format("{}", p.force_N.trials)});
   }
   return table;
@@ -105,8 +108,8 @@ StudyTable group_table(const CurveGroup& group) {
 
 StudyFigure prediction_figure(const ProfilePrediction& p, std::span<const StrengthCurve> held_out) {
   StudyFigure figure{
-      .title = fmt::format("Held out: {} mm predicted from {} mm, {}", figure_number(1e3 * p.diameter_m),
-                           figure_number(1e3 * p.from_diameter_m), p.law),
+      .title = fmt::format("Held out: {} mm predicted from {} mm, {}", short_number(1e3 * p.diameter_m),
+                           short_number(1e3 * p.from_diameter_m), p.law),
       .x_label = "depth, mm",
       .y_label = "quasi-static force, N"};
   figure.series.push_back(band("one new trial, 95 %", p.band, "text", true));

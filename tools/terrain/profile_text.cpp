@@ -12,6 +12,12 @@
 #include "tools/terrain/rigid_ground.hpp"
 
 namespace sandhopper {
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "–";
+  return std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -30,16 +36,23 @@ std::string_view source_text(CurveSource source) {
   return "";
 }
 
+std::string_view foot_word(CurveSource source) {
+  if (source == CurveSource::rig) return "plate";
+  return source == CurveSource::drop ? "body" : "foot";
+}
+
 std::string trials_text(std::size_t trials) {
   return fmt::format("{} trial{}", trials, trials == 1 ? "" : "s");
 }
 
 std::string limits(double low, double high, double scale) {
   if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial]";
-  return fmt::format("[{}, {}]", figure_number(scale * low), figure_number(scale * high));
+  return fmt::format("[{}, {}]", short_number(scale * low), short_number(scale * high));
 }
 
-double mm(double depth_m) { return 1e3 * depth_m; }
+std::string mm_text(double depth_m) {
+  return depth_m < 0.001 ? fmt::format("{:.1f}", 1e3 * depth_m) : fmt::format("{:.3g}", 1e3 * depth_m);
+}
 
 Json value_json(const PooledValue& v, double scale = 1.0) {
   return {{"value", number_or_null(scale * v.value)},
@@ -94,19 +107,15 @@ std::string inside_text(const std::vector<CurveInBand>& trials) {
 
 std::string table_line(const PooledDepth& p) {
   const double z = p.depth_m;
-  return fmt::format("  {:>6} mm  {:>24} N  {:>16} N  {:>22} N/m  {:>3}", figure_number(mm(z)),
-                     pooled_text(p.force_N), new_trial_text(p.force_N), pooled_text(p.force_N, 1.0 / z),
-                     p.force_N.trials);
+  return fmt::format("  {:>6} mm  {:>24} N  {:>16} N  {:>22} N/m  {:>3}", mm_text(z), pooled_text(p.force_N),
+                     new_trial_text(p.force_N), pooled_text(p.force_N, 1.0 / z), p.force_N.trials);
 }
 
 }  // namespace
 
 std::string group_title(const CurveGroup& group) {
-  return fmt::format("{}, {} of {} mm, {}", source_text(group.source),
-                     group.source == CurveSource::rig    ? "plate"
-                     : group.source == CurveSource::drop ? "body"
-                                                         : "foot",
-                     figure_number(mm(group.diameter_m)), trials_text(group.curves.size()));
+  return fmt::format("{}, {} of {} mm, {}", source_text(group.source), foot_word(group.source),
+                     mm_text(group.diameter_m), trials_text(group.curves.size()));
 }
 
 std::vector<double> told_depths_m(const CurveGroup& group) {
@@ -125,7 +134,7 @@ std::vector<double> told_depths_m(const CurveGroup& group) {
 
 std::string pooled_text(const PooledValue& v, double scale) {
   if (std::isnan(v.value)) return "–";
-  return fmt::format("{} {}", figure_number(scale * v.value), limits(v.mean_low, v.mean_high, scale));
+  return fmt::format("{} {}", short_number(scale * v.value), limits(v.mean_low, v.mean_high, scale));
 }
 
 std::string new_trial_text(const PooledValue& v, double scale) {
@@ -136,12 +145,12 @@ std::string new_trial_text(const PooledValue& v, double scale) {
 std::string numbers_text(const CurveGroup& g) {
   std::vector<std::string> parts;
   if (g.slope_N_per_m.trials > 0)
-    parts.push_back(fmt::format("slope from {} to {} mm {} N/m", figure_number(mm(g.slope_from_m)),
-                                figure_number(mm(g.slope_to_m)), pooled_text(g.slope_N_per_m)));
+    parts.push_back(fmt::format("slope from {} to {} mm: {} N/m", mm_text(g.slope_from_m),
+                                mm_text(g.slope_to_m), pooled_text(g.slope_N_per_m)));
   if (g.secant_20mm_N_per_m.trials > 0)
-    parts.push_back(fmt::format("secant at 20 mm {} N/m", pooled_text(g.secant_20mm_N_per_m)));
+    parts.push_back(fmt::format("secant at 20 mm: {} N/m", pooled_text(g.secant_20mm_N_per_m)));
   if (g.exponent.trials > 0)
-    parts.push_back(fmt::format("exponent of a power law {}", pooled_text(g.exponent)));
+    parts.push_back(fmt::format("exponent of a power law: {}", pooled_text(g.exponent)));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -180,9 +189,17 @@ std::string prediction_text(const ProfilePrediction& p) {
   return fmt::format(
       "{} mm from {} mm, {} ({}): {} in the band of one new trial; {}. Their force is {} of the "
       "predicted.{}",
-      figure_number(mm(p.diameter_m)), figure_number(mm(p.from_diameter_m)), p.law, p.text,
-      inside_text(p.trials), width_text(p.trials),
-      std::isfinite(ratio) ? fmt::format("{:.2f} times", ratio) : "–", area_power_text(p, ratio));
+      mm_text(p.diameter_m), mm_text(p.from_diameter_m), p.law, p.text, inside_text(p.trials),
+      width_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f} times", ratio) : "–",
+      area_power_text(p, ratio));
+}
+
+// Of round depths the deepest that every trial reached, or as many as any.
+double deepest_with_most_trials(const CurveGroup& g, const std::vector<double>& depths_m) {
+  double found_m = depths_m.front();
+  for (const double depth_m : depths_m)
+    if (g.at(depth_m)->force_N.trials >= g.at(found_m)->force_N.trials) found_m = depth_m;
+  return found_m;
 }
 
 std::string bound_text(const CurveGroup& g) {
@@ -195,24 +212,23 @@ std::string bound_text(const CurveGroup& g) {
       "The ground is {}: at least {} N/m. It bore {} N, and the foot went in by {} mm, which cannot be "
       "told from none.",
       g.at_least_N_per_m > stiffest_granular_N_per_m() ? "rigid" : "not shown to be rigid",
-      figure_number(g.at_least_N_per_m), figure_number(force_N), figure_number(mm(deepest_m)));
+      short_number(g.at_least_N_per_m), short_number(force_N), mm_text(deepest_m));
 }
 
 std::string profile_answer(const CurveGroup& g) {
   const auto depths = told_depths_m(g);
   if (depths.empty()) return bound_text(g);
-  const auto middle = depths[depths.size() / 2];
-  const auto& force = g.at(middle)->force_N;
-  const auto foot = fmt::format("foot of {} mm", figure_number(mm(g.diameter_m)));
+  const auto told = deepest_with_most_trials(g, depths);
+  const auto& force = g.at(told)->force_N;
+  const auto foot = fmt::format("{} of {} mm", foot_word(g.source), mm_text(g.diameter_m));
   if (force.trials < 2)
     return fmt::format("At {} mm of depth the ground bears {} N ({}, one trial: others may differ).",
-                       figure_number(mm(middle)), figure_number(force.value), foot);
+                       mm_text(told), short_number(force.value), foot);
   return fmt::format(
       "At {} mm of depth the ground bears {} N, 95 % interval {} to {} N ({}, mean of {}); "
       "one new trial: {} to {} N.",
-      figure_number(mm(middle)), figure_number(force.value), figure_number(force.mean_low),
-      figure_number(force.mean_high), foot, trials_text(force.trials), figure_number(force.new_low),
-      figure_number(force.new_high));
+      mm_text(told), short_number(force.value), short_number(force.mean_low), short_number(force.mean_high),
+      foot, trials_text(force.trials), short_number(force.new_low), short_number(force.new_high));
 }
 
 std::vector<std::string> profile_lines(const ProfileConclusion& conclusion) {

@@ -7,6 +7,7 @@
 // A pooled profile in words and numbers (terminal, table, JSON); the page draws it (profile_page.cpp).
 namespace sandhopper {
 
+std::string short_number(double value);            // three digits, whole numbers from 1000 on
 std::string group_title(const CurveGroup& group);  // "plates of 60 mm pressed slowly, 3 trials"
 // Round depths over the visited range, at most eight.
 std::vector<double> told_depths_m(const CurveGroup& group);

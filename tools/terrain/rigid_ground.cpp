@@ -49,6 +49,8 @@ double extension_mps(const LegHop& hop, double t_s) {
 std::optional<BlowBound> bound_of(const LegHop& hop, double tare_N, double mass_kg) {
   const auto& t = hop.reference_t_s;
   const auto force_N = [&](std::size_t i) { return hop.reference_N[i] - tare_N; };
+  constexpr double kStanding = 0.25;  // as leg_regression.cpp tells a hop that starts in contact
+  if (t.empty() || force_N(0) > kStanding * kContact_N) return std::nullopt;
   std::size_t contact = 0;
   while (contact < t.size() && force_N(contact) < kContact_N) ++contact;
   if (contact == 0 || contact == t.size()) return std::nullopt;

@@ -34,6 +34,7 @@ class StudyFigure {
 
   static swatch(series) {
     if (series.mark === 'points') return 'points';
+    if (series.mark === 'band') return 'band';
     return series.dashed ? 'dashed' : 'line';
   }
 
