@@ -70,7 +70,11 @@ void take_ground(TrialModel& model, const Json& json) {
     text = "too little new ground";
   else if (!ground.line_valid)
     text = readable(std::string(name_of(ground.shape)));
-  const bool deep_enough = !text.empty() && profile.samples > 0 && profile.depth_max_m >= kDepth_m;
+  else if (!model.strides.back().joint.valid)
+    text = fmt::format("line {:.0f} [{:.0f}, {:.0f}] N/m", ground.line_N_per_m.value,
+                       ground.line_N_per_m.ci95_low, ground.line_N_per_m.ci95_high);
+  const bool deep_enough =
+      !text.empty() && !ground.line_valid && profile.samples > 0 && profile.depth_max_m >= kDepth_m;
   if (const auto force = force_at(profile, kDepth_m); deep_enough)
     text += fmt::format("; at 20 mm {:.1f} [{:.1f}, {:.1f}] N", force.value, force.low(), force.high());
   if (profile.depth_max_m > 0.0)
