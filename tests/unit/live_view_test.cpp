@@ -147,7 +147,7 @@ TEST(LiveView, GroundThatIsNoLineSaysItsShapeAndItsForceInEightyColumns) {
   for (const ScreenSize size : {ScreenSize{24, 80}, ScreenSize{50, 200}}) {
     const auto screen = trial_screen(model, size);
     EXPECT_TRUE(shows(screen, "power law; at 20 mm 32.0 [30.0, 34.0] N"));
-    EXPECT_TRUE(shows(screen, "ground 1 to 45 mm: no line fits"));
+    EXPECT_TRUE(shows(screen, "ground known from 1 to 45 mm: no line fits"));
     EXPECT_TRUE(shows(screen, "1.42  [1.21, 1.63]"));
   }
 }
@@ -170,7 +170,7 @@ TEST(LiveView, AStrideInItsCraterSaysThatAndTheGroundStaysKnown) {
   model.take(operator_text(nothing_new, line));
   const auto screen = trial_screen(model, {24, 80});
   EXPECT_TRUE(shows(screen, "in its crater: no new ground"));
-  EXPECT_TRUE(shows(screen, "ground 1 to 45 mm: a line, 1500 N/m"));
+  EXPECT_TRUE(shows(screen, "ground known from 1 to 45 mm: a line, 1500 N/m"));
 }
 
 TEST(LiveView, AFaultIsShownInFullWithItsCureOnTheSmallestScreen) {

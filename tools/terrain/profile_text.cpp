@@ -187,8 +187,8 @@ std::string prediction_text(const ProfilePrediction& p) {
   double ratio = 0.0;
   for (const auto& t : p.trials) ratio += t.force_ratio / static_cast<double>(p.trials.size());
   return fmt::format(
-      "{} mm from {} mm, {} ({}): {} in the band of one new trial; {}. Their force is {} of the "
-      "predicted.{}",
+      "{} mm from {} mm, {} ({}): {} in the band of one new trial; {}. Their force is {} the "
+      "predicted one.{}",
       mm_text(p.diameter_m), mm_text(p.from_diameter_m), p.law, p.text, inside_text(p.trials),
       width_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f} times", ratio) : "–",
       area_power_text(p, ratio));

@@ -78,7 +78,7 @@ void take_ground(TrialModel& model, const Json& json) {
   if (const auto force = force_at(profile, kDepth_m); deep_enough)
     text += fmt::format("; at 20 mm {:.1f} [{:.1f}, {:.1f}] N", force.value, force.low(), force.high());
   if (profile.depth_max_m > 0.0)
-    model.known_ground = fmt::format("{:.0f} to {:.0f} mm: {}", 1e3 * profile.depth_min_m,
+    model.known_ground = fmt::format("known from {:.0f} to {:.0f} mm: {}", 1e3 * profile.depth_min_m,
                                      1e3 * profile.depth_max_m, headline(ground));
 }
 
