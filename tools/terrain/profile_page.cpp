@@ -23,14 +23,18 @@ StudySeries line_of(const StrengthCurve& curve) {
   return series;
 }
 
+// Two trials of more make a band as wide as the figure: it ends where fewer than three are left, unless there
+// were never more than two.
 StudySeries band(std::string label, std::span<const PooledDepth> depths, const std::string& color,
                  bool further) {
+  std::size_t most = 0;
+  for (const auto& p : depths) most = std::max(most, p.force_N.trials);
   StudySeries series{.label = std::move(label),
                      .mark = StudySeries::Mark::band,
                      .color = color,
                      .shade = further ? 0.5 : 0.0};
   for (const auto& p : depths) {
-    if (!std::isfinite(p.force_N.new_high)) continue;
+    if (!std::isfinite(p.force_N.new_high) || (p.force_N.trials < 3 && most > 2)) continue;
     series.x.push_back(1e3 * p.depth_m);
     series.y.push_back(p.force_N.value);
     series.low.push_back(further ? p.force_N.new_low : p.force_N.mean_low);
@@ -79,8 +83,8 @@ StudyFigure group_figure(const CurveGroup& group) {
   if (!group.depths.empty() && group.depths.back().depth_m > all_m + group.curves.front().cell_m)
     figure.marks.push_back({1e3 * all_m, "all trials to here"});
   figure.note =
-      "Dark band: 95 % interval of the mean of the ground that the trials were drawn from. Light band: 95 % "
-      "interval of one new trial's curve. Each is pointwise and drawn only at depths that trials reached.";
+      "Inner band: 95 % interval of the mean of the ground that the trials were drawn from. Outer band: 95 % "
+      "interval of one new trial's curve. Each is pointwise and drawn where three trials or more were.";
   if (!figure.marks.empty())
     figure.note +=
         " Deeper than the dotted line only the trials that went so deep count, which may be those on weaker "
@@ -90,18 +94,18 @@ StudyFigure group_figure(const CurveGroup& group) {
 
 StudyTable group_table(const CurveGroup& group) {
   StudyTable table{.title = "Strength at round depths",
-                   .columns = {"depth, mm", "force, N", "one new trial, N", "secant, N/m", "tangent, N/m",
-                               "sd between trials, N", "trials"},
+                   .columns = {"depth, mm", "trials", "force, N", "one new trial, N", "secant, N/m",
+                               "tangent, N/m", "sd between trials, N"},
                    .text_columns = 0,
                    .note =
                        "Mean and, in brackets, its 95 % interval with the trial as the unit. Secant: force "
                        "over depth. Tangent: slope of the curve at that depth."};
   for (const double depth_m : told_depths_m(group)) {
     const auto& p = *group.at(depth_m);
-    table.rows.push_back({short_number(1e3 * depth_m), pooled_text(p.force_N), new_trial_text(p.force_N),
+    table.rows.push_back({short_number(1e3 * depth_m), fmt::format("{}", p.force_N.trials),
+                          pooled_text(p.force_N), new_trial_text(p.force_N),
                           pooled_text(p.force_N, 1.0 / p.depth_m), pooled_text(p.tangent_N_per_m),
-                          p.force_N.trials > 1 ? short_number(p.force_N.between_sd) : "–",
-                          fmt::format("{}", p.force_N.trials)});
+                          p.force_N.trials > 1 ? short_number(p.force_N.between_sd) : "–"});
   }
   return table;
 }

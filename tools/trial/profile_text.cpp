@@ -15,30 +15,6 @@ std::string interval(const ProfilePoint& p, int digits) {
 
 }  // namespace
 
-std::string headline(const GroundSummary& g) {
-  const auto line =
-      fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
-                  g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
-  const auto no_line =
-      fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
-  switch (g.shape) {
-    case GroundShape::unknown:
-      return "too little new ground for one number";
-    case GroundShape::line:
-      return (g.line_valid ? "a line, " : "a line deeper than the foot is high, ") + line;
-    case GroundShape::power_law:
-      return no_line + fmt::format("a power law, exponent {:.2f}  [{:.2f}, {:.2f}]", g.exponent.value,
-                                   g.exponent.ci95_low, g.exponent.ci95_high);
-    case GroundShape::crusted:
-      return "something broke on the way (a crust); beside it a line, " + line;
-    case GroundShape::layered:
-      return no_line + "layers";
-    case GroundShape::other:
-      return no_line + "neither a power law nor two layers; use the profile";
-  }
-  return {};
-}
-
 std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSummary& g, bool is_unchanged) {
   if (p.stride == 0) return {};
   std::vector<std::string> lines;

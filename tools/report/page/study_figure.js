@@ -121,7 +121,9 @@ class StudyFigure {
     const x = this.x(at);
     return [
       svgElement('line', { x1: x, x2: x, y1: this.box.y, y2: this.box.y + this.box.h, stroke: 'var(--quiet)', 'stroke-dasharray': '2 3' }),
-      svgText(word, { x: x + 4, y: this.box.y + 13 }),
+      x > this.box.x + 0.7 * this.box.w
+        ? svgText(word, { x: x - 4, y: this.box.y + 13, 'text-anchor': 'end' })
+        : svgText(word, { x: x + 4, y: this.box.y + 13 }),
     ];
   }
 
