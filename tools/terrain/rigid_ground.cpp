@@ -54,6 +54,8 @@ std::optional<BlowBound> bound_of(const LegHop& hop, double tare_N, double mass_
   std::size_t contact = 0;
   while (contact < t.size() && force_N(contact) < kContact_N) ++contact;
   if (contact == 0 || contact == t.size()) return std::nullopt;
+  // Back to the reading from which the force only rises: on soft ground ten newtons take a while.
+  while (contact > 1 && force_N(contact - 1) > 0.0 && force_N(contact - 1) < force_N(contact)) --contact;
   std::size_t peak = contact;
   while (peak + 1 < t.size() && force_N(peak + 1) > force_N(peak)) ++peak;
   BlowBound bound{.trial = hop.trial, .peak_N = force_N(peak), .rise_s = t[peak] - t[contact - 1]};

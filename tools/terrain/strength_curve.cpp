@@ -110,11 +110,11 @@ TrialValue StrengthCurve::force_at(double depth_m) const {
   if (!(depth_m >= from_m && depth_m <= to_m)) return {kNone, kNone};
   const double place = depth_m / (0.5 * cell_m);
   const auto i = static_cast<std::size_t>(place);
-  if (i >= force_N.size()) return {kNone, kNone};
+  if (i > force_N.size()) return {kNone, kNone};
   const double share = place - static_cast<double>(i);
   const auto at = [&](const std::vector<double>& values) {
     const double above = i > 0 ? values[i - 1] : 0.0;
-    return above + share * (values[i] - above);
+    return i < values.size() ? above + share * (values[i] - above) : above;  // the last point itself
   };
   return {at(force_N), at(force_sd_N)};
 }
