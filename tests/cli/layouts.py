@@ -59,11 +59,11 @@ def lead_to_a_number(topics, topic, steps):
     assert topic in topics, f"no topic {topic}"
     kind = ""
     for step in steps:
-        name, index = re.fullmatch(r"(\w+)(?:\[(\d+)\])?", step).groups()
+        name, index = re.fullmatch(r"(\w+)(?:\[(\d+|:)\])?", step).groups()
         fields = topics[topic].get(kind)
         assert fields and name in fields, f"{topic} {steps}: no field {name}"
         kind, size = fields[name]
-        right = index is None if size is None else index is not None and int(index) < size
+        right = index is None if size is None else index == ":" or index is not None and int(index) < size
         assert right, f"{topic} {steps}: index of {name}"
     assert NUMBER.match(kind), f"{topic} {steps}: {kind} is no number"
 
@@ -85,6 +85,8 @@ def check_foxglove(file, topics):
             assert set(path) <= PATH_KEYS and path["timestampMethod"] in ("receiveTime", "headerStamp"), path
             topic, *steps = path["value"].split(".")
             lead_to_a_number(topics, topic, steps)
+            whole = any(step.endswith("[:]") for step in steps)
+            assert whole == (settings.get("xAxisVal") == "index"), f"{panel}: a whole array is drawn over its index"
             count += 1
         assert settings.get("topicPath", "/frame") in topics, settings
     return count
@@ -100,19 +102,22 @@ def check_plotjuggler(file, topics):
         assert splitter.get("orientation") in ("|", "-") and abs(sum(sizes) - 1.0) < 0.01, splitter.attrib
         assert int(splitter.get("count")) == len(sizes) == len(splitter), splitter.attrib
     for plot in root.iter("plot"):
-        assert plot.get("mode") == "TimeSeries" and plot.get("style") in ("Lines", "LinesAndDots", "Dots"), plot.attrib
-    curves = [curve.get("name") for curve in root.iter("curve")]
-    for curve in curves:
-        _, topic, *steps = curve.split("/")
-        lead_to_a_number(topics, "/" + topic, steps)
-    return len(curves)
+        assert plot.get("mode") in ("TimeSeries", "XYPlot") and plot.get("style") in ("Lines", "LinesAndDots", "Dots"), plot.attrib
+        for curve in plot.findall("curve"):
+            crossed = plot.get("mode") == "XYPlot"
+            names = [curve.get("curve_x"), curve.get("curve_y")] if crossed else [curve.get("name")]
+            for name in names:
+                _, topic, *steps = name.split("/")
+                assert not any(step.endswith("[:]") for step in steps), f"{name}: one element a curve"
+                lead_to_a_number(topics, "/" + topic, steps)
+    return len(list(root.iter("curve")))
 
 
 if __name__ == "__main__":
     folder, log = sys.argv[1:]
     known = topics_of(log)
     for wrong in (("/output", ["no_such_field"]), ("/output", ["estimate"]), ("/frame", ["motor", "current_a"]),
-                  ("/frame", ["motor[2]", "current_a"]), ("/frame", ["contact_force_n"])):
+                  ("/frame", ["motor[2]", "current_a"]), ("/profile", ["force_n[56]"]), ("/ground", ["line_n_per_m"]), ("/frame", ["contact_force_n"])):
         try:
             lead_to_a_number(known, *wrong)
         except AssertionError:

@@ -241,6 +241,9 @@ async function everything() {
     await browser.resize(1440, 1000);
     await open(browser, process.argv[3] ? resolve(process.argv[3]) : trial());
     const strides = await browser.run(() => document.querySelectorAll('#stride-table tbody tr').length);
+    await check('a trial: begins with what is known of the ground', async () => {
+      assert.match(await browser.run(() => document.getElementById('answer').textContent), /^Ground: .* mm/);
+    });
     await checkPage(browser, 'a trial', { panels: 7, strides: process.argv[3] ? strides : 3 });
     await browser.run(() => window.scrollTo(0, 0));
     await browser.screenshot(join(shots, 'trial_first_screen.png'));

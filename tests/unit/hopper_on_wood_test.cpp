@@ -61,5 +61,16 @@ TEST_F(HopperOnWood, FiguresOfTheJointHaveIntervals) {
   EXPECT_NEAR(leg_->tare_N, 12.4, 0.1);
 }
 
+TEST(HopperOnWoodGround, IsRigidAtLeastSoMuchAndNoNumber) {
+  const auto conclusions = shared_conclusions("hopper_on_wood");
+  if (conclusions.is_null()) GTEST_SKIP() << "the recordings are not there";
+  const auto& ground = conclusions.at("leg_force").at("ground");
+  EXPECT_TRUE(ground.at("rigid").get<bool>());
+  EXPECT_TRUE(ground.at("stiffness_N_per_m").is_null());
+  EXPECT_GE(ground.at("landings").get<int>(), 10);
+  EXPECT_NEAR(ground.at("at_least_N_per_m").get<double>(), 62e3, 6e3);
+  EXPECT_FALSE(conclusions.contains("profile"));
+}
+
 }  // namespace
 }  // namespace sandhopper

@@ -124,6 +124,55 @@ TEST(LiveView, TheLastStridesStiffnessStandsThereWithItsInterval) {
     EXPECT_TRUE(shows(trial_screen(model, size), "1395  [  1268,   1522] N/m"));
 }
 
+StrengthProfile known_to(double depth_m) {
+  StrengthProfile profile;
+  profile.stride = 1;
+  profile.samples = 40;
+  profile.depth_min_m = 0.001;
+  profile.depth_max_m = depth_m;
+  for (std::size_t i = 0; i < kProfilePoints; ++i) {
+    profile.force_N[i] = 2.0F * static_cast<float>(i + 1);
+    profile.force_sd_N[i] = 1.0F;
+  }
+  return profile;
+}
+
+TEST(LiveView, GroundThatIsNoLineSaysItsShapeAndItsForceInEightyColumns) {
+  GroundSummary ground;
+  ground.shape = GroundShape::power_law;
+  ground.exponent = {1.42, 1.21, 1.63};
+  auto model = in_state(State::flight);
+  model.take(operator_text(solved_stride()));
+  model.take(operator_text(known_to(0.045), ground));
+  for (const ScreenSize size : {ScreenSize{24, 80}, ScreenSize{50, 200}}) {
+    const auto screen = trial_screen(model, size);
+    EXPECT_TRUE(shows(screen, "power law; at 20 mm 32.0 [30.0, 34.0] N"));
+    EXPECT_TRUE(shows(screen, "ground known from 1 to 45 mm: no line fits"));
+    EXPECT_TRUE(shows(screen, "1.42  [1.21, 1.63]"));
+  }
+}
+
+TEST(LiveView, AStrideInItsCraterSaysThatAndTheGroundStaysKnown) {
+  GroundSummary line;
+  line.shape = GroundShape::line;
+  line.line_valid = true;
+  line.line_N_per_m = {1500.0, 1400.0, 1600.0};
+  auto model = in_state(State::flight);
+  model.take(operator_text(solved_stride()));
+  model.take(operator_text(known_to(0.045), line));
+  EXPECT_TRUE(model.strides.back().ground.empty());
+  auto second = solved_stride();
+  second.summary.stride = 2;
+  auto nothing_new = known_to(0.045);
+  nothing_new.stride = 2;
+  nothing_new.samples = 0;
+  model.take(operator_text(second));
+  model.take(operator_text(nothing_new, line));
+  const auto screen = trial_screen(model, {24, 80});
+  EXPECT_TRUE(shows(screen, "in its crater: no new ground"));
+  EXPECT_TRUE(shows(screen, "ground known from 1 to 45 mm: a line, 1500 N/m"));
+}
+
 TEST(LiveView, AFaultIsShownInFullWithItsCureOnTheSmallestScreen) {
   for (const auto& entry : kFaults) {
     if (entry.fault == Fault::none) continue;

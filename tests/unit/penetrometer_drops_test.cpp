@@ -55,5 +55,21 @@ TEST_F(PenetrometerDrops, RateHalvesWhatDepthAloneMissesOnTheDropLeftOut) {
   for (const double correlation : fit.depth_speed_correlation) EXPECT_LT(correlation, -0.4);
 }
 
+TEST(PenetrometerDropsProfile, EachDropLiesInTheBandOfTheOthers) {
+  const auto conclusions = shared_conclusions("penetrometer_drops");
+  if (conclusions.is_null()) GTEST_SKIP() << "the recordings are not there";
+  const auto& group = conclusions.at("profile").at("groups").at(0);
+  EXPECT_EQ(group.at("source"), "drop");
+  EXPECT_EQ(group.at("trials"), 3);
+  double inside = 0.0, depths = 0.0;
+  for (const auto& drop : group.at("leave_one_trial_out")) {
+    inside += drop.at("inside").get<double>();
+    depths += drop.at("depths").get<double>();
+  }
+  EXPECT_GT(inside / depths, 0.9);
+  // Two drops tell little of a third.
+  EXPECT_NEAR(group.at("exponent").at("value"), 1.68, 0.1);
+}
+
 }  // namespace
 }  // namespace sandhopper

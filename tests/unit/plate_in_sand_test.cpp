@@ -57,5 +57,42 @@ TEST_F(PlateInSand, WhatYieldsOnTheStopDoesNotYieldInTheBed) {
   EXPECT_NEAR(fit_.with_stop_compliance->relative_error.at(2), -0.08, 0.04);
 }
 
+// Held-out depths inside the band of one new trial, by the law that carries the 60 mm plates' profile over.
+double share_inside(const nlohmann::ordered_json& profile, std::string_view law) {
+  for (const auto& p : profile.at("held_out"))
+    if (p.at("law") == law) return p.at("inside").get<double>() / p.at("depths").get<double>();
+  return NAN;
+}
+
+class PlateInSandProfile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto conclusions = shared_conclusions("plate_in_sand");
+    if (conclusions.is_null()) GTEST_SKIP() << "the recordings are not there";
+    profile_ = conclusions.at("profile");
+  }
+  nlohmann::ordered_json profile_;
+};
+
+TEST_F(PlateInSandProfile, TrialsOfOnePlateLieInTheBandOfTheOthers) {
+  ASSERT_EQ(profile_.at("groups").size(), 1u);
+  const auto& group = profile_.at("groups")[0];
+  EXPECT_EQ(group.at("trials"), 3);
+  EXPECT_NEAR(group.at("foot_diameter_m"), 0.06, 1e-9);
+  double inside = 0.0, depths = 0.0;
+  for (const auto& trial : group.at("leave_one_trial_out")) {
+    inside += trial.at("inside").get<double>();
+    depths += trial.at("depths").get<double>();
+  }
+  EXPECT_GT(inside / depths, 0.9);
+}
+
+TEST_F(PlateInSandProfile, AreaLawMissesTheLargerPlates) {
+  std::printf("80 mm plates inside the band from 60 mm plates: area law %.0f %%, confined layer %.0f %%\n",
+              100.0 * share_inside(profile_, "area law"), 100.0 * share_inside(profile_, "confined layer"));
+  EXPECT_NEAR(share_inside(profile_, "area law"), 0.47, 0.1);
+  EXPECT_NEAR(share_inside(profile_, "confined layer"), 1.0, 0.05);
+}
+
 }  // namespace
 }  // namespace sandhopper

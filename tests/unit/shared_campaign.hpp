@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/terrain/campaign_analysis.hpp"
 
 namespace sandhopper {
 
@@ -17,6 +18,13 @@ inline std::optional<Campaign> shared_campaign(const std::string& name) {
     std::printf("*** SKIPPED: %s ***\n", error.what());
     return std::nullopt;
   }
+}
+
+// What `hop terrain` writes of it under "conclusions"; null where the recordings are missing.
+inline nlohmann::ordered_json shared_conclusions(const std::string& name) {
+  const auto campaign = shared_campaign(name);
+  if (!campaign) return nullptr;
+  return report_on(analyse_campaign(*campaign, {.threads = 2})).json.at("conclusions");
 }
 
 }  // namespace sandhopper

@@ -6,6 +6,7 @@
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/trial_sheet.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/trial/ground_export.hpp"
 #include "tools/trial/layouts/layouts.hpp"
 
 namespace sandhopper::cli {
@@ -34,6 +35,27 @@ std::filesystem::path write_sheet_beside(const std::filesystem::path& log, std::
     throw Failure(ExitCode::fault, "cannot write " + csv.string(),
                   "check the free space and who may write there");
   return csv;
+}
+
+// The ground has a row a stride, not a cycle: tables of its own. Files that were written.
+std::vector<std::string> write_ground_beside(const std::filesystem::path& log,
+                                             const std::filesystem::path& csv) {
+  std::vector<std::string> files;
+  const auto records = ground_records(log);
+  const auto write = [&](const char* ending, const auto& rows, auto&& table) {
+    if (rows.empty()) return;
+    auto path = csv;
+    path.replace_extension(ending);
+    std::ofstream out(path);
+    table(rows, out);
+    if (!out.flush())
+      throw Failure(ExitCode::fault, "cannot write " + path.string(),
+                    "check the free space and who may write there");
+    files.push_back(path.string());
+  };
+  write(".profile.csv", records.profiles, write_profile_csv);
+  write(".ground.csv", records.summaries, write_ground_csv);
+  return files;
 }
 
 void write_layouts(Session& session, const std::filesystem::path& folder) {
@@ -84,11 +106,14 @@ ExitCode export_log(Session& session, const Options& options) {
   if (result.truncated_at)
     session.say("the log is cut at byte {}; exported up to there", *result.truncated_at);
   if (result.lost_records > 0) session.say("{} records were lost when it was logged", result.lost_records);
+  const auto ground = write_ground_beside(options.log, path);
+  for (const auto& file : ground) session.say("ground: {}", file);
   const auto sheet = write_sheet_beside(options.log, path);
   if (!sheet.empty()) session.say("trial sheet: {}", sheet.string());
   session.result.update(nlohmann::ordered_json{{"csv", path.string()},
                                                {"rows", result.rows},
                                                {"columns", result.columns},
+                                               {"ground", ground},
                                                {"lost_records", result.lost_records}});
   if (const auto kept = read_sheet(options.log)) session.result["sheet"] = to_json(*kept);
   return ExitCode::ok;
@@ -97,7 +122,10 @@ ExitCode export_log(Session& session, const Options& options) {
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   auto log = arguments.add_option("LOG", options->log, "a trial's .mcap file").existing_file();
-  arguments.add_option("--output", options->output, "CSV file; default: beside the log");
+  arguments.add_option("--output", options->output,
+                       "CSV file, a row a cycle; default: beside the log. The ground, a row a stride, goes "
+                       "into .profile.csv and "
+                       ".ground.csv beside it");
   arguments.add_flag("--all", options->all, "gyroscopes, bus voltage and the firmware's estimates besides");
   arguments.add_flag("--phase-numbers", options->phase_numbers,
                      "write `phase` as 0, 1, 2 in place of flight, compression, extension");

@@ -84,6 +84,20 @@ void write_json(const Json& head, const CampaignResults& results, const fs::path
     throw Failure(ExitCode::fault, "cannot write " + file.string(), "check the folder and the free space");
 }
 
+std::vector<std::string> write_tables(const CampaignReport& report, const fs::path& folder,
+                                      const std::string& stem) {
+  std::vector<std::string> files;
+  for (const auto& [name, text] : report.tables) {
+    const auto file = folder / (stem + "_" + name + ".csv");
+    std::ofstream out(file);
+    out << text;
+    if (!out.flush())
+      throw Failure(ExitCode::fault, "cannot write " + file.string(), "check the folder and the free space");
+    files.push_back(file.string());
+  }
+  return files;
+}
+
 // Every finding once, however many trials share it.
 void tell_findings(Session& session, const CampaignResults& results) {
   constexpr std::size_t kMostLines = 100;
@@ -124,6 +138,7 @@ ExitCode terrain(Session& session, const Options& options) {
   const auto json_file = folder / (stem + ".json"), page = folder / (stem + ".html");
   write_json(report.json, results, json_file);
   if (options.report) write_study_page(report.study, page);
+  const auto tables = write_tables(report, folder, stem);
 
   tell_findings(session, results);
   std::size_t usable = 0;
@@ -133,8 +148,10 @@ ExitCode terrain(Session& session, const Options& options) {
   for (const auto& line : report.lines) session.say_line(line);
   tell_ruled_out(session, results);
   session.say("  figures {}", json_file.string());
+  for (const auto& table : tables) session.say("  table   {}", table);
   if (options.report) session.say("  report  {}", page.string());
-  report.json["files"] = {{"json", json_file.string()}, {"report", options.report ? page.string() : ""}};
+  report.json["files"] = {
+      {"json", json_file.string()}, {"report", options.report ? page.string() : ""}, {"tables", tables}};
   session.result = std::move(report.json);
   if (session.json) {
     auto& trials = session.result["trials"] = Json::array();
@@ -147,8 +164,9 @@ Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.add_option("FOLDER", options->folder,
                        "a campaign: the folder of its campaign.toml, or that file");
-  arguments.add_option("--output", options->output,
-                       "folder for terrain.json and terrain.html; default FOLDER/terrain");
+  arguments.add_option(
+      "--output", options->output,
+      "folder for terrain.json, terrain_profile.csv and terrain.html; default FOLDER/terrain");
   arguments.add_option(
       "--part", options->part,
       "analyse one part of the trials, e.g. 2/4; writes terrain_part_2_of_4.json for --merge");
@@ -159,6 +177,11 @@ Run set_up(Arguments& arguments) {
       .show_default();
   arguments.add_flag("!--no-report", options->report, "write no page");
   arguments.footer(
+      "First comes the strength profile: the ground's quasi-static force at each depth. \"mean of the "
+      "ground\" is "
+      "the mean over\ntrials with its 95 % interval; \"one new trial\" is where the next trial's force will "
+      "lie, "
+      "95 % of the time. The trial is\nthe unit of every interval.\n"
       "Broken recordings are named with file, line, column and cure; the good trials are analysed all the "
       "same.\n"
       "Exit status 1: no trial could be used. A campaign to try it on: hop campaign make --output FOLDER");

@@ -172,6 +172,12 @@ Run set_up(Arguments& arguments) {
       .in_range(0.05, 10.0)
       .show_default();
   arguments.add_flag("!--no-report", options->report, "write no report page");
+  arguments.footer(
+      "Below each stride: the ground's force, secant and tangent stiffness at each depth with 95 % "
+      "intervals, and "
+      "the shape that\nthe stride does not contradict (a line, a power law, a crust, layers). A stiffness of "
+      "a line "
+      "that is contradicted is not\nvalid. The last line says at which depths the ground is known.");
   return [options, height](Session& session) {
     options->release_height_given = height.given();
     return trial(session, *options);

@@ -75,20 +75,30 @@ RecordedStride paired_by_row(const RecordedStride& stride) {
   return paired;
 }
 
-StrideSums stride_sums(const RecordedStride& stride, const StiffnessConfig& config) {
-  StrideRecorder recorder(config, stride.foot);
+void follow_strides(std::span<const RecordedStride> strides, const StiffnessConfig& config,
+                    const std::function<void(const StrideSums&)>& at_liftoff) {
+  if (strides.empty()) return;
+  StrideRecorder recorder(config, strides.front().foot);
   State state = State::armed;
-  for (const auto& sample : stride.samples) {
-    const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;
-    // A cycle's sample belongs to the state before its transition.
-    if (state != State::armed) recorder.update(sample.estimate, state);
-    if (state == State::armed && sample.state == State::flight) recorder.on_release(now_ns);
-    if (state == State::flight && sample.state == State::compression) recorder.on_touchdown(now_ns);
-    if (state == State::compression && sample.state == State::extension) recorder.on_switch(now_ns);
-    if (state == State::extension && sample.state == State::flight) recorder.on_liftoff(now_ns);
-    state = sample.state;
-  }
-  return recorder.sums();
+  for (const auto& stride : strides)
+    for (const auto& sample : stride.samples) {
+      const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;
+      // A cycle's sample belongs to the state before its transition.
+      if (state != State::armed) recorder.update(sample.estimate, state);
+      if (state == State::armed && sample.state == State::flight) recorder.on_release(now_ns);
+      if (state == State::flight && sample.state == State::compression) recorder.on_touchdown(now_ns);
+      if (state == State::compression && sample.state == State::extension) recorder.on_switch(now_ns);
+      const bool liftoff = state == State::extension && sample.state == State::flight;
+      if (liftoff) recorder.on_liftoff(now_ns);
+      state = sample.state;
+      if (liftoff) at_liftoff(recorder.sums());
+    }
+}
+
+StrideSums stride_sums(const RecordedStride& stride, const StiffnessConfig& config) {
+  StrideSums sums;
+  follow_strides({&stride, 1}, config, [&](const StrideSums& done) { sums = done; });
+  return sums;
 }
 
 StrideResult evaluate_stride(const RecordedStride& stride, const StiffnessConfig& config) {

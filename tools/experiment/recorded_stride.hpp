@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "firmware/controller_config.hpp"
@@ -56,6 +57,10 @@ RecordedStride with_true_state(const RecordedStride& stride);
 // The same stride for an analysis that takes a row's figures as of one instant: its forces stand beside the
 // newest depth and speed, which are a cycle younger.
 RecordedStride paired_by_row(const RecordedStride& stride);
+
+// The strides of one hop, one after the other, through one recorder, which knows the crater of those before.
+void follow_strides(std::span<const RecordedStride> strides, const StiffnessConfig& config,
+                    const std::function<void(const StrideSums&)>& at_liftoff);
 
 // The same stride evaluated with another sample window, intercept or weights: bit for bit what the firmware
 // would have said with that configuration.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tools/report/base64.hpp"
+#include "tools/report/ground_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -91,6 +92,7 @@ nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
                               {"reason", event.reason},
                               {"values", event.values}});
   }
+  json["answer"] = trial_line(data);
   json["strides"] = Json::array();
   for (const ReportStride& stride : data.strides) json["strides"].push_back(stride_json(stride));
   return json;

@@ -42,7 +42,7 @@ Json series_json(const StudySeries& full) {
           {"y", numbers(series.y)},       {"low", numbers(series.low)},
           {"high", numbers(series.high)}, {"mark", kMarks[static_cast<std::size_t>(series.mark)]},
           {"color", series.color},        {"dashed", series.dashed},
-          {"shown", series.shown}};
+          {"shade", series.shade},        {"shown", series.shown}};
 }
 
 Json item_json(const std::string& paragraph) { return {{"kind", "text"}, {"text", paragraph}}; }

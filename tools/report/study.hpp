@@ -25,6 +25,7 @@ struct StudySeries {
   std::vector<double> high{};
   Mark mark = Mark::points;
   std::string color = "blue";  // blue, orange, green, purple, sand, grey, text
+  double shade = 0.0;          // 0 to 1: how far the colour is drawn towards the paper's
   bool dashed = false;
   bool shown = true;  // false: hidden until its name in the legend is pressed
 };

@@ -60,6 +60,7 @@ struct CampaignReport {
   std::vector<std::string> lines{};
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   Study study{};
+  std::vector<std::pair<std::string, std::string>> tables{};  // name and text of CSV files
 };
 CampaignReport report_on(const CampaignResults& results);
 

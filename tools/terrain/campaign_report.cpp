@@ -186,6 +186,7 @@ CampaignReport report_on(const CampaignResults& results) {
     if (!told.answer.empty()) study.verdict += (study.verdict.empty() ? "" : " ") + told.answer;
     std::move(told.lines.begin(), told.lines.end(), std::back_inserter(report.lines));
     std::move(told.sections.begin(), told.sections.end(), std::back_inserter(study.sections));
+    std::move(told.tables.begin(), told.tables.end(), std::back_inserter(report.tables));
   }
   for (const auto kind : EnumNames<TrialKind>::value) {
     const auto trials =

@@ -10,6 +10,7 @@
 #include "tools/experiment/treatments.hpp"
 #include "tools/terrain/hop_replay.hpp"
 #include "tools/terrain/measured_stride.hpp"
+#include "tools/terrain/strength_curve.hpp"
 
 namespace sandhopper {
 namespace {
@@ -98,6 +99,7 @@ class HopAnalysis {
     for (auto& stride : strides_) stride.foot = foot_in_flight(cycle_, Leg(cycle_.robot));
     if (!strides_.back().complete) strides_.pop_back();
     add_estimates();
+    add_firmware_curve();
   }
 
   void add_estimates() {
@@ -119,6 +121,44 @@ class HopAnalysis {
     add("strides", static_cast<double>(strides_.size()));
     if (out_.index < kDrawnTrials) draw(stride, "observer", &Estimate::contact_force_N);
     if (out_.index < kDrawnTrials) draw(stride, "quasi_static", &Estimate::quasi_static_force_N);
+  }
+
+  double foot_diameter_m() const { return 2.0 * cycle_.robot.foot_radius_m; }
+
+  // From all strides, as the firmware knows the ground after the last. The torque constant's error is common
+  // to all trials.
+  void add_firmware_curve() {
+    ProfileSolver solver(cycle_.stiffness);
+    ProfileSums last;
+    double greatest_N = 0.0;
+    follow_strides(strides_, cycle_.stiffness, [&](const StrideSums& sums) {
+      last = sums.profile;
+      greatest_N = std::max(greatest_N, sums.summary.peak_force_N);
+      solver.add(last, sums.summary.stride);
+    });
+    keep_curve(curve_of(solver, last, greatest_N,
+                        {.source = CurveSource::firmware,
+                         .diameter_m = foot_diameter_m(),
+                         .held_out = trial_.flag("held_out").value_or(false),
+                         .shared_sd_relative = cycle_.stiffness.joint.force_scale_relative}),
+               out_);
+  }
+
+  // The first stance up to its deepest point.
+  void add_measured_curve() {
+    std::vector<LoadingSample> loading;
+    for (const auto& sample : measured_->stride.samples) {
+      const auto& e = sample.estimate;
+      if (in_stance(sample.state) && e.force_velocity_mps > cycle_.stiffness.min_speed_mps)
+        loading.push_back({static_cast<double>(e.force_time_ns) * 1e-9, e.force_depth_m, e.force_velocity_mps,
+                           -e.foot_accel_mps2, e.direct_force_N});
+    }
+    keep_curve(curve_of(loading, {.source = CurveSource::load_cell,
+                                  .diameter_m = foot_diameter_m(),
+                                  .held_out = trial_.flag("held_out").value_or(false),
+                                  .believed_stiffness_N_per_m =
+                                      cycle_.stiffness.profile_or_default().believed_stiffness_N_per_m}),
+               out_);
   }
 
   void add_summary(const StrideSummary& s) {
@@ -158,6 +198,7 @@ class HopAnalysis {
     const auto nominal = evaluate_stride(measured_->stride, cycle_.stiffness);
     out_.quantities.push_back(stiffness("load_cell_joint", nominal.joint));
     if (strides_.empty()) add_summary(nominal.summary);
+    add_measured_curve();
     add_unloading();
     if (out_.index < kDrawnTrials) draw(measured_->stride, "load_cell", &Estimate::contact_force_N);
   }

@@ -202,10 +202,12 @@ Json errors_json(const LegIdentification& leg) {
 
 }  // namespace
 
-CampaignConclusions tell_leg(const LegIdentification& leg) {
+CampaignConclusions tell_leg(const LegIdentification& leg, const RigidGround& ground) {
   CampaignConclusions out;
   const bool tested = leg.held_out_hops > 0;
   const auto rms = [&](LegForceForm form) { return leg.rms_N(form, LegWindow::settled, tested); };
+  out.answer = rigid_answer(ground);
+  out.lines.push_back(out.answer);
   out.lines.push_back(
       fmt::format("Leg's force against the plate, {} hops fitted, {} held out: rms {} N quasi-static, {} N "
                   "with the leg's "
@@ -218,7 +220,12 @@ CampaignConclusions tell_leg(const LegIdentification& leg) {
               {"parameters", parameters_json(leg)},
               {"rms_error_N", errors_json(leg)},
               {"smoothing_half_width_s", leg.half_width_s},
-              {"observer_gain_per_s", leg.observer_gain_per_s}};
+              {"observer_gain_per_s", leg.observer_gain_per_s},
+              {"ground", rigid_json(ground)}};
+  StudySection rigid{.title = "Stiffness of the ground"};
+  rigid.items.emplace_back(out.answer);
+  rigid.items.emplace_back(rigid_table(ground));
+  out.sections.push_back(std::move(rigid));
   StudySection section{.title = "The leg's force estimate against the force plate"};
   section.items.emplace_back(fmt::format(
       "Fitted on {} hops: four figures of the joint and the offset between the clocks, with the foot at "

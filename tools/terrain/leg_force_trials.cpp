@@ -22,7 +22,9 @@ CampaignConclusions LegForceTrials::conclude(std::span<const TrialResult* const>
     if (holds_leg_hop(*result)) hops.push_back(leg_hop_from(*result));
   if (hops.empty()) return {};
   try {
-    return tell_leg(identify_leg(hops, {}));
+    const auto leg = identify_leg(hops, {});
+    const double mass_kg = leg.mass_kg.trials > 0 ? leg.mass_kg.value : leg.believed_mass_kg;
+    return tell_leg(leg, rigid_ground(hops, leg.tare_N, mass_kg));
   } catch (const std::invalid_argument& error) {
     CampaignConclusions out;
     out.lines.push_back(fmt::format("The leg's force estimate is not identified: {}.", error.what()));

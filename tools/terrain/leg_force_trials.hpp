@@ -1,11 +1,13 @@
 #pragma once
 #include "tools/terrain/leg_identification.hpp"
+#include "tools/terrain/rigid_ground.hpp"
 #include "tools/terrain/trial_analysis.hpp"
 
 namespace sandhopper {
 
 // Hops on rigid ground with a force plate under the foot: how well the motors know the contact force, with
-// the leg's inertia and friction identified on the hops that are not held out.
+// the leg's inertia and friction identified on the hops that are not held out, and how stiff the ground is at
+// least.
 class LegForceTrials : public TrialAnalysis {
  public:
   std::string_view name() const override { return "leg_force"; }
@@ -16,6 +18,6 @@ class LegForceTrials : public TrialAnalysis {
 };
 
 // Page, terminal lines and JSON (leg_force_page.cpp).
-CampaignConclusions tell_leg(const LegIdentification& leg);
+CampaignConclusions tell_leg(const LegIdentification& leg, const RigidGround& ground);
 
 }  // namespace sandhopper

@@ -263,10 +263,24 @@ std::string line_of(const IntrusionFit& fit) {
   return line;
 }
 
+// The law in words; its equation and figures stand in the lines and on the page.
+std::string answer_of(const IntrusionFit& fit) {
+  if (!fit.chosen) return line_of(fit);
+  const auto& law = fit.laws[*fit.chosen];
+  auto answer =
+      fmt::format("Of {} laws of the depth \"{}\" fits best", fit.laws.size(), title_of(law.fit.law));
+  if (fit.held_out_trials > 0)
+    answer +=
+        fmt::format("; at {:.0f} mm it is {} off on the {} held-out presses", 1e3 * kPredictedDepths_m.back(),
+                    percent(law.relative_error.back()), fit.held_out_trials);
+  return answer + ".";
+}
+
 }  // namespace
 
 CampaignConclusions tell_presses(const IntrusionFit& fit, std::span<const PressTrial> trials) {
   CampaignConclusions out;
+  out.answer = answer_of(fit);
   out.lines.push_back(line_of(fit));
   out.json = json_of(fit);
   StudySection section{.title = "Plates pressed into the bed"};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/terrain/strength_curve.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -33,7 +35,18 @@ bool PressTrials::takes(CampaignPlant plant, TrialKind kind) const {
 
 void PressTrials::analyse(const CampaignTrial& trial, const TrialRecording& recording,
                           TrialResult& result) const {
-  if (slow(recording)) keep_press(trial, recording, result);
+  if (!slow(recording)) return;
+  keep_press(trial, recording, result);
+  if (!holds_press(result) || trial.kind == TrialKind::clamped) return;
+  const auto depth = result.series.find("press_loading_depth_m");
+  if (depth == result.series.end()) return;
+  const auto& belief = std::get<IntruderBelief>(trial.belief);
+  keep_curve(curve_of_press(depth->second, result.series.at("press_loading_force_N"),
+                            {.source = CurveSource::rig,
+                             .diameter_m = 2.0 * belief.foot.radius_m,
+                             .held_out = trial.flag("held_out").value_or(false),
+                             .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief)}),
+             result);
 }
 
 CampaignConclusions PressTrials::conclude(std::span<const TrialResult* const> results) const {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kForce = StrokeSums::kRegressors;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kProfileDepth_m = 0.030;
+constexpr double kAddedMassDepth_m = 0.030;
 using Combination = Eigen::Matrix<double, StrokeSums::kColumns, 1>;
 using Products = Eigen::Matrix<double, StrokeSums::kColumns, StrokeSums::kColumns>;
 
@@ -161,7 +161,7 @@ StrokeMapWithIntervals fit_stroke_map(std::span<const StrokeSums> trials, Stroke
   out.intercept_N = interval([](const StrokeMap& m) { return m.intercept_N; });
   out.stiffness_N_per_m = interval([](const StrokeMap& m) { return m.stiffness_N_per_m; });
   out.drag_at_surface_kg_per_m = interval([](const StrokeMap& m) { return m.drag_kg_per_m(0.0); });
-  out.added_mass_at_30mm_kg = interval([](const StrokeMap& m) { return m.added_mass_kg(kProfileDepth_m); });
+  out.added_mass_at_30mm_kg = interval([](const StrokeMap& m) { return m.added_mass_kg(kAddedMassDepth_m); });
   return out;
 }
 

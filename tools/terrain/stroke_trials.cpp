@@ -10,6 +10,7 @@
 #include "terrain/joint_fit.hpp"
 #include "terrain/series_compliance.hpp"
 #include "tools/experiment/statistics.hpp"
+#include "tools/terrain/strength_curve.hpp"
 #include "tools/terrain/stroke_map.hpp"
 
 namespace sandhopper {
@@ -22,14 +23,15 @@ constexpr std::size_t kDrawnStrokePoints = 160;
 constexpr double kStrokeResolution_m = 2e-4;
 constexpr double kStrokeUnloadedShare = 0.05;  // of the greatest force
 
-struct Sample {
-  double t_s, depth_m, speed_mps, accel_mps2, force_N;  // motion downward
-};
+using Sample = LoadingSample;
 
 class Stroke {
  public:
   Stroke(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result)
-      : belief_(std::get<IntruderBelief>(trial.belief)), in_(recording), out_(result) {}
+      : belief_(std::get<IntruderBelief>(trial.belief)),
+        held_out_(trial.flag("held_out").value_or(false)),
+        in_(recording),
+        out_(result) {}
 
   void run() {
     if (!in_.has("foot_z_m") || !in_.has("force_N")) {
@@ -51,6 +53,7 @@ class Stroke {
     }
     fit_line();
     fit_joint();
+    add_curve();
     add_sums();
     add_unloading();
     draw();
@@ -165,6 +168,19 @@ class Stroke {
           {"added_mass_factor", fit.added_mass_factor, fit.added_mass_factor_sd, invalid});
   }
 
+  // A slow press has its own curve (press_trials.cpp), from the window that the experimenter states.
+  void add_curve() {
+    if (out_.series.contains("press")) return;
+    auto loading = loading_;
+    if (!inertia_known_)
+      for (auto& s : loading) s.accel_mps2 = 0.0;
+    keep_curve(curve_of(loading, {.source = CurveSource::rig,
+                                  .diameter_m = 2.0 * belief_.foot.radius_m,
+                                  .held_out = held_out_,
+                                  .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief_)}),
+               out_);
+  }
+
   void add_sums() {
     StrokeSums sums;
     for (const auto& s : loading_)
@@ -212,6 +228,7 @@ class Stroke {
   }
 
   const IntruderBelief& belief_;
+  bool held_out_;
   const TrialRecording& in_;
   TrialResult& out_;
   SmoothMotion motion_;

@@ -14,7 +14,8 @@ struct CampaignConclusions {
   std::string answer{};              // one sentence, with which the page begins; empty: the first line
   std::vector<std::string> lines{};  // for the terminal
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  std::vector<StudySection> sections{};  // of the page
+  std::vector<StudySection> sections{};                       // of the page
+  std::vector<std::pair<std::string, std::string>> tables{};  // name and text of CSV files: "profile"
 };
 
 // One sort of trial: what a single recording says, and what all of them say together. A new sort is one class

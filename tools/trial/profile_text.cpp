@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sandhopper {
 namespace {
@@ -13,30 +14,6 @@ std::string interval(const ProfilePoint& p, int digits) {
 }
 
 }  // namespace
-
-std::string headline(const GroundSummary& g) {
-  const auto line =
-      fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
-                  g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
-  const auto no_line =
-      fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
-  switch (g.shape) {
-    case GroundShape::unknown:
-      return "too little new ground for one number";
-    case GroundShape::line:
-      return (g.line_valid ? "a line, " : "a line deeper than the foot is high, ") + line;
-    case GroundShape::power_law:
-      return no_line + fmt::format("a power law, exponent {:.2f}  [{:.2f}, {:.2f}]", g.exponent.value,
-                                   g.exponent.ci95_low, g.exponent.ci95_high);
-    case GroundShape::crusted:
-      return "something broke on the way (a crust); beside it a line, " + line;
-    case GroundShape::layered:
-      return no_line + "layers";
-    case GroundShape::other:
-      return no_line + "neither a power law nor two layers; use the profile";
-  }
-  return {};
-}
 
 std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSummary& g, bool is_unchanged) {
   if (p.stride == 0) return {};
@@ -48,14 +25,17 @@ std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSum
     lines.push_back(fmt::format("  profile from {:.1f} to {:.1f} mm; deeper it is a guess",
                                 1e3 * p.depth_min_m, 1e3 * p.depth_max_m));
   }
+  bool first = true;
   for (const double depth_m : {0.010, 0.020, 0.030, 0.040, 0.050}) {
     const bool known = !is_unchanged && depth_m >= p.depth_min_m && depth_m <= p.depth_max_m;
     if (!known) continue;
+    if (std::exchange(first, false))
+      lines.push_back(
+          fmt::format("  {:>5}  {:>20}  {:>20}  {:>20}", "depth", "force, N", "secant, N/m", "tangent, N/m"));
     const auto force = force_at(p, depth_m);
     const ProfilePoint secant{force.value / depth_m, force.sd / depth_m};
-    lines.push_back(fmt::format("  at {:2.0f} mm  {:>20} N   secant {:>20} N/m   tangent {:>20} N/m",
-                                1e3 * depth_m, interval(force, 1), interval(secant, 0),
-                                interval(tangent_at(p, depth_m), 0)));
+    lines.push_back(fmt::format("  {:2.0f} mm  {:>20}  {:>20}  {:>20}", 1e3 * depth_m, interval(force, 1),
+                                interval(secant, 0), interval(tangent_at(p, depth_m), 0)));
   }
   const auto& reload = g.reloading_N_per_m;
   if (reload.ci95_low > 0.0)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "terrain/ground_summary.hpp"
+#include "tools/report/ground_text.hpp"
 
 namespace sandhopper {
 
@@ -11,9 +12,6 @@ namespace sandhopper {
 // stride reached no new ground, and the profile was told with the one before.
 std::vector<std::string> profile_lines(const StrengthProfile& profile, const GroundSummary& ground,
                                        bool is_unchanged = false);
-
-// One sentence: the shape of the ground, and whether a straight line describes it.
-std::string headline(const GroundSummary& ground);
 
 // The same for programs: depths at which the ground is known, and depth_m, force_N, ci95_N, secant_N_per_m,
 // tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell, the ground's shape and its

@@ -30,39 +30,7 @@ std::string stiffness_line(const char* name, const ReportStiffness& k) {
                      k.ci95_low_N_per_m, k.ci95_high_N_per_m, k.valid ? "valid" : "not valid: " + k.reason);
 }
 
-// Strides that reached no ground deeper than those before: the profile after them is the one before.
-bool adds_nothing(const ReportData& data, std::size_t i) {
-  return i > 0 && data.strides[i].profile.stride > 0 &&
-         data.strides[i].profile.depth_max_m == data.strides[i - 1].profile.depth_max_m &&
-         data.strides[i].profile.observations == data.strides[i - 1].profile.observations;
-}
-
-std::string names_of(const std::vector<std::uint32_t>& numbers) {
-  std::string text = numbers.size() == 1 ? "stride " : "strides ";
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ", numbers[i]);
-  return text;
-}
-
 }  // namespace
-
-std::string trial_line(const ReportData& data) {
-  if (data.strides.empty() || data.strides.back().profile.stride == 0) return "";
-  const auto& last = data.strides.back();
-  std::string text =
-      last.profile.depth_max_m > 0.0
-          ? fmt::format("ground: {}; known from {:.0f} to {:.0f} mm of depth", headline(last.ground),
-                        1e3 * last.profile.depth_min_m, 1e3 * last.profile.depth_max_m)
-          : std::string("ground: no stride says anything of it");
-  std::vector<std::uint32_t> nothing;
-  for (std::size_t i = 0; i < data.strides.size(); ++i)
-    if (adds_nothing(data, i)) nothing.push_back(data.strides[i].number);
-  if (!nothing.empty())
-    text += fmt::format(
-        ". No new ground in {}, which landed in the crater: prepare the bed anew, or `--strides {}`",
-        names_of(nothing), nothing.front() - 1);
-  return text + ".";
-}
 
 std::string readable(std::string name) {
   std::ranges::replace(name, '_', ' ');

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "terrain/joint_config.hpp"
+#include "tools/report/ground_text.hpp"
 #include "tools/report/report_data.hpp"
 
 namespace sandhopper {
@@ -13,10 +14,6 @@ std::string readable(std::string name);
 
 // What a trial gave, for people: a block of lines per stride.
 std::vector<std::string> stride_lines(const ReportData& data);
-
-// The trial's last line: what is known of the ground and at which depths, and which strides said nothing new.
-// Empty where the log holds no profile.
-std::string trial_line(const ReportData& data);
 
 // The same for programs: touchdown_speed_mps, times, peak force, depth,
 // stiffness_N_per_m.{qs_ols,mo_ols,mo_wls,joint}, profile (profile_text.hpp).

@@ -1,3 +1,8 @@
+// A named colour, or a shade of it on the way to the paper's.
+function colorOf({ color, shade }) {
+  return shade ? `color-mix(in srgb, var(--${color}) ${Math.round(100 - 62 * shade)}%, var(--sheet))` : `var(--${color})`;
+}
+
 // A row of names above a plot. A click hides or shows a line; under the pointer each shows its value.
 class Legend {
   // entries: [{ label, color, style, shown }]
@@ -5,8 +10,8 @@ class Legend {
     this.values = entries.map(() => (withValues ? element('span', { className: 'value' }) : ''));
     this.buttons = entries.map((entry, i) => {
       const swatch = element('i', { className: entry.style || 'line' });
-      swatch.style.color = `var(--${entry.color})`;
-      if (entry.style !== 'points') swatch.style.borderTopColor = `var(--${entry.color})`;
+      swatch.style.color = colorOf(entry);
+      if (entry.style !== 'points' && entry.style !== 'band') swatch.style.borderTopColor = colorOf(entry);
       const button = element('button', { type: 'button' }, swatch, entry.label, this.values[i]);
       button.setAttribute('aria-pressed', String(entry.shown));
       button.onclick = () => {

@@ -20,10 +20,21 @@ class StudyFigure {
     this.svg.onpointermove = event => this.hover(event);
     this.svg.onpointerleave = () => this.point(null);
     this.draw();
+    new ResizeObserver(() => this.resize()).observe(this.svg);
+  }
+
+  // Letters keep their size on a narrow screen: one unit of the drawing is one pixel.
+  resize() {
+    const width = Math.round(this.svg.clientWidth);
+    if (width < 200 || width === this.width) return;
+    this.width = width;
+    this.svg.setAttribute('viewBox', `0 0 ${width} ${this.height}`);
+    this.draw();
   }
 
   static swatch(series) {
     if (series.mark === 'points') return 'points';
+    if (series.mark === 'band') return 'band';
     return series.dashed ? 'dashed' : 'line';
   }
 
@@ -110,13 +121,15 @@ class StudyFigure {
     const x = this.x(at);
     return [
       svgElement('line', { x1: x, x2: x, y1: this.box.y, y2: this.box.y + this.box.h, stroke: 'var(--quiet)', 'stroke-dasharray': '2 3' }),
-      svgText(word, { x: x + 4, y: this.box.y + 13 }),
+      x > this.box.x + 0.7 * this.box.w
+        ? svgText(word, { x: x - 4, y: this.box.y + 13, 'text-anchor': 'end' })
+        : svgText(word, { x: x + 4, y: this.box.y + 13 }),
     ];
   }
 
   drawSeries(series) {
     const group = svgElement('g', { class: 'series', 'data-label': series.label });
-    const color = `var(--${series.color})`;
+    const color = colorOf(series);
     const known = i => series.x[i] !== null && series.y[i] !== null && !(this.figure.log_x && series.x[i] <= 0) && !(this.figure.log_y && series.y[i] <= 0);
     const indices = series.x.map((_, i) => i).filter(known);
     if (series.mark === 'band') group.append(this.area(series, indices, color));

@@ -2,6 +2,9 @@
 function fillText(data) {
   const facts = document.getElementById('facts');
   for (const [label, text] of data.facts) facts.append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
+  const answer = document.getElementById('answer');
+  if (data.answer) answer.textContent = data.answer[0].toUpperCase() + data.answer.slice(1);
+  else answer.remove();
   const notes = document.getElementById('notes');
   for (const note of data.notes) notes.append(element('p', {}, note));
   if (data.envelope_rows > 1) {
@@ -23,17 +26,17 @@ function fixed(value, digits) {
 // onChoose(stride) when a row is clicked; returns the rows, in the order of the strides.
 function fillStrides(data, table, onChoose) {
   table.append(element('thead', {}, element('tr', {},
-    headerCell('Stride'), headerCell('Touchdown speed', 'm/s'), headerCell('Touchdown', 's'), headerCell('Switch', 's'),
-    headerCell('Liftoff', 's'), headerCell('Peak force', 'N'), headerCell('Depth', 'mm'),
+    headerCell('Stride'), headerCell('Touchdown speed', 'm/s'), headerCell('Touchdown', 's', 'when'), headerCell('Switch', 's', 'when'),
+    headerCell('Liftoff', 's', 'when'), headerCell('Peak force', 'N', 'detail'), headerCell('Depth', 'mm'),
     ...TREATMENTS.map(treatment => headerCell(treatment.label, 'N/m, 95 % interval')))));
   const rows = data.strides.map(stride => {
     const row = element('tr', { tabIndex: 0, title: 'Show this stride' },
       element('td', {}, String(stride.number)),
       element('td', {}, fixed(stride.touchdown_speed_mps, 3)),
-      element('td', {}, fixed(stride.touchdown_s, 3)),
-      element('td', {}, fixed(stride.switch_s, 3)),
-      element('td', {}, fixed(stride.liftoff_s, 3)),
-      element('td', {}, fixed(stride.peak_force_N, 1)),
+      element('td', { className: 'when' }, fixed(stride.touchdown_s, 3)),
+      element('td', { className: 'when' }, fixed(stride.switch_s, 3)),
+      element('td', { className: 'when' }, fixed(stride.liftoff_s, 3)),
+      element('td', { className: 'detail' }, fixed(stride.peak_force_N, 1)),
       element('td', {}, fixed(stride.max_depth_m === null ? null : 1000 * stride.max_depth_m, 1)),
       ...TREATMENTS.map(treatment => stiffnessCell(stride[treatment.key])));
     row.onclick = () => onChoose(stride);

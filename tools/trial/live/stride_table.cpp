@@ -13,7 +13,18 @@ std::string stiffness_text(const LiveStride::Stiffness& k) {
   return fmt::format("{:6.0f}  [{:6.0f}, {:6.0f}] N/m", k.value_N_per_m, k.low_N_per_m, k.high_N_per_m);
 }
 
+constexpr int kGroundColumn = 8;
+
+std::vector<std::string> ground_lines(const TrialModel& model, int columns) {
+  if (model.known_ground.empty()) return {};
+  return wrap(model.known_ground, columns - kGroundColumn, 0);
+}
+
 }  // namespace
+
+int ground_rows(const TrialModel& model, int columns) {
+  return static_cast<int>(ground_lines(model, columns).size());
+}
 
 void draw_strides(Pane& pane, const TrialModel& model, int most) {
   pane.heading(fmt::format("Strides, {} of {}", model.strides.size(), model.config.limits.strides));
@@ -36,6 +47,12 @@ void draw_strides(Pane& pane, const TrialModel& model, int most) {
     pane.line();
     pane.put(1, fmt::format("{:2}", i + 1), Style::faint);
     pane.put(5, "–", Style::faint);
+  }
+  constexpr std::string_view kTitle = "ground";
+  const auto lines = ground_lines(model, pane.columns());
+  for (std::size_t i = 0; i < lines.size() && pane.line(); ++i) {
+    if (i == 0) pane.put(1, kTitle, Style::bold);
+    pane.put(kGroundColumn, lines[i]);
   }
 }
 

@@ -9,6 +9,8 @@
 #include "firmware/event.hpp"
 #include "firmware/fault_check.hpp"
 #include "firmware/request_box.hpp"
+#include "terrain/ground_summary.hpp"
+#include "tools/trial/profile_text.hpp"
 #include "tools/trial/trial_text.hpp"
 
 namespace sandhopper {
@@ -31,21 +33,24 @@ template <class T>
 void read(const Json& json, T& value) {
   if constexpr (NamedEnum<T>) {
     value = enum_named(json.get<std::string>(), value);
-  } else if constexpr (std::same_as<T, double>) {
-    value = number(json);
+  } else if constexpr (std::floating_point<T>) {
+    value = static_cast<T>(number(json));
   } else if constexpr (std::integral<T>) {
     value = json.get<T>();
+  } else if constexpr (HasFields<T>) {
+    T::fields(value, [&](std::string_view key, auto& member) {
+      if (const auto found = json.find(std::string(key)); found != json.end()) read(*found, member);
+    });
   } else {  // array
     for (std::size_t i = 0; i < value.size(); ++i) read(json.at(i), value[i]);
   }
 }
 
-LiveStatus status_of(const Json& json) {
-  LiveStatus status;
-  LiveStatus::fields(status, [&](std::string_view key, auto& member) {
-    if (const auto found = json.find(std::string(key)); found != json.end()) read(*found, member);
-  });
-  return status;
+template <HasFields Record>
+Record record_of(const Json& json) {
+  Record record;
+  read(json, record);
+  return record;
 }
 
 LiveStride::Stiffness stiffness_of(const Json& json) {
@@ -53,16 +58,30 @@ LiveStride::Stiffness stiffness_of(const Json& json) {
           json.at("valid").get<bool>(), readable(json.at("reason").get<std::string>())};
 }
 
-// The ground of the newest stride: shape and secant stiffness where a line is not valid.
+// The ground after the newest stride, in the words of the trial's last line. A stride that reached no deeper
+// than those before says nothing of its own.
 void take_ground(TrialModel& model, const Json& json) {
-  if (model.strides.empty() || json.at("line_valid").get<bool>()) return;
-  const auto shape = json.at("shape").get<std::string>();
-  const auto& secant = json.at("secant_20mm_N_per_m");
+  constexpr double kDepth_m = 0.020;
+  if (model.strides.empty()) return;
+  const auto profile = record_of<StrengthProfile>(json.at("profile"));
+  const auto ground = record_of<GroundSummary>(json.at("ground"));
   auto& text = model.strides.back().ground;
-  text = shape == "unknown" ? "little new ground" : "no line: " + readable(shape);
-  if (secant.at("ci95_high").get<double>() > 0.0)
-    text += fmt::format(", F/z at 20 mm {:.0f} [{:.0f}, {:.0f}] N/m", secant.at("value").get<double>(),
-                        secant.at("ci95_low").get<double>(), secant.at("ci95_high").get<double>());
+  if (profile.samples == 0 && profile.stride > 1)
+    text = "in its crater: no new ground";
+  else if (ground.shape == GroundShape::unknown)
+    text = "too little new ground";
+  else if (!ground.line_valid)
+    text = readable(std::string(name_of(ground.shape)));
+  else if (!model.strides.back().joint.valid)
+    text = fmt::format("line {:.0f} [{:.0f}, {:.0f}] N/m", ground.line_N_per_m.value,
+                       ground.line_N_per_m.ci95_low, ground.line_N_per_m.ci95_high);
+  const bool deep_enough =
+      !text.empty() && !ground.line_valid && profile.samples > 0 && profile.depth_max_m >= kDepth_m;
+  if (const auto force = force_at(profile, kDepth_m); deep_enough)
+    text += fmt::format("; at 20 mm {:.1f} [{:.1f}, {:.1f}] N", force.value, force.low(), force.high());
+  if (profile.depth_max_m > 0.0)
+    model.known_ground = fmt::format("known from {:.0f} to {:.0f} mm: {}", 1e3 * profile.depth_min_m,
+                                     1e3 * profile.depth_max_m, headline(ground));
 }
 
 LiveStride stride_of(const Json& json) {
@@ -145,7 +164,7 @@ void take_event(TrialModel& model, const Json& json) {
 }
 
 void take_status(TrialModel& model, const Json& json) {
-  model.status = status_of(json);
+  model.status = record_of<LiveStatus>(json);
   if (model.status->fault != model.fault) model.fault_values.clear();
   model.fault = model.status->fault;
   if (model.status->state == State::idle) model.zero_checked = false;
@@ -178,7 +197,7 @@ void take_json(TrialModel& model, const Json& json) {
   if (json.contains("status")) return take_status(model, json["status"]);
   if (json.contains("event")) return take_event(model, json);
   if (json.contains("stiffness_N_per_m")) return model.strides.push_back(stride_of(json));
-  if (json.contains("ground")) return take_ground(model, json["ground"]);
+  if (json.contains("ground")) return take_ground(model, json);
   if (json.contains("end")) return take_end(model, json["end"]);
   if (json.contains("request")) return take_answer(model, json["request"]);
   if (json.contains("ready")) {

@@ -24,7 +24,8 @@ struct LiveStride {
     bool valid = false;
     std::string reason;  // why not valid, in words
   } observer_wls, joint;
-  std::string ground;  // why no line describes the ground, and what is known instead; empty where one does
+  // Shape of the ground and force at 20 mm where a line is not valid, at most 42 characters; else empty.
+  std::string ground;
 };
 
 // What the view shows of one trial, kept up to date by the lines that the cycle's process says.
@@ -50,8 +51,9 @@ struct TrialModel {
   std::optional<LiveStatus> status;
   std::optional<std::int64_t> released_ns;
   std::vector<LiveStride> strides;
-  std::string refusal;  // why the last key did nothing
-  std::string ending;   // the exit summary in words
+  std::string known_ground;  // what all strides together know of the ground, and at which depths
+  std::string refusal;       // why the last key did nothing
+  std::string ending;        // the exit summary in words
   // The newest last.
   std::deque<std::string> messages;
   std::deque<LiveStatus> history;

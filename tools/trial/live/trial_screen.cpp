@@ -70,7 +70,7 @@ void draw_messages(Pane pane, const TrialModel& model) {
 void draw_below_numbers(Pane& pane, const TrialModel& model, bool wide) {
   constexpr int kLatencyRows = 14, kMessageRows = 2;
   const int fault = fault_rows(model, pane.columns());
-  const int room = pane.left() - 2 - (fault > 0 ? fault : kMessageRows);
+  const int room = pane.left() - 2 - ground_rows(model, pane.columns()) - (fault > 0 ? fault : kMessageRows);
   draw_strides(pane, model, wide ? std::clamp(room - kLatencyRows - 8, 3, 20) : std::clamp(room, 1, 5));
   if (fault > 0)
     draw_fault(pane, model);

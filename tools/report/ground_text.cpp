@@ -1,0 +1,67 @@
+#include "tools/report/ground_text.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace sandhopper {
+namespace {
+
+std::string names_of(const std::vector<std::uint32_t>& numbers) {
+  std::string text = numbers.size() == 1 ? "stride " : "strides ";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ", numbers[i]);
+  return text;
+}
+
+}  // namespace
+
+bool adds_nothing(const ReportData& data, std::size_t i) {
+  return i > 0 && data.strides[i].profile.stride > 0 &&
+         data.strides[i].profile.depth_max_m == data.strides[i - 1].profile.depth_max_m &&
+         data.strides[i].profile.observations == data.strides[i - 1].profile.observations;
+}
+
+std::string headline(const GroundSummary& g) {
+  const auto line =
+      fmt::format("{:.0f} N/m  [{:.0f}, {:.0f}] from {:.1f} to {:.1f} mm", g.line_N_per_m.value,
+                  g.line_N_per_m.ci95_low, g.line_N_per_m.ci95_high, 1e3 * g.from_m, 1e3 * g.to_m);
+  const auto no_line =
+      fmt::format("no line fits (chi-squared {:.0f}, limit {:.0f}): ", g.line.statistic, g.line.limit);
+  switch (g.shape) {
+    case GroundShape::unknown:
+      return "too little new ground for one number";
+    case GroundShape::line:
+      return (g.line_valid ? "a line, " : "a line deeper than the foot is high, ") + line;
+    case GroundShape::power_law:
+      return no_line + fmt::format("a power law, exponent {:.2f}  [{:.2f}, {:.2f}]", g.exponent.value,
+                                   g.exponent.ci95_low, g.exponent.ci95_high);
+    case GroundShape::crusted:
+      return "something broke on the way (a crust); beside it a line, " + line;
+    case GroundShape::layered:
+      return no_line + "layers";
+    case GroundShape::other:
+      return no_line + "neither a power law nor two layers; use the profile";
+  }
+  return {};
+}
+
+std::string trial_line(const ReportData& data) {
+  if (data.strides.empty() || data.strides.back().profile.stride == 0) return "";
+  const auto& last = data.strides.back();
+  std::string text =
+      last.profile.depth_max_m > 0.0
+          ? fmt::format("ground: {}; known from {:.0f} to {:.0f} mm of depth", headline(last.ground),
+                        1e3 * last.profile.depth_min_m, 1e3 * last.profile.depth_max_m)
+          : std::string("ground: no stride says anything of it");
+  std::vector<std::uint32_t> nothing;
+  for (std::size_t i = 0; i < data.strides.size(); ++i)
+    if (adds_nothing(data, i)) nothing.push_back(data.strides[i].number);
+  if (!nothing.empty())
+    text += fmt::format(
+        ". No new ground in {}, which landed in the crater: prepare the bed anew, or `--strides {}`",
+        names_of(nothing), nothing.front() - 1);
+  return text + ".";
+}
+
+}  // namespace sandhopper
