@@ -7,11 +7,13 @@ namespace sandhopper {
 StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
     : config_(config),
       joint_(config.joint, foot.radius_m),
-      profile_(config, foot.radius_m, foot.reduced_mass_kg) {}
+      profile_(config, foot.radius_m, foot.reduced_mass_kg),
+      events_(ground_event_config(config), foot.radius_m) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
   datum_m_ = deepest_m_ = crater_depth_m_ = crater_force_N_ = surface_z_m_ = 0.0;
+  leaving_ = rises_ = clear_ = false;
   begin_flight(now_ns);
 }
 
@@ -31,6 +33,7 @@ void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
 
 void StrideRecorder::on_switch(std::int64_t now_ns) noexcept {
   current_.switch_ns = now_ns;
+  events_.on_phase_change(event_time_s());
   if (config_.window == SampleWindow::compression) commit();
 }
 
@@ -41,6 +44,10 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   done_ = committed_;
   done_.summary = current_;
   done_.profile = profile_.sums();
+  events_.on_phase_change(event_time_s());
+  events_.close(current_.stride, now_ns);
+  leaving_ = true;
+  rises_ = false;
   crater_depth_m_ = deepest_m_;
   crater_force_N_ = std::max(crater_force_N_, current_.peak_force_N);
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
@@ -51,6 +58,8 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
   sample_duration_s_ = static_cast<double>(e.force_time_ns - last_force_time_ns_) * 1e-9;
   last_force_time_ns_ = e.force_time_ns;
+  clear_ = false;
+  if (leaving_) follow_leaving_foot(e);
   if (state == State::flight && still_falling(e)) {
     current_.touchdown_speed_mps = std::max(current_.touchdown_speed_mps, e.force_velocity_mps);
     touched_ = false;
@@ -61,6 +70,7 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
     touched_ = true;
     current_.contact_ns = e.force_time_ns;
     if (current_.stride == 0) datum_m_ = e.force_depth_m;
+    if (!leaving_) begin_events(e);
   }
   const double depth = e.force_depth_m - datum_m_;
   const bool stance = state == State::compression || state == State::extension;
@@ -69,7 +79,27 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
     current_.peak_quasi_static_N = std::max(current_.peak_quasi_static_N, e.quasi_static_force_N);
     current_.max_depth_m = std::max(current_.max_depth_m, depth);
   }
-  if (stance || (state == State::flight && e.force_velocity_mps > 0.0)) accumulate(e, depth);
+  const bool falling = state == State::flight && e.force_velocity_mps > 0.0;
+  if (stance || falling) accumulate(e, depth);
+  if (!leaving_ && (stance || falling)) events_.add(joint_sample(e, depth, event_contact_ns_));
+}
+
+void StrideRecorder::begin_events(const Estimate& e) noexcept {
+  event_contact_ns_ = e.force_time_ns;
+  events_.restart(crater_depth_m_);
+}
+
+// After the liftoff the ground still acts on the foot until it is above the surface, or falls again.
+void StrideRecorder::follow_leaving_foot(const Estimate& e) noexcept {
+  const double depth_m = e.force_depth_m - datum_m_;
+  rises_ = rises_ || e.force_velocity_mps < -config_.min_speed_mps;
+  clear_ = rises_ && (depth_m < 0.0 || e.force_velocity_mps > 0.0);
+  leaving_ = !clear_;
+  if (leaving_) events_.add(joint_sample(e, depth_m, event_contact_ns_));
+}
+
+double StrideRecorder::event_time_s() const noexcept {
+  return static_cast<double>(last_force_time_ns_ - event_contact_ns_) * 1e-9;
 }
 
 // What the foot's accelerometer feels beyond the leg's own forces is the ground: that marks the surface
@@ -102,7 +132,7 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     observer_.add({depth_m, e.contact_force_N, 1.0});
     weighted_.add({depth_m, e.contact_force_N, weight});
   }
-  const JointSample sample = joint_sample(e, depth_m);
+  const JointSample sample = joint_sample(e, depth_m, current_.contact_ns);
   if (depth_m > deepest_m_) {
     if (virgin && e.force_velocity_mps > config_.min_speed_mps)
       accumulate_joint(sample, e.quasi_static_force_N);
@@ -113,13 +143,14 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   profile_.follow(sample);
 }
 
-JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m) const noexcept {
+JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
+                                         std::int64_t contact_ns) const noexcept {
   return {.depth_m = depth_m,
           .speed_mps = e.force_velocity_mps,
           .accel_mps2 = -e.foot_accel_mps2,
           .force_N = e.direct_force_N,
           .leg_rate_mps = e.leg_rate_mps,
-          .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
+          .since_contact_s = static_cast<double>(e.force_time_ns - contact_ns) * 1e-9,
           .duration_s = sample_duration_s_};
 }
 

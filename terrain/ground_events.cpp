@@ -355,8 +355,14 @@ void GroundEventRecorder::add(const JointSample& sample) noexcept {
   sums_.deepest_m = std::max(sums_.deepest_m, static_cast<float>(s.depth_m));
 }
 
+GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept {
+  GroundEventConfig events;
+  events.noise = config.joint;
+  return events;
+}
+
 GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config) {
-  GroundEvents events;
+  GroundEvents events{.stride = sums.stride};
   events.suction = find_suction(sums.up, config);
   const Stance stance{points_of(sums.down), sums.resumed_m};
   if (stance.points.size() < kLeastPoints) return events;

@@ -118,6 +118,8 @@ struct DepthBins {
 struct GroundEventSums {
   DepthBins down;  // new ground
   DepthBins up;    // the foot leaves
+  std::uint32_t stride = 0;
+  std::int64_t liftoff_ns = 0;
   float deepest_m = 0.0F;
   float crater_depth_m = 0.0F;  // of earlier strides
   std::array<float, 2> resumed_m{-1.0F,
@@ -130,6 +132,11 @@ class GroundEventRecorder {
   GroundEventRecorder(const GroundEventConfig& config, double foot_radius_m);
   // A new stride: the deepest point of the earlier ones.
   void restart(double crater_depth_m) noexcept;
+  // The liftoff: the number and time of the stride that these samples belong to.
+  void close(std::uint32_t stride, std::int64_t liftoff_ns) noexcept {
+    sums_.stride = stride;
+    sums_.liftoff_ns = liftoff_ns;
+  }
   // The stance switch or the liftoff, between the samples before and after it.
   void on_phase_change(double since_contact_s) noexcept {
     settled_s_ = since_contact_s + config_.settling_time_s;
@@ -154,10 +161,22 @@ class GroundEventRecorder {
 };
 
 struct GroundEvents {
+  std::uint32_t stride = 0;
   GroundEvent rupture{};   // kind none: not found; its statistic is the largest there was
   GroundEvent boundary{};  // or floor
   GroundEvent suction{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("stride", self.stride);
+    visit("rupture", self.rupture);
+    visit("boundary", self.boundary);
+    visit("suction", self.suction);
+  }
 };
+
+// The search with the noise of the joint fit.
+GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept;
 
 // Not for the cycle: some ten milliseconds for a whole foot of depth, and it allocates. The same sums give
 // the same bits.
