@@ -8,6 +8,8 @@ StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
     : config_(config),
       joint_(config.joint, foot.radius_m),
       profile_(config, foot.radius_m, foot.reduced_mass_kg),
+      unloading_(config.min_speed_mps),
+      reduced_mass_kg_(foot.reduced_mass_kg),
       events_(ground_event_config(config), foot.radius_m) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
@@ -44,6 +46,8 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   done_ = committed_;
   done_.summary = current_;
   done_.profile = profile_.sums();
+  done_.profile.unloading = unloading_.trace();
+  done_.profile.reduced_mass_kg = reduced_mass_kg_;
   events_.on_phase_change(event_time_s());
   events_.close(current_.stride, now_ns);
   leaving_ = true;
@@ -78,6 +82,7 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
     current_.peak_force_N = std::max(current_.peak_force_N, e.contact_force_N);
     current_.peak_quasi_static_N = std::max(current_.peak_quasi_static_N, e.quasi_static_force_N);
     current_.max_depth_m = std::max(current_.max_depth_m, depth);
+    if (state == State::extension) unloading_.add(joint_sample(e, depth, current_.contact_ns));
   }
   const bool falling = state == State::flight && e.force_velocity_mps > 0.0;
   if (stance || falling) accumulate(e, depth);
@@ -140,7 +145,6 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
   }
-  profile_.follow(sample);
 }
 
 JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
@@ -169,6 +173,7 @@ void StrideRecorder::restart_sums() noexcept {
   observer_.reset();
   weighted_.reset();
   joint_.reset();
+  unloading_.reset();
 }
 
 void StrideRecorder::commit() noexcept {

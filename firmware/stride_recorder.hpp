@@ -53,6 +53,8 @@ class StrideRecorder {
   RecursiveRegression weighted_;
   JointRegression joint_;
   ProfileRegression profile_;
+  UnloadingRecorder unloading_;
+  double reduced_mass_kg_;
   GroundEventRecorder events_;
   StrideSummary current_{};
   StrideSums committed_{};

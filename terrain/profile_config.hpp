@@ -18,6 +18,11 @@ struct ProfileConfig {
   double landing_depth_sd_m = 0.003;
   double landing_drift_sd_mps = 0.06;
 
+  // Noise of one sample of the foot's accelerometer while the foot is loaded, and its bias after the static
+  // zero; for the line on which the foot leaves its crater (reloading.hpp).
+  double foot_accel_noise_mps2 = 0.3;
+  double foot_accel_bias_mps2 = 0.1;
+
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
@@ -26,6 +31,8 @@ struct ProfileConfig {
     visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
     visit("landing_depth_sd_m", self.landing_depth_sd_m, Range{0.0, 0.1});
     visit("landing_drift_sd_mps", self.landing_drift_sd_mps, Range{1e-6, 10.0});
+    visit("foot_accel_noise_mps2", self.foot_accel_noise_mps2, Range{1e-4, 100.0});
+    visit("foot_accel_bias_mps2", self.foot_accel_bias_mps2, Range{1e-6, 10.0});
   }
 };
 

@@ -222,6 +222,17 @@ nlohmann::ordered_json json_of(const NumberScore& s) {
           {"coverage", s.covered / s.count}};
 }
 
+nlohmann::ordered_json json_of(const EventScore& s) {
+  return {{"possible", s.possible},
+          {"found", s.found},
+          {"within_2mm", s.within_2mm},
+          {"mean_depth_error_m", s.depth_error_m / std::max(1.0, s.found)},
+          {"rms_depth_error_m", std::sqrt(s.depth_error_squared_m2 / std::max(1.0, s.found))},
+          {"absent", s.absent},
+          {"false_alarms", s.false_alarms},
+          {"largest_absent", s.largest_absent}};
+}
+
 nlohmann::ordered_json json_of(const EventScores& s) {
   return {{"rupture", json_of(s.rupture)},
           {"boundary", json_of(s.boundary)},
