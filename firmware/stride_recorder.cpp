@@ -14,7 +14,8 @@ StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
-  datum_m_ = deepest_m_ = crater_depth_m_ = crater_force_N_ = surface_z_m_ = 0.0;
+  datum_m_ = deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
+  deepest_force_N_ = crater_force_N_ = 0.0;
   leaving_ = rises_ = clear_ = false;
   begin_flight(now_ns);
 }
@@ -28,7 +29,18 @@ void StrideRecorder::begin_flight(std::int64_t release_ns) noexcept {
   restart_sums();
 }
 
+// The foot meets its crater's floor where it left it: on the unloading line, without force. That is known
+// better than the height after a flight. A contact that was long before the touchdown was a swing of the leg.
+void StrideRecorder::take_crater_floor(std::int64_t now_ns) noexcept {
+  constexpr std::int64_t kContactToTouchdown_ns = 10'000'000;
+  constexpr double kUnloadingRatio = 30.0;  // of the unloading line over the virgin bed (terrain/bed.hpp)
+  if (now_ns - current_.contact_ns > kContactToTouchdown_ns) return;
+  const double line_N_per_m = kUnloadingRatio * config_.profile_or_default().believed_stiffness_N_per_m;
+  datum_m_ = contact_depth_m_ - (crater_depth_m_ - crater_force_N_ / line_N_per_m);
+}
+
 void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
+  if (current_.stride > 0) take_crater_floor(now_ns);
   ++current_.stride;
   current_.touchdown_ns = now_ns;
 }
@@ -53,7 +65,7 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   leaving_ = true;
   rises_ = false;
   crater_depth_m_ = deepest_m_;
-  crater_force_N_ = std::max(crater_force_N_, current_.peak_force_N);
+  crater_force_N_ = deepest_force_N_;
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
   begin_flight(now_ns);
 }
@@ -73,6 +85,7 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   if (!touched_) {
     touched_ = true;
     current_.contact_ns = e.force_time_ns;
+    contact_depth_m_ = e.force_depth_m;
     if (current_.stride == 0) datum_m_ = e.force_depth_m;
     if (!leaving_) begin_events(e);
   }
@@ -141,6 +154,8 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   if (depth_m > deepest_m_) {
     if (virgin && e.force_velocity_mps > config_.min_speed_mps)
       accumulate_joint(sample, e.quasi_static_force_N);
+    if (e.force_velocity_mps > config_.min_speed_mps && on_new_ground(sample))
+      deepest_force_N_ = sample.force_N - profile_.inertia_N(sample);
     deepest_m_ = depth_m;
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
@@ -158,11 +173,19 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
           .duration_s = sample_duration_s_};
 }
 
-// Below the old crater the estimated depth does not tell on which line the ground answers: a force greater
-// than any before does.
+// Just below the old crater the estimated depth does not tell on which line the ground answers: a force
+// greater than that at its deepest point does.
+bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
+  constexpr double kDeviations = 2.0;
+  const double sure_m =
+      crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
+  return crater_depth_m_ == 0.0 || sample.depth_m > sure_m ||
+         sample.force_N - profile_.inertia_N(sample) >= crater_force_N_;
+}
+
 void StrideRecorder::accumulate_joint(const JointSample& sample, double motor_force_N) noexcept {
   joint_.add(sample);
-  if (sample.force_N >= crater_force_N_) profile_.add(sample, motor_force_N);
+  if (on_new_ground(sample)) profile_.add(sample, motor_force_N);
 }
 
 void StrideRecorder::restart_sums() noexcept {

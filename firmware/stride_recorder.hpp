@@ -42,6 +42,8 @@ class StrideRecorder {
   JointSample joint_sample(const Estimate& estimate, double depth_m, std::int64_t contact_ns) const noexcept;
   void accumulate_joint(const JointSample& sample, double motor_force_N) noexcept;
   void commit() noexcept;
+  void take_crater_floor(std::int64_t now_ns) noexcept;
+  bool on_new_ground(const JointSample& sample) const noexcept;
   void begin_events(const Estimate& estimate) noexcept;
   void follow_leaving_foot(const Estimate& estimate) noexcept;
   double event_time_s() const noexcept;
@@ -62,7 +64,9 @@ class StrideRecorder {
   double datum_m_ = 0.0;         // what the filter calls depth where the first stride met the surface
   double deepest_m_ = 0.0;       // of this and all former strides, below that datum
   double crater_depth_m_ = 0.0;  // of former strides
-  double crater_force_N_ = 0.0;  // greatest of theirs
+  double deepest_force_N_ = 0.0;  // without drag and added mass, at the deepest point
+  double crater_force_N_ = 0.0;   // the same, of former strides
+  double contact_depth_m_ = 0.0;  // what the filter calls depth at the contact
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
   std::int64_t last_force_time_ns_ = 0;

@@ -79,15 +79,26 @@ ProfileRegression::ProfileRegression(const StiffnessConfig& config, double foot_
       reduced_mass_kg_(reduced_mass_kg),
       cone_(BedParameters{}, foot_radius_m) {}
 
+double ProfileRegression::inertia_N(const JointSample& s) const noexcept {
+  return config_.joint.added_mass_factor *
+         (cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
+          cone_.added_mass_kg(s.depth_m) * s.accel_mps2);
+}
+
 void ProfileRegression::reset() noexcept {
+  settled_s_ = 0.0;
   if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
 }
 
 void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {
   if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2)) {
+    // One cycle and three time constants of the IMU's low-pass of 400 Hz still hold what was cut off.
+    constexpr double kSettling_s = 0.003;
+    settled_s_ = s.since_contact_s + kSettling_s;
     ++sums_.saturated;
     return;
   }
+  if (s.since_contact_s < settled_s_) return;
   if (!(s.depth_m > 0.0)) return;
   if (!(s.depth_m < kProfileDepth_m)) {
     ++sums_.too_deep;

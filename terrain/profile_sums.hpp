@@ -73,6 +73,8 @@ class ProfileRegression {
   ProfileRegression(const StiffnessConfig& config, double foot_radius_m, double reduced_mass_kg);
   // `motor_force_N`: the part of the force that the motors' current gives.
   void add(const JointSample& sample, double motor_force_N) noexcept;
+  // Drag and added mass of the believed bed on the foot.
+  double inertia_N(const JointSample& sample) const noexcept;
   const ProfileSums& sums() const noexcept { return sums_; }
   void reset() noexcept;
 
@@ -82,6 +84,7 @@ class ProfileRegression {
   double reduced_mass_kg_;
   Bed cone_;  // added mass at factor 1
   ProfileSums sums_{};
+  double settled_s_ = 0.0;  // after a saturated sample
 };
 
 }  // namespace sandhopper

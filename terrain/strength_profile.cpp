@@ -51,6 +51,8 @@ void ProfileSolver::restart() noexcept {
   response_ = {};
   slope_N_per_m_ = believed_N_per_m_;
   reloading_.restart();
+  unresolved_N2_.fill(0.0);
+  jump_.fill(1.0);
   line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
@@ -304,8 +306,6 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     return;
   }
   noise_factor_.fill(1.0);
-  unresolved_N2_.fill(0.0);
-  jump_.fill(1.0);
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
     info = information_of(sums);

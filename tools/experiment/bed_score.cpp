@@ -163,7 +163,8 @@ void score_trial(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t s
     if (i == 0)
       score_first(stride, trial.truth, answer, score.first);
     else
-      score_later(stride, trial.truth, answer, config.profile_or_default().landing_depth_sd_m, score.crater);
+      score_later(stride, trial.truth, answer, kNormal975 * config.profile_or_default().landing_depth_sd_m,
+                  score.crater);
     score.solve_s.push_back(answer.solve_s);
     score.search_s.push_back(answer.search_s);
     if (stride.events_complete)
