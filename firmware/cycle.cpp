@@ -66,7 +66,7 @@ void Aftermath::serve() {
     logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
     if (listener_.stride) listener_.stride(result);
     profile_.add(sums->profile, sums->summary.stride);
-    const GroundSummary ground = summarise(profile_, sums->profile);
+    const GroundSummary ground = summarise(profile_);
     logger_.push(topics_.profile, sums->summary.liftoff_ns, profile_.profile());
     logger_.push(topics_.ground, sums->summary.liftoff_ns, ground);
     if (listener_.profile) listener_.profile(profile_.profile(), ground);

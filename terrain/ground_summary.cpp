@@ -265,7 +265,7 @@ class Summariser {
 
 }  // namespace
 
-GroundSummary summarise(const ProfileSolver& solver, const ProfileSums& last) noexcept {
+GroundSummary summarise(const ProfileSolver& solver) noexcept {
   GroundSummary summary = Summariser(solver).run();
   const auto reloading = solver.reloading().line();
   summary.reloading_N_per_m = {reloading.value_N_per_m, reloading.ci95_low_N_per_m,

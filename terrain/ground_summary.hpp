@@ -71,7 +71,6 @@ struct GroundSummary {
   }
 };
 
-// `last`: the sums of the last stride that the solver was given.
-GroundSummary summarise(const ProfileSolver& solver, const ProfileSums& last) noexcept;
+GroundSummary summarise(const ProfileSolver& solver) noexcept;
 
 }  // namespace sandhopper

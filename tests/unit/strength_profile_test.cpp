@@ -110,7 +110,7 @@ TEST(StrengthProfile, AccumulatesAndSolvesWithoutAllocating) {
   const AllocationGuard guard;
   for (int i = 1; i < 300; ++i) regression.add({1e-4 * i, 0.1, 0.0, 0.15 * i, 0.0, 1e-3 * i, 1e-3}, 0.15 * i);
   solver.add(regression.sums(), 1);
-  summarise(solver, regression.sums());
+  summarise(solver);
   EXPECT_EQ(guard.count(), 0u);
 }
 
@@ -119,7 +119,7 @@ TEST(GroundSummary, SaysWhichBedsAreNoLine) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto shape = [&](const Curve& curve) {
       const Push push{.speed_mps = 0.8, .seed = seed};
-      return summarise(solved(curve, push), sums_of(curve, push));
+      return summarise(solved(curve, push));
     };
     const auto line = shape(line_N);
     lines += line.line_valid;
@@ -132,7 +132,7 @@ TEST(GroundSummary, SaysWhichBedsAreNoLine) {
 }
 
 TEST(GroundSummary, FindsThePowerLawsExponent) {
-  const auto g = summarise(solved(power_N, {}), {});
+  const auto g = summarise(solved(power_N, {}));
   EXPECT_EQ(g.shape, GroundShape::power_law);
   EXPECT_LT(g.exponent.ci95_low, 1.4);
   EXPECT_GT(g.exponent.ci95_high, 1.4);

@@ -101,7 +101,7 @@ std::vector<Answer> answers_to(const BedTrial& trial, const StiffnessConfig& con
     const auto start = std::chrono::steady_clock::now();
     answer.joint = solve_joint(stride.sums.joint, config);
     solver.add(stride.sums.profile, stride.sums.summary.stride);
-    answer.ground = summarise(solver, stride.sums.profile);
+    answer.ground = summarise(solver);
     answer.profile = solver.profile();
     answer.solve_s = seconds_since(start);
     const auto search = std::chrono::steady_clock::now();

@@ -197,7 +197,7 @@ class Replay {
     strides_.expect(solve_stride(sums, robot_.stiffness));
     profile_.add(sums.profile, sums.summary.stride);
     profiles_.expect(profile_.profile());
-    grounds_.expect(summarise(profile_, sums.profile));
+    grounds_.expect(summarise(profile_));
   }
 
   template <class Record>
