@@ -177,8 +177,7 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
 // greater than that at its deepest point does.
 bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
   constexpr double kDeviations = 2.0;
-  const double sure_m =
-      crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
+  const double sure_m = crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
   return crater_depth_m_ == 0.0 || sample.depth_m > sure_m ||
          sample.force_N - profile_.inertia_N(sample) >= crater_force_N_;
 }

@@ -61,9 +61,9 @@ class StrideRecorder {
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};
-  double datum_m_ = 0.0;         // what the filter calls depth where the first stride met the surface
-  double deepest_m_ = 0.0;       // of this and all former strides, below that datum
-  double crater_depth_m_ = 0.0;  // of former strides
+  double datum_m_ = 0.0;          // what the filter calls depth where the first stride met the surface
+  double deepest_m_ = 0.0;        // of this and all former strides, below that datum
+  double crater_depth_m_ = 0.0;   // of former strides
   double deepest_force_N_ = 0.0;  // without drag and added mass, at the deepest point
   double crater_force_N_ = 0.0;   // the same, of former strides
   double contact_depth_m_ = 0.0;  // what the filter calls depth at the contact

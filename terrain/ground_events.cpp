@@ -358,8 +358,8 @@ bool GroundEventRecorder::is_new_ground(const JointSample& s) noexcept {
     if (loaded_again) shift_m_ = std::max(0.0, deepest_m - s.depth_m) + kLeastStep_m;
     paused_s_ = -1.0;
     keep_bearing(s, deepest_m);
-    sums_.resumed = {{{static_cast<float>(s.depth_m + shift_m_), static_cast<float>(bearing_N_)},
-                      sums_.resumed[0]}};
+    sums_.resumed = {
+        {{static_cast<float>(s.depth_m + shift_m_), static_cast<float>(bearing_N_)}, sums_.resumed[0]}};
     bearing_N_ = 0.0;
   }
   return s.depth_m + shift_m_ > deepest_m;

@@ -62,8 +62,8 @@ struct GroundEventConfig {
   // acceleration changes in one cycle and one time constant of the IMU's low-pass.
   double min_speed_mps = 0.06;
   double speed_lag_s = 0.0014;
-  // A resting foot accelerates by less than three standard deviations of its accelerometer under load. One that
-  // accelerates may be held by damping that is no strength of the ground.
+  // A resting foot accelerates by less than three standard deviations of its accelerometer under load. One
+  // that accelerates may be held by damping that is no strength of the ground.
   double rest_accel_mps2 = 0.9;
 
   template <class Self, class Visitor>
@@ -163,7 +163,7 @@ class GroundEventRecorder {
   double paused_s_ = -1.0;  // since when the foot has not gone down; negative: it does
   double pause_N_per_m_ =
       0.0;  // force without the added mass's, over depth, on the last new ground before the pause
-  double bearing_N_ = 0.0;  // greatest force of the foot at rest since then
+  double bearing_N_ = 0.0;   // greatest force of the foot at rest since then
   double new_from_m_ = 0.0;  // where new ground begins at the latest after the pause
   double shift_m_ = 0.0;     // added to the estimated depth since then
   bool leaves_ = false;      // sums_.up has samples

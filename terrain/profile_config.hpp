@@ -14,9 +14,9 @@ struct ProfileConfig {
   // Error of the estimated depth that is neither an offset nor a drift.
   double depth_noise_m = 0.0003;
   // A foot that lands in its crater meets its floor, and the depth begins there again; the blow is beyond the
-  // accelerometer's range and leaves depth and speed with larger errors. Measured on simulated landings by
-  // `hop experiment beds`: 0.8 to 1.2 mm with tails, and 0.05 to 0.09 m/s.
-  double landing_depth_sd_m = 0.0015;
+  // accelerometer's range and leaves depth and speed with larger errors. On simulated landings they were 0.8
+  // to 1.2 mm with heavy tails, and 0.05 to 0.09 m/s; with 2 mm the band at new depths had its coverage.
+  double landing_depth_sd_m = 0.002;
   double landing_drift_sd_mps = 0.08;
 
   // Noise of one sample of the foot's accelerometer while the foot is loaded, and its bias after the static

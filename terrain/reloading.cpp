@@ -18,8 +18,13 @@ constexpr double kPair_s = 0.002;
 // Grid of the stiffness over the believed bed's: the credible ratio of unloading to loading is 10 to 100, of
 // beds that are up to 2.4 times as stiff.
 constexpr double kLeastRatio = 3.0, kGreatestRatio = 600.0;
+// On a steeper line the foot moves by less than the accelerometer's noise hides: rigid ground gives 90 to 190
+// kN/m there (strength_profile_test), so that nothing beyond is an upper end.
+constexpr double kResolvedRatio = 100.0;
 constexpr std::array<double, 3> kDampingRatios{0.0, 0.4, 0.9};
-constexpr double kSpeed_mps = 0.05, kDepth_m = 1e-3;  // prior at the start of the trace
+// Prior at the start of the trace, as a force and its rate: a foot on a steeper line moves by less. The rate
+// is 60 N in 30 ms.
+constexpr double kForce_N = 10.0, kForceRate_N_per_s = 2000.0;
 
 }  // namespace
 
@@ -83,14 +88,16 @@ double ReloadingPosterior::log_likelihood(const UnloadingTrace& t, double k, dou
   const double noise2 = 0.5 * force_noise_N_ * force_noise_N_;
   const double walk = 0.5 * config_.foot_accel_noise_mps2 * config_.foot_accel_noise_mps2 * dt * dt;
   double z = t.force_N[0] / k, v = 0.0, b = 0.0, sum = 0.0;
-  double zz = kDepth_m * kDepth_m, zv = 0.0, zb = 0.0, vv = kSpeed_mps * kSpeed_mps, vb = 0.0,
+  double zz = kForce_N * kForce_N / (k * k), zv = 0.0, zb = 0.0,
+         vv = kForceRate_N_per_s * kForceRate_N_per_s / (k * k), vb = 0.0,
          bb = config_.foot_accel_bias_mps2 * config_.foot_accel_bias_mps2;
   for (std::size_t i = 0; i < static_cast<std::size_t>(t.pairs); ++i) {
     if (i > 0) {
       const double a = 0.5 * (t.accel_mps2[i] + t.accel_mps2[i - 1]) - b;
       z += v * dt + a * h;
       v += a * dt;
-      zz += 2.0 * dt * zv - 2.0 * h * zb + dt * dt * vv - 2.0 * dt * h * vb + h * h * bb + 0.25 * dt * dt * walk;
+      zz += 2.0 * dt * zv - 2.0 * h * zb + dt * dt * vv - 2.0 * dt * h * vb + h * h * bb +
+            0.25 * dt * dt * walk;
       zv += dt * vv - h * vb - dt * zb - dt * dt * vb + h * dt * bb + 0.5 * dt * walk;
       zb += dt * vb - h * bb;
       vv += -2.0 * dt * vb + dt * dt * bb + walk;
@@ -149,8 +156,7 @@ ReloadingLine ReloadingPosterior::line() const noexcept {
   // The torque constant's error is common to all strides and no noise.
   const double scale = std::exp(1.959964 * force_scale_relative_);
   ReloadingLine line{quantile(0.5), quantile(kTail) / scale, quantile(1.0 - kTail) * scale};
-  // The last cell of the grid stands for everything steeper: the upper end is not known where it is needed.
-  if (line.ci95_high_N_per_m > stiffness_N_per_m(static_cast<double>(kGrid) - 1.5))
+  if (line.ci95_high_N_per_m > kResolvedRatio * config_.believed_stiffness_N_per_m)
     line.ci95_high_N_per_m = std::numeric_limits<double>::infinity();
   return line;
 }

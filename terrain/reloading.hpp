@@ -9,13 +9,12 @@
 // millimetre there, and the estimated depth drifts by as much in the same time. But the foot's accelerometer
 // feels the change of speed when the force begins to fall, and when it has fallen. While the foot unloads,
 //   F = k z + c v + noise,   dz/dt = v,   dv/dt = a - b + noise
-// with F the force and a the acceleration as measured, b the accelerometer's bias and c = 2 zeta sqrt(k M) the
-// damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b; zeta is
-// integrated over a grid, and the posterior of k is that of a grid with a log-uniform prior. Strides of one
-// trial multiply their likelihoods. Where the line is too steep for the sensors, the posterior reaches the
-// grid's end and the answer is a lower bound.
-// Sources: the line and its damping as in bed.hpp; likelihood of a linear state-space model by prediction
-// errors (Schweppe 1965).
+// with F the force and a the acceleration as measured, b the accelerometer's bias and c = 2 zeta sqrt(k M)
+// the damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b; zeta
+// is integrated over a grid, and the posterior of k is that of a grid with a log-uniform prior. Strides of
+// one trial multiply their likelihoods. Where the line is too steep for the sensors the answer is a lower
+// bound. Sources: the line and its damping as in bed.hpp; likelihood of a linear state-space model by
+// prediction errors (Schweppe 1965).
 namespace sandhopper {
 
 // Samples of the last unloading of a stance, two and two as their means.
@@ -43,7 +42,7 @@ class UnloadingRecorder {
   UnloadingTrace current_{}, kept_{};
   double peak_N_ = 0.0;
   float half_force_N_ = 0.0F, half_accel_mps2_ = 0.0F;
-  bool half_ = false;   // one sample of a pair is there
+  bool half_ = false;  // one sample of a pair is there
   bool open_ = false;
 };
 

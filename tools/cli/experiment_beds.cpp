@@ -28,14 +28,16 @@ std::string percent(double value) {
 }
 
 std::string number(const NumberScore& s) {
-  return s.count == 0.0 ? "-"
-                        : fmt::format("{:.2f} {:.1f}", 100.0 * s.absolute_error / s.count,
-                                      100.0 * s.covered / s.count);
+  return s.count == 0.0
+             ? "-"
+             : fmt::format("{:.2f} {:.1f}", 100.0 * s.absolute_error / s.count, 100.0 * s.covered / s.count);
 }
 
 void say_first(Session& session, const std::vector<BedScore>& scores) {
-  session.say("first strides [%]: depths whose truth the 95 % band holds, median width of the band at 20 mm,");
-  session.say("lines called valid, slope of a line: mean error and coverage, by the profile and the joint fit");
+  session.say(
+      "first strides [%]: depths whose truth the 95 % band holds, median width of the band at 20 mm,");
+  session.say(
+      "lines called valid, slope of a line: mean error and coverage, by the profile and the joint fit");
   session.say("  {:<17} {:>7} {:>8} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9}", "bed", "strides", "coverage",
               "width", "line", "joint l.", "profile", "joint fit", "compared");
   for (const auto& s : scores)
@@ -46,7 +48,8 @@ void say_first(Session& session, const std::vector<BedScore>& scores) {
 }
 
 void say_later(Session& session, const std::vector<BedScore>& scores) {
-  session.say("\nstrides 2 and 3 in the crater [%]: reloading stiffness given with an interval of two ends, its");
+  session.say(
+      "\nstrides 2 and 3 in the crater [%]: reloading stiffness given with an interval of two ends, its");
   session.say("coverage and median width, a lower bound alone; strides that went deeper, curve given there,");
   session.say("its coverage at the new depths and at all depths");
   session.say("  {:<17} {:>7} {:>8} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>8}", "bed", "strides", "reloading",
@@ -63,8 +66,9 @@ void say_later(Session& session, const std::vector<BedScore>& scores) {
 std::string alarms(const EventScore& s) { return fmt::format("{:.0f}/{:.0f}", s.false_alarms, s.absent); }
 
 void say_events(Session& session, const std::vector<BedScore>& scores, bool first) {
-  session.say("\nevents of {}: found where there was one, rms error of its depth [mm] and share within 2 mm [%];",
-              first ? "first strides" : "strides 2 and 3");
+  session.say(
+      "\nevents of {}: found where there was one, rms error of its depth [mm] and share within 2 mm [%];",
+      first ? "first strides" : "strides 2 and 3");
   session.say("false alarms in strides without one");
   session.say("  {:<17} {:>9} {:>6} {:>7} {:>9} {:>9} {:>9} {:>9}", "bed", "found", "rms mm", "in 2 mm",
               "rupture", "boundary", "floor", "suction");

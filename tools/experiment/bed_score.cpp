@@ -125,8 +125,8 @@ void score_first(const BedStride& stride, const BedTruth& truth, const Answer& a
   if (!truth.line_N_per_m || !joint_valid || !answer.ground.line_valid) return;
   const auto& line = answer.ground.line_N_per_m;
   score.slope.add(line.value, line.ci95_low, line.ci95_high, *truth.line_N_per_m);
-  score.joint_slope.add(answer.joint.value_N_per_m, answer.joint.ci95_low_N_per_m, answer.joint.ci95_high_N_per_m,
-                        *truth.line_N_per_m);
+  score.joint_slope.add(answer.joint.value_N_per_m, answer.joint.ci95_low_N_per_m,
+                        answer.joint.ci95_high_N_per_m, *truth.line_N_per_m);
 }
 
 void score_later(const BedStride& stride, const BedTruth& truth, const Answer& answer, double depth_error_m,
@@ -141,7 +141,7 @@ void score_later(const BedStride& stride, const BedTruth& truth, const Answer& a
     score.bounds += k.ci95_low > 0.0;
   }
   score_band(profile, truth, 0.0, stride.true_deepest_m, score.band);
-  if (!(stride.true_deepest_m > stride.true_crater_m + depth_error_m)) return;
+  if (!(std::min(stride.true_deepest_m, kProfileDepth_m) > stride.true_crater_m + depth_error_m)) return;
   score.deeper += 1.0;
   if (profile.samples == 0) return;
   score.curves += 1.0;

@@ -42,13 +42,13 @@ struct FirstStrideScore {
 // Strides 2 and 3, which land in the crater.
 struct CraterScore {
   double strides = 0.0;
-  NumberScore reloading{};  // those with an interval of two ends
-  double bounds = 0.0;      // a lower bound alone
+  NumberScore reloading{};                // those with an interval of two ends
+  double bounds = 0.0;                    // a lower bound alone
   std::vector<double> reloading_width{};  // interval over truth
-  double deeper = 0.0;      // in truth, by more than the stated error of the depth
-  double curves = 0.0;      // of these, with samples on new ground
-  CoverageScore fresh{};    // at the depths that are new in this stride
-  CoverageScore band{};     // at every depth visited so far
+  double deeper = 0.0;                    // in truth, by more than the stated error of the depth
+  double curves = 0.0;                    // of these, with samples on new ground
+  CoverageScore fresh{};                  // at the depths that are new in this stride
+  CoverageScore band{};                   // at every depth visited so far
 };
 
 struct EventScore {

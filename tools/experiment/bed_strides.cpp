@@ -73,9 +73,8 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
       trial.contact_error_m = std::max(0.0, -truth.foot_z_m);
     }
     if (controller.stride_finished()) {
-      trial.strides.push_back({.sums = controller.stride_sums(),
-                               .true_crater_m = crater_m,
-                               .true_deepest_m = truth.max_depth_m});
+      trial.strides.push_back(
+          {.sums = controller.stride_sums(), .true_crater_m = crater_m, .true_deepest_m = truth.max_depth_m});
       crater_m = truth.max_depth_m;
     }
     if (controller.ground_events_complete() && !trial.strides.empty()) {

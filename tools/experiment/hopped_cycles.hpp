@@ -19,8 +19,8 @@ class HoppedCycles {
   const Controller& controller() const { return controller_; }
   const SensorFrame& frame() const { return told_; }
   const StepOutput& output() const { return *output_; }
-  const PlantTruth& truth() const { return truth_; }             // at the cycle's own time
-  const PlantTruth& truth_before() const { return before_; }     // at that of the newest motor reply
+  const PlantTruth& truth() const { return truth_; }          // at the cycle's own time
+  const PlantTruth& truth_before() const { return before_; }  // at that of the newest motor reply
   bool faulted() const { return output_->state == State::fault; }
 
  private:
