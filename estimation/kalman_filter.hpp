@@ -47,6 +47,7 @@ struct BodyFootState {
 struct BodyFootAccel {
   double body_mps2;
   double foot_mps2;
+  bool foot_at_range = false;  // the sensor is at the end of its range: the true one is anything beyond
 };
 
 // What came of one measurement: innovation and its normalised square (NaN when it was not used or gated out).

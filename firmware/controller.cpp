@@ -34,7 +34,7 @@ Controller::Controller(const CycleConfig& config)
 
 const StepOutput& Controller::step(const SensorFrame& frame) noexcept {
   event_count_ = 0;
-  stride_finished_ = false;
+  stride_finished_ = hopping_ = false;
   out_.time_ns = frame.time_ns;
   out_.cycle = frame.cycle;
 
@@ -207,6 +207,7 @@ void Controller::step_armed(const SensorFrame& frame) noexcept {
 
 void Controller::step_hop(const SensorFrame& frame) noexcept {
   recorder_.update(out_.estimate, out_.state);
+  hopping_ = true;
   if (const auto transition = next_phase(out_.state, observation(), config_.controller)) {
     apply(*transition, frame);
     return;

@@ -38,6 +38,9 @@ class Controller {
   // Whether the last step finished a stride; its sums then.
   bool stride_finished() const noexcept { return stride_finished_; }
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
+  // True where the foot has just left its crater: what the ground did to it in the stride before is complete.
+  bool ground_events_complete() const noexcept { return recorder_.foot_is_clear() && hopping_; }
+  const GroundEventSums& ground_event_sums() const noexcept { return recorder_.event_sums(); }
   // Whether the last step's request meant anything in the state the robot was in.
   bool request_had_effect() const noexcept { return request_had_effect_; }
   const CycleConfig& config() const noexcept { return config_; }
@@ -83,6 +86,7 @@ class Controller {
   bool ready_ = false;           // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
+  bool hopping_ = false;  // in the last step the recorder was updated
   bool request_had_effect_ = false;
   bool fault_of_last_run_ = false;
   std::array<double, 2> fault_values_{};

@@ -25,6 +25,8 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
   }
   if (parts_.freeze != nullptr) parts_.freeze->push(frame_, output, parts_.controller.events());
   if (parts_.controller.stride_finished()) parts_.aftermath.offer(parts_.controller.stride_sums());
+  if (parts_.controller.ground_events_complete())
+    parts_.aftermath.offer(parts_.controller.ground_event_sums());
   return output;
 }
 
@@ -64,11 +66,17 @@ void Aftermath::serve() {
     logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
     if (listener_.stride) listener_.stride(result);
     profile_.add(sums->profile, sums->summary.stride);
-    const GroundSummary ground = summarise(profile_, sums->profile);
+    const GroundSummary ground = summarise(profile_);
     logger_.push(topics_.profile, sums->summary.liftoff_ns, profile_.profile());
     logger_.push(topics_.ground, sums->summary.liftoff_ns, ground);
     if (listener_.profile) listener_.profile(profile_.profile(), ground);
     strides_.pop();
+  }
+  for (const GroundEventSums* sums = stances_.front(); sums != nullptr; sums = stances_.front()) {
+    const GroundEvents found = find_ground_events(*sums, ground_event_config(config_));
+    logger_.push(topics_.ground_events, sums->liftoff_ns, found);
+    if (listener_.ground_events) listener_.ground_events(found);
+    stances_.pop();
   }
 }
 

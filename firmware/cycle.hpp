@@ -11,6 +11,7 @@
 #include "firmware/log/spsc_ring.hpp"
 #include "firmware/log/trial_logger.hpp"
 #include "firmware/request_box.hpp"
+#include "terrain/ground_events.hpp"
 #include "terrain/ground_summary.hpp"
 
 namespace sandhopper {
@@ -25,13 +26,15 @@ struct TrialTopics {
         event(logger.add_topic<Event>(topic::kEvent)),
         stride(logger.add_topic<StrideResult>(topic::kStride, Lane::background)),
         profile(logger.add_topic<StrengthProfile>(topic::kProfile, Lane::background)),
-        ground(logger.add_topic<GroundSummary>(topic::kGround, Lane::background)) {}
+        ground(logger.add_topic<GroundSummary>(topic::kGround, Lane::background)),
+        ground_events(logger.add_topic<GroundEvents>(topic::kGroundEvents, Lane::background)) {}
   LogTopic<SensorFrame> frame;
   LogTopic<StepOutput> output;
   LogTopic<Event> event;
   LogTopic<StrideResult> stride;
   LogTopic<StrengthProfile> profile;
   LogTopic<GroundSummary> ground;
+  LogTopic<GroundEvents> ground_events;
 };
 
 // What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
@@ -43,6 +46,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
     std::function<void(const Event&)> event{};
     std::function<void(const StrideResult&)> stride{};
     std::function<void(const StrengthProfile&, const GroundSummary&)> profile{};
+    std::function<void(const GroundEvents&)> ground_events{};
     std::function<void(const RequestRecord&)> request{};
   };
   Aftermath(const StiffnessConfig& config, TrialLogger& logger, const TrialTopics& topics, Listener listener);
@@ -55,6 +59,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   // From the cycle.
   void offer(const Event& event) noexcept { events_.push(event); }
   void offer(const StrideSums& sums) noexcept { strides_.push(sums); }
+  void offer(const GroundEventSums& sums) noexcept { stances_.push(sums); }
   void offer(const RequestRecord& answer) noexcept { answers_.push(answer); }
 
  private:
@@ -65,6 +70,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   Listener listener_;
   SpscRing<Event> events_{1024};
   SpscRing<StrideSums> strides_{64};
+  SpscRing<GroundEventSums> stances_{16};
   SpscRing<RequestRecord> answers_{2048};
   std::thread thread_;
   std::atomic<bool> stopping_{false};

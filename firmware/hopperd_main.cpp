@@ -165,6 +165,7 @@ SessionResult run_session(const Session& s) {
                       .stride = [&](const StrideResult& result) { s.channel.tell(result); },
                       .profile = [&](const StrengthProfile& profile,
                                      const GroundSummary& ground) { s.channel.tell(profile, ground); },
+                      .ground_events = [&](const GroundEvents& found) { s.channel.tell(found); },
                       .request = [&](const RequestRecord& answer) { s.channel.tell(answer); }},
                      s.start);
   RequestBox requests;

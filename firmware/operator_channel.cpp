@@ -120,6 +120,7 @@ void OperatorChannel::tell(const StrideResult& result) { outbox_->put(operator_t
 void OperatorChannel::tell(const StrengthProfile& profile, const GroundSummary& ground) {
   outbox_->put(operator_text(profile, ground));
 }
+void OperatorChannel::tell(const GroundEvents& found) { outbox_->put(operator_text(found)); }
 void OperatorChannel::tell(const RequestRecord& answer) { outbox_->put(operator_text(answer)); }
 void OperatorChannel::tell(const SessionResult& result) { outbox_->put(operator_text(result)); }
 void OperatorChannel::tell_text(const std::string& key, const std::string& text) {

@@ -40,6 +40,7 @@ class OperatorChannel {
   void tell(const Event& event);
   void tell(const StrideResult& result);
   void tell(const StrengthProfile& profile, const GroundSummary& ground);
+  void tell(const GroundEvents& found);
   void tell(const RequestRecord& answer);
   void tell(const SessionResult& result);
   void tell_text(const std::string& key, const std::string& text);

@@ -64,6 +64,10 @@ std::string operator_text(const StrengthProfile& p, const GroundSummary& ground)
   return nlohmann::ordered_json{{"profile", to_json(p)}, {"ground", to_json(ground)}}.dump();
 }
 
+std::string operator_text(const GroundEvents& found) {
+  return nlohmann::ordered_json{{"ground_events", to_json(found)}}.dump();
+}
+
 std::string operator_text(const RequestRecord& r) {
   auto json = to_json(r);
   json["text"] = in_words(r);

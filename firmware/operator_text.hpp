@@ -9,6 +9,7 @@ namespace sandhopper {
 std::string operator_text(const Event& event);  // with "text" where arming was refused because of a drive
 std::string operator_text(const StrideResult& result);
 std::string operator_text(const StrengthProfile& profile, const GroundSummary& ground);
+std::string operator_text(const GroundEvents& found);
 std::string operator_text(const LiveStatus& status);  // {"status":{…}}, keys as in LiveStatus
 std::string operator_text(
     const RequestRecord& answer);  // {"request":{…}}, keys as in RequestRecord, and "text"

@@ -59,7 +59,8 @@ void RobotEstimator::update(const SensorFrame& frame, Estimate& estimate) noexce
   weighting_accel_mps2_ = keep * weighting_accel_mps2_ + (1.0 - keep) * estimate.foot_accel_mps2;
   estimate.weighting_accel_mps2 = std::abs(weighting_accel_mps2_);
 
-  filter_.predict({estimate.body_accel_mps2, estimate.foot_accel_mps2}, dt);
+  const bool at_range = std::abs(frame.imu_foot.accel_mps2[kVertical]) >= config_.supervision.imu_range_mps2;
+  filter_.predict({estimate.body_accel_mps2, estimate.foot_accel_mps2, at_range}, dt);
   update_height(frame, estimate);
   update_leg(frame, estimate);
   if (frame.load_cell.fresh)

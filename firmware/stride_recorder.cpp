@@ -7,11 +7,16 @@ namespace sandhopper {
 StrideRecorder::StrideRecorder(const StiffnessConfig& config, const Foot& foot)
     : config_(config),
       joint_(config.joint, foot.radius_m),
-      profile_(config, foot.radius_m, foot.reduced_mass_kg) {}
+      profile_(config, foot.radius_m, foot.reduced_mass_kg),
+      unloading_(config.min_speed_mps),
+      reduced_mass_kg_(foot.reduced_mass_kg),
+      events_(ground_event_config(config), foot.radius_m) {}
 
 void StrideRecorder::on_release(std::int64_t now_ns) noexcept {
   current_ = {};
-  datum_m_ = deepest_m_ = crater_depth_m_ = crater_force_N_ = surface_z_m_ = 0.0;
+  datum_m_ = deepest_m_ = crater_depth_m_ = surface_z_m_ = 0.0;
+  deepest_force_N_ = crater_force_N_ = 0.0;
+  leaving_ = rises_ = clear_ = false;
   begin_flight(now_ns);
 }
 
@@ -24,13 +29,25 @@ void StrideRecorder::begin_flight(std::int64_t release_ns) noexcept {
   restart_sums();
 }
 
+// The foot meets its crater's floor where it left it: on the unloading line, without force. That is known
+// better than the height after a flight. A contact that was long before the touchdown was a swing of the leg.
+void StrideRecorder::take_crater_floor(std::int64_t now_ns) noexcept {
+  constexpr std::int64_t kContactToTouchdown_ns = 10'000'000;
+  constexpr double kUnloadingRatio = 30.0;  // of the unloading line over the virgin bed (terrain/bed.hpp)
+  if (now_ns - current_.contact_ns > kContactToTouchdown_ns) return;
+  const double line_N_per_m = kUnloadingRatio * config_.profile_or_default().believed_stiffness_N_per_m;
+  datum_m_ = contact_depth_m_ - (crater_depth_m_ - crater_force_N_ / line_N_per_m);
+}
+
 void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
+  if (current_.stride > 0) take_crater_floor(now_ns);
   ++current_.stride;
   current_.touchdown_ns = now_ns;
 }
 
 void StrideRecorder::on_switch(std::int64_t now_ns) noexcept {
   current_.switch_ns = now_ns;
+  events_.on_phase_change(event_time_s());
   if (config_.window == SampleWindow::compression) commit();
 }
 
@@ -41,8 +58,14 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   done_ = committed_;
   done_.summary = current_;
   done_.profile = profile_.sums();
+  done_.profile.unloading = unloading_.trace();
+  done_.profile.reduced_mass_kg = reduced_mass_kg_;
+  events_.on_phase_change(event_time_s());
+  events_.close(current_.stride, now_ns);
+  leaving_ = true;
+  rises_ = false;
   crater_depth_m_ = deepest_m_;
-  crater_force_N_ = std::max(crater_force_N_, current_.peak_force_N);
+  crater_force_N_ = deepest_force_N_;
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
   begin_flight(now_ns);
 }
@@ -51,6 +74,8 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
   sample_duration_s_ = static_cast<double>(e.force_time_ns - last_force_time_ns_) * 1e-9;
   last_force_time_ns_ = e.force_time_ns;
+  clear_ = false;
+  if (leaving_) follow_leaving_foot(e);
   if (state == State::flight && still_falling(e)) {
     current_.touchdown_speed_mps = std::max(current_.touchdown_speed_mps, e.force_velocity_mps);
     touched_ = false;
@@ -60,7 +85,9 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   if (!touched_) {
     touched_ = true;
     current_.contact_ns = e.force_time_ns;
+    contact_depth_m_ = e.force_depth_m;
     if (current_.stride == 0) datum_m_ = e.force_depth_m;
+    if (!leaving_) begin_events(e);
   }
   const double depth = e.force_depth_m - datum_m_;
   const bool stance = state == State::compression || state == State::extension;
@@ -68,8 +95,29 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
     current_.peak_force_N = std::max(current_.peak_force_N, e.contact_force_N);
     current_.peak_quasi_static_N = std::max(current_.peak_quasi_static_N, e.quasi_static_force_N);
     current_.max_depth_m = std::max(current_.max_depth_m, depth);
+    if (state == State::extension) unloading_.add(joint_sample(e, depth, current_.contact_ns));
   }
-  if (stance || (state == State::flight && e.force_velocity_mps > 0.0)) accumulate(e, depth);
+  const bool falling = state == State::flight && e.force_velocity_mps > 0.0;
+  if (stance || falling) accumulate(e, depth);
+  if (!leaving_ && (stance || falling)) events_.add(joint_sample(e, depth, event_contact_ns_));
+}
+
+void StrideRecorder::begin_events(const Estimate& e) noexcept {
+  event_contact_ns_ = e.force_time_ns;
+  events_.restart(crater_depth_m_);
+}
+
+// After the liftoff the ground still acts on the foot until it is above the surface, or falls again.
+void StrideRecorder::follow_leaving_foot(const Estimate& e) noexcept {
+  const double depth_m = e.force_depth_m - datum_m_;
+  rises_ = rises_ || e.force_velocity_mps < -config_.min_speed_mps;
+  clear_ = rises_ && (depth_m < 0.0 || e.force_velocity_mps > 0.0);
+  leaving_ = !clear_;
+  if (leaving_) events_.add(joint_sample(e, depth_m, event_contact_ns_));
+}
+
+double StrideRecorder::event_time_s() const noexcept {
+  return static_cast<double>(last_force_time_ns_ - event_contact_ns_) * 1e-9;
 }
 
 // What the foot's accelerometer feels beyond the leg's own forces is the ground: that marks the surface
@@ -102,32 +150,41 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     observer_.add({depth_m, e.contact_force_N, 1.0});
     weighted_.add({depth_m, e.contact_force_N, weight});
   }
-  const JointSample sample = joint_sample(e, depth_m);
+  const JointSample sample = joint_sample(e, depth_m, current_.contact_ns);
   if (depth_m > deepest_m_) {
     if (virgin && e.force_velocity_mps > config_.min_speed_mps)
       accumulate_joint(sample, e.quasi_static_force_N);
+    if (e.force_velocity_mps > config_.min_speed_mps && on_new_ground(sample))
+      deepest_force_N_ = sample.force_N - profile_.inertia_N(sample);
     deepest_m_ = depth_m;
     // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
     if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
   }
-  profile_.follow(sample);
 }
 
-JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m) const noexcept {
+JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
+                                         std::int64_t contact_ns) const noexcept {
   return {.depth_m = depth_m,
           .speed_mps = e.force_velocity_mps,
           .accel_mps2 = -e.foot_accel_mps2,
           .force_N = e.direct_force_N,
           .leg_rate_mps = e.leg_rate_mps,
-          .since_contact_s = static_cast<double>(e.force_time_ns - current_.contact_ns) * 1e-9,
+          .since_contact_s = static_cast<double>(e.force_time_ns - contact_ns) * 1e-9,
           .duration_s = sample_duration_s_};
 }
 
-// Below the old crater the estimated depth does not tell on which line the ground answers: a force greater
-// than any before does.
+// Just below the old crater the estimated depth does not tell on which line the ground answers: a force
+// greater than that at its deepest point does.
+bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
+  constexpr double kDeviations = 2.0;
+  const double sure_m = crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
+  return crater_depth_m_ == 0.0 || sample.depth_m > sure_m ||
+         sample.force_N - profile_.inertia_N(sample) >= crater_force_N_;
+}
+
 void StrideRecorder::accumulate_joint(const JointSample& sample, double motor_force_N) noexcept {
   joint_.add(sample);
-  if (sample.force_N >= crater_force_N_) profile_.add(sample, motor_force_N);
+  if (on_new_ground(sample)) profile_.add(sample, motor_force_N);
 }
 
 void StrideRecorder::restart_sums() noexcept {
@@ -138,6 +195,7 @@ void StrideRecorder::restart_sums() noexcept {
   observer_.reset();
   weighted_.reset();
   joint_.reset();
+  unloading_.reset();
 }
 
 void StrideRecorder::commit() noexcept {

@@ -2,6 +2,7 @@
 #include "estimation/leg.hpp"
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
+#include "terrain/ground_events.hpp"
 
 namespace sandhopper {
 
@@ -25,6 +26,10 @@ class StrideRecorder {
   void update(const Estimate& estimate, State state) noexcept;
 
   const StrideSums& sums() const noexcept { return done_; }
+  // True for one update: the foot has left its crater, and the samples of that stance are complete. They stay
+  // until the next contact.
+  bool foot_is_clear() const noexcept { return clear_; }
+  const GroundEventSums& event_sums() const noexcept { return events_.sums(); }
   std::uint32_t strides_begun() const noexcept { return current_.stride; }
   // Where the foot should meet the ground next: the surface at first, then the floor of its own crater.
   double surface_z_m() const noexcept { return surface_z_m_; }
@@ -34,9 +39,14 @@ class StrideRecorder {
   bool still_falling(const Estimate& estimate) const noexcept;
   void restart_sums() noexcept;
   void accumulate(const Estimate& estimate, double depth_m) noexcept;
-  JointSample joint_sample(const Estimate& estimate, double depth_m) const noexcept;
+  JointSample joint_sample(const Estimate& estimate, double depth_m, std::int64_t contact_ns) const noexcept;
   void accumulate_joint(const JointSample& sample, double motor_force_N) noexcept;
   void commit() noexcept;
+  void take_crater_floor(std::int64_t now_ns) noexcept;
+  bool on_new_ground(const JointSample& sample) const noexcept;
+  void begin_events(const Estimate& estimate) noexcept;
+  void follow_leaving_foot(const Estimate& estimate) noexcept;
+  double event_time_s() const noexcept;
   bool counts(const Estimate& estimate, double depth_m) const noexcept;
 
   StiffnessConfig config_;
@@ -45,18 +55,27 @@ class StrideRecorder {
   RecursiveRegression weighted_;
   JointRegression joint_;
   ProfileRegression profile_;
+  UnloadingRecorder unloading_;
+  double reduced_mass_kg_;
+  GroundEventRecorder events_;
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};
-  double datum_m_ = 0.0;         // what the filter calls depth where the first stride met the surface
-  double deepest_m_ = 0.0;       // of this and all former strides, below that datum
-  double crater_depth_m_ = 0.0;  // of former strides
-  double crater_force_N_ = 0.0;  // greatest of theirs
+  double datum_m_ = 0.0;          // what the filter calls depth where the first stride met the surface
+  double deepest_m_ = 0.0;        // of this and all former strides, below that datum
+  double crater_depth_m_ = 0.0;   // of former strides
+  double deepest_force_N_ = 0.0;  // without drag and added mass, at the deepest point
+  double crater_force_N_ = 0.0;   // the same, of former strides
+  double contact_depth_m_ = 0.0;  // what the filter calls depth at the contact
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
   std::int64_t last_force_time_ns_ = 0;
   double sample_duration_s_ = 0.0;
   bool touched_ = false;  // contact of this stride has been noticed
+  std::int64_t event_contact_ns_ = 0;
+  bool leaving_ = false;  // after the liftoff, until the foot is clear of its crater
+  bool rises_ = false;
+  bool clear_ = false;
 };
 
 StrideRecorder::Foot foot_in_flight(const CycleConfig& config, const Leg& leg) noexcept;

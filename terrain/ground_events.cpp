@@ -43,7 +43,7 @@ double greatest_force_N(std::span<const Point> points) {
 
 struct Stance {
   std::vector<Point> points;
-  std::array<float, 2> resumed_m;
+  std::array<GroundEventSums::Resumption, 2> resumed;
 };
 
 struct Smoothness {
@@ -148,7 +148,10 @@ constexpr std::array kWidths_m{0.001, 0.002, 0.004};
 struct Rupture {
   double place_m, rise_m, decay_m;
   double operator()(double z) const {
-    return z <= place_m ? std::max(0.0, 1.0 - (place_m - z) / rise_m) : std::exp(-(z - place_m) / decay_m);
+    constexpr double kGone = 8.0;  // exp(-8) = 3e-4: zero, so that the test is that much shorter
+    if (z <= place_m) return std::max(0.0, 1.0 - (place_m - z) / rise_m);
+    const double decayed = (z - place_m) / decay_m;
+    return decayed < kGone ? std::exp(-decayed) : 0.0;
   }
 };
 
@@ -165,18 +168,23 @@ double mean_force_N(std::span<const Point> points, double from_m, double to_m) {
 
 // True where the end of a reloading's damping explains a fall of the force.
 bool resumes_at(const Stance& stance, double place_m) {
-  constexpr double kResumes_m = 0.001, kBefore_m = 0.002, kAfter_m = 0.004;
-  return std::ranges::any_of(stance.resumed_m, [&](double resumed_m) {
-    if (resumed_m < 0.0 || std::abs(place_m - resumed_m) > kResumes_m) return false;
-    const double before_N = mean_force_N(stance.points, resumed_m - kBefore_m, resumed_m);
-    const double after_N = mean_force_N(stance.points, resumed_m + kResumes_m, resumed_m + kAfter_m);
-    return !(after_N < before_N);
+  constexpr double kResumes_m = 0.001, kAfter_m = 0.004;
+  return std::ranges::any_of(stance.resumed, [&](const GroundEventSums::Resumption& resumed) {
+    const double at_m = resumed.depth_m;
+    if (at_m < 0.0 || std::abs(place_m - at_m) > kResumes_m) return false;
+    return !(mean_force_N(stance.points, at_m + kResumes_m, at_m + kAfter_m) < resumed.bearing_N);
   });
+}
+
+// A rupture is a fall of the force: a steep rise at the end of the stance is none.
+bool falls_after(std::span<const Point> points, const Point& p) {
+  constexpr double kAfter_m = 0.004;
+  return mean_force_N(points, p.depth_m, p.depth_m + kAfter_m) < p.force_N - p.inertia_N;
 }
 
 void offer_ruptures(Search& search, const Stance& stance) {
   for (const auto& p : stance.points) {
-    if (resumes_at(stance, p.depth_m)) continue;
+    if (!falls_after(stance.points, p) || resumes_at(stance, p.depth_m)) continue;
     for (const double rise_m : kRises_m)
       for (const double decay_m : kDecays_m)
         search.offer(p.depth_m, GroundEventKind::crust_rupture, false, Rupture{p.depth_m, rise_m, decay_m});
@@ -305,6 +313,7 @@ void GroundEventRecorder::restart(double crater_depth_m) noexcept {
   settled_s_ = 0.0;
   paused_s_ = -1.0;
   pause_N_per_m_ = 0.0;
+  bearing_N_ = 0.0;
   new_from_m_ = kUnknown_m;
   shift_m_ = 0.0;
   leaves_ = false;
@@ -315,12 +324,28 @@ double GroundEventRecorder::inertia_N(const JointSample& s) const noexcept {
          cone_.added_mass_kg(s.depth_m) * s.accel_mps2;
 }
 
+// The foot that stood there shows what the ground bore at its deepest point, where it bore more than on the
+// last new ground before the pause. A crust that breaks at the end of a pause shows itself by that alone.
+void GroundEventRecorder::keep_bearing(const JointSample& s, double deepest_m) noexcept {
+  if (!(bearing_N_ > pause_N_per_m_ * deepest_m)) return;
+  const JointSample rest{.depth_m = deepest_m,
+                         .speed_mps = 0.0,
+                         .accel_mps2 = 0.0,
+                         .force_N = bearing_N_,
+                         .leg_rate_mps = 0.0,
+                         .since_contact_s = s.since_contact_s,
+                         .duration_s = s.duration_s};
+  put(sums_.down, rest, 0.0, 0.0);
+}
+
 bool GroundEventRecorder::is_new_ground(const JointSample& s) noexcept {
   const double deepest_m = sums_.deepest_m;
   const double slowing_mps2 = std::max(0.0, -s.accel_mps2);
   if (s.speed_mps < config_.min_speed_mps + slowing_mps2 * config_.speed_lag_s) {
     if (paused_s_ < 0.0) paused_s_ = s.since_contact_s;
     new_from_m_ = kUnknown_m;
+    if (std::abs(s.speed_mps) < config_.min_speed_mps && std::abs(s.accel_mps2) < config_.rest_accel_mps2)
+      bearing_N_ = std::max(bearing_N_, s.force_N - inertia_N(s));
     return false;
   }
   if (s.since_contact_s < settled_s_) return false;
@@ -332,7 +357,10 @@ bool GroundEventRecorder::is_new_ground(const JointSample& s) noexcept {
     if (!loaded_again && s.depth_m <= new_from_m_) return false;
     if (loaded_again) shift_m_ = std::max(0.0, deepest_m - s.depth_m) + kLeastStep_m;
     paused_s_ = -1.0;
-    sums_.resumed_m = {static_cast<float>(s.depth_m + shift_m_), sums_.resumed_m[0]};
+    keep_bearing(s, deepest_m);
+    sums_.resumed = {
+        {{static_cast<float>(s.depth_m + shift_m_), static_cast<float>(bearing_N_)}, sums_.resumed[0]}};
+    bearing_N_ = 0.0;
   }
   return s.depth_m + shift_m_ > deepest_m;
 }
@@ -355,10 +383,16 @@ void GroundEventRecorder::add(const JointSample& sample) noexcept {
   sums_.deepest_m = std::max(sums_.deepest_m, static_cast<float>(s.depth_m));
 }
 
+GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept {
+  GroundEventConfig events;
+  events.noise = config.joint;
+  return events;
+}
+
 GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config) {
-  GroundEvents events;
+  GroundEvents events{.stride = sums.stride};
   events.suction = find_suction(sums.up, config);
-  const Stance stance{points_of(sums.down), sums.resumed_m};
+  const Stance stance{points_of(sums.down), sums.resumed};
   if (stance.points.size() < kLeastPoints) return events;
   events.rupture = find_rupture(stance, config);
   events.boundary = find_boundary(stance, config, events.rupture);

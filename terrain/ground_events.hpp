@@ -32,7 +32,7 @@
 // pause, new ground begins where the force is again what it was at the deepest point, which is then the
 // present depth; or where the depth is greater than before by two standard deviations of that drift. The
 // damping of the reloading ends there, which looks like a rupture: within 1 mm of it a rupture must leave
-// less force than there was before the pause.
+// less force, 1 to 4 mm deeper, than the ground bore under the resting foot in the pause.
 //
 // Sources: the statistic is Davies 1977 (a nuisance parameter that exists only under the alternative);
 // templates as in terrain/bed_family.hpp.
@@ -62,6 +62,9 @@ struct GroundEventConfig {
   // acceleration changes in one cycle and one time constant of the IMU's low-pass.
   double min_speed_mps = 0.06;
   double speed_lag_s = 0.0014;
+  // A resting foot accelerates by less than three standard deviations of its accelerometer under load. One
+  // that accelerates may be held by damping that is no strength of the ground.
+  double rest_accel_mps2 = 0.9;
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -76,6 +79,7 @@ struct GroundEventConfig {
     visit("noise", self.noise);
     visit("min_speed_mps", self.min_speed_mps, Range{0.0, 1.0});
     visit("speed_lag_s", self.speed_lag_s, Range{0.0, 0.1});
+    visit("rest_accel_mps2", self.rest_accel_mps2, Range{1e-3, 100.0});
   }
 };
 
@@ -118,10 +122,15 @@ struct DepthBins {
 struct GroundEventSums {
   DepthBins down;  // new ground
   DepthBins up;    // the foot leaves
+  std::uint32_t stride = 0;
+  std::int64_t liftoff_ns = 0;
   float deepest_m = 0.0F;
   float crater_depth_m = 0.0F;  // of earlier strides
-  std::array<float, 2> resumed_m{-1.0F,
-                                 -1.0F};  // where new ground began after the last pauses; negative: none
+  struct Resumption {
+    float depth_m = -1.0F;   // where new ground began after a pause; negative: none
+    float bearing_N = 0.0F;  // greatest force of the foot at rest in that pause: what the ground bore there
+  };
+  std::array<Resumption, 2> resumed{};  // the last one first
 };
 
 // Accumulates the samples of a stance, and those after liftoff until the foot is clear. Never allocates.
@@ -130,6 +139,11 @@ class GroundEventRecorder {
   GroundEventRecorder(const GroundEventConfig& config, double foot_radius_m);
   // A new stride: the deepest point of the earlier ones.
   void restart(double crater_depth_m) noexcept;
+  // The liftoff: the number and time of the stride that these samples belong to.
+  void close(std::uint32_t stride, std::int64_t liftoff_ns) noexcept {
+    sums_.stride = stride;
+    sums_.liftoff_ns = liftoff_ns;
+  }
   // The stance switch or the liftoff, between the samples before and after it.
   void on_phase_change(double since_contact_s) noexcept {
     settled_s_ = since_contact_s + config_.settling_time_s;
@@ -139,6 +153,7 @@ class GroundEventRecorder {
 
  private:
   bool is_new_ground(const JointSample& sample) noexcept;
+  void keep_bearing(const JointSample& sample, double deepest_m) noexcept;
   double inertia_N(const JointSample& sample) const noexcept;
 
   GroundEventConfig config_;
@@ -148,16 +163,29 @@ class GroundEventRecorder {
   double paused_s_ = -1.0;  // since when the foot has not gone down; negative: it does
   double pause_N_per_m_ =
       0.0;  // force without the added mass's, over depth, on the last new ground before the pause
+  double bearing_N_ = 0.0;   // greatest force of the foot at rest since then
   double new_from_m_ = 0.0;  // where new ground begins at the latest after the pause
   double shift_m_ = 0.0;     // added to the estimated depth since then
   bool leaves_ = false;      // sums_.up has samples
 };
 
 struct GroundEvents {
+  std::uint32_t stride = 0;
   GroundEvent rupture{};   // kind none: not found; its statistic is the largest there was
   GroundEvent boundary{};  // or floor
   GroundEvent suction{};
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("stride", self.stride);
+    visit("rupture", self.rupture);
+    visit("boundary", self.boundary);
+    visit("suction", self.suction);
+  }
 };
+
+// The search with the noise of the joint fit.
+GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept;
 
 // Not for the cycle: some ten milliseconds for a whole foot of depth, and it allocates. The same sums give
 // the same bits.

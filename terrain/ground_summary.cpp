@@ -184,7 +184,10 @@ class Summariser {
     m.use(0, cells([&](std::size_t) { return believed_; }), 0.0, kFree);
     hold(m, solve(solver_, m));
     const Fit fit = solve(solver_, m);
-    s.line_N_per_m = value_of(1.0 + fit.value[0], std::sqrt(fit.covariance[0]), believed_);
+    const auto joint = solver_.line();
+    s.line_N_per_m = std::isfinite(joint.value_N_per_m)
+                         ? SummaryValue{joint.value_N_per_m, joint.ci95_low_N_per_m, joint.ci95_high_N_per_m}
+                         : value_of(1.0 + fit.value[0], std::sqrt(fit.covariance[0]), believed_);
     depart(m, 1, 4);
     s.line = check(solve(solver_, m), 4);
   }
@@ -262,22 +265,11 @@ class Summariser {
 
 }  // namespace
 
-SummaryValue reloading_stiffness(const CraterReturn& crater, const ProfileConfig& config) noexcept {
-  const double fall_N = crater.deepest_N - crater.released_N;
-  if (!(fall_N > 0.5 * crater.deepest_N)) return {};
-  const double noise_m = 2.0 * config.depth_noise_m;  // of two depths, both beyond what an offset explains
-  const double drift_m = config.landing_drift_sd_mps * crater.duration_s;
-  const ProfilePoint recovery{crater.recovery_m, std::sqrt(noise_m * noise_m + drift_m * drift_m)};
-  if (!(recovery.high() > 0.0)) return {};
-  const auto stiffness = [&](double recovery_m) {
-    return recovery_m > 0.0 ? fall_N / recovery_m : std::numeric_limits<double>::infinity();
-  };
-  return {stiffness(recovery.value), stiffness(recovery.high()), stiffness(recovery.low())};
-}
-
-GroundSummary summarise(const ProfileSolver& solver, const ProfileSums& last) noexcept {
+GroundSummary summarise(const ProfileSolver& solver) noexcept {
   GroundSummary summary = Summariser(solver).run();
-  summary.reloading_N_per_m = reloading_stiffness(last.crater, solver.config().profile_or_default());
+  const auto reloading = solver.reloading().line();
+  summary.reloading_N_per_m = {reloading.value_N_per_m, reloading.ci95_low_N_per_m,
+                               reloading.ci95_high_N_per_m};
   return summary;
 }
 

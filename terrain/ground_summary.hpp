@@ -49,8 +49,8 @@ struct GroundSummary {
   SummaryValue secant_20mm_N_per_m{};
   SummaryValue exponent{};  // of a power law
   ModelCheck line{}, power_law{}, layered{};
-  // Stiffness of the line on which the foot leaves its crater and returns; the upper end is infinite where
-  // the data allow a rigid ground, and all three are zero where there are none.
+  // Stiffness of the line on which the foot leaves its crater and returns (reloading.hpp); the upper end is
+  // infinite where the data allow a rigid ground, and all three are zero where there are none.
   SummaryValue reloading_N_per_m{};
   bool line_valid = false;
 
@@ -71,11 +71,6 @@ struct GroundSummary {
   }
 };
 
-// Stiffness of that line: fall of the force over the depth given back. The error of that depth is the drift
-// of the estimated one for so long, and its noise at both ends.
-SummaryValue reloading_stiffness(const CraterReturn& crater, const ProfileConfig& config) noexcept;
-
-// `last`: the sums of the last stride that the solver was given.
-GroundSummary summarise(const ProfileSolver& solver, const ProfileSums& last) noexcept;
+GroundSummary summarise(const ProfileSolver& solver) noexcept;
 
 }  // namespace sandhopper

@@ -18,7 +18,7 @@ struct JointConfig {
   double depth_drift_sd_mps = 0.005;
   double joint_friction_sd_N = 0.4;
   double friction_switch_speed_mps = 0.02;  // v_s
-  double accel_range_mps2 = 150.0;          // a sample beyond it is saturated
+  double accel_range_mps2 = 142.0;          // beyond it a sample is saturated: 97 % of 16 g, less gravity
   int min_observations = 6;                 // independent ones
 
   template <class Self, class Visitor>

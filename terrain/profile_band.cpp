@@ -66,6 +66,27 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   return point;
 }
 
+// Strides of one trial are on one bed: they differ by their noise. The torque constant's error is common.
+void ProfileSolver::take_line(const ProfileSums& sums) noexcept {
+  const auto joint = solve_joint(joint_sums_of(sums, config_), config_);
+  const double scale_N_per_m = config_.joint.force_scale_relative * joint.value_N_per_m;
+  const double se = joint.standard_error_N_per_m;
+  const double own = se * se - scale_N_per_m * scale_N_per_m;
+  if (!(joint.value_N_per_m > 0.0) || !(own > 0.0)) return;
+  line_weight_ += 1.0 / own;
+  line_sum_ += joint.value_N_per_m / own;
+  line_degrees_ += std::max(joint.observations - 3.0, 1.0);
+}
+
+ProfileSolver::Line ProfileSolver::line() const noexcept {
+  if (line_weight_ == 0.0) return {kNowhere.value, kNowhere.value, kNowhere.value};
+  const double value = line_sum_ / line_weight_;
+  const double scale_N_per_m = config_.joint.force_scale_relative * value;
+  const double half =
+      student_975(line_degrees_) * std::sqrt(1.0 / line_weight_ + scale_N_per_m * scale_N_per_m);
+  return {value, value - half, value + half};
+}
+
 ProfilePoint force_at(const StrengthProfile& p, double depth_m) noexcept {
   if (!within(depth_m)) return kNowhere;
   const double place = depth_m / kProfilePoint_m;

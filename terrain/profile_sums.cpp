@@ -19,21 +19,6 @@ double ProfileCell::product_with(std::size_t feature,
   return sum;
 }
 
-void CraterReturn::follow(const JointSample& s, double contact_force_N) noexcept {
-  if (s.depth_m > deepest_m && s.speed_mps > 0.0) {
-    *this = {.deepest_m = s.depth_m,
-             .deepest_N = s.force_N,
-             .deepest_s = s.since_contact_s,
-             .released_N = s.force_N};
-    return;
-  }
-  const bool free = released_N < contact_force_N;
-  if (free || !(s.force_N < released_N)) return;
-  released_N = s.force_N;
-  recovery_m = deepest_m - s.depth_m;
-  duration_s = s.since_contact_s - deepest_s;
-}
-
 double intercept_growth(const JointConfig& config, double depth_m) noexcept {
   return 1.0 - std::exp(-depth_m / config.intercept_growth_depth_m);
 }
@@ -44,6 +29,49 @@ double believed_force_N(const StiffnessConfig& config, double depth_m) noexcept 
          (depth_m + config.joint.intercept_depth_m * intercept_growth(config.joint, depth_m));
 }
 
+JointSums joint_sums_of(const ProfileSums& sums, const StiffnessConfig& config) noexcept {
+  using F = ProfileFeature;
+  using Factors = std::array<double, kProfileFeatures>;
+  const auto at = [](F feature) { return static_cast<std::size_t>(feature); };
+  const double k = config.profile_or_default().believed_stiffness_N_per_m;
+  JointSums joint{.depth_min_m = sums.depth_min_m,
+                  .depth_max_m = sums.depth_max_m,
+                  .samples = sums.samples,
+                  .saturated = sums.saturated};
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    const ProfileCell& cell = sums.cells[s];
+    if (cell.observations == 0.0) continue;
+    std::array<Factors, kJointTerms + 1> factors{};  // of the joint fit's terms, then of the force
+    const auto term = [&](JointTerm t) -> Factors& { return factors[static_cast<std::size_t>(t)]; };
+    Factors& depth = term(JointTerm::stiffness);
+    depth[at(F::one)] = static_cast<double>(s) * kProfileCell_m;
+    depth[at(F::place)] = kProfileCell_m;
+    term(JointTerm::intercept)[at(F::intercept)] = 1.0;
+    term(JointTerm::added_mass)[at(F::added_mass)] = 1.0;
+    term(JointTerm::surface)[at(F::one)] = 1.0;
+    term(JointTerm::drift)[at(F::time)] = 1.0;
+    term(JointTerm::friction)[at(F::friction)] = 1.0;
+    Factors& force = factors[kJointTerms];
+    for (std::size_t i = 0; i < kProfileFeatures; ++i) force[i] = k * depth[i];
+    force[at(F::intercept)] += k * config.joint.intercept_depth_m;
+    force[at(F::force)] = 1.0;
+    const auto product = [&](const Factors& a, const Factors& b) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < kProfileFeatures; ++i)
+        if (a[i] != 0.0) sum += a[i] * cell.product_with(i, b);
+      return sum;
+    };
+    for (std::size_t i = 0; i < kJointTerms; ++i) {
+      for (std::size_t j = 0; j < kJointTerms; ++j)
+        joint.normal[kJointTerms * i + j] += product(factors[i], factors[j]);
+      joint.moment[i] += product(factors[i], force);
+    }
+    joint.force_squared += product(force, force);
+    joint.observations += cell.observations;
+  }
+  return joint;
+}
+
 ProfileRegression::ProfileRegression(const StiffnessConfig& config, double foot_radius_m,
                                      double reduced_mass_kg)
     : config_(config),
@@ -51,15 +79,26 @@ ProfileRegression::ProfileRegression(const StiffnessConfig& config, double foot_
       reduced_mass_kg_(reduced_mass_kg),
       cone_(BedParameters{}, foot_radius_m) {}
 
+double ProfileRegression::inertia_N(const JointSample& s) const noexcept {
+  return config_.joint.added_mass_factor *
+         (cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
+          cone_.added_mass_kg(s.depth_m) * s.accel_mps2);
+}
+
 void ProfileRegression::reset() noexcept {
-  if (sums_.samples + sums_.saturated + sums_.too_deep + (sums_.crater.deepest_m > 0.0)) sums_ = {};
+  settled_s_ = 0.0;
+  if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
 }
 
 void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {
   if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2)) {
+    // One cycle and three time constants of the IMU's low-pass of 400 Hz still hold what was cut off.
+    constexpr double kSettling_s = 0.003;
+    settled_s_ = s.since_contact_s + kSettling_s;
     ++sums_.saturated;
     return;
   }
+  if (s.since_contact_s < settled_s_) return;
   if (!(s.depth_m > 0.0)) return;
   if (!(s.depth_m < kProfileDepth_m)) {
     ++sums_.too_deep;

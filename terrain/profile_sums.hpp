@@ -5,6 +5,7 @@
 #include "terrain/bed.hpp"
 #include "terrain/joint_fit.hpp"
 #include "terrain/profile_config.hpp"
+#include "terrain/reloading.hpp"
 
 // Normal equations of the strength profile (strength_profile.hpp), accumulated in the cycle. The depth is
 // divided into cells; each keeps the weighted products of nine features of its samples. The solver combines
@@ -44,29 +45,21 @@ struct ProfileCell {
                       const std::array<double, kProfileFeatures>& factors) const noexcept;
 };
 
-// Unloading of the ground after the deepest point of a stride, until the force is smallest.
-struct CraterReturn {
-  double deepest_m = 0.0;
-  double deepest_N = 0.0;
-  double deepest_s = 0.0;   // since contact
-  double released_N = 0.0;  // least force after it
-  double recovery_m = 0.0;  // deepest point less the depth there
-  double duration_s = 0.0;
-
-  void follow(const JointSample& sample, double contact_force_N) noexcept;
-};
-
 struct ProfileSums {
   std::array<ProfileCell, kProfileCells> cells{};
-  CraterReturn crater{};
+  UnloadingTrace unloading{};
   double depth_min_m = 0.0, depth_max_m = 0.0;
   // Sums over observations of added mass / reduced mass, and of its square. The measured acceleration follows
   // from the force that it helps to measure; the density of such a sample has the factor 1 + c m_a / M_f.
   double response = 0.0, response_squared = 0.0;
+  double reduced_mass_kg = 0.0;  // M_f
   std::int32_t samples = 0;
   std::int32_t saturated = 0;
   std::int32_t too_deep = 0;  // below the last cell
 };
+
+// The normal equations of the joint fit on the same samples.
+JointSums joint_sums_of(const ProfileSums& sums, const StiffnessConfig& config) noexcept;
 
 // F = k [z + z0 (1 - exp(-z/dz0))], the curve that the robot believes before it has touched the ground.
 double believed_force_N(const StiffnessConfig& config, double depth_m) noexcept;
@@ -80,8 +73,8 @@ class ProfileRegression {
   ProfileRegression(const StiffnessConfig& config, double foot_radius_m, double reduced_mass_kg);
   // `motor_force_N`: the part of the force that the motors' current gives.
   void add(const JointSample& sample, double motor_force_N) noexcept;
-  // Every sample of a stance, in the order of time.
-  void follow(const JointSample& sample) noexcept { sums_.crater.follow(sample, config_.contact_force_N); }
+  // Drag and added mass of the believed bed on the foot.
+  double inertia_N(const JointSample& sample) const noexcept;
   const ProfileSums& sums() const noexcept { return sums_; }
   void reset() noexcept;
 
@@ -91,6 +84,7 @@ class ProfileRegression {
   double reduced_mass_kg_;
   Bed cone_;  // added mass at factor 1
   ProfileSums sums_{};
+  double settled_s_ = 0.0;  // after a saturated sample
 };
 
 }  // namespace sandhopper

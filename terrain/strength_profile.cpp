@@ -28,7 +28,9 @@ struct Column {
 }  // namespace
 
 ProfileSolver::ProfileSolver(const StiffnessConfig& config)
-    : config_(config), prior_(config.profile_or_default()) {
+    : config_(config),
+      prior_(config.profile_or_default()),
+      reloading_(prior_, config.joint.force_noise_N, config.joint.force_scale_relative) {
   for (std::size_t j = 0; j < kN; ++j) {
     const double top_m = static_cast<double>(j) * kProfileCell_m;
     believed_N_per_m_[j] =
@@ -48,6 +50,10 @@ void ProfileSolver::restart() noexcept {
   profile_ = {};
   response_ = {};
   slope_N_per_m_ = believed_N_per_m_;
+  reloading_.restart();
+  unresolved_N2_.fill(0.0);
+  jump_.fill(1.0);
+  line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
 // Normal equations of a stride with the slopes of the posterior before. A sample in cell s sees every cell
@@ -293,13 +299,13 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
 
 void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept {
   if (stride == 1) restart();
+  reloading_.add(sums.unloading, sums.reduced_mass_kg);
+  take_line(sums);
   if (sums.samples == 0 && stride > 1) {  // no new ground: what is known stays
     report(sums, stride);
     return;
   }
   noise_factor_.fill(1.0);
-  unresolved_N2_.fill(0.0);
-  jump_.fill(1.0);
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
     info = information_of(sums);

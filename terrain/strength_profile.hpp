@@ -114,6 +114,12 @@ class ProfileSolver {
   const Vector<kShared>& moment() const noexcept { return kept_moment_; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
   double intercept_N_per_m(std::size_t cell) const noexcept { return intercept_N_per_m_[cell]; }
+  // The joint fit's line, of the strides that have one; NaN where none has.
+  struct Line {
+    double value_N_per_m, ci95_low_N_per_m, ci95_high_N_per_m;
+  };
+  Line line() const noexcept;
+  const ReloadingPosterior& reloading() const noexcept { return reloading_; }
   // Cells of the last stride that no curve fits, at a level of 1 % for all of them together.
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
@@ -142,6 +148,7 @@ class ProfileSolver {
   void integrate(const Information& information, bool last) noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
+  void take_line(const ProfileSums& sums) noexcept;
   void keep(const Information& information) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
@@ -165,6 +172,8 @@ class ProfileSolver {
   Matrix<kShared> kept_normal_{};
   Vector<kShared> kept_moment_{};
   std::size_t broken_cells_ = 0;
+  ReloadingPosterior reloading_;
+  double line_weight_ = 0.0, line_sum_ = 0.0, line_degrees_ = 0.0;  // of the strides' joint fits
   Posterior posterior_{};
   StrengthProfile profile_{};
 };

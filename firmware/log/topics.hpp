@@ -17,9 +17,10 @@ inline constexpr std::string_view kEvent = "/event";      // Event
 inline constexpr std::string_view kStride = "/stride";    // StrideResult
 inline constexpr std::string_view kProfile = "/profile";  // StrengthProfile, after each StrideResult
 inline constexpr std::string_view kGround = "/ground";    // GroundSummary, after each StrengthProfile
-inline constexpr std::string_view kRequest = "/request";  // RequestRecord: the operator's words
-inline constexpr std::string_view kTruth = "/truth";      // PlantTruth, simulated robot only
-inline constexpr std::string_view kGap = "/gap";          // LogGap
+inline constexpr std::string_view kGroundEvents = "/ground_events";  // GroundEvents, after each stride
+inline constexpr std::string_view kRequest = "/request";             // RequestRecord: the operator's words
+inline constexpr std::string_view kTruth = "/truth";                 // PlantTruth, simulated robot only
+inline constexpr std::string_view kGap = "/gap";                     // LogGap
 }  // namespace topic
 
 enum class LossCause : std::uint8_t {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "terrain/ground_summary.hpp"
@@ -110,7 +111,7 @@ TEST(StrengthProfile, AccumulatesAndSolvesWithoutAllocating) {
   const AllocationGuard guard;
   for (int i = 1; i < 300; ++i) regression.add({1e-4 * i, 0.1, 0.0, 0.15 * i, 0.0, 1e-3 * i, 1e-3}, 0.15 * i);
   solver.add(regression.sums(), 1);
-  summarise(solver, regression.sums());
+  summarise(solver);
   EXPECT_EQ(guard.count(), 0u);
 }
 
@@ -119,7 +120,7 @@ TEST(GroundSummary, SaysWhichBedsAreNoLine) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto shape = [&](const Curve& curve) {
       const Push push{.speed_mps = 0.8, .seed = seed};
-      return summarise(solved(curve, push), sums_of(curve, push));
+      return summarise(solved(curve, push));
     };
     const auto line = shape(line_N);
     lines += line.line_valid;
@@ -132,48 +133,118 @@ TEST(GroundSummary, SaysWhichBedsAreNoLine) {
 }
 
 TEST(GroundSummary, FindsThePowerLawsExponent) {
-  const auto g = summarise(solved(power_N, {}), {});
+  const auto g = summarise(solved(power_N, {}));
   EXPECT_EQ(g.shape, GroundShape::power_law);
   EXPECT_LT(g.exponent.ci95_low, 1.4);
   EXPECT_GT(g.exponent.ci95_high, 1.4);
 }
 
-// A foot that comes to rest at 38 mm under 60 N and leaves on a line of 45 kN/m.
-CraterReturn leaving(double line_N_per_m) {
-  CraterReturn crater;
-  JointSample s{.depth_m = 0.038,
-                .speed_mps = 0.05,
-                .accel_mps2 = 0.0,
-                .force_N = 60.0,
-                .leg_rate_mps = 0.0,
-                .since_contact_s = 0.2,
-                .duration_s = 1e-3};
-  crater.follow(s, 1.5);
-  s.speed_mps = -0.2;
-  while (s.force_N > 0.0) {
-    s.depth_m -= 2e-4;
-    s.since_contact_s += 1e-3;
-    s.force_N -= 2e-4 * line_N_per_m;
-    crater.follow(s, 1.5);
+constexpr double kFoot_kg = 0.68;
+
+// A foot that leaves on a line of this stiffness: its load falls from 60 N to nothing in 0.1 s. `bias_mps2`
+// is that of the accelerometer.
+UnloadingTrace leaving(double line_N_per_m, double bias_mps2 = 0.05) {
+  UnloadingRecorder recorder(0.03);
+  std::mt19937 engine(5);
+  std::normal_distribution<double> noise;
+  const double damping = 2.0 * 0.6 * std::sqrt(line_N_per_m * kFoot_kg);
+  double z = 60.0 / line_N_per_m, v = 0.0;
+  const double step_s = 1e-5;
+  double load_N = 60.0;
+  for (int i = 0; i < 12000 && load_N > 0.5; ++i) {
+    const double t = i * step_s;
+    load_N = 30.0 * (1.0 + std::cos(std::numbers::pi * t / 0.1));
+    const double ground_N = line_N_per_m * z + damping * v;
+    const double a = (load_N - ground_N) / kFoot_kg;
+    v += a * step_s;
+    z += v * step_s;
+    if (i % 100 == 0)
+      recorder.add({.depth_m = 0.038,
+                    .speed_mps = v,
+                    .accel_mps2 = a + bias_mps2 + 0.3 * noise(engine),
+                    .force_N = ground_N + 0.3 * noise(engine),
+                    .leg_rate_mps = 0.0,
+                    .since_contact_s = t,
+                    .duration_s = 1e-3});
   }
-  s.depth_m = 0.01;  // in the air
-  crater.follow(s, 1.5);
-  return crater;
+  recorder.add({.depth_m = 0.037, .speed_mps = -0.2, .accel_mps2 = -40.0, .force_N = 0.0});
+  return recorder.trace();
+}
+
+ReloadingLine line_of(const UnloadingTrace& trace, int strides = 1) {
+  ReloadingPosterior posterior({}, 0.5, 0.02);
+  for (int i = 0; i < strides; ++i) posterior.add(trace, kFoot_kg);
+  return posterior.line();
 }
 
 TEST(ReloadingStiffness, IntervalHoldsTheLineOnWhichTheFootLeaves) {
-  const auto k = reloading_stiffness(leaving(45000.0), {});
-  EXPECT_NEAR(k.value, 45000.0, 5000.0);
-  EXPECT_GT(k.ci95_low, 15000.0);
-  EXPECT_LT(k.ci95_low, 45000.0);
-  EXPECT_GT(k.ci95_high, 45000.0);
+  for (const double truth : {20e3, 45e3}) {
+    const auto k = line_of(leaving(truth));
+    EXPECT_NEAR(k.value_N_per_m, truth, 0.25 * truth);
+    EXPECT_LT(k.ci95_low_N_per_m, truth);
+    EXPECT_GT(k.ci95_high_N_per_m, truth);
+    EXPECT_LT(k.ci95_high_N_per_m, 2.0 * truth);
+  }
+}
+
+TEST(ReloadingStiffness, IsNotMovedByTheAccelerometersBias) {
+  const auto with = line_of(leaving(45e3, 0.2)), without = line_of(leaving(45e3, 0.0));
+  EXPECT_NEAR(with.value_N_per_m, without.value_N_per_m, 0.15 * without.value_N_per_m);
 }
 
 TEST(ReloadingStiffness, OfRigidGroundIsALowerBound) {
-  const auto k = reloading_stiffness(leaving(1e6), {});
-  EXPECT_GT(k.ci95_low, 20000.0);
-  EXPECT_FALSE(std::isfinite(k.ci95_high));
-  EXPECT_EQ(reloading_stiffness({}, {}).value, 0.0);
+  const auto k = line_of(leaving(1e7));
+  EXPECT_GT(k.ci95_low_N_per_m, 50e3);
+  EXPECT_FALSE(std::isfinite(k.ci95_high_N_per_m));
+}
+
+TEST(ReloadingStiffness, StridesOfATrialNarrowIt) {
+  const auto one = line_of(leaving(45e3)), four = line_of(leaving(45e3), 4);
+  EXPECT_LT(four.ci95_high_N_per_m - four.ci95_low_N_per_m,
+            0.9 * (one.ci95_high_N_per_m - one.ci95_low_N_per_m));
+}
+
+TEST(ReloadingStiffness, OfAnImpactIsNotKnown) {
+  UnloadingRecorder recorder(0.03);
+  for (int i = 0; i < 60; ++i)
+    recorder.add({.depth_m = 0.03, .speed_mps = -0.01, .accel_mps2 = -70.0, .force_N = 60.0 - i});
+  EXPECT_EQ(recorder.trace().pairs, 0);
+  EXPECT_EQ(line_of(recorder.trace()).value_N_per_m, 0.0);
+}
+
+TEST(GroundSummary, LineIsTheJointFits) {
+  const auto sums = sums_of(line_N, {});
+  const Bed cone(BedParameters{}, kRadius_m);
+  JointRegression joint({}, kRadius_m);
+  std::mt19937 engine(1);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  const Push push;
+  const double rate = push.speed_mps / push.to_m;
+  for (double t = 1e-3; rate * t < 3.5; t += 1e-3) {
+    const double z = push.to_m * (1.0 - std::exp(-rate * t));
+    const double v = push.speed_mps * std::exp(-rate * t), a = -rate * v;
+    const double force = line_N(z) + cone.added_mass_gradient_kg_per_m(z) * v * v + cone.added_mass_kg(z) * a;
+    joint.add({z, v, a, force + noise(engine), -0.1, t, 1e-3});
+  }
+  const auto direct = solve_joint(joint.sums(), {});
+  const auto through = solve_joint(joint_sums_of(sums, {}), {});
+  EXPECT_NEAR(through.value_N_per_m, direct.value_N_per_m, 1e-6 * direct.value_N_per_m);
+  EXPECT_NEAR(through.ci95_low_N_per_m, direct.ci95_low_N_per_m, 1e-6 * direct.value_N_per_m);
+  EXPECT_NEAR(through.chi_squared, direct.chi_squared, 1e-6);
+  ProfileSolver solver{StiffnessConfig{}};
+  solver.add(sums, 1);
+  EXPECT_NEAR(summarise(solver).line_N_per_m.value, direct.value_N_per_m, 1e-6 * direct.value_N_per_m);
+}
+
+TEST(StrengthProfile, WhatAnAccelerometerCutOffIsNotUsedForThreeSamples) {
+  ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
+  regression.add({0.010, 0.5, -147.0, 90.0, 0.0, 1e-3, 1e-3}, 20.0);
+  for (int i = 2; i <= 4; ++i)
+    regression.add({0.010 + 1e-4 * i, 0.5, -70.0, 60.0, 0.0, 1e-3 * i - 1e-4, 1e-3}, 20.0);
+  EXPECT_EQ(regression.sums().samples, 0);
+  EXPECT_EQ(regression.sums().saturated, 1);
+  regression.add({0.0106, 0.5, -70.0, 60.0, 0.0, 5e-3, 1e-3}, 20.0);
+  EXPECT_EQ(regression.sums().samples, 1);
 }
 
 }  // namespace

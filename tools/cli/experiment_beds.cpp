@@ -6,6 +6,7 @@
 #include "tools/cli/experiment.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/experiment/bed_score.hpp"
+#include "tools/experiment/statistics.hpp"
 #include "tools/plant/load_world.hpp"
 
 namespace sandhopper::cli {
@@ -19,41 +20,69 @@ struct Options {
 };
 
 std::string share(double count, double of) {
-  return of == 0.0 ? "-" : fmt::format("{:.1f} %", 100.0 * count / of);
+  return of == 0.0 ? "-" : fmt::format("{:.1f}", 100.0 * count / of);
+}
+
+std::string percent(double value) {
+  return std::isfinite(value) ? fmt::format("{:.1f}", 100.0 * value) : std::string("-");
+}
+
+std::string number(const NumberScore& s) {
+  return s.count == 0.0
+             ? "-"
+             : fmt::format("{:.2f} {:.1f}", 100.0 * s.absolute_error / s.count, 100.0 * s.covered / s.count);
+}
+
+void say_first(Session& session, const std::vector<BedScore>& scores) {
+  session.say(
+      "first strides [%]: depths whose truth the 95 % band holds, median width of the band at 20 mm,");
+  session.say(
+      "lines called valid, slope of a line: mean error and coverage, by the profile and the joint fit");
+  session.say("  {:<17} {:>7} {:>8} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9}", "bed", "strides", "coverage",
+              "width", "line", "joint l.", "profile", "joint fit", "compared");
+  for (const auto& s : scores)
+    session.say("  {:<17} {:>7.0f} {:>8} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9.0f}", s.bed, s.first.strides,
+                percent(s.first.band.share()), percent(median(s.first.width_20mm)),
+                share(s.first.line_valid, s.first.strides), share(s.first.joint_valid, s.first.strides),
+                number(s.first.slope), number(s.first.joint_slope), s.first.slope.count);
+}
+
+void say_later(Session& session, const std::vector<BedScore>& scores) {
+  session.say(
+      "\nstrides 2 and 3 in the crater [%]: reloading stiffness given with an interval of two ends, its");
+  session.say("coverage and median width, a lower bound alone; strides that went deeper, curve given there,");
+  session.say("its coverage at the new depths and at all depths");
+  session.say("  {:<17} {:>7} {:>8} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>8}", "bed", "strides", "reloading",
+              "coverage", "width", "bound", "deeper", "curve", "new depths", "band");
+  for (const auto& s : scores) {
+    const auto& c = s.crater;
+    session.say("  {:<17} {:>7.0f} {:>9} {:>8} {:>6} {:>6} {:>7.0f} {:>6} {:>10} {:>8}", s.bed, c.strides,
+                share(c.reloading.count, c.strides), share(c.reloading.covered, c.reloading.count),
+                percent(median(c.reloading_width)), share(c.bounds, c.strides), c.deeper,
+                share(c.curves, c.deeper), percent(c.fresh.share()), percent(c.band.share()));
+  }
 }
 
 std::string alarms(const EventScore& s) { return fmt::format("{:.0f}/{:.0f}", s.false_alarms, s.absent); }
 
-void say_events(Session& session, const std::vector<BedScore>& scores) {
+void say_events(Session& session, const std::vector<BedScore>& scores, bool first) {
   session.say(
-      "\nevents: found where there was one (depth: rms error, share within 2 mm); false alarms elsewhere");
-  session.say("  {:<17} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}", "bed", "strides", "found", "rms mm",
-              "in 2 mm", "rupture", "boundary", "floor", "suction");
+      "\nevents of {}: found where there was one, rms error of its depth [mm] and share within 2 mm [%];",
+      first ? "first strides" : "strides 2 and 3");
+  session.say("false alarms in strides without one");
+  session.say("  {:<17} {:>9} {:>6} {:>7} {:>9} {:>9} {:>9} {:>9}", "bed", "found", "rms mm", "in 2 mm",
+              "rupture", "boundary", "floor", "suction");
   for (const auto& s : scores) {
+    const auto& events = first ? s.first_events : s.later_events;
     const EventScore* own = nullptr;
-    for (const auto* event : {&s.rupture, &s.boundary, &s.floor, &s.suction})
+    for (const auto* event : {&events.rupture, &events.boundary, &events.floor, &events.suction})
       if (event->possible > 0.0) own = event;
-    const auto rms = own != nullptr && own->found > 0.0
-                         ? fmt::format("{:.2f}", 1e3 * std::sqrt(own->depth_error_squared_m2 / own->found))
-                         : std::string("-");
-    session.say("  {:<17} {:>8.0f} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}", s.bed,
-                s.strides - s.incomplete, own != nullptr ? share(own->found, own->possible) : "-", rms,
-                own != nullptr ? share(own->within_2mm, own->possible) : "-", alarms(s.rupture),
-                alarms(s.boundary), alarms(s.floor), alarms(s.suction));
-  }
-}
-
-void say_profile(Session& session, const std::vector<BedScore>& scores, const std::string& name,
-                 std::size_t p) {
-  session.say("\n{}: 95 % band against the true force at the depths visited", name);
-  session.say("  {:<17} {:>8} {:>9} {:>11} {:>14} {:>12}", "bed", "claims", "coverage", "rms error",
-              "width at 20 mm", "line valid");
-  for (const auto& s : scores) {
-    const auto& profile = s.profile[p];
-    session.say("  {:<17} {:>8.0f} {:>9} {:>9.1f} % {:>12.1f} % {:>12}", s.bed, profile.claims,
-                share(profile.covered, profile.depths),
-                100.0 * std::sqrt(profile.squared_error / profile.depths),
-                100.0 * profile.median_width_20mm(), share(profile.lines_valid, profile.claims));
+    const bool any = own != nullptr && own->found > 0.0;
+    session.say("  {:<17} {:>9} {:>6} {:>7} {:>9} {:>9} {:>9} {:>9}", s.bed,
+                own != nullptr ? fmt::format("{:.0f}/{:.0f}", own->found, own->possible) : "-",
+                any ? fmt::format("{:.2f}", 1e3 * std::sqrt(own->depth_error_squared_m2 / own->found)) : "-",
+                own != nullptr ? share(own->within_2mm, own->possible) : "-", alarms(events.rupture),
+                alarms(events.boundary), alarms(events.floor), alarms(events.suction));
   }
 }
 
@@ -62,16 +91,19 @@ ExitCode run(Session& session, const Options& options) {
   BedScoreSetup setup;
   setup.cycle = cycle_config(robot);
   setup.world = load_world(session.config_directory(), robot);
-  setup.events.noise = setup.cycle.stiffness.joint;
-  setup.providers = {joint_line_provider(setup.cycle.stiffness),
-                     strength_profile_provider(setup.cycle.stiffness)};
   setup.beds = options.beds;
-  setup.strides = options.strides;
+  setup.trials = options.strides;
   setup.first_seed = options.seed;
   setup.threads = options.threads;
-  const auto beds = options.beds.empty() ? bed_cases().size() : options.beds.size();
-  Progress progress("hopping", static_cast<double>(options.strides) * static_cast<double>(beds));
-  setup.progress = [&](long done, long) { progress.at(static_cast<double>(done)); };
+  double total = 0.0;
+  Progress progress("hopping", 1.0);
+  setup.progress = [&](long done, long all) {
+    total = static_cast<double>(all);
+    progress.at(static_cast<double>(done) / total);
+  };
+  setup.finished = [&](const BedScore& score) {
+    fmt::print(stderr, "{}: {:.0f} trials\n", score.bed, score.trials);
+  };
   std::vector<BedScore> scores;
   try {
     scores = score_beds(setup);
@@ -80,9 +112,17 @@ ExitCode run(Session& session, const Options& options) {
     for (const auto& bed : bed_cases()) names += (names.empty() ? "" : ", ") + bed.name;
     throw Failure(ExitCode::usage, error.what(), "name some of " + names);
   }
-  for (std::size_t p = 0; p < setup.providers.size(); ++p)
-    say_profile(session, scores, setup.providers[p].name, p);
-  say_events(session, scores);
+  say_first(session, scores);
+  say_later(session, scores);
+  say_events(session, scores, true);
+  say_events(session, scores, false);
+  std::vector<double> solve_s, search_s;
+  for (const auto& s : scores) {
+    solve_s.insert(solve_s.end(), s.solve_s.begin(), s.solve_s.end());
+    search_s.insert(search_s.end(), s.search_s.begin(), s.search_s.end());
+  }
+  session.say("\nafter a stride: profile and summary {:.2f} ms, events {:.2f} ms (median, with {} at once)",
+              1e3 * median(solve_s), 1e3 * median(search_s), options.threads);
   auto& beds_json = session.result["beds"] = nlohmann::ordered_json::array();
   for (const auto& score : scores) beds_json.push_back(score);
   return ExitCode::ok;
@@ -90,7 +130,7 @@ ExitCode run(Session& session, const Options& options) {
 
 Run set_up(Arguments& arguments) {
   auto o = std::make_shared<Options>();
-  arguments.add_option("--strides", o->strides, "first strides on fresh beds, of each family")
+  arguments.add_option("--strides", o->strides, "trials of three strides on fresh beds, of each family")
       .in_range(1L, 10'000'000L)
       .show_default();
   arguments.add_option("--seed", o->seed, "of the first stride").show_default();
@@ -101,7 +141,7 @@ Run set_up(Arguments& arguments) {
 
 const ExperimentRegistration kBeds(
     {"beds",
-     "first strides on beds of every family: coverage of the force profile, events found and false alarms",
+     "strides on beds of every family: strength profile, slope, crater and events against the true bed",
      set_up});
 
 }  // namespace

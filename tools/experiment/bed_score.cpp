@@ -1,6 +1,7 @@
 #include "tools/experiment/bed_score.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -8,6 +9,7 @@
 
 #include "terrain/ground_summary.hpp"
 #include "tools/experiment/parallel.hpp"
+#include "tools/experiment/statistics.hpp"
 
 namespace sandhopper {
 namespace {
@@ -21,29 +23,18 @@ constexpr double kSamePlace_m = 0.010;  // farther off, what was found is someth
 constexpr double kAccurate_m = 0.002;
 constexpr double kNear_m = 0.005;
 constexpr double kBeyond_m = 0.001;  // how far the foot must go past an event for it to have happened
+constexpr int kStrides = 3;
 
-// Linear between the claim's depths; NaN outside of them.
-double between(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto above = std::ranges::upper_bound(x, at);
-  if (above == x.begin() || above == x.end()) return std::numeric_limits<double>::quiet_NaN();
-  const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
-  return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i]);
-}
-
-void score_claim(const BedStride& stride, const ProfileClaim& claim, ProfileScore& score) {
-  score.claims += 1.0;
-  score.lines_valid += claim.line_valid;
-  for (double z = kFirstDepth_m; z <= stride.true_max_depth_m; z += kPitch_m) {
-    const double mean = between(claim.depth_m, claim.mean_N, z), sd = between(claim.depth_m, claim.sd_N, z);
-    const double truth = stride.truth.force_at_N(z);
-    if (!std::isfinite(mean) || !std::isfinite(sd)) continue;
+void score_band(const StrengthProfile& profile, const BedTruth& truth, double from_m, double to_m,
+                CoverageScore& score) {
+  const double first_m = kPitch_m * std::ceil(std::max(from_m, kFirstDepth_m) / kPitch_m);
+  for (double z = first_m; z <= std::min(to_m, kProfileDepth_m); z += kPitch_m) {
+    const auto claim = force_at(profile, z);
+    const double true_N = truth.force_at_N(z);
     score.depths += 1.0;
-    score.covered += std::abs(mean - truth) <= kNormal975 * sd;
-    score.squared_error += (mean / truth - 1.0) * (mean / truth - 1.0);
+    score.covered += claim.low() <= true_N && true_N <= claim.high();
+    score.squared_error += (claim.value / true_N - 1.0) * (claim.value / true_N - 1.0);
   }
-  const double sd = between(claim.depth_m, claim.sd_N, kWidthDepth_m);
-  if (stride.true_max_depth_m >= kWidthDepth_m && std::isfinite(sd))
-    score.width_20mm.push_back(2.0 * kNormal975 * sd / stride.truth.force_at_N(kWidthDepth_m));
 }
 
 // `true_depth_m`: infinite where the bed has no such thing.
@@ -67,49 +58,169 @@ void score_event(const GroundEvent& event, GroundEventKind kind, double true_dep
   score.depth_error_squared_m2 += error * error;
 }
 
-GroundEvents events_of(const BedStride& stride, const GroundEventConfig& config) {
-  GroundEventRecorder recorder(config, stride.truth.foot_radius_m);
-  recorder.restart(0.0);
-  for (const auto& sample : stride.samples) {
-    recorder.add(sample);
-    if (std::ranges::find(stride.phase_changes_s, sample.since_contact_s) != stride.phase_changes_s.end())
-      recorder.on_phase_change(sample.since_contact_s);
-  }
-  return find_ground_events(recorder.sums(), config);
-}
-
-void score_stride(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t seed, BedScore& score,
-                  std::mutex& adding) {
-  const auto stride = run_bed_stride(setup.cycle, setup.world, bed, seed);
-  std::vector<std::optional<ProfileClaim>> claims;
-  GroundEvents events;
-  if (stride.complete) {
-    for (const auto& provider : setup.providers) claims.push_back(provider.claim(stride));
-    events = events_of(stride, setup.events);
-  }
-  const std::lock_guard lock(adding);
-  score.strides += 1.0;
-  if (!stride.complete) {
-    score.incomplete += 1.0;
-    return;
-  }
-  score.contact_error_m += stride.contact_error_m;
-  for (std::size_t p = 0; p < claims.size(); ++p)
-    if (claims[p]) score_claim(stride, *claims[p], score.profile[p]);
-  const auto& truth = stride.truth;
-  const double deepest = stride.true_max_depth_m;
-  score_event(events.rupture, GroundEventKind::crust_rupture, truth.rupture_depth_m.value_or(kNone_m),
-              deepest, score.rupture);
+void score_events(const GroundEvents& found, const BedStride& stride, const BedTruth& truth,
+                  EventScores& score) {
+  const double deepest = stride.true_deepest_m, crater = stride.true_crater_m;
+  // What lies above the crater's deepest point happened in an earlier stride.
+  const auto depth_of = [&](const std::optional<double>& depth) {
+    return depth && *depth > crater - kBeyond_m ? *depth : kNone_m;
+  };
+  score_event(found.rupture, GroundEventKind::crust_rupture, depth_of(truth.rupture_depth_m), deepest,
+              score.rupture);
   // A foot that only came near the boundary felt a part of it: neither there nor absent.
-  const double boundary = truth.boundary_depth_m.value_or(kNone_m);
-  if (!(std::abs(deepest - boundary) <= kNear_m))
-    score_event(events.boundary, GroundEventKind::layer_boundary, boundary, deepest, score.boundary);
-  score_event(events.boundary, GroundEventKind::box_floor, truth.floor_depth_m.value_or(kNone_m), deepest,
+  const double boundary = depth_of(truth.boundary_depth_m);
+  const double near = truth.boundary_depth_m.value_or(kNone_m);
+  if (!(std::abs(deepest - near) <= kNear_m) && !(crater > 0.0 && std::abs(crater - near) <= kNear_m))
+    score_event(found.boundary, GroundEventKind::layer_boundary, boundary, deepest, score.boundary);
+  score_event(found.boundary, GroundEventKind::box_floor, depth_of(truth.floor_depth_m), deepest,
               score.floor);
   // A foot that leaves meets suction just above its crater's floor, which is not deeper than the deepest
   // point.
   const double pull = truth.suction_N.has_value() ? deepest - 2.0 * kBeyond_m : kNone_m;
-  score_event(events.suction, GroundEventKind::suction, pull, deepest, score.suction);
+  score_event(found.suction, GroundEventKind::suction, pull, deepest, score.suction);
+}
+
+// All that the other thread makes of one stride.
+struct Answer {
+  JointEstimate joint{};
+  StrengthProfile profile{};
+  GroundSummary ground{};
+  GroundEvents events{};
+  double solve_s = 0.0, search_s = 0.0;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<Answer> answers_to(const BedTrial& trial, const StiffnessConfig& config) {
+  ProfileSolver solver(config);
+  std::vector<Answer> answers;
+  for (const auto& stride : trial.strides) {
+    Answer& answer = answers.emplace_back();
+    const auto start = std::chrono::steady_clock::now();
+    answer.joint = solve_joint(stride.sums.joint, config);
+    solver.add(stride.sums.profile, stride.sums.summary.stride);
+    answer.ground = summarise(solver);
+    answer.profile = solver.profile();
+    answer.solve_s = seconds_since(start);
+    const auto search = std::chrono::steady_clock::now();
+    answer.events = find_ground_events(stride.events, ground_event_config(config));
+    answer.search_s = seconds_since(search);
+  }
+  return answers;
+}
+
+void score_first(const BedStride& stride, const BedTruth& truth, const Answer& answer,
+                 FirstStrideScore& score) {
+  score.strides += 1.0;
+  score_band(answer.profile, truth, 0.0, stride.true_deepest_m, score.band);
+  if (stride.true_deepest_m >= kWidthDepth_m)
+    score.width_20mm.push_back(2.0 * kNormal975 * force_at(answer.profile, kWidthDepth_m).sd /
+                               truth.force_at_N(kWidthDepth_m));
+  const bool joint_valid = answer.joint.validity == Validity::valid;
+  score.line_valid += answer.ground.line_valid;
+  score.joint_valid += joint_valid;
+  score.shapes[static_cast<std::size_t>(answer.ground.shape)] += 1.0;
+  if (!truth.line_N_per_m || !joint_valid || !answer.ground.line_valid) return;
+  const auto& line = answer.ground.line_N_per_m;
+  score.slope.add(line.value, line.ci95_low, line.ci95_high, *truth.line_N_per_m);
+  score.joint_slope.add(answer.joint.value_N_per_m, answer.joint.ci95_low_N_per_m,
+                        answer.joint.ci95_high_N_per_m, *truth.line_N_per_m);
+}
+
+void score_later(const BedStride& stride, const BedTruth& truth, const Answer& answer, double depth_error_m,
+                 CraterScore& score) {
+  const auto& profile = answer.profile;
+  score.strides += 1.0;
+  const auto& k = answer.ground.reloading_N_per_m;
+  if (k.ci95_low > 0.0 && std::isfinite(k.ci95_high)) {
+    score.reloading.add(k.value, k.ci95_low, k.ci95_high, truth.unloading_stiffness_N_per_m);
+    score.reloading_width.push_back((k.ci95_high - k.ci95_low) / truth.unloading_stiffness_N_per_m);
+  } else {
+    score.bounds += k.ci95_low > 0.0;
+  }
+  score_band(profile, truth, 0.0, stride.true_deepest_m, score.band);
+  if (!(std::min(stride.true_deepest_m, kProfileDepth_m) > stride.true_crater_m + depth_error_m)) return;
+  score.deeper += 1.0;
+  if (profile.samples == 0) return;
+  score.curves += 1.0;
+  score_band(profile, truth, stride.true_crater_m, stride.true_deepest_m, score.fresh);
+}
+
+void score_trial(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t seed, BedScore& score,
+                 std::mutex& adding) {
+  const auto& config = setup.cycle.stiffness;
+  const auto trial = run_bed_trial(setup.cycle, setup.world, bed, seed, kStrides);
+  const auto answers = answers_to(trial, config);
+  const std::lock_guard lock(adding);
+  score.trials += 1.0;
+  score.incomplete += trial.strides.empty();
+  score.contact_error_m += trial.contact_error_m;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const auto& stride = trial.strides[i];
+    const auto& answer = answers[i];
+    if (i == 0)
+      score_first(stride, trial.truth, answer, score.first);
+    else
+      score_later(stride, trial.truth, answer, kNormal975 * config.profile_or_default().landing_depth_sd_m,
+                  score.crater);
+    score.solve_s.push_back(answer.solve_s);
+    score.search_s.push_back(answer.search_s);
+    if (stride.events_complete)
+      score_events(answer.events, stride, trial.truth, i == 0 ? score.first_events : score.later_events);
+  }
+}
+
+}  // namespace
+
+void NumberScore::add(double value, double low, double high, double truth) {
+  count += 1.0;
+  absolute_error += std::abs(value / truth - 1.0);
+  covered += low <= truth && truth <= high;
+}
+
+std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
+  std::vector<BedCase> cases;
+  for (const auto& bed : bed_cases()) {
+    const bool named = std::ranges::find(setup.beds, bed.name) != setup.beds.end();
+    if (named || (setup.beds.empty() && bed.standard)) cases.push_back(bed);
+  }
+  for (const auto& name : setup.beds)
+    if (std::ranges::find(cases, name, &BedCase::name) == cases.end())
+      throw std::invalid_argument("no bed '" + name + "'");
+  std::vector<BedScore> scores;
+  long done_before = 0;
+  for (const auto& bed : cases) {
+    auto& score = scores.emplace_back(BedScore{.bed = bed.name});
+    std::mutex adding;
+    parallel_for(
+        setup.trials, setup.threads,
+        [&](long i) {
+          score_trial(setup, bed, setup.first_seed + static_cast<std::uint64_t>(i), score, adding);
+        },
+        [&](long done, long) {
+          if (setup.progress)
+            setup.progress(done_before + done, setup.trials * static_cast<long>(cases.size()));
+        });
+    done_before += setup.trials;
+    if (setup.finished) setup.finished(score);
+  }
+  return scores;
+}
+
+namespace {
+
+nlohmann::ordered_json json_of(const CoverageScore& s) {
+  return {{"depths", s.depths},
+          {"coverage", s.share()},
+          {"rms_relative_error", std::sqrt(s.squared_error / s.depths)}};
+}
+
+nlohmann::ordered_json json_of(const NumberScore& s) {
+  return {{"count", s.count},
+          {"mean_relative_error", s.absolute_error / s.count},
+          {"coverage", s.covered / s.count}};
 }
 
 nlohmann::ordered_json json_of(const EventScore& s) {
@@ -123,97 +234,45 @@ nlohmann::ordered_json json_of(const EventScore& s) {
           {"largest_absent", s.largest_absent}};
 }
 
-}  // namespace
-
-ProfileProvider strength_profile_provider(const StiffnessConfig& config) {
-  return {"strength profile", [config](const BedStride& stride) -> std::optional<ProfileClaim> {
-            if (stride.profile.samples == 0) return std::nullopt;
-            ProfileSolver solver(config);
-            solver.add(stride.profile, 1);
-            const auto& p = solver.profile();
-            ProfileClaim claim;
-            claim.line_valid = summarise(solver, stride.profile).line_valid;
-            const double last_m = p.depth_max_m + kProfilePoint_m;
-            for (std::size_t i = 0; i <= kProfilePoints; ++i) {
-              const double z = static_cast<double>(i) * kProfilePoint_m;
-              if (z > last_m) break;
-              const auto force = force_at(p, z);
-              claim.depth_m.push_back(z);
-              claim.mean_N.push_back(force.value);
-              claim.sd_N.push_back(force.sd);
-            }
-            return claim;
-          }};
-}
-
-double ProfileScore::median_width_20mm() const {
-  if (width_20mm.empty()) return std::numeric_limits<double>::quiet_NaN();
-  auto sorted = width_20mm;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
-  return *middle;
-}
-
-ProfileProvider joint_line_provider(const StiffnessConfig& config) {
-  return {"joint line", [config](const BedStride& stride) -> std::optional<ProfileClaim> {
-            const auto& joint = stride.result.joint;
-            if (!(joint.value_N_per_m > 0.0)) return std::nullopt;
-            ProfileClaim claim;
-            claim.line_valid = joint.validity == Validity::valid;
-            for (double z = 0.0; z < 0.08; z += kPitch_m) {
-              const double effective =
-                  z + joint.intercept_depth_m * (1.0 - std::exp(-z / config.joint.intercept_growth_depth_m));
-              claim.depth_m.push_back(z);
-              claim.mean_N.push_back(joint.value_N_per_m * effective);
-              claim.sd_N.push_back(joint.standard_error_N_per_m * effective);
-            }
-            return claim;
-          }};
-}
-
-std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
-  std::vector<BedCase> cases;
-  for (const auto& bed : bed_cases())
-    if (setup.beds.empty() || std::ranges::find(setup.beds, bed.name) != setup.beds.end())
-      cases.push_back(bed);
-  for (const auto& name : setup.beds)
-    if (std::ranges::find(cases, name, &BedCase::name) == cases.end())
-      throw std::invalid_argument("no bed '" + name + "'");
-  std::vector<BedScore> scores;
-  for (const auto& bed : cases) {
-    scores.push_back({.bed = bed.name, .smooth = bed.smooth});
-    scores.back().profile.resize(setup.providers.size());
-  }
-  std::mutex adding;
-  parallel_for(
-      setup.strides * static_cast<long>(cases.size()), setup.threads,
-      [&](long i) {
-        const auto bed = static_cast<std::size_t>(i / setup.strides);
-        const auto seed = setup.first_seed + static_cast<std::uint64_t>(i % setup.strides);
-        score_stride(setup, cases[bed], seed, scores[bed], adding);
-      },
-      setup.progress);
-  return scores;
-}
-
-void to_json(nlohmann::ordered_json& json, const BedScore& s) {
-  json = {{"bed", s.bed},
-          {"smooth", s.smooth},
-          {"strides", s.strides},
-          {"incomplete", s.incomplete},
-          {"mean_contact_error_m", s.contact_error_m / std::max(1.0, s.strides - s.incomplete)},
-          {"rupture", json_of(s.rupture)},
+nlohmann::ordered_json json_of(const EventScores& s) {
+  return {{"rupture", json_of(s.rupture)},
           {"boundary", json_of(s.boundary)},
           {"floor", json_of(s.floor)},
           {"suction", json_of(s.suction)}};
-  auto& profiles = json["profile"] = nlohmann::ordered_json::array();
-  for (const auto& p : s.profile)
-    profiles.push_back({{"claims", p.claims},
-                        {"depths", p.depths},
-                        {"coverage", p.coverage()},
-                        {"rms_relative_error", std::sqrt(p.squared_error / p.depths)},
-                        {"median_width_20mm", p.median_width_20mm()},
-                        {"lines_valid", p.lines_valid}});
+}
+
+}  // namespace
+
+void to_json(nlohmann::ordered_json& json, const BedScore& s) {
+  nlohmann::ordered_json shapes;
+  for (std::size_t i = 0; i < s.first.shapes.size(); ++i)
+    shapes[std::string(EnumNames<GroundShape>::value[i])] = s.first.shapes[i];
+  json = {{"bed", s.bed},
+          {"trials", s.trials},
+          {"incomplete", s.incomplete},
+          {"mean_contact_error_m", s.contact_error_m / std::max(1.0, s.trials - s.incomplete)},
+          {"first_strides",
+           {{"strides", s.first.strides},
+            {"band", json_of(s.first.band)},
+            {"median_width_20mm", median(s.first.width_20mm)},
+            {"line_valid", s.first.line_valid},
+            {"joint_valid", s.first.joint_valid},
+            {"slope", json_of(s.first.slope)},
+            {"joint_slope", json_of(s.first.joint_slope)},
+            {"shapes", shapes},
+            {"events", json_of(s.first_events)}}},
+          {"later_strides",
+           {{"strides", s.crater.strides},
+            {"reloading", json_of(s.crater.reloading)},
+            {"reloading_bounds", s.crater.bounds},
+            {"median_reloading_width", median(s.crater.reloading_width)},
+            {"deeper", s.crater.deeper},
+            {"curves", s.crater.curves},
+            {"fresh_depths", json_of(s.crater.fresh)},
+            {"band", json_of(s.crater.band)},
+            {"events", json_of(s.later_events)}}},
+          {"median_solve_s", median(s.solve_s)},
+          {"median_search_s", median(s.search_s)}};
 }
 
 }  // namespace sandhopper

@@ -1,48 +1,54 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "terrain/ground_events.hpp"
 #include "tools/experiment/bed_strides.hpp"
 
-// Score of what a stride says about beds of every family: coverage and width of a force profile, events
-// that were found, missed and false, per family of beds.
+// Score of what strides say about beds of every family: coverage and width of the strength profile, the slope
+// of a line, the crater of later strides, and events that were found, missed and false.
 namespace sandhopper {
 
-// The force over depth that somebody claims after one stride, normal at each depth, ascending; depths count
-// from the undisturbed surface. `line_valid`: a straight line is reported as a valid description.
-struct ProfileClaim {
-  std::vector<double> depth_m;
-  std::vector<double> mean_N;
-  std::vector<double> sd_N;
-  bool line_valid = false;
+struct CoverageScore {
+  double depths = 0.0;         // at which the band was compared: visited by the foot, from 2 mm on
+  double covered = 0.0;        // truth inside mean +- 1.96 sd
+  double squared_error = 0.0;  // sum of ((mean - truth) / truth)^2
+  double share() const { return covered / depths; }
 };
 
-// Gives the claim for one stride; none where it makes none. Called from several threads at once.
-struct ProfileProvider {
-  std::string name;
-  std::function<std::optional<ProfileClaim>(const BedStride&)> claim;
+// A number with its 95 % interval against the truth.
+struct NumberScore {
+  double count = 0.0;
+  double absolute_error = 0.0;  // sum of |value / truth - 1|
+  double covered = 0.0;
+
+  void add(double value, double low, double high, double truth);
 };
 
-// The joint fit's line k (z + z0 (1 - exp(-z/dz0))), with k's standard error alone.
-ProfileProvider joint_line_provider(const StiffnessConfig& config);
-
-// The strength profile (terrain/strength_profile.hpp) at the depths it visited.
-ProfileProvider strength_profile_provider(const StiffnessConfig& config);
-
-struct ProfileScore {
-  double claims = 0.0;
-  double depths = 0.0;               // at which a claim was compared: visited by the foot, from 2 mm on
-  double covered = 0.0;              // of those, truth inside mean +- 1.96 sd
-  double squared_error = 0.0;        // of (mean - truth) / truth
+struct FirstStrideScore {
+  double strides = 0.0;
+  CoverageScore band{};
   std::vector<double> width_20mm{};  // 2 x 1.96 sd / truth at 20 mm, of strides that reached it
-  double lines_valid = 0.0;
+  double line_valid = 0.0;           // a straight line is reported as a valid description
+  double joint_valid = 0.0;          // by the joint fit
+  // Of beds that are a line: its slope, on the strides where both call it valid.
+  NumberScore slope{}, joint_slope{};
+  std::array<double, 6> shapes{};  // of GroundShape
+};
 
-  double coverage() const { return covered / depths; }
-  double median_width_20mm() const;
+// Strides 2 and 3, which land in the crater.
+struct CraterScore {
+  double strides = 0.0;
+  NumberScore reloading{};                // those with an interval of two ends
+  double bounds = 0.0;                    // a lower bound alone
+  std::vector<double> reloading_width{};  // interval over truth
+  double deeper = 0.0;                    // in truth, by more than the stated error of the depth
+  double curves = 0.0;                    // of these, with samples on new ground
+  CoverageScore fresh{};                  // at the depths that are new in this stride
+  CoverageScore band{};                   // at every depth visited so far
 };
 
 struct EventScore {
@@ -55,25 +61,29 @@ struct EventScore {
   double largest_absent = 0.0;                               // statistic over threshold
 };
 
+struct EventScores {
+  EventScore rupture{}, boundary{}, floor{}, suction{};
+};
+
 struct BedScore {
   std::string bed;
-  bool smooth = true;
-  double strides = 0.0, incomplete = 0.0;
-  double contact_error_m = 0.0;         // sum
-  std::vector<ProfileScore> profile{};  // one a provider
-  EventScore rupture{}, boundary{}, floor{}, suction{};
+  double trials = 0.0, incomplete = 0.0;
+  double contact_error_m = 0.0;  // sum
+  FirstStrideScore first{};
+  CraterScore crater{};
+  EventScores first_events{}, later_events{};
+  std::vector<double> solve_s{}, search_s{};  // of each stride: profile and summary; events
 };
 
 struct BedScoreSetup {
   CycleConfig cycle{};
   WorldConfig world{};
-  GroundEventConfig events{};
-  std::vector<ProfileProvider> providers{};
-  std::vector<std::string> beds{};  // names of bed_cases(); empty: all
-  long strides = 200;               // of each
+  std::vector<std::string> beds{};  // names of bed_cases(); empty: those of a family
+  long trials = 200;                // of each, of three strides
   std::uint64_t first_seed = 1;
   unsigned threads = 2;
   std::function<void(long done, long total)> progress{};
+  std::function<void(const BedScore&)> finished{};  // a bed
 };
 
 // Throws std::invalid_argument where a name is none of bed_cases().

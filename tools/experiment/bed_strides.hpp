@@ -5,11 +5,11 @@
 
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
-#include "terrain/joint_fit.hpp"
+#include "terrain/ground_events.hpp"
 #include "tools/experiment/treatments.hpp"
 #include "tools/plant/bed_truth.hpp"
 
-// First strides on fresh beds of every family, run by the firmware's own controller on the simulated robot:
+// Trials on fresh beds of every family, run by the firmware's own controller on the simulated robot:
 // what the firmware knew of each, beside the true bed.
 namespace sandhopper {
 
@@ -17,27 +17,30 @@ namespace sandhopper {
 struct BedCase {
   std::string name;
   BedFamilyParameters family{};
-  bool smooth =
-      true;  // without a crust, a boundary, a floor or suction: an event found here is a false alarm
+  bool standard = true;  // scored where no bed is named
 };
-// The families of terrain/bed_family.hpp, the power law at four exponents, the crust buried and at the
-// surface, and a box with a floor.
+// The families of terrain/bed_family.hpp and the power law at exactly 1.4. By name alone: that law at other
+// exponents, a crust at the surface, and a box with a floor.
 const std::vector<BedCase>& bed_cases();
 
+// One stride of a trial: what the cycle handed over, and what was true.
 struct BedStride {
-  BedTruth truth{};
-  // From the first contact until the foot is in the air again; depth counts from that contact.
-  std::vector<JointSample> samples{};
-  std::vector<double> phase_changes_s{};  // stance switch and liftoff, after the contact
-  double contact_error_m = 0.0;           // true depth at the first contact
-  double true_max_depth_m = 0.0;
-  StrideResult result{};
-  ProfileSums profile{};
-  bool complete = false;  // liftoff was reached
+  StrideSums sums{};
+  GroundEventSums events{};
+  double true_crater_m = 0.0;  // deepest point of the strides before
+  double true_deepest_m = 0.0;
+  bool events_complete = false;
 };
 
-// Stride number `seed` - 1 of a case: its set-up cycles through hop_cells().
-BedStride run_bed_stride(const CycleConfig& cycle, const WorldConfig& world, const BedCase& bed,
-                         std::uint64_t seed);
+struct BedTrial {
+  BedTruth truth{};
+  std::vector<BedStride> strides{};  // those that lifted off
+  double contact_error_m = 0.0;      // true depth at the first contact
+};
+
+// Trial number `seed` - 1 of a case: its set-up cycles through hop_cells(). Ends after `strides`, or where
+// the robot does not lift off again.
+BedTrial run_bed_trial(const CycleConfig& cycle, const WorldConfig& world, const BedCase& bed,
+                       std::uint64_t seed, int strides);
 
 }  // namespace sandhopper

@@ -2,50 +2,34 @@
 
 #include <cmath>
 
-#include "firmware/controller.hpp"
-#include "tools/plant/sim_board.hpp"
+#include "tools/experiment/hopped_cycles.hpp"
 
 namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr std::int64_t kLongest_cycles = 5000;
 
 }  // namespace
 
 RecordedStride record_stride(const CycleConfig& cycle, const WorldConfig& world_config,
                              const TrialSetup& setup, const StrideWatch& watch) {
-  World world(world_config, setup, 0);
-  SimBoard board(world);
-  Controller controller(cycle);
-  SensorFrame frame;
+  HoppedCycles hop(cycle, world_config, setup);
   RecordedStride stride;
-  stride.foot = foot_in_flight(controller.config(), Leg(cycle.robot));
-  PlantTruth truth{};
-  Request request = Request::arm;
+  stride.foot = foot_in_flight(hop.controller().config(), Leg(cycle.robot));
   int cycles_left = watch.cycles_after_liftoff;
-  for (std::int64_t k = 1; k < kLongest_cycles; ++k) {
-    frame.time_ns = k * kPeriod_ns;
-    frame.cycle = static_cast<std::uint64_t>(k);
-    frame.request = request;
-    request = Request::none;
-    const PlantTruth before = truth;  // at the instant of the newest motor reply: the previous cycle's
-    board.read(frame);
-    truth = world.truth();
-    SensorFrame told = frame;
-    if (watch.before_cycle) watch.before_cycle(told);
-    const auto& out = controller.step(told);
-    board.write(out.command);
-    if (watch.on_cycle) watch.on_cycle({told, out, truth});
-    for (const auto& event : controller.events())
-      if (event.kind == EventKind::armed) request = Request::release;
-    if (out.state == State::fault || (out.state == State::idle && k > 1)) return stride;
-    if (stride.complete && cycles_left-- <= 0) return stride;
+  bool more = true;
+  while (more) {
+    more = hop.next(watch.before_cycle);
+    const auto& out = hop.output();
+    if (watch.on_cycle) watch.on_cycle({hop.frame(), out, hop.truth()});
+    if (!more || (stride.complete && cycles_left-- <= 0)) return stride;
     if (stride.complete) continue;
+    const auto& before = hop.truth_before();
     if (out.state != State::armed || out.command.open_catch)
       stride.samples.push_back({out.estimate, out.state, before.contact_force_N, before.foot_z_m,
-                                before.foot_velocity_mps, before.foot_accel_mps2, truth.contact_force_N});
-    stride.complete = controller.stride_finished();
+                                before.foot_velocity_mps, before.foot_accel_mps2,
+                                hop.truth().contact_force_N});
+    stride.complete = hop.controller().stride_finished();
     if (stride.complete && cycles_left == 0) return stride;
   }
   return stride;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sandhopper {
 
@@ -42,6 +43,14 @@ double largest(std::span<const double> values) {
 }
 double smallest(std::span<const double> values) {
   return values.empty() ? std::nan("") : *std::ranges::min_element(values);
+}
+
+double median(std::span<const double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  return *middle;
 }
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {

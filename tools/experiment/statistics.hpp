@@ -11,6 +11,7 @@ double rms(std::span<const double> values);
 double correlation(std::span<const double> a, std::span<const double> b);
 double largest(std::span<const double> values);
 double smallest(std::span<const double> values);
+double median(std::span<const double> values);  // the upper one of two
 
 // y = intercept + slope x by ordinary least squares.
 struct LineFit {

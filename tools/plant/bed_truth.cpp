@@ -40,6 +40,10 @@ BedTruth bed_truth_of(const Bed& bed) {
   if (family.deep_strength_ratio != 1.0 && family.densification_depth_m == 0.0)
     truth.boundary_depth_m = family.boundary_depth_m;
   if (family.floor_depth_m > 0.0) truth.floor_depth_m = family.floor_depth_m;
+  const bool line = family.family != BedFamily::power_law && family.deep_strength_ratio == 1.0 &&
+                    !truth.rupture_depth_m && !truth.floor_depth_m &&
+                    bed.parameters().stiffness_per_area_N_per_m3 == 0.0;
+  if (line) truth.line_N_per_m = bed.parameters().stiffness_N_per_m * family.strength_factor;
   if (family.suction_Pa > 0.0) truth.suction_N = bed.greatest_suction_N();
   for (int i = 0; i < kPoints; ++i) {
     truth.depth_m.push_back(i * kSpacing_m);

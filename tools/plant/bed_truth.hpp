@@ -19,6 +19,8 @@ struct BedTruth {
   std::optional<double> boundary_depth_m{};  // between two layers
   std::optional<double> floor_depth_m{};     // of the box
   std::optional<double> suction_N{};         // greatest pull on a foot that leaves
+  // Slope of the curve below the surface's intercept, where it is a straight line; not in a log's attachment.
+  std::optional<double> line_N_per_m{};
   std::vector<double> depth_m{};
   std::vector<double> force_N{};
 

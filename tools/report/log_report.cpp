@@ -35,6 +35,7 @@ struct Feed {
   TopicOf<StrideResult> strides{topic::kStride};
   TopicOf<StrengthProfile> profiles{topic::kProfile};
   TopicOf<GroundSummary> grounds{topic::kGround};
+  TopicOf<GroundEvents> ground_events{topic::kGroundEvents};
   TopicOf<PlantTruth> truths{topic::kTruth};
   TopicOf<LogGap> gaps{topic::kGap};
   SensorFrame frame{};
@@ -43,6 +44,7 @@ struct Feed {
   StrideResult stride{};
   StrengthProfile profile{};
   GroundSummary ground{};
+  GroundEvents found{};
   PlantTruth truth{};
   LogGap gap{};
   std::uint64_t lost = 0;
@@ -51,7 +53,7 @@ struct Feed {
     if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
         pass_on(events, message, event, builder) || pass_on(strides, message, stride, builder) ||
         pass_on(profiles, message, profile, builder) || pass_on(grounds, message, ground, builder) ||
-        pass_on(truths, message, truth, builder))
+        pass_on(ground_events, message, found, builder) || pass_on(truths, message, truth, builder))
       return;
     if (gaps.take(message, gap)) lost += gap.lost;
   }

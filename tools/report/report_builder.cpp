@@ -186,6 +186,7 @@ void ReportBuilder::add(const StrideResult& stride) {
   strides_.push_back(stride);
   profiles_.emplace_back();
   grounds_.emplace_back();
+  ground_events_.emplace_back();
 }
 
 void ReportBuilder::add(const StrengthProfile& profile) {
@@ -194,6 +195,11 @@ void ReportBuilder::add(const StrengthProfile& profile) {
 
 void ReportBuilder::add(const GroundSummary& ground) {
   if (!grounds_.empty()) grounds_.back() = ground;
+}
+
+void ReportBuilder::add(const GroundEvents& found) {
+  for (std::size_t i = 0; i < strides_.size(); ++i)
+    if (strides_[i].summary.stride == found.stride) ground_events_[i] = found;
 }
 
 double ReportBuilder::seconds(std::int64_t time_ns) const {
@@ -276,7 +282,8 @@ ReportData ReportBuilder::data() const {
                             .observer_wls = stiffness(result.observer_wls, summary.crater_depth_m),
                             .joint = stiffness(result.joint, summary.crater_depth_m),
                             .profile = profiles_[i],
-                            .ground = grounds_[i]});
+                            .ground = grounds_[i],
+                            .ground_events = ground_events_[i]});
   }
   return data;
 }

@@ -26,6 +26,7 @@ class ReportBuilder {
   void add(const StrideResult& stride);
   void add(const StrengthProfile& profile);  // after the stride that it ends with
   void add(const GroundSummary& ground);
+  void add(const GroundEvents& found);
 
   // The records so far; title, facts, notes beyond faults, and configuration are the caller's.
   ReportData data() const;
@@ -52,6 +53,7 @@ class ReportBuilder {
   std::vector<StrideResult> strides_;
   std::vector<StrengthProfile> profiles_;  // as many
   std::vector<GroundSummary> grounds_;
+  std::vector<GroundEvents> ground_events_;
   std::int64_t zero_ns_ = 0;
   bool released_ = false;
   std::int64_t newest_force_ns_ = 0;

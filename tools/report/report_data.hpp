@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "terrain/ground_events.hpp"
 #include "terrain/ground_summary.hpp"
 
 // What a trial's report shows, whatever it was read from.
@@ -60,6 +61,7 @@ struct ReportStride {
   ReportStiffness joint{};
   StrengthProfile profile{};  // of all strides up to this one; stride 0 where the log has none
   GroundSummary ground{};
+  GroundEvents ground_events{};  // of this stride; stride 0 where the log has none
 };
 
 // Times are relative to the release, or to the first row where nothing was released.

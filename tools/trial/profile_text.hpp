@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "terrain/ground_events.hpp"
 #include "terrain/ground_summary.hpp"
 #include "tools/report/ground_text.hpp"
 
@@ -17,5 +18,12 @@ std::vector<std::string> profile_lines(const StrengthProfile& profile, const Gro
 // tangent_N_per_m, tangent_ci95_N_per_m and observations at the end of every cell, the ground's shape and its
 // numbers; null where there is none.
 nlohmann::ordered_json profile_json(const StrengthProfile& profile, const GroundSummary& ground);
+
+// What broke, began or pulled in one stance, a line each; nothing where nothing was found.
+std::vector<std::string> ground_event_lines(const GroundEvents& found);
+
+// The same for programs: an array of what was found, with its probability of a false alarm; null where the
+// log has none.
+nlohmann::ordered_json ground_events_json(const GroundEvents& found);
 
 }  // namespace sandhopper

@@ -14,6 +14,7 @@
 #include "firmware/controller.hpp"
 #include "firmware/log/topics.hpp"
 #include "firmware/log/trial_description.hpp"
+#include "terrain/ground_events.hpp"
 #include "terrain/ground_summary.hpp"
 #include "tools/trial/record_difference.hpp"
 
@@ -145,6 +146,7 @@ class Replay {
       // Logs of before the strength profile have no such topics.
       if (profiles_.count() > 0) report_missing(profiles_);
       if (grounds_.count() > 0) report_missing(grounds_);
+      if (ground_events_.count() > 0) report_missing(ground_events_);
     }
     return result_;
   }
@@ -161,6 +163,7 @@ class Replay {
     strides_.begin_file();
     profiles_.begin_file();
     grounds_.begin_file();
+    ground_events_.begin_file();
     return true;
   }
 
@@ -173,7 +176,7 @@ class Replay {
     }
     if (outputs_.take(message, result_.mismatch) || events_.take(message, result_.mismatch) ||
         strides_.take(message, result_.mismatch) || profiles_.take(message, result_.mismatch) ||
-        grounds_.take(message, result_.mismatch))
+        grounds_.take(message, result_.mismatch) || ground_events_.take(message, result_.mismatch))
       return;
     LogGap gap;
     if (gaps_.take(message, gap)) result_.gaps += gap.lost;
@@ -185,13 +188,16 @@ class Replay {
     outputs_.expect(controller_.step(frame_));
     for (const auto& event : controller_.events()) events_.expect(event);
     if (controller_.stride_finished()) expect_stride(controller_.stride_sums());
+    if (controller_.ground_events_complete())
+      ground_events_.expect(
+          find_ground_events(controller_.ground_event_sums(), ground_event_config(robot_.stiffness)));
   }
 
   void expect_stride(const StrideSums& sums) {
     strides_.expect(solve_stride(sums, robot_.stiffness));
     profile_.add(sums.profile, sums.summary.stride);
     profiles_.expect(profile_.profile());
-    grounds_.expect(summarise(profile_, sums.profile));
+    grounds_.expect(summarise(profile_));
   }
 
   template <class Record>
@@ -214,6 +220,7 @@ class Replay {
   Comparison<StrideResult> strides_{topic::kStride};
   Comparison<StrengthProfile> profiles_{topic::kProfile};
   Comparison<GroundSummary> grounds_{topic::kGround};
+  Comparison<GroundEvents> ground_events_{topic::kGroundEvents};
   SensorFrame frame_{};
   ReplayResult result_{};
   bool salvaged_ = false;

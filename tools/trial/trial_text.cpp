@@ -49,6 +49,7 @@ std::vector<std::string> stride_lines(const ReportData& data) {
     for (const auto& t : kTreatments) lines.push_back(stiffness_line(t.text, s.*t.member));
     for (auto& line : profile_lines(s.profile, s.ground, adds_nothing(data, i)))
       lines.push_back("    " + line);
+    for (auto& line : ground_event_lines(s.ground_events)) lines.push_back("    " + line);
   }
   return lines;
 }
@@ -71,7 +72,8 @@ nlohmann::ordered_json stride_json(const ReportStride& s) {
           {"peak_force_N", s.peak_force_N},
           {"max_depth_m", s.max_depth_m},
           {"stiffness_N_per_m", stiffness},
-          {"profile", profile_json(s.profile, s.ground)}};
+          {"profile", profile_json(s.profile, s.ground)},
+          {"ground_events", ground_events_json(s.ground_events)}};
 }
 
 PooledText pooled_text(const std::vector<ReportStride>& strides, const JointConfig& config) {

@@ -131,6 +131,7 @@ void SimulatedLink::run(const SimTrialSetup& setup, double speed) {
                       .stride = [this](const StrideResult& result) { say(operator_text(result)); },
                       .profile = [this](const StrengthProfile& profile,
                                         const GroundSummary& ground) { say(operator_text(profile, ground)); },
+                      .ground_events = [this](const GroundEvents& found) { say(operator_text(found)); },
                       .request = [this](const RequestRecord& answer) { say(operator_text(answer)); }});
   Heartbeat heart;
   PacedTime time(speed);

@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "terrain/joint_fit.hpp"
+#include "terrain/profile_config.hpp"
+
+// Stiffness k of the line on which a foot leaves its crater and on which it returns. The foot moves by a
+// millimetre there, and the estimated depth drifts by as much in the same time. But the foot's accelerometer
+// feels the change of speed when the force begins to fall, and when it has fallen. While the foot unloads,
+//   F = k z + c v + noise,   dz/dt = v,   dv/dt = a - b + noise
+// with F the force and a the acceleration as measured, b the accelerometer's bias and c = 2 zeta sqrt(k M)
+// the damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b; zeta
+// is integrated over a grid, and the posterior of k is that of a grid with a log-uniform prior. Strides of
+// one trial multiply their likelihoods. Where the line is too steep for the sensors the answer is a lower
+// bound. Sources: the line and its damping as in bed.hpp; likelihood of a linear state-space model by
+// prediction errors (Schweppe 1965).
+namespace sandhopper {
+
+// Samples of the last unloading of a stance, two and two as their means.
+struct UnloadingTrace {
+  static constexpr std::size_t kPairs = 128;
+  std::array<float, kPairs> force_N{};
+  std::array<float, kPairs> accel_mps2{};  // down positive
+  std::int32_t pairs = 0;
+};
+
+// Keeps the samples from the greatest force to a tenth of it, in the cycle. Impacts and samples on which the
+// foot goes down are no unloading. Never allocates.
+class UnloadingRecorder {
+ public:
+  explicit UnloadingRecorder(double min_speed_mps) : min_speed_mps_(min_speed_mps) {}
+  void add(const JointSample& sample) noexcept;
+  const UnloadingTrace& trace() const noexcept { return kept_; }
+  void reset() noexcept;
+
+ private:
+  void restart(double peak_N) noexcept;
+  void close() noexcept;
+
+  double min_speed_mps_;
+  UnloadingTrace current_{}, kept_{};
+  double peak_N_ = 0.0;
+  float half_force_N_ = 0.0F, half_accel_mps2_ = 0.0F;
+  bool half_ = false;  // one sample of a pair is there
+  bool open_ = false;
+};
+
+struct ReloadingLine {
+  double value_N_per_m = 0.0;  // all three are zero where nothing is known
+  double ci95_low_N_per_m = 0.0;
+  double ci95_high_N_per_m = 0.0;  // infinite: a lower bound alone
+};
+
+class ReloadingPosterior {
+ public:
+  static constexpr std::size_t kGrid = 24;
+
+  // `foot_kg`: M, what swings on the line. `force_scale_relative`: error of the torque constant.
+  ReloadingPosterior(const ProfileConfig& config, double force_noise_N, double force_scale_relative);
+  void restart() noexcept;
+  void add(const UnloadingTrace& trace, double foot_kg) noexcept;
+  ReloadingLine line() const noexcept;
+
+ private:
+  double stiffness_N_per_m(double place) const noexcept;
+  double log_likelihood(const UnloadingTrace& trace, double k, double c) const noexcept;
+
+  ProfileConfig config_;
+  double force_noise_N_, force_scale_relative_;
+  std::array<double, kGrid> log_likelihood_{};
+  bool known_ = false;
+};
+
+}  // namespace sandhopper

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include "firmware/controller.hpp"
+#include "tools/plant/sim_board.hpp"
+#include "tools/plant/world.hpp"
+
+namespace sandhopper {
+
+// A trial on the simulated robot, cycle by cycle: the controller is asked to arm, then to release.
+class HoppedCycles {
+ public:
+  HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup);
+
+  // Runs one cycle; false where the trial is over. `change` may alter what the controller is told.
+  bool next(const std::function<void(SensorFrame&)>& change = {});
+
+  const Controller& controller() const { return controller_; }
+  const SensorFrame& frame() const { return told_; }
+  const StepOutput& output() const { return *output_; }
+  const PlantTruth& truth() const { return truth_; }          // at the cycle's own time
+  const PlantTruth& truth_before() const { return before_; }  // at that of the newest motor reply
+  bool faulted() const { return output_->state == State::fault; }
+
+ private:
+  static constexpr std::int64_t kPeriod_ns = 1'000'000;
+  static constexpr std::int64_t kLongest_cycles = 5000;
+
+  World world_;
+  SimBoard board_;
+  Controller controller_;
+  SensorFrame frame_{}, told_{};
+  const StepOutput* output_ = nullptr;
+  PlantTruth truth_{}, before_{};
+  Request request_ = Request::arm;
+  std::int64_t cycle_ = 0;
+};
+
+}  // namespace sandhopper
