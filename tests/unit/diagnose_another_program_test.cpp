@@ -163,6 +163,45 @@ TEST(DiagnoseAnotherProgram, AFastFootIsOnAFinerGridThanItsRecording) {
   EXPECT_LT(worst_depth_m(m), 2e-5);
 }
 
+// A camera of 240 frames a second with 0.2 mm of noise, and an accelerometer with an offset that sees the
+// ramps of 1.7 ms, which are over within two of its samples; no speed. At rest camera and accelerometer
+// together know the depth better than five frames do.
+TEST(DiagnoseAnotherProgram, ASlowCameraAndAnAccelerometerWithAnOffsetAreOneMotion) {
+  constexpr double kSpeed_mps = 0.1, kRamp_mps2 = 60.0, kOffset_mps2 = 0.1, kNoise_m = 2e-4;
+  constexpr double kDown_s = 0.2003, kStop_s = 0.6, kRamp_s = kSpeed_mps / kRamp_mps2;
+  const auto speed_mps = [](double t) {
+    return std::clamp(std::min(t - kDown_s, kStop_s - t) / kRamp_s, 0.0, 1.0) * kSpeed_mps;
+  };
+  Random random(5, 0);
+  Samples z, a;
+  double depth_m = 0.0, next_frame_s = 0.0;
+  for (int i = 0; i <= 10'000; ++i) {
+    const double t = 1e-4 * i;
+    if (i % 10 == 0) {
+      a.time_s.push_back(t);
+      a.value.push_back(-(speed_mps(t + 1e-5) - speed_mps(t)) / 1e-5 + kOffset_mps2 + 0.1 * random.normal());
+      if (t >= next_frame_s) {
+        next_frame_s += 1.0 / 240.0;
+        z.time_s.push_back(t);
+        z.value.push_back(-depth_m + kNoise_m * random.normal());
+      }
+    }
+    depth_m += 1e-4 * speed_mps(t + 5e-5);
+  }
+  const auto m = intruder_motion(z, {}, a);
+  EXPECT_FALSE(m.speed_from_position);
+  double squares = 0.0, accel = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < m.depth_m.size(); ++i) {
+    const double t = m.start_s + m.step_s * static_cast<double>(i);
+    if (t < kStop_s + 0.02 || t > 0.98) continue;
+    squares += std::pow(m.depth_m[i] - depth_m, 2);
+    accel += m.accel_mps2[i];
+    ++count;
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.4 * kNoise_m);  // of five frames 0.45
+  EXPECT_NEAR(accel / count, 0.0, 0.03);
+}
+
 // Samples at a limit were taken out between the third and the fourth: a mean of both sides would be a
 // reading of an instant at which nothing was read.
 TEST(DiagnoseAnotherProgram, NoMeanIsTakenAcrossAGap) {

@@ -66,7 +66,6 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
   ASSERT_GT(directions.size(), 0u);
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const TrialModel& trial = *problem.trials[t];
-    ASSERT_EQ(trial.blocks, 1u);
     const auto at = [&](const Edits& edits, const std::vector<double>& nuisances) {
       return predicted(problem, trial, edits, nuisances);
     };

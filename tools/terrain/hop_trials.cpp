@@ -129,14 +129,12 @@ class HopAnalysis {
   // to all trials.
   void add_firmware_curve() {
     ProfileSolver solver(cycle_.stiffness);
-    ProfileSums last;
     double greatest_N = 0.0;
     follow_strides(strides_, cycle_.stiffness, [&](const StrideSums& sums) {
-      last = sums.profile;
       greatest_N = std::max(greatest_N, sums.summary.peak_force_N);
-      solver.add(last, sums.summary.stride);
+      solver.add(sums.profile, sums.summary.stride);
     });
-    keep_curve(curve_of(solver, last, greatest_N,
+    keep_curve(curve_of(solver, greatest_N,
                         {.source = CurveSource::firmware,
                          .diameter_m = foot_diameter_m(),
                          .held_out = trial_.flag("held_out").value_or(false),

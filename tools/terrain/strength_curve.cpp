@@ -152,7 +152,7 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
   ProfileSolver solver(config);
   solver.add(regression.sums(), 1);
   const double greatest_N = std::ranges::max(samples, {}, &LoadingSample::force_N).force_N;
-  return points_of(solver, summarise(solver, regression.sums()), unit, greatest_N, facts);
+  return points_of(solver, summarise(solver), unit, greatest_N, facts);
 }
 
 StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const double> force_N,
@@ -166,9 +166,8 @@ StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const do
   return curve_of(samples, slow);
 }
 
-StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, double greatest_N,
-                       const CurveFacts& facts) {
-  return points_of(solver, summarise(solver, last), 1.0, greatest_N, facts);
+StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const CurveFacts& facts) {
+  return points_of(solver, summarise(solver), 1.0, greatest_N, facts);
 }
 
 double believed_stiffness_N_per_m(const IntruderBelief& belief) {

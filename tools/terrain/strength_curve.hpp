@@ -70,9 +70,8 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
 StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const double> force_N,
                              const CurveFacts& facts);
 
-// After the strides of a hop; `last`: the sums of the last one, `greatest_N` the force that the ground bore.
-StrengthCurve curve_of(const ProfileSolver& solver, const ProfileSums& last, double greatest_N,
-                       const CurveFacts& facts);
+// After the strides of a hop; `greatest_N`: the force that the ground bore.
+StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const CurveFacts& facts);
 
 // Of the bed under this foot; zero where the belief has none.
 double believed_stiffness_N_per_m(const IntruderBelief& belief);

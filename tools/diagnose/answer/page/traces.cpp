@@ -12,14 +12,12 @@ StudyFigure recorded_and_simulated(const Trace& trace, bool found) {
   const auto q = quantity_of(trace.channel);
   StudyFigure figure{q.words, "time, s", q.label(), {}};
   figure.series.push_back({"recorded", trace.time_s, trace.measured, {}, {}, Mark::points, "grey"});
-  figure.series.push_back({found ? "simulation before" : "simulation",
-                           trace.time_s,
-                           trace.before,
-                           {},
-                           {},
-                           Mark::line,
-                           "orange",
-                           found});
+  figure.series.push_back({.label = found ? "simulation before" : "simulation",
+                           .x = trace.time_s,
+                           .y = trace.before,
+                           .mark = Mark::line,
+                           .color = "orange",
+                           .dashed = found});
   if (found)
     figure.series.push_back({"simulation after", trace.time_s, trace.after, {}, {}, Mark::line, "blue"});
   return figure;
@@ -83,7 +81,12 @@ StudySection next_trial_section(const Diagnosis& d) {
   StudySection section{"The next trial", {next.why}};
   StudyFigure both{"What it would record: " + q.words, "time, s", q.label(), {}};
   both.series.push_back({next.first, next.time_s, next.by_first, {}, {}, Mark::line, "blue"});
-  both.series.push_back({next.second, next.time_s, next.by_second, {}, {}, Mark::line, "orange", true});
+  both.series.push_back({.label = next.second,
+                         .x = next.time_s,
+                         .y = next.by_second,
+                         .mark = Mark::line,
+                         .color = "orange",
+                         .dashed = true});
   StudyFigure apart{"Difference of the two: " + q.words, "time, s", q.label(), {}};
   apart.series.push_back(floor_band(next.time_s, next.floor));
   apart.series.push_back({next.second + " less " + next.first,

@@ -55,63 +55,115 @@ AtStep at_steps(const Samples& samples, const IntruderMotion& m) {
   return at;
 }
 
-void smooth_jointly(IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a) {
-  using Eigen::Matrix3d, Eigen::RowVector3d, Eigen::Vector3d;
-  const std::size_t n = m.depth_m.size();
-  const double dt = m.step_s;
-  const Matrix3d advance{{1.0, dt, -0.5 * dt * dt}, {0.0, 1.0, -dt}, {0.0, 0.0, 1.0}};
-  const Vector3d push{0.5 * dt * dt, dt, 0.0};
-  const double hardest = largest(m.accel_mps2);
+// Kalman filter forward, Rauch, Tung and Striebel's smoother back, of
+//   x = (depth, speed, offset b of the accelerometer, its lateness l).
+class JointSmoother {
+ public:
+  JointSmoother(const IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a)
+      : m_(m),
+        depth_(at_steps(z, m)),
+        speed_(at_steps(v, m)),
+        accel_known_(sampled(a, m)),
+        hardest_mps2_(largest(m.accel_mps2)),
+        accel_step_s_(median_step_s(a.time_s)) {}
+
+  // Puts the joined motion and its standard deviations in place of the recorded one.
+  void smooth(IntruderMotion& out) {
+    forward();
+    back();
+    out.accel_mps2 = corrected_accel();
+    Vector variance = Vector::Zero();
+    for (std::size_t i = 0; i < after_.size(); ++i) {
+      out.depth_m[i] = after_[i][0];
+      out.speed_mps[i] = after_[i][1];
+      variance += after_cov_[i].diagonal() / static_cast<double>(after_.size());
+    }
+    out.depth_sd_m = std::sqrt(variance[0]);
+    out.speed_sd_mps = std::sqrt(variance[1]);
+  }
+
+ private:
+  using Vector = Eigen::Vector4d;
+  using Matrix = Eigen::Matrix4d;
+
+  Vector push() const { return {0.5 * m_.step_s * m_.step_s, m_.step_s, 0.0, 0.0}; }
+  double change(std::size_t i) const { return m_.accel_mps2[i] - m_.accel_mps2[i - 1]; }
+  // From step i - 1 to i.
+  Matrix advance(std::size_t i) const {
+    Matrix f = Matrix::Identity();
+    f(0, 1) = m_.step_s;
+    f.col(2) -= push();
+    f.col(3) += push() * change(i) / m_.step_s;
+    return f;
+  }
   // Of the mean acceleration from step i - 1 to i; unknown inside a gap. Where it changes it may have jumped
   // at any instant between: its mean lies evenly between both values.
-  const auto accel_sd = [&](std::size_t i, bool known) {
-    if (!known) return hardest;
-    const double here = m.accel_mps2[i], change = here - m.accel_mps2[i - 1];
-    return std::hypot(m.accel_sd_mps2[i], kAccelError * here, change / std::sqrt(12.0));
-  };
-  const double depth_variance = m.depth_sd_m * m.depth_sd_m, speed_variance = m.speed_sd_mps * m.speed_sd_mps;
-  const AtStep depth = at_steps(z, m), speed = at_steps(v, m);
-  const auto a_known = sampled(a, m);
-  std::vector<Vector3d> before(n), after(n);
-  std::vector<Matrix3d> before_cov(n), after_cov(n);
-  Vector3d x{m.depth_m[0], m.speed_mps[0], 0.0};
-  Matrix3d p =
-      Vector3d{depth_variance, hardest * hardest * dt * dt + speed_variance, hardest * hardest}.asDiagonal();
-  const auto take = [&](const RowVector3d& of, double seen, double variance) {
-    const Vector3d gain = p * of.transpose() / (of.dot(p * of.transpose()) + variance);
+  double accel_sd(std::size_t i) const {
+    if (!accel_known_[i]) return hardest_mps2_;
+    return std::hypot(m_.accel_sd_mps2[i], kAccelError * m_.accel_mps2[i], change(i) / std::sqrt(12.0));
+  }
+  // A reading of depth or speed, which is linear in the state.
+  static void take(Vector& x, Matrix& p, const Eigen::RowVector4d& of, double seen, double variance) {
+    const Vector gain = p * of.transpose() / (of.dot(p * of.transpose()) + variance);
     x += gain * (seen - of.dot(x));
-    p = (Matrix3d::Identity() - gain * of) * p;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i > 0) {
-      const double sd = accel_sd(i, a_known[i]);
-      x = advance * x + push * 0.5 * (m.accel_mps2[i - 1] + m.accel_mps2[i]);
-      p = advance * p * advance.transpose() + sd * sd * push * push.transpose() +
-          1e-24 * Matrix3d::Identity();
-    }
-    before[i] = x;
-    before_cov[i] = p;
-    if (i > 0 && depth.known[i]) take({1.0, depth.late_s[i], 0.0}, depth.value[i], depth_variance);
-    if (i > 0 && speed.known[i])
-      take({0.0, 1.0, 0.0}, speed.value[i] - m.accel_mps2[i] * speed.late_s[i], speed_variance);
-    after[i] = x;
-    after_cov[i] = p;
+    p = (Matrix::Identity() - gain * of) * p;
   }
-  Vector3d variance = Vector3d::Zero();
-  for (std::size_t i = n; i-- > 0;) {
-    if (i + 1 < n) {
-      const Matrix3d back = after_cov[i] * advance.transpose() * before_cov[i + 1].inverse();
-      after[i] += back * (after[i + 1] - before[i + 1]);
-      after_cov[i] += back * (after_cov[i + 1] - before_cov[i + 1]) * back.transpose();
+
+  void forward() {
+    const double depth_variance = m_.depth_sd_m * m_.depth_sd_m;
+    const double speed_variance = m_.speed_sd_mps * m_.speed_sd_mps;
+    const double within_a_step_mps = hardest_mps2_ * m_.step_s;
+    Vector x{m_.depth_m[0], m_.speed_mps[0], 0.0, 0.0};
+    Matrix p = Vector{depth_variance, within_a_step_mps * within_a_step_mps + speed_variance,
+                      hardest_mps2_ * hardest_mps2_, accel_step_s_ * accel_step_s_}
+                   .asDiagonal();
+    for (std::size_t i = 0; i < m_.depth_m.size(); ++i) {
+      if (i > 0) {
+        const Matrix f = advance(i);
+        const double sd = accel_sd(i);
+        x = f * x + push() * 0.5 * (m_.accel_mps2[i - 1] + m_.accel_mps2[i]);
+        p = f * p * f.transpose() + sd * sd * push() * push().transpose() + 1e-24 * Matrix::Identity();
+      }
+      before_.push_back(x);
+      before_cov_.push_back(p);
+      if (i > 0 && depth_.known[i])
+        take(x, p, {1.0, depth_.late_s[i], 0.0, 0.0}, depth_.value[i], depth_variance);
+      if (i > 0 && speed_.known[i])
+        take(x, p, {0.0, 1.0, 0.0, 0.0}, speed_.value[i] - m_.accel_mps2[i] * speed_.late_s[i],
+             speed_variance);
+      after_.push_back(x);
+      after_cov_.push_back(p);
     }
-    m.depth_m[i] = after[i][0];
-    m.speed_mps[i] = after[i][1];
-    m.accel_mps2[i] -= after[i][2];
-    variance += after_cov[i].diagonal() / static_cast<double>(n);
   }
-  m.depth_sd_m = std::sqrt(variance[0]);
-  m.speed_sd_mps = std::sqrt(variance[1]);
-}
+
+  void back() {
+    for (std::size_t i = after_.size() - 1; i-- > 0;) {
+      const Matrix gain = after_cov_[i] * advance(i + 1).transpose() * before_cov_[i + 1].inverse();
+      after_[i] += gain * (after_[i + 1] - before_[i + 1]);
+      after_cov_[i] += gain * (after_cov_[i + 1] - before_cov_[i + 1]) * gain.transpose();
+    }
+  }
+
+  // a - b + l a'
+  std::vector<double> corrected_accel() const {
+    const std::size_t n = after_.size();
+    std::vector<double> accel(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t left = i > 0 ? i - 1 : 0, right = std::min(i + 1, n - 1);
+      const double rate =
+          (m_.accel_mps2[right] - m_.accel_mps2[left]) / (m_.step_s * static_cast<double>(right - left));
+      accel[i] = m_.accel_mps2[i] - after_[i][2] + after_[i][3] * rate;
+    }
+    return accel;
+  }
+
+  const IntruderMotion m_;
+  const AtStep depth_, speed_;
+  const std::vector<bool> accel_known_;
+  const double hardest_mps2_, accel_step_s_;
+  std::vector<Vector> before_, after_;
+  std::vector<Matrix> before_cov_, after_cov_;
+};
 
 // A foot that is fast meets the bed between two rows: the grid is made finer, values and rates joined by
 // cubics (Hermite).
@@ -249,7 +301,7 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   m.speed_sd_mps = std::max(
       m.speed_from_position ? noise_m / (m.step_s * static_cast<double>(half)) : fluctuation_rms(v), 1e-7);
   if (joined)
-    smooth_jointly(m, z, v, a);
+    JointSmoother(m, z, v, a).smooth(m);
   else if (noise_m > kQuantum_m)
     m.depth_sd_m /= std::sqrt(static_cast<double>(half));
   refine(m);

@@ -19,8 +19,9 @@ struct IntruderMotion {
 
 // Heights z, velocities v and accelerations a upward; v and a may be empty. Where accelerations were recorded
 // and agree in time with the position they are joined by a Kalman smoother (Rauch, Tung and Striebel 1965) of
-// x = (z, v, b) driven by a, on the finer of their grids:
-//   z' = v, v' = a - b, b' = 0,   b: the accelerometer's offset, free;
+// x = (z, v, b, l) driven by a, on the finer of their grids:
+//   z' = v, v' = a - b + l a', b' = l' = 0,   b: the accelerometer's offset, free; l: its lateness, to within
+//   one of its samples, for it may give means over them;
 // noise of z, v and a from their own fast fluctuation; a's is joined by 1 % of it (scale) and by change /
 // sqrt(12) of it between two steps, for it may have jumped at any instant between; each sample of z and v is
 // taken at its own time. Otherwise speeds and accelerations come from local parabolas over n samples, with a
