@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "campaign_folder.hpp"
+#include "tools/campaign/belief_sources.hpp"
+#include "tools/diagnose/answer/diagnosis_json.hpp"
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/engine.hpp"
+#include "tools/diagnose/recordings/campaign_input.hpp"
+
+// Which believed numbers an answer rests on.
+namespace sandhopper::diagnose {
+namespace {
+
+// A free pendulum: I q'' + c q' + m g l sin q = 0, released from rest at four angles, seen with white noise.
+void write_swings(CampaignFolder& folder, double noise_rad) {
+  std::mt19937_64 random(20);
+  std::normal_distribution<double> noise(0.0, noise_rad);
+  std::string campaign = "plant = \"rotary_axis\"\nmodel = \"nominal.toml\"\n";
+  for (int trial = 0; trial < 4; ++trial) {
+    double q = 0.4 + 0.2 * trial, v = 0.0;
+    constexpr double kStep_s = 1e-4;
+    std::string text = "t_s,position_rad\n";
+    for (int i = 0; i < 20000; ++i) {
+      if (i % 50 == 0) text += fmt::format("{:.4f},{:.7f}\n", kStep_s * i, q + noise(random));
+      v += kStep_s * (-0.8 * std::sin(q) - 0.004 * v) / 0.012;
+      q += kStep_s * v;
+    }
+    folder.write(fmt::format("r{}.csv", trial), text);
+    campaign += fmt::format("[[trial]]\nfile = \"r{}.csv\"\nmotor_enabled = false\n", trial);
+  }
+  folder.write("campaign.toml", campaign)
+      .write("nominal.toml",
+             "[axis]\ninertia_kg_m2 = 0.012\ngravity_torque_Nm = 0.8\nviscous_friction_Nm_s = 0.004\n");
+}
+
+Diagnosis diagnosed(const CampaignFolder& folder) {
+  const auto campaign = load_campaign(folder.path());
+  EngineOptions options;
+  for (const auto& n : used_numbers(campaign).numbers)
+    options.belief.push_back({n.key, n.low, n.high, n.unit, n.said_by, usual_error(n), 0.0});
+  return diagnose(read_campaign(campaign).recordings, options);
+}
+
+const BelievedNumber& number(const Diagnosis& diagnosis, std::string_view key) {
+  const auto found = std::ranges::find(diagnosis.belief, key, &BelievedNumber::key);
+  if (found == diagnosis.belief.end()) throw std::out_of_range(std::string(key));
+  return *found;
+}
+
+TEST(DiagnoseBelief, TheErrorThatShowsGrowsWithTheNoise) {
+  CampaignFolder quiet, loud;
+  write_swings(quiet, 1e-3);
+  write_swings(loud, 4e-3);
+  const auto a = diagnosed(quiet), b = diagnosed(loud);
+  EXPECT_EQ(a.verdict, "consistent");
+  for (const auto* key : {"axis.inertia_kg_m2", "axis.gravity_torque_Nm", "axis.viscous_friction_Nm_s"}) {
+    const double ratio = number(b, key).error_that_shows / number(a, key).error_that_shows;
+    EXPECT_GT(ratio, 2.5) << key;
+    EXPECT_LT(ratio, 6.0) << key << ": four times the noise";
+  }
+}
+
+TEST(DiagnoseBelief, WhatOnlyTheirRatioTellsIsKnownAlikeToItsShare) {
+  CampaignFolder folder;
+  write_swings(folder, 1e-3);
+  const auto diagnosis = diagnosed(folder);
+  // The motion depends on m g l / I and c / I alone.
+  const auto &inertia = number(diagnosis, "axis.inertia_kg_m2"),
+             &gravity = number(diagnosis, "axis.gravity_torque_Nm"),
+             &friction = number(diagnosis, "axis.viscous_friction_Nm_s");
+  EXPECT_NEAR(inertia.error_that_shows / 0.012, gravity.error_that_shows / 0.8,
+              0.2 * gravity.error_that_shows / 0.8);
+  EXPECT_GT(friction.error_that_shows / 0.004, 3.0 * gravity.error_that_shows / 0.8)
+      << "friction shows least";
+  EXPECT_TRUE(inertia.matters()) << "0.012 may be 0.0125, and a far smaller error would show";
+  // A gear of an axis without a motor, and gravity where its torque is stated, move nothing.
+  EXPECT_TRUE(std::isinf(number(diagnosis, "gravity_mps2").error_that_shows));
+  EXPECT_FALSE(number(diagnosis, "gravity_mps2").matters());
+}
+
+TEST(DiagnoseBelief, JsonAndPageHoldTheTable) {
+  CampaignFolder folder;
+  write_swings(folder, 1e-3);
+  const auto diagnosis = diagnosed(folder);
+  const auto json = to_json(diagnosis);
+  ASSERT_EQ(json["belief"].size(), diagnosis.belief.size());
+  const auto study = diagnosis_study(diagnosis, {"swings", "rotary_axis", {}});
+  const auto section = std::ranges::find(study.sections, "What was believed", &StudySection::title);
+  ASSERT_NE(section, study.sections.end());
+  EXPECT_EQ(std::get<StudyTable>(section->items.at(0)).rows.size(), diagnosis.belief.size());
+}
+
+TEST(DiagnoseBelief, TheUsualErrorIsHalfTheLastDigit) {
+  const auto error_of = [](double value, UsedNumber::Source source, const char* key) {
+    return usual_error(UsedNumber{.key = key, .value = value, .low = value, .high = value, .source = source});
+  };
+  using enum UsedNumber::Source;
+  EXPECT_DOUBLE_EQ(error_of(0.012, model_file, "axis.inertia_kg_m2"), 0.0005);
+  EXPECT_DOUBLE_EQ(error_of(2.35, trial_setup, "body.mass_kg"), 0.005);
+  EXPECT_DOUBLE_EQ(error_of(1500.0, model_file, "terrain.stiffness_N_per_m"), 0.5);
+  EXPECT_DOUBLE_EQ(error_of(2e-5, model_file, "x"), 0.5e-5);
+  EXPECT_DOUBLE_EQ(error_of(30.0, plant_default, "terrain.unloading_stiffness_ratio"), 30.0);
+  EXPECT_DOUBLE_EQ(error_of(9.81, plant_default, "gravity_mps2"), 0.027);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
