@@ -59,6 +59,8 @@ inline std::string in_mm(PlateRow r) {
   return fmt::format("{:.1f},{:.3f},{:.3f}", r.t_s, r.force_N, r.depth_mm);
 }
 
+inline const std::string kNamesInSi = "t_s,force_N,foot_z_m";
+
 struct ForeignCondition {
   std::string id;
   std::string text;

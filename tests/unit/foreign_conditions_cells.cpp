@@ -3,19 +3,18 @@
 namespace sandhopper {
 namespace {
 using enum CampaignPlant;
-const std::string kSi = "t_s,force_N,foot_z_m";
 
 // The force's cell in the writer's own way.
-std::string force(PlateRow r, const std::string& cell) {
+std::string row_with_force(PlateRow r, const std::string& cell) {
   return fmt::format("{:.2f},{},{:.5f}", r.t_s, cell, -r.depth_mm / 1000);
 }
-std::string plain(PlateRow r) { return fmt::format("{:.3f}", r.force_N); }
+std::string plain_force(PlateRow r) { return fmt::format("{:.3f}", r.force_N); }
 // Every ninth angle in place of a sample, but for the rows that the test looks at.
-std::string angle(AxisRow r, const std::string& other) {
+std::string row_with_angle(AxisRow r, const std::string& other) {
   return fmt::format("{:.2f},{},{:.6f}", r.t_s,
                      r.i % 9 == 4 ? other : fmt::format("{:.6f}", 57.29578 * r.angle_rad), r.torque_Nm);
 }
-const std::string kAxis = "time_s,position_deg,torque_Nm";
+const std::string kNamesOfAxis = "time_s,position_deg,torque_Nm";
 }  // namespace
 
 std::vector<ForeignCondition> conditions_of_cells() {
@@ -23,23 +22,28 @@ std::vector<ForeignCondition> conditions_of_cells() {
       {"a date that a spreadsheet made of a number",
        plate("time_s;force_N;depth_mm",
              [](auto r) {
-               return fmt::format("{:.1f};{};{:.3f}", r.t_s, r.i % 9 == 4 ? "03.01.2024" : plain(r),
+               return fmt::format("{:.1f};{};{:.3f}", r.t_s, r.i % 9 == 4 ? "03.01.2024" : plain_force(r),
                                   r.depth_mm);
              }),
        intruder, true},
       {"a time of day in a channel",
-       plate(kSi, [](auto r) { return force(r, r.i == 30 ? "12:30" : plain(r)); }), intruder, true},
+       plate(kNamesInSi, [](auto r) { return row_with_force(r, r.i == 30 ? "12:30" : plain_force(r)); }),
+       intruder, true},
       {"##### of a column that was too narrow",
-       plate(kSi, [](auto r) { return force(r, r.i > 70 ? "#######" : plain(r)); }), intruder, true},
-      {"OL of a meter", plate(kSi, [](auto r) { return force(r, r.i > 70 ? "OL" : plain(r)); }), intruder,
-       true},
-      {"9.91E+37 of an instrument", axis(kAxis, [](auto r) { return angle(r, "9.91E+37"); }), rotary_axis,
-       true},
-      {"-999 for no sample", axis(kAxis, [](auto r) { return angle(r, "-999"); }), rotary_axis, false},
+       plate(kNamesInSi, [](auto r) { return row_with_force(r, r.i > 70 ? "#######" : plain_force(r)); }),
+       intruder, true},
+      {"OL of a meter",
+       plate(kNamesInSi, [](auto r) { return row_with_force(r, r.i > 70 ? "OL" : plain_force(r)); }),
+       intruder, true},
+      {"9.91E+37 of an instrument", axis(kNamesOfAxis, [](auto r) { return row_with_angle(r, "9.91E+37"); }),
+       rotary_axis, true},
+      {"-999 for no sample", axis(kNamesOfAxis, [](auto r) { return row_with_angle(r, "-999"); }),
+       rotary_axis, false},
       {"1.#QNAN and -nan(ind)",
-       axis(kAxis, [](auto r) { return angle(r, r.i % 2 == 0 ? "1.#QNAN" : "-nan(ind)"); }), rotary_axis,
-       true},
-      {"--.--- of a display", axis(kAxis, [](auto r) { return angle(r, "--.---"); }), rotary_axis, true},
+       axis(kNamesOfAxis, [](auto r) { return row_with_angle(r, r.i % 2 == 0 ? "1.#QNAN" : "-nan(ind)"); }),
+       rotary_axis, true},
+      {"--.--- of a display", axis(kNamesOfAxis, [](auto r) { return row_with_angle(r, "--.---"); }),
+       rotary_axis, true},
       {"numbers of Fortran",
        plate("t_s force_N foot_z_m",
              [](auto r) {
@@ -63,7 +67,7 @@ std::vector<ForeignCondition> conditions_of_cells() {
              }),
        intruder, true},
       {"=\"0.5\" and '0.5",
-       plate(kSi,
+       plate(kNamesInSi,
              [](auto r) {
                return fmt::format("=\"{:.1f}\",'{:.3f},=\"{:.5f}\"", r.t_s, r.force_N, -r.depth_mm / 1000);
              }),
@@ -73,8 +77,8 @@ std::vector<ForeignCondition> conditions_of_cells() {
              [](auto r) { return fmt::format("{:.1f} s,{:.3f} N,{:.2f}mm", r.t_s, r.force_N, r.depth_mm); }),
        intruder, false},
       {"k behind a number",
-       plate(kSi, [](auto r) { return force(r, fmt::format("{:.4f}k", r.force_N / 1000)); }), intruder,
-       false},
+       plate(kNamesInSi, [](auto r) { return row_with_force(r, fmt::format("{:.4f}k", r.force_N / 1000)); }),
+       intruder, false},
       {"decimal commas between commas",
        plate("Time(s),Force(N),Depth(mm)", [](auto r) { return with_commas(in_mm(r)); }), intruder, false},
       {"points in one column, commas in others",
@@ -86,11 +90,11 @@ std::vector<ForeignCondition> conditions_of_cells() {
        intruder, false},
       {"a file that was cut within its last number",
        [] {
-         auto text = plate(kSi, si);
+         auto text = plate(kNamesInSi, si);
          return text.substr(0, text.size() - 4);
        }(),
        intruder, true},
-      {"zeros of a card behind the table", plate(kSi, si) + std::string(2000, '\0'), intruder, true},
+      {"zeros of a card behind the table", plate(kNamesInSi, si) + std::string(2000, '\0'), intruder, true},
       {"an angle within one turn",
        axis("time (s),angle (deg),torque (Nm)",
             [](auto r) {

@@ -3,16 +3,15 @@
 namespace sandhopper {
 namespace {
 using enum CampaignPlant;
-const std::string kSi = "t_s,force_N,foot_z_m";
-const std::string kWords = "Time (s),Force (N),Depth (mm)";
+const std::string kNamesOfPlate = "Time (s),Force (N),Depth (mm)";
 
-std::string with(PlateRow r, const char* format) {
+std::string in_columns(PlateRow r, const char* format) {
   return fmt::format(fmt::runtime(format), r.t_s, r.force_N, r.depth_mm);
 }
-std::string data_set(int rows) {
+std::string vernier_set(int rows) {
   return plate(
       "Vernier Format 2\nMy rig 1/22/2002 12:51:07\nRun\nTime\tForce\tDepth\nT\tF\td\ns\tN\tmm\n",
-      [](auto r) { return with(r, "{:.2f}\t{:.3f}\t{:.3f}"); }, rows);
+      [](auto r) { return in_columns(r, "{:.2f}\t{:.3f}\t{:.3f}"); }, rows);
 }
 }  // namespace
 
@@ -31,23 +30,26 @@ std::vector<ForeignCondition> conditions_of_tables() {
              }),
        intruder, true},
       {"names by commas, rows by tabs",
-       plate("Time (s), Force (N), Depth (mm)", [](auto r) { return with(r, "{:.1f}\t{:.3f}\t{:.3f}"); }),
+       plate("Time (s), Force (N), Depth (mm)",
+             [](auto r) { return in_columns(r, "{:.1f}\t{:.3f}\t{:.3f}"); }),
        intruder, true},
       {"names with blanks, divided by blanks",
-       plate("Time (s) Load (N) Depth (mm)", [](auto r) { return with(r, "{:.1f} {:.3f} {:.3f}"); }),
+       plate("Time (s) Load (N) Depth (mm)", [](auto r) { return in_columns(r, "{:.1f} {:.3f} {:.3f}"); }),
        intruder, true},
       {"bars, as in a text page",
        plate("| Time (s) | Force (N) | Depth (mm) |\n|---|---|---|",
-             [](auto r) { return with(r, "| {:.1f} | {:.3f} | {:.3f} |"); }),
+             [](auto r) { return in_columns(r, "| {:.1f} | {:.3f} | {:.3f} |"); }),
        intruder, true},
       {"a name before every value",
-       plate("", [](auto r) { return with(r, "t:{:.1f},Force:{:.3f},Depth:{:.3f}"); }), intruder, false},
+       plate("", [](auto r) { return in_columns(r, "t:{:.1f},Force:{:.3f},Depth:{:.3f}"); }), intruder,
+       false},
       {"JSON",
-       plate("", [](auto r) { return with(r, "{{\"t\": {:.1f}, \"force\": {:.3f}, \"depth\": {:.3f}}}"); }),
+       plate("",
+             [](auto r) { return in_columns(r, "{{\"t\": {:.1f}, \"force\": {:.3f}, \"depth\": {:.3f}}}"); }),
        intruder, false},
       {"a page called .xls",
        plate("<html><table><tr><td>t</td></tr>",
-             [](auto r) { return with(r, "<tr><td>{:.1f}</td><td>{:.3f}</td><td>{:.3f}</td></tr>"); }),
+             [](auto r) { return in_columns(r, "<tr><td>{:.1f}</td><td>{:.3f}</td><td>{:.3f}</td></tr>"); }),
        intruder, false},
       {"no names at all", plate("", si), intruder, false},
       {"no names, and names given", plate("", si), intruder, true, {"t_s", "force_N", "foot_z_m"}},
@@ -70,22 +72,24 @@ std::vector<ForeignCondition> conditions_of_tables() {
        intruder, true},
       {"a name for remarks that rows do not reach",
        plate("***End_of_Header***\nX_Value\tForce (N)\tDepth (mm)\tComment",
-             [](auto r) { return with(r, "{:.6f}\t{:.6f}\t{:.6f}"); }),
+             [](auto r) { return in_columns(r, "{:.6f}\t{:.6f}\t{:.6f}"); }),
        intruder, true},
-      {"largest and smallest values above the rows", plate(kWords + "\nMax,330.1,31.6\nMin,10,0", in_mm),
-       intruder, true},
-      {"means below the rows", plate(kSi, si) + "\nMaximum,330.1,0.0\nMean,101.2,-0.016\n", intruder, true},
-      {"data sets one below the other", data_set(80) + data_set(80), intruder, false},
+      {"largest and smallest values above the rows",
+       plate(kNamesOfPlate + "\nMax,330.1,31.6\nMin,10,0", in_mm), intruder, true},
+      {"means below the rows", plate(kNamesInSi, si) + "\nMaximum,330.1,0.0\nMean,101.2,-0.016\n", intruder,
+       true},
+      {"data sets one below the other", vernier_set(80) + vernier_set(80), intruder, false},
       {"lines that ran together",
-       plate(kWords, [](auto r) { return in_mm(r) + (r.i == 20 ? in_mm(plate_row(21)) : ""); }), intruder,
-       true},
+       plate(kNamesOfPlate, [](auto r) { return in_mm(r) + (r.i == 20 ? in_mm(plate_row(21)) : ""); }),
+       intruder, true},
       {"the names again and again",
-       plate(kWords, [](auto r) { return r.i % 20 == 5 ? in_mm(r) + "\n" + kWords : in_mm(r); }), intruder,
-       true},
+       plate(kNamesOfPlate,
+             [](auto r) { return r.i % 20 == 5 ? in_mm(r) + "\n" + kNamesOfPlate : in_mm(r); }),
+       intruder, true},
       {"a remark between rows",
-       plate(kWords, [](auto r) { return in_mm(r) + (r.i == 9 ? "\noperator: ah, well" : ""); }), intruder,
-       true},
-      {"line ends \\r\\r\\n", plate(kSi, [](auto r) { return si(r) + "\r\r"; }), intruder, true},
+       plate(kNamesOfPlate, [](auto r) { return in_mm(r) + (r.i == 9 ? "\noperator: ah, well" : ""); }),
+       intruder, true},
+      {"line ends \\r\\r\\n", plate(kNamesInSi, [](auto r) { return si(r) + "\r\r"; }), intruder, true},
       {"names over the wrong columns",
        plate("t_s,force_N,foot_z_m",
              [](auto r) { return fmt::format("{:.2f},{:.2f},{:.5f}", r.t_s, r.t_s, -r.depth_mm / 1000); }),

@@ -29,7 +29,7 @@ struct Imported {
   std::optional<TrialRecording> recording;
 };
 
-Imported imported(const ForeignCondition& condition) {
+Imported imported_condition(const ForeignCondition& condition) {
   CampaignFolder folder;
   folder.write("rec.csv", condition.text);
   Imported out;
@@ -80,7 +80,7 @@ void expect_right(const ForeignCondition& condition, const TrialRecording& recor
 TEST(ForeignReports, AConditionIsReadRightOrNothingIsComputedFromIt) {
   for (const auto& condition : all_conditions()) {
     SCOPED_TRACE(condition.id);
-    const auto got = imported(condition);
+    const auto got = imported_condition(condition);
     if (condition.is_usable) {
       ASSERT_TRUE(got.recording) << got.told;
       expect_right(condition, *got.recording, got.told);
@@ -115,7 +115,7 @@ TEST(ForeignReports, ThePageSaysWhatIsSaid) {
   for (const auto& condition : all_conditions()) {
     SCOPED_TRACE(condition.id);
     ASSERT_TRUE(rows.contains(condition.id)) << "no row of the page";
-    const auto told = imported(condition).told;
+    const auto told = imported_condition(condition).told;
     for (const auto& words : rows.at(condition.id)) EXPECT_THAT(told, HasSubstr(words));
     EXPECT_TRUE(condition.is_usable || !rows.at(condition.id).empty()) << "what is said?\n" << told;
   }

@@ -7,16 +7,16 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kStep = 0.01;      // of a number, for its derivative
-constexpr double kTwoSided = 1.96;  // standard deviations of a 95 % interval
+constexpr double kShareMoved = 0.01;         // of a number, for its derivative
+constexpr double kNinetyFivePercent = 1.96;  // standard deviations of a 95 % interval
 constexpr std::size_t kTrialsOfCostly = 8;
 
 // A rig's stiffness is edited as its compliance, one over it.
 Edits with_number(Edits edits, const std::string& key) {
   if (key == "rig.stiffness_N_per_m")
-    edits.scale("rig.compliance_m_per_N", 1.0 / (1.0 + kStep));
+    edits.scale("rig.compliance_m_per_N", 1.0 / (1.0 + kShareMoved));
   else
-    edits.scale(key, 1.0 + kStep);
+    edits.scale(key, 1.0 + kShareMoved);
   return edits;
 }
 
@@ -32,7 +32,7 @@ void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagn
     number.error_that_shows = std::numeric_limits<double>::infinity();
     const bool simulated = !number.key.starts_with("sensors.") && !number.key.starts_with("spread.");
     if (!simulated || number.size() == 0.0) continue;
-    directions.push_back({with_number(edits, number.key), kStep});
+    directions.push_back({with_number(edits, number.key), kShareMoved});
     numbers.push_back(&number);
   }
   if (directions.empty() || problem.trials.empty()) return;
@@ -54,7 +54,8 @@ void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagn
       looked_at == 0 ? 1.0 : static_cast<double>(problem.trials.size()) / static_cast<double>(looked_at);
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (information[k] > 0.0)
-      numbers[k]->error_that_shows = kTwoSided / std::sqrt(share * information[k]) * numbers[k]->size();
+      numbers[k]->error_that_shows =
+          kNinetyFivePercent / std::sqrt(share * information[k]) * numbers[k]->size();
 }
 
 }  // namespace sandhopper::diagnose
