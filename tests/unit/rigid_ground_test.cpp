@@ -44,7 +44,7 @@ TEST(RigidGround, BoundIsBelowTheTruthAndSoftGroundIsNotCalledRigid) {
     const std::vector<LegHop> hops(4, bounce(stiffness, 1.25));
     const auto ground = rigid_ground(hops, 0.0, 1.25);
     ASSERT_EQ(ground.landings.size(), 4u) << stiffness;
-    EXPECT_NEAR(ground.landings[0].speed_mps, 1.0, 0.03) << stiffness;
+    EXPECT_NEAR(ground.landings[0].speed_mps, 1.0, 0.02) << stiffness;
     EXPECT_LT(ground.at_least_N_per_m, stiffness);
     EXPECT_GT(ground.at_least_N_per_m, 0.1 * stiffness);
     EXPECT_EQ(ground.rigid(), stiffness > 50e3);

@@ -72,7 +72,7 @@ void add_curves(std::span<const StrengthCurve> curves, const std::string& label,
 StudyFigure group_figure(const CurveGroup& group) {
   StudyFigure figure{.title = "Force against depth: " + group_title(group),
                      .x_label = "depth, mm",
-                     .y_label = "quasi-static force, N",
+                     .y_label = "force of the ground, N",
                      .wide = true};
   if (group.curves.size() > 1) {
     figure.series.push_back(band("one new trial, 95 %", group.depths, "text", true));
@@ -115,7 +115,7 @@ StudyFigure prediction_figure(const ProfilePrediction& p, std::span<const Streng
       .title = fmt::format("Held out: {} mm predicted from {} mm, {}", short_number(1e3 * p.diameter_m),
                            short_number(1e3 * p.from_diameter_m), p.law),
       .x_label = "depth, mm",
-      .y_label = "quasi-static force, N"};
+      .y_label = "force of the ground, N"};
   figure.series.push_back(band("one new trial, 95 %", p.band, "text", true));
   figure.series.push_back(band("mean of the ground, 95 %", p.band, "text", false));
   std::vector<StrengthCurve> curves;

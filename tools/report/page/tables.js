@@ -28,7 +28,7 @@ function fillStrides(data, table, onChoose) {
   table.append(element('thead', {}, element('tr', {},
     headerCell('Stride'), headerCell('Touchdown speed', 'm/s'), headerCell('Touchdown', 's', 'when'), headerCell('Switch', 's', 'when'),
     headerCell('Liftoff', 's', 'when'), headerCell('Peak force', 'N', 'detail'), headerCell('Depth', 'mm'),
-    ...TREATMENTS.map(treatment => headerCell(treatment.label, 'N/m, 95 % interval')))));
+    ...TREATMENTS.map(treatment => headerCell(treatment.label, 'N/m, 95 % interval', classOf(treatment))))));
   const rows = data.strides.map(stride => {
     const row = element('tr', { tabIndex: 0, title: 'Show this stride' },
       element('td', {}, String(stride.number)),
@@ -38,7 +38,7 @@ function fillStrides(data, table, onChoose) {
       element('td', { className: 'when' }, fixed(stride.liftoff_s, 3)),
       element('td', { className: 'detail' }, fixed(stride.peak_force_N, 1)),
       element('td', {}, fixed(stride.max_depth_m === null ? null : 1000 * stride.max_depth_m, 1)),
-      ...TREATMENTS.map(treatment => stiffnessCell(stride[treatment.key])));
+      ...TREATMENTS.map(treatment => stiffnessCell(stride[treatment.key], classOf(treatment))));
     row.onclick = () => onChoose(stride);
     row.onkeydown = event => { if (event.key === 'Enter') onChoose(stride); };
     return row;
@@ -48,10 +48,15 @@ function fillStrides(data, table, onChoose) {
   return rows;
 }
 
-function stiffnessCell(fit) {
+// A small screen has room for the joint fit only.
+function classOf(treatment) {
+  return treatment.key === 'joint' ? '' : 'line';
+}
+
+function stiffnessCell(fit, className) {
   const value = element('span', { className: fit.valid ? 'valid' : 'invalid' }, fixed(fit.value_N_per_m, 0));
   const [low, high] = fit.ci95_N_per_m;
-  return element('td', { title: `${fit.samples} samples` }, value, fit.valid
+  return element('td', { title: `${fit.samples} samples`, className }, value, fit.valid
     ? element('small', {}, `${fixed(low, 0)} to ${fixed(high, 0)}`)
     : element('small', { className: 'why' }, `not valid: ${fit.reason}`));
 }
