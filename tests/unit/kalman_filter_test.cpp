@@ -57,6 +57,31 @@ TEST(KalmanFilter, EqualsTheTextbookMatricesWhenNothingIsOld) {
   EXPECT_LT((filter.covariance() - p).cwiseAbs().maxCoeff(), 1e-10);
 }
 
+// A foot that is stopped by twice what its accelerometer can show.
+double speed_error_after_a_blow(bool told) {
+  KalmanFilter filter{KalmanConfig{}};
+  filter.reset({0.5, 0.0, 0.06, -1.0});
+  const double t = 1e-3;
+  double foot_z = 0.06, foot_v = -1.0;
+  for (int k = 0; k < 30; ++k) {
+    const bool blow = k == 20 || k == 21;
+    const double truth = blow ? 300.0 : 0.0;
+    foot_z += foot_v * t + 0.5 * truth * t * t;
+    foot_v += truth * t;
+    filter.predict({0.0, blow ? 147.0 : 0.0, blow && told}, t);
+    filter.update_body_height(0.5, 0.0);
+    filter.update_leg_length(0.5 - foot_z, 0.0);
+    filter.update_leg_rate(-foot_v, 0.0);
+    if (k == 23) return std::abs(filter.state().foot_velocity_mps - foot_v);
+  }
+  return 0.0;
+}
+
+TEST(KalmanFilter, WhereAnAccelerometerIsAtItsRangeTheEncodersTellTheSpeed) {
+  EXPECT_LT(speed_error_after_a_blow(true), 0.03);
+  EXPECT_GT(speed_error_after_a_blow(false), 0.1);
+}
+
 TEST(KalmanFilter, StateBeforeInvertsThePredictionsExactly) {
   KalmanFilter filter(KalmanConfig{});
   filter.reset({0.5, 0.1, 0.06, -0.2});

@@ -1,0 +1,64 @@
+#include "tools/experiment/bed_strides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/ground_summary.hpp"
+
+namespace sandhopper {
+namespace {
+
+const BedCase& bed_named(const std::string& name) {
+  return *std::ranges::find(bed_cases(), name, &BedCase::name);
+}
+
+BedTrial trial_on(const std::string& bed, std::uint64_t seed) {
+  return run_bed_trial({}, {}, bed_named(bed), seed, 3);
+}
+
+TEST(BedTrial, LaterStridesKnowTheirDepthAfterTheBlowOfLanding) {
+  double squares = 0.0, strides = 0.0;
+  for (const std::uint64_t seed : {11U, 12U, 14U, 15U, 26U, 27U}) {
+    const auto trial = trial_on("line", seed);
+    for (const auto& stride : trial.strides) {
+      if (stride.sums.summary.stride == 1) continue;
+      const double error = stride.sums.summary.max_depth_m - stride.true_deepest_m;
+      squares += error * error;
+      strides += 1.0;
+    }
+  }
+  ASSERT_GE(strides, 6.0);
+  EXPECT_LT(std::sqrt(squares / strides), 0.0015);
+}
+
+TEST(BedTrial, EveryStrideOfACrustIsSearchedAndTheRuptureFoundOnce) {
+  const auto trial = trial_on("crust", 12);
+  ASSERT_GE(trial.strides.size(), 2U);
+  for (const auto& stride : trial.strides) {
+    ASSERT_TRUE(stride.events_complete);
+    EXPECT_EQ(stride.events.stride, stride.sums.summary.stride);
+    EXPECT_EQ(stride.events.liftoff_ns, stride.sums.summary.liftoff_ns);
+    const auto found = find_ground_events(stride.events, {});
+    EXPECT_EQ(found.rupture.kind == GroundEventKind::crust_rupture, stride.events.stride == 1);
+    if (stride.events.stride != 1) continue;
+    EXPECT_NEAR(found.rupture.depth_m, *trial.truth.rupture_depth_m, 0.002);
+  }
+}
+
+TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
+  const auto trial = trial_on("line", 11);
+  ProfileSolver solver{StiffnessConfig{}};
+  for (const auto& stride : trial.strides) {
+    solver.add(stride.sums.profile, stride.sums.summary.stride);
+    const auto k = summarise(solver).reloading_N_per_m;
+    EXPECT_LT(k.ci95_low, trial.truth.unloading_stiffness_N_per_m);
+    EXPECT_GT(k.ci95_high, trial.truth.unloading_stiffness_N_per_m);
+    EXPECT_LT(k.ci95_high, 2.0 * k.ci95_low);
+  }
+  EXPECT_GE(trial.strides.size(), 2U);
+}
+
+}  // namespace
+}  // namespace sandhopper
