@@ -2,6 +2,9 @@
 
 #include <array>
 
+#include "config/dump.hpp"
+#include "config/files.hpp"
+#include "firmware/fault_check.hpp"
 #include "firmware/operator_text.hpp"
 #include "tools/trial/live/ansi_frame.hpp"
 #include "tools/trial/live/key_decoder.hpp"

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "config/dump.hpp"
+#include "config/files.hpp"
+#include "firmware/fault_check.hpp"
 #include "firmware/log/mcap_writer.hpp"
 #include "firmware/log/topics.hpp"
 #include "tools/report/log_report.hpp"

@@ -167,7 +167,13 @@ UnloadingTrace leaving(double line_N_per_m, double bias_mps2 = 0.05) {
                     .since_contact_s = t,
                     .duration_s = 1e-3});
   }
-  recorder.add({.depth_m = 0.037, .speed_mps = -0.2, .accel_mps2 = -40.0, .force_N = 0.0});
+  recorder.add({.depth_m = 0.037,
+                .speed_mps = -0.2,
+                .accel_mps2 = -40.0,
+                .force_N = 0.0,
+                .leg_rate_mps = 0.0,
+                .since_contact_s = 0.1,
+                .duration_s = 1e-3});
   return recorder.trace();
 }
 
@@ -207,7 +213,13 @@ TEST(ReloadingStiffness, StridesOfATrialNarrowIt) {
 TEST(ReloadingStiffness, OfAnImpactIsNotKnown) {
   UnloadingRecorder recorder(0.03);
   for (int i = 0; i < 60; ++i)
-    recorder.add({.depth_m = 0.03, .speed_mps = -0.01, .accel_mps2 = -70.0, .force_N = 60.0 - i});
+    recorder.add({.depth_m = 0.03,
+                  .speed_mps = -0.01,
+                  .accel_mps2 = -70.0,
+                  .force_N = 60.0 - i,
+                  .leg_rate_mps = 0.0,
+                  .since_contact_s = 1e-3 * i,
+                  .duration_s = 1e-3});
   EXPECT_EQ(recorder.trace().pairs, 0);
   EXPECT_EQ(line_of(recorder.trace()).value_N_per_m, 0.0);
 }
