@@ -96,7 +96,7 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
   const double bias_mps2 = world.spread.imu_bias_mps2 * noise.normal();
   LoadCell cell_of_trial = draw.load_cell();
   const Path path(what.speed_mps);
-  double z = Path::kLead_m, deepest = 0.0, camera_s = 0.0;
+  double z = Path::kLead_m, deepest = 0.0, camera_s = 0.0, accel_sum = 0.0;
   std::uint32_t seen = 0;
   out << "t_s,foot_z_m,foot_accel_mps2,force_N\n";
   const int steps = static_cast<int>(path.end_s() * 1e4);
@@ -106,14 +106,18 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
     const double depth = std::max(0.0, -z);
     const double force = bed.reaction({depth, -v, deepest, 0.0}).at_acceleration(a);
     cell_of_trial.step({i * World::kStep_ns, (i + 1) * World::kStep_ns}, force);
+    accel_sum += a;
     if (i % 10 == 0) {
+      // Of the last millisecond: an accelerometer's filter loses no part of a short ramp.
+      const double accel = accel_sum / (i == 0 ? 1.0 : 10.0);
+      accel_sum = 0.0;
       const bool frame = t >= camera_s;
       if (frame) camera_s += 1.0 / world.sensors.mocap_rate_Hz;
       const bool fresh = cell_of_trial.sample().samples != seen;
       seen = cell_of_trial.sample().samples;
       out << fmt::format(
           "{:.3f},{},{:.5f},{}\n", t, cell(frame, z + world.sensors.mocap_noise_m * noise.normal()),
-          a + bias_mps2 + kAccelNoise_mps2 * noise.normal(), cell(fresh, cell_of_trial.sample().force_N));
+          accel + bias_mps2 + kAccelNoise_mps2 * noise.normal(), cell(fresh, cell_of_trial.sample().force_N));
     }
     z += 1e-4 * v + 0.5e-8 * a;
     deepest = std::max(deepest, -z);

@@ -240,9 +240,9 @@ class IntruderTrial final : public TrialModel {
         const double speed_mps =
             read.speed_mps(i) - compliance_m_per_N * (felt_N - before_N) / motion_.step_s;
         // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it
-        // stands.
+        // stands. A foot that goes down does so until its speed is none: there the steep line begins.
         down = depth_m > deepest_m + depth_band_m ||
-               (speed_mps > rest_speed_mps_ && depth_m > deepest_m - depth_band_m);
+               (speed_mps > (down_before ? 0.0 : rest_speed_mps_) && depth_m > deepest_m - depth_band_m);
         if (!down && known_m != deepest_m) {
           known_m = deepest_m;
           known_N = bed.curve_N(deepest_m);
