@@ -57,7 +57,7 @@ TEST(DiagnoseOracle, WhiteningIsThatOfTheDenseCovarianceOfAnAutoregression) {
   EXPECT_LT((whitening * covariance * whitening.transpose() - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-// X'X - X'Z (Z'Z + S^-1)^-1 Z'X with X and Z by central differences of the prediction and dense matrices.
+// X'X - X'Z (Z'Z + S^-1)^-1 Z'X with X and Z by differences of the prediction and dense matrices.
 TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
   const auto prepared = prepare(swings([](double, double, double) { return 0.0; }, 1, 2));
   const Problem& problem = prepared.problem;
@@ -72,20 +72,32 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
     const VectorXd centre = at({}, point.nuisances[t]);
     MatrixXd x(centre.size(), 1 + static_cast<Index>(directions.size()));
     x.col(0) = residual_of(trial, centre);
-    for (std::size_t i = 0; i < directions.size(); ++i)
-      x.col(1 + static_cast<Index>(i)) =
-          (at(directions[i].edits, point.nuisances[t]) - centre) / directions[i].step;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      constexpr double kStep = 0.1;  // of a tolerance's scale
+      ASSERT_GE(directions[i].tolerance, 0);
+      Edits moved;
+      problem.tolerances[static_cast<std::size_t>(directions[i].tolerance)].put(moved, kStep);
+      x.col(1 + static_cast<Index>(i)) = (at(moved, point.nuisances[t]) - centre) / kStep;
+    }
     const auto count = static_cast<Index>(trial.nuisance_count());
     ASSERT_GT(count, 0);
     MatrixXd z(centre.size(), count);
     VectorXd information(count);
+    const auto shared = static_cast<Index>(trial.trial_nuisances.size());
     for (Index n = 0; n < count; ++n) {
-      const double step = 1e-3 * trial.sd_of(static_cast<std::size_t>(n));
+      const auto k = static_cast<std::size_t>(n);
+      const double sd = trial.sd_of(k);
+      const auto& nuisance =
+          n < shared
+              ? trial.trial_nuisances[k]
+              : trial.block_nuisances[static_cast<std::size_t>(n - shared) % trial.block_nuisances.size()];
+      // As wide as the program's: over no more than half a standard deviation; one-sided for a block's.
+      const double step = std::min(nuisance.step, 0.5 * sd), back = n < shared ? step : 0.0;
       auto more = point.nuisances[t], less = more;
-      more[static_cast<std::size_t>(n)] += step;
-      less[static_cast<std::size_t>(n)] -= step;
-      z.col(n) = (at({}, more) - at({}, less)) / (2.0 * step);
-      information[n] = 1.0 / std::pow(trial.sd_of(static_cast<std::size_t>(n)), 2);
+      more[k] += step;
+      less[k] -= back;
+      z.col(n) = (at({}, more) - at({}, less)) / (step + back);
+      information[n] = 1.0 / (sd * sd);
     }
     whiten(problem, t, x);
     whiten(problem, t, z);
@@ -95,7 +107,7 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
     ASSERT_EQ(gram.rows(), dense.rows());
     for (Index i = 0; i < dense.rows(); ++i)
       for (Index j = 0; j < dense.cols(); ++j)
-        EXPECT_NEAR(gram(i, j), dense(i, j), 1e-3 * std::sqrt(dense(i, i) * dense(j, j))) << i << ' ' << j;
+        EXPECT_NEAR(gram(i, j), dense(i, j), 1e-6 * std::sqrt(dense(i, i) * dense(j, j))) << i << ' ' << j;
   }
 }
 

@@ -38,9 +38,15 @@ bool is_decimal_comma(const CsvIssue& issue) {
       "step alone");
 }
 
+[[noreturn]] void refuse_several(const std::string& name, const CsvIssue& issue) {
+  throw ForeignTableError(fmt::format("{}:{}: {}", name, issue.line, issue.text),
+                          "give it one recording with rising time alone");
+}
+
 void refuse_unreadable(const std::string& name, const std::string& column, const CsvTable& table,
                        std::size_t numbers) {
-  const auto problems = problems_of(name, table);
+  auto problems = problems_of(name, table);
+  if (problems.empty() && !table.issues.empty()) problems.push_back(describe(name, table.issues.front()));
   if (2 * numbers > table.rows() && table.rows() > 0) return;
   if (std::ranges::any_of(table.issues, is_decimal_comma))
     throw ForeignTableError(
@@ -67,8 +73,10 @@ ForeignTable read_foreign_table(const std::filesystem::path& file, const std::st
                     problems.empty() ? "" : "; " + problems.front()),
         "name the column that shows the taps with --foreign-column; time is t_s");
   }
-  for (const auto& issue : table.issues)
+  for (const auto& issue : table.issues) {
     if (issue.fault == CsvFault::time_backwards) refuse_clock(name, issue);
+    if (issue.fault == CsvFault::several_recordings) refuse_several(name, issue);
+  }
   ForeignTable out{{file.filename().string(), {}}, {}};
   auto& signal = out.recording.signal;
   for (std::size_t i = 0; i < table.rows(); ++i) {

@@ -93,7 +93,11 @@ Canvas trial_screen(const TrialModel& model, ScreenSize size) {
   draw_state(numbers, model);
   draw_leg_and_forces(numbers, model);
   draw_motors(numbers, model);
-  draw_cycle(numbers, model);
+  // On a small screen what is wrong and its cure need the room of the cycle's numbers and of the strides'
+  // heading.
+  constexpr int kCycleAndStrides = 4 + 6;
+  const int fault = fault_rows(model, numbers.columns());
+  if (fault == 0 || numbers.left() >= fault + kCycleAndStrides) draw_cycle(numbers, model);
   draw_below_numbers(numbers, model, wide);
   if (wide) {
     const int body = rows - 1 - kFootRows;
