@@ -4,7 +4,7 @@ function fillText(data) {
   for (const [label, text] of data.facts) facts.append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
   const answer = document.getElementById('answer');
   if (data.answer) answer.textContent = data.answer[0].toUpperCase() + data.answer.slice(1);
-  else answer.remove();
+  else answer?.remove(); // the page of a fault has none
   const notes = document.getElementById('notes');
   for (const note of data.notes) notes.append(element('p', {}, note));
   if (data.envelope_rows > 1) {
