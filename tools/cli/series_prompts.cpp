@@ -31,13 +31,14 @@ std::optional<double> number_in(const std::string& text, double low, double high
   return value;
 }
 
+bool is_quit(const std::string& answer) { return answer == "q" || answer == "Q"; }
+
+// False: q, or the end of the input.
 bool ask_text(const std::string& question, std::string& value) {
   while (value.empty())
-    if (!ask(question, value)) return false;
+    if (!ask(question, value) || is_quit(value)) return false;
   return true;
 }
-
-bool is_quit(const std::string& answer) { return answer == "q" || answer == "Q"; }
 
 // In millimetres, as a ruler shows it; Enter keeps what was there. False: q, or the end of the input.
 bool ask_height(TrialSheet& sheet) {
@@ -58,7 +59,7 @@ bool ask_height(TrialSheet& sheet) {
 }
 
 bool ask_for_missing(TrialSheet& sheet) {
-  std::cout << "Trial sheet; it goes into every log of the series.\n";
+  std::cout << "Trial sheet; it goes into every log of the series. q ends.\n";
   return ask_text("  who runs the trials: ", sheet.who) &&
          ask_text("  bed (material, grain size): ", sheet.bed) &&
          ask_text("  how the bed is prepared before each trial: ", sheet.bed_preparation) &&
