@@ -63,7 +63,8 @@ std::string CsvRowTimes::recordings() const {
 
 std::string CsvRowTimes::clock_set_back() const {
   const bool hour = std::abs(first_step_ - 3600.0) < 60.0;
-  return hour ? "; or the clock was set back by an hour, as at the end of summer time" : "";
+  return std::string("; or the clock was set back") +
+         (hour ? " by an hour, as at the end of summer time" : ": record with one that is not");
 }
 
 }  // namespace sandhopper

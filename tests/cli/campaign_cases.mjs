@@ -34,7 +34,7 @@ export const breakages = [
     place: '500:1', says: ['time goes backwards', 'row left out', 'sort the rows'] },
   { name: 'clock set back for good', kinds: ['time_backwards'], usable: false,
     recording: rows => change(rows, 't_s', 300, (cell) => String(Number(cell) - 0.29)),
-    place: '300:1', says: ['time goes backwards', 'clock that is not set back'] },
+    place: '300:1', says: ['the time begins again in this line', 'the clock was set back'] },
   { name: 'duplicate column', kinds: ['duplicate_column'], usable: true, keeps: without_cell,
     recording: rows => [rows[0].replace('phase', kForce), ...rows.slice(1)],
     place: '1', says: [`${kForce}: a second column bears this name`, 'rename one of them'] },

@@ -52,12 +52,14 @@ TEST(Units, NamesAreRead) {
         std::tuple{"Winkel [°]", "angle", 0.017453293}, std::tuple{"rpm", "angular rate", 0.104719755},
         std::tuple{"Kraft / N", "force", 1.0}, std::tuple{"Weg in mm", "length", 1e-3},
         std::tuple{"Speed, rpm", "angular rate", 0.104719755}, std::tuple{"Drehmoment [N·m]", "torque", 1.0},
+        std::tuple{"torque_mNm", "torque", 1e-3}, std::tuple{"torque_kNm", "torque", 1e3},
+        std::tuple{"angleDeg", "angle", 0.017453293}, std::tuple{"TIME_MS", "time", 1e-3},
         std::tuple{"omega_rad_s", "angular rate", 1.0}, std::tuple{"Time (ms)", "time", 1e-3}}) {
     ASSERT_TRUE(unit(name)) << name;
     EXPECT_EQ(unit(name)->dimension, dimension) << name;
     EXPECT_NEAR(unit(name)->to_si / to_si, 1.0, 1e-6) << name;
   }
-  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position"})
+  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position", "torquemNm"})
     EXPECT_FALSE(unit(name)) << name;
 }
 

@@ -277,10 +277,12 @@ std::optional<WrittenUnit> unit_in_any_case(std::string_view text) {
   return std::nullopt;
 }
 
-// "angleDeg", "timeMs", "tUs", "TimeUS": the unit behind the last change from small to capital letters.
+// "angleDeg", "timeMs", "tUs", "TimeUS": the unit behind the last change from small to capital letters. Of
+// "torquemNm" nobody can tell whether the m is the word's or the unit's.
 std::optional<WrittenUnit> unit_behind_a_hump(std::string_view column) {
   for (std::size_t i = column.size(); i-- > 1;) {
     if (!is_capital(column[i]) || !is_small(column[i - 1])) continue;
+    if (known_unit(column.substr(i - 1))) return std::nullopt;
     return unit_in_any_case(column.substr(i));
   }
   return std::nullopt;
@@ -337,7 +339,6 @@ std::optional<WrittenUnit> unit_in_name(std::string_view column) {
   column = trimmed(column);
   if (const auto inner = bracketed(column)) return read_unit(*inner, true);
   if (stands_alone(column)) return known_unit(column);
-  if (const auto unit = unit_behind_a_hump(column)) return unit;
   if (const auto unit = unit_in_capitals(column)) return unit;
   // "motor_speed_rad_s", "force_N_per_m": units of several words.
   if (column.ends_with("rad_s")) return WrittenUnit{"rad/s", "angular rate", 1.0};
@@ -354,7 +355,7 @@ std::optional<WrittenUnit> unit_in_name(std::string_view column) {
     if (unit) unit->is_certain = unit->text.size() > 1 || (mark != " " && mark != ".");
     if (unit) return unit;
   }
-  return std::nullopt;
+  return unit_behind_a_hump(column);
 }
 
 std::optional<WrittenUnit> unit_of_channel(std::string_view channel) {
