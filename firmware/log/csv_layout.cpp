@@ -258,11 +258,12 @@ class Finder {
     return std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
   }
 
-  // The nearest line above the rows that is divided as they are, into other numbers of cells.
+  // The nearest line above the rows that is divided as they are, into other numbers of cells, and holds words.
   void find_misfit() {
     std::vector<TableCell> cells;
     for (std::size_t i = seen_.first_row; i-- > 0;) {
       if (trimmed_cell(lines_[i]).empty() || is_remark(lines_[i])) continue;
+      if (shape_of(lines_[i], seen_.division, cells).is_row()) continue;
       split_csv_cells(lines_[i], out_.separator, cells);
       out_.misfit_line = i + 1;
       out_.misfit_cells = cells.size();
