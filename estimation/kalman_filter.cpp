@@ -30,7 +30,7 @@ void KalmanFilter::predict(const BodyFootAccel& accel, double dt_s) noexcept {
   p_.col(0) += dt_s * p_.col(1);
   p_.col(2) += dt_s * p_.col(3);
   const double qb = config_.body_accel_noise_mps2 * config_.body_accel_noise_mps2;
-  // What is cut off at the range is as large as what was measured, in the order of magnitude: then the leg's
+  // A saturated reading lacks about as much as it shows: then the leg's
   // encoders tell the foot's speed.
   const double foot_noise = accel.foot_at_range ? std::abs(accel.foot_mps2) : config_.foot_accel_noise_mps2;
   const double qf = foot_noise * foot_noise;

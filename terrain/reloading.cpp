@@ -84,7 +84,7 @@ double ReloadingPosterior::stiffness_N_per_m(double place) const noexcept {
 
 double ReloadingPosterior::log_likelihood(const UnloadingTrace& t, double k, double c) const noexcept {
   constexpr double dt = kPair_s, h = 0.5 * dt * dt;
-  // Of the mean of two samples.
+  // Standard deviation of the mean of two samples.
   const double noise2 = 0.5 * force_noise_N_ * force_noise_N_;
   const double walk = 0.5 * config_.foot_accel_noise_mps2 * config_.foot_accel_noise_mps2 * dt * dt;
   double z = t.force_N[0] / k, v = 0.0, b = 0.0, sum = 0.0;

@@ -3,7 +3,7 @@
 
 #include "firmware/log/csv_import.hpp"
 
-// What is said of a table's faults, and a table's own look-ups.
+// Texts for a table's faults, and a table's own look-ups.
 namespace sandhopper {
 
 std::string_view cure_for(CsvFault fault) {

@@ -258,7 +258,8 @@ class Finder {
     return std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
   }
 
-  // The nearest line above the rows that is divided as they are, into other numbers of cells, and holds words.
+  // The nearest line above the rows that is divided as they are, into other numbers of cells, and holds
+  // words.
   void find_misfit() {
     std::vector<TableCell> cells;
     for (std::size_t i = seen_.first_row; i-- > 0;) {

@@ -14,7 +14,7 @@ class CsvRowTimes {
   // A time of day goes on beyond midnight. With a date it is as it is.
   double seconds(const CellTime& time);
 
-  // What a row's time is beside those that were kept before it. `went_on`: a counter of 32 bits of a
+  // A row's time beside those that were kept before it. `went_on`: a counter of 32 bits of a
   // microcontroller began again at 0, and `time` is put behind the last one.
   enum class Order : std::uint8_t { grows, went_on, stands, back };
   Order take(double& time, std::uint64_t line);
@@ -25,7 +25,7 @@ class CsvRowTimes {
   enum class BackSteps : std::uint8_t { slips, several_recordings, upside_down };
   BackSteps back_steps() const;
   std::string recordings() const;  // "lines 2 to 41, 43 to 82"
-  // What else a step back by an hour may be: the end of summer time. Empty for other steps.
+  // The other cause of a step back: a clock that was set, by an hour at the end of summer time.
   std::string clock_set_back() const;
 
  private:

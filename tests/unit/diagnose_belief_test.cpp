@@ -12,7 +12,7 @@
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
-// Which believed numbers an answer rests on.
+// The believed numbers that an answer rests on.
 namespace sandhopper::diagnose {
 namespace {
 

@@ -20,7 +20,7 @@ inline std::optional<Campaign> shared_campaign(const std::string& name) {
   }
 }
 
-// What `hop terrain` writes of it under "conclusions"; null where the recordings are missing.
+// The part that `hop terrain` writes under "conclusions"; null where the recordings are missing.
 inline nlohmann::ordered_json shared_conclusions(const std::string& name) {
   const auto campaign = shared_campaign(name);
   if (!campaign) return nullptr;

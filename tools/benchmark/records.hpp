@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// What the scorer reads: the sealed answers of `hop conceal` and diagnosis.json of `hop diagnose`.
+// The scorer's input: the sealed answers of `hop conceal` and diagnosis.json of `hop diagnose`.
 namespace sandhopper::benchmark {
 
 struct Truth {

@@ -8,7 +8,7 @@
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// What a column's numbers say of the way they were written, before anything is computed from them.
+// A column's numbers tell how they were written; looked at before anything is computed from them.
 namespace sandhopper {
 
 // A number that programs write where there is no sample (-999, 32767, 9.97e36): in the column at least once,

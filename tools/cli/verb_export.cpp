@@ -97,7 +97,8 @@ ExitCode export_log(Session& session, const Options& options) {
                   "name a file you may write with --output");
   CsvExportResult result;
   try {
-    result = export_csv(options.log, out, {.optional_channels = options.all, .phase_names = !options.phase_numbers});
+    result = export_csv(options.log, out,
+                        {.optional_channels = options.all, .phase_names = !options.phase_numbers});
   } catch (const mcap::Error& error) {
     throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial");
   }

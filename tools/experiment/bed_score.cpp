@@ -61,7 +61,7 @@ void score_event(const GroundEvent& event, GroundEventKind kind, double true_dep
 void score_events(const GroundEvents& found, const BedStride& stride, const BedTruth& truth,
                   EventScores& score) {
   const double deepest = stride.true_deepest_m, crater = stride.true_crater_m;
-  // What lies above the crater's deepest point happened in an earlier stride.
+  // Depths above the crater's deepest point belong to an earlier stride.
   const auto depth_of = [&](const std::optional<double>& depth) {
     return depth && *depth > crater - kBeyond_m ? *depth : kNone_m;
   };

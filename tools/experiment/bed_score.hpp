@@ -34,7 +34,7 @@ struct FirstStrideScore {
   std::vector<double> width_20mm{};  // 2 x 1.96 sd / truth at 20 mm, of strides that reached it
   double line_valid = 0.0;           // a straight line is reported as a valid description
   double joint_valid = 0.0;          // by the joint fit
-  // Of beds that are a line: its slope, on the strides where both call it valid.
+  // For beds that are a line: its slope, on the strides where both call it valid.
   NumberScore slope{}, joint_slope{};
   std::array<double, 6> shapes{};  // of GroundShape
 };

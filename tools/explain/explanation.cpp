@@ -126,9 +126,9 @@ std::vector<std::string> notes_of(const Recording& recording, const Explanation&
 
 std::string fault_lines(const ExplainedFault& f) {
   const FaultEntry& entry = entry_of(f.fault);
-  return fmt::format(
-      "  check:    {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n", in_words(f.reading),
-      entry.meaning, name_of(entry.reaction), name_of(entry.latch), entry.cure);
+  return fmt::format("  check:    {}\n  means:    {}\n  reaction: {}, lasting {}\n  cure:     {}\n",
+                     in_words(f.reading), entry.meaning, name_of(entry.reaction), name_of(entry.latch),
+                     entry.cure);
 }
 
 }  // namespace

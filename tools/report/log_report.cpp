@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "firmware/log/topics.hpp"
 #include "config/node.hpp"
+#include "firmware/log/topics.hpp"
 #include "firmware/log/trial_description.hpp"
 #include "firmware/log/trial_sheet.hpp"
 #include "tools/plant/bed_truth.hpp"

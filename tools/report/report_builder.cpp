@@ -260,9 +260,9 @@ ReportData ReportBuilder::data() const {
                            in_words(name_of(event.reason)), values_of(event, robot)});
     if (event.kind == EventKind::fault_raised) {
       const FaultEntry& entry = entry_of(event.fault);
-      data.notes.push_back(
-          fmt::format("Fault {} at {:.3f} s: {}. It means: {}. Cure: {}.", entry.name, seconds(event.time_ns),
-                      values_of(event, robot), entry.meaning, entry.cure));
+      data.notes.push_back(fmt::format("Fault {} at {:.3f} s: {}. It means: {}. Cure: {}.", entry.name,
+                                       seconds(event.time_ns), values_of(event, robot), entry.meaning,
+                                       entry.cure));
     }
   }
   for (std::size_t i = 0; i < strides_.size(); ++i) {

@@ -192,7 +192,7 @@ std::string prediction_text(const ProfilePrediction& p) {
       area_power_text(p, ratio));
 }
 
-// Of round depths the deepest that every trial reached, or as many as any.
+// The deepest round depth that every trial reached, or as many as reached any.
 double deepest_with_most_trials(const CurveGroup& g, const std::vector<double>& depths_m) {
   double found_m = depths_m.front();
   for (const double depth_m : depths_m)

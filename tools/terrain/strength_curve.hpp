@@ -10,7 +10,7 @@
 
 namespace sandhopper {
 
-// How force and depth of a curve were had.
+// Source of a curve's force and depth.
 enum class CurveSource : std::uint8_t {
   firmware,   // a hop through the firmware's own estimators
   load_cell,  // a hop's load cell and motion capture
@@ -73,7 +73,7 @@ StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const do
 // After the strides of a hop; `greatest_N`: the force that the ground bore.
 StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const CurveFacts& facts);
 
-// Of the bed under this foot; zero where the belief has none.
+// Stiffness of the bed under this foot; zero where the belief has none.
 double believed_stiffness_N_per_m(const IntruderBelief& belief);
 
 // A curve travels in its trial's series, one for each source.

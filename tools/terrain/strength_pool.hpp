@@ -40,7 +40,7 @@ struct CurveGroup {
   PooledValue line_N_per_m{};  // slope of the line of terrain/ground_summary.hpp
   PooledValue secant_20mm_N_per_m{};
   PooledValue exponent{};
-  // Where no trial reached a point of the curve: force over depth is at least this, the lower 95 % limit of
+  // If no trial reached a point of the curve, force over depth is at least this, the lower 95 % limit of
   // the mean of the trials' bounds.
   double at_least_N_per_m = 0.0;
   std::vector<CurveInBand> left_out{};  // each trial in the band of the others; for 3 to 30 trials

@@ -108,7 +108,7 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
     cell_of_trial.step({i * World::kStep_ns, (i + 1) * World::kStep_ns}, force);
     accel_sum += a;
     if (i % 10 == 0) {
-      // Of the last millisecond: an accelerometer's filter loses no part of a short ramp.
+      // The mean over a millisecond: an accelerometer's filter loses no part of a short ramp.
       const double accel = accel_sum / (i == 0 ? 1.0 : 10.0);
       accel_sum = 0.0;
       const bool frame = t >= camera_s;

@@ -8,7 +8,7 @@ namespace sandhopper::conceal {
 
 using Json = nlohmann::ordered_json;
 
-// What the experimenter wrote down about one trial: keys of a [[trial]] (tools/docs/guide/recordings.md),
+// The experimenter's notes about one trial: keys of a [[trial]] (tools/docs/guide/recordings.md),
 // without the file.
 struct Setup {
   Json keys = Json::object();

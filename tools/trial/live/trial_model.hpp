@@ -36,7 +36,7 @@ struct TrialModel {
   std::string log;                                         // its file
   std::vector<std::pair<std::string, std::string>> sheet;  // the trial sheet: name, text
   CycleConfig config{};
-  ConfigNode robot{};       // robot.toml: limits of faults
+  ConfigNode robot{};  // robot.toml: limits of faults
   std::string to_do = "a arms: the drives hold the leg, the encoders are checked";  // before arming
 
   bool ready = false;         // takes words

@@ -7,7 +7,7 @@
 
 namespace sandhopper::diagnose {
 
-// Whether the belief is a leg without mass on rigid ground: no body or foot moves but the
+// True where the belief is a leg without mass on rigid ground: no body or foot moves but the
 // leg, and its force is that of the virtual springs.
 bool is_standing_leg(const WorldConfig& world);
 

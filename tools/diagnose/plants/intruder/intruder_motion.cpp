@@ -96,8 +96,8 @@ class JointSmoother {
     f.col(3) += push() * change(i) / m_.step_s;
     return f;
   }
-  // Of the mean acceleration from step i - 1 to i; unknown inside a gap. Where it changes it may have jumped
-  // at any instant between: its mean lies evenly between both values.
+  // Error of the mean acceleration from step i - 1 to i; unknown inside a gap. Where it changes it may have
+  // jumped at any instant between: its mean lies evenly between both values.
   double accel_sd(std::size_t i) const {
     if (!accel_known_[i]) return hardest_mps2_;
     return std::hypot(m_.accel_sd_mps2[i], kAccelError * m_.accel_mps2[i], change(i) / std::sqrt(12.0));
