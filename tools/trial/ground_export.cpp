@@ -14,10 +14,24 @@ void row(std::ostream& out, std::initializer_list<double> values) {
   for (const double value : values) out << fmt::format(",{:.7g}", value);
 }
 
-// "line_N_per_m" to "line_N_per_m,line_N_per_m_ci95_low,..."
-class Header {
+// Cells of one line, with commas between.
+class Line {
  public:
-  explicit Header(std::ostream& out) : out_(out) {}
+  explicit Line(std::ostream& out) : out_(out) {}
+  void add(const std::string& text) {
+    out_ << (first_ ? "" : ",") << text;
+    first_ = false;
+  }
+
+ private:
+  std::ostream& out_;
+  bool first_ = true;
+};
+
+// "line_N_per_m" to "line_N_per_m,line_N_per_m_ci95_low,..."
+class Header : public Line {
+ public:
+  using Line::Line;
   template <class Value>
   void operator()(std::string_view name, const Value&) {
     if constexpr (std::is_same_v<Value, SummaryValue>)
@@ -27,19 +41,11 @@ class Header {
     else
       add(std::string(name));
   }
-
- private:
-  void add(const std::string& text) {
-    out_ << (first_ ? "" : ",") << text;
-    first_ = false;
-  }
-  std::ostream& out_;
-  bool first_ = true;
 };
 
-class Cells {
+class Cells : public Line {
  public:
-  explicit Cells(std::ostream& out) : out_(out) {}
+  using Line::Line;
   template <class Value>
   void operator()(std::string_view, const Value& value) {
     if constexpr (std::is_same_v<Value, SummaryValue>)
@@ -53,14 +59,6 @@ class Cells {
     else
       add(fmt::format("{:.7g}", static_cast<double>(value)));
   }
-
- private:
-  void add(const std::string& text) {
-    out_ << (first_ ? "" : ",") << text;
-    first_ = false;
-  }
-  std::ostream& out_;
-  bool first_ = true;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "terrain/ground_summary.hpp"
 
-// What a trial's log says about the ground, as tables: /profile and /ground, which come once a stride and
+// The ground in a trial's log, as tables: /profile and /ground, which come once a stride and
 // have no place in the table of the cycles.
 namespace sandhopper {
 

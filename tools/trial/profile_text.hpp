@@ -19,7 +19,7 @@ std::vector<std::string> profile_lines(const StrengthProfile& profile, const Gro
 // numbers; null where there is none.
 nlohmann::ordered_json profile_json(const StrengthProfile& profile, const GroundSummary& ground);
 
-// What broke, began or pulled in one stance, a line each; nothing where nothing was found.
+// Ruptures, boundaries, floor and suction of one stance, a line each; empty where none was found.
 std::vector<std::string> ground_event_lines(const GroundEvents& found);
 
 // The same for programs: an array of what was found, with its probability of a false alarm; null where the

@@ -35,7 +35,7 @@ void report_residuals(const Problem& problem, const Residuals& residuals, Diagno
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
-// By how much each number of `diagnosis.belief` would have to be off to show.
+// Sets `error_that_shows` of each number of `diagnosis.belief`.
 void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagnosis);
 void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
                   Diagnosis& diagnosis);

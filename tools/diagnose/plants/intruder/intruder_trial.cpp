@@ -105,8 +105,8 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
-    // By how much the deepest point, from which the steep line back is counted, was deeper than its one
-    // reading says: in all rows after it alike.
+    // Error of the deepest point, from which the steep line back is counted: it was deeper than its one
+    // reading says, by as much in all rows after it.
     add_nuisance("turning_depth_m", motion_.depth_sd_m, motion_.depth_sd_m);
     trial_nuisances.back().may_lean = false;
     add_knots();
