@@ -64,11 +64,6 @@ function fillAnswers(explained) {
   for (const fault of explained.faults) box(explained.faults.length > 1 ? `Cure of ${fault.name}` : 'Cure', element('p', {}, ...withCode(fault.cure)));
 }
 
-// Words between backquotes are commands or keys.
-function withCode(text) {
-  return text.split('`').map((part, i) => (i % 2 ? element('code', {}, part) : part));
-}
-
 function stepTable(steps) {
   const seconds = t => (t > 0 ? `+${t.toFixed(3)}` : t.toFixed(3));
   return element('div', { className: 'scroll' }, element('table', { className: 'steps' },

@@ -9,8 +9,8 @@ const PANELS = [
   { title: 'Angle of the upper links', unit: 'rad', scale: 1, digits: 3, series: sides('motor_SIDE_position_rad') },
   { title: 'Speed of the motors', unit: 'rad/s', scale: 1, digits: 2, series: sides('motor_SIDE_velocity_radps') },
   { title: 'Current', unit: 'A', scale: 1, digits: 1, series: sides('motor_SIDE_current_A') },
-  { title: 'Commanded torque', unit: 'N·m', scale: 1, digits: 2, series: sides('command_SIDE_torque_Nm') },
-  { title: 'Commanded damping', unit: 'N·m·s/rad', scale: 1, digits: 2, series: sides('command_SIDE_damping_Nm_s_per_rad') },
+  { title: 'Commanded torque', unit: 'N m', scale: 1, digits: 2, series: sides('command_SIDE_torque_Nm') },
+  { title: 'Commanded damping', unit: 'N m s/rad', scale: 1, digits: 2, series: sides('command_SIDE_damping_Nm_s_per_rad') },
   { title: 'Temperature of the drives', unit: '°C', scale: 1, digits: 0, series: sides('motor_SIDE_temperature_C') },
   { title: 'Supply voltage', unit: 'V', scale: 1, digits: 1, series: sides('motor_SIDE_voltage_V') },
   {

@@ -56,8 +56,10 @@ function tableOf(table) {
     return made;
   })));
   const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j, table.shades[i]?.[j]))));
-  return element('div', { className: 'table' },
+  const made = element('div', { className: 'table' },
     ...(table.title ? [element('h3', {}, table.title)] : []),
     element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),
     ...(table.note ? [element('p', { className: 'note' }, table.note)] : []));
+  fitTable(made.querySelector('.scroll'));
+  return made;
 }

@@ -1,6 +1,10 @@
 // Points, lines, intervals and bands over two axes, as SVG.
 class StudyFigure {
-  static kMargin = { left: 62, right: 14, top: 10, bottom: 42 };
+  static kMargin = { right: 14, top: 10, bottom: 42 };
+
+  static kDigit = 6.6; // pixels of one in a tick's label
+
+  static kWordHeight = 18; // pixels above the data for the word of a mark
 
   constructor(figure, panel, width) {
     this.figure = figure;
@@ -53,13 +57,18 @@ class StudyFigure {
 
   // The view holds every value and interval shown, with a margin.
   fit() {
-    const margin = StudyFigure.kMargin;
-    this.box = { x: margin.left, y: margin.top, w: this.width - margin.left - margin.right, h: this.height - margin.top - margin.bottom };
     const { log_x, log_y, categories } = this.figure;
     const shown = this.figure.series.filter(series => series.shown);
     this.xRange = StudyFigure.range(shown.flatMap(series => series.x), log_x);
     this.yRange = StudyFigure.range(shown.flatMap(series => [...series.y, ...series.low, ...series.high]), log_y);
     if (categories.length) this.xRange = [-0.5, categories.length - 0.5];
+    const margin = StudyFigure.kMargin;
+    const h = this.height - margin.top - margin.bottom;
+    if (this.figure.marks.length) this.yRange[1] += ((this.yRange[1] - this.yRange[0]) * StudyFigure.kWordHeight) / (h - StudyFigure.kWordHeight);
+    // Labels of the ticks, right of the axis' name.
+    const longest = Math.max(0, ...StudyFigure.ticks(this.yRange, log_y, h / 38).map(tick => String(tick).length));
+    const left = Math.max(48, 30 + StudyFigure.kDigit * longest);
+    this.box = { x: left, y: margin.top, w: this.width - left - margin.right, h };
   }
 
   static range(values, log) {
