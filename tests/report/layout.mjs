@@ -67,7 +67,8 @@ function faultsOf(least) {
     for (let outer = holder; outer && outer !== document.body; outer = outer.parentElement) {
       if (getComputedStyle(outer).overflowY === 'visible' || outer instanceof SVGElement) continue;
       const frame = outer.getBoundingClientRect();
-      boxes = boxes.filter((box) => box.top < frame.bottom - 2 && box.bottom > frame.top + 2);
+      boxes = boxes.map(({ left, right, width, top, bottom }) => ({ left, right, width, top: Math.max(top, frame.top), bottom: Math.min(bottom, frame.bottom) }))
+        .map((box) => ({ ...box, height: box.bottom - box.top })).filter((box) => box.height > 1);
     }
     if (boxes.length) texts.push({ node, holder, boxes, text: short(node.data) });
   }
@@ -101,17 +102,26 @@ function faultsOf(least) {
     }
   });
 
+  // A legend stands beside what it explains.
+  for (const legend of document.querySelectorAll('.legend')) {
+    const box = legend.getBoundingClientRect();
+    for (const drawing of legend.closest('figure')?.querySelectorAll('svg, canvas') ?? []) {
+      if (drawing.parentElement instanceof SVGElement) continue;
+      const frame = drawing.getBoundingClientRect();
+      if (box.height && frame.height && box.bottom > frame.top + 2 && box.top < frame.bottom && box.right > frame.left && box.left < frame.right) faults.push(`a legend stands on its figure: ${short(legend.textContent)}`);
+    }
+  }
+
   // A label is inside its figure.
-  for (const { node, holder, boxes, text } of texts) {
+  for (const { holder, boxes, text } of texts) {
     const figure = holder instanceof SVGElement && holder.closest('svg');
     if (!figure) continue;
     const frame = figure.getBoundingClientRect();
     for (const box of boxes)
       if (box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 || box.bottom > frame.bottom + 1) faults.push(`'${text}' reaches out of its figure`);
-    void node;
   }
   for (const piece of pieces)
-    if (piece.left < -1 || piece.right > top.clientWidth + 1) faults.push(`'${piece.text.text}' reaches out of the window`);
+    if (piece.right > 0 && !piece.text.holder.closest('pre') && (piece.left < -1 || piece.right > top.clientWidth + 1)) faults.push(`'${piece.text.text}' reaches out of the window`);
 
   // Words of one line in two lines. Paths and identifiers longer than a phone's column may break.
   for (const { node, holder, text } of texts) {

@@ -128,7 +128,7 @@ StudyFigure force_figure(const LegHopFit& hop) {
 }
 
 StudyFigure residual_figure(const LegIdentification& leg) {
-  StudyFigure figure{.title = "What remains of the offline estimate, held-out hops",
+  StudyFigure figure{.title = "Residual of the offline estimate, held-out hops",
                      .x_label = "joint rate, rad/s",
                      .y_label = "estimate − plate, N"};
   constexpr std::array kColors{"blue", "orange", "green", "purple", "sand", "grey"};
@@ -239,7 +239,8 @@ CampaignConclusions tell_leg(const LegIdentification& leg, const RigidGround& gr
   if (tested) section.items.emplace_back(residual_figure(leg));
   section.items.emplace_back(choice_figure(leg));
   section.items.emplace_back(fmt::format(
-      "What remains: the blow of the landing and the ringing of the plate after it, which the angle does not "
+      "Not explained: the blow of the landing and the ringing of the plate after it, which the angle does "
+      "not "
       "show; vibration of leg and plate in mid-stance; friction that depends on the load; and the plate's "
       "gain, "
       "which is not told apart from the torque's scale. The mass believed is {} kg, by the plate's "

@@ -70,7 +70,7 @@ function stepTable(steps) {
     element('thead', {}, element('tr', {}, headerCell('From', 's'), headerCell('To', 's'), headerCell('State', '', 'text'), headerCell('Drives', '', 'text'))),
     element('tbody', {}, ...steps.map(step => element('tr', { className: step.state === 'fault' ? 'bad' : '' },
       element('td', {}, seconds(step.from_s)), element('td', {}, seconds(step.to_s)),
-      element('td', { className: 'text' }, step.state), element('td', { className: 'text' }, step.drives))))));
+      element('td', { className: 'text' }, step.state.replaceAll('_', ' ')), element('td', { className: 'text' }, step.drives))))));
 }
 
 start();

@@ -1,7 +1,8 @@
 // What was measured around a fault, by panel. Channels are in SI units; a panel shows them times `scale`.
+// Two sides that agree lie on one another: the right one is dashed, so that both are seen.
 const sides = (channel, label = '') => [
   { channel: channel.replace('SIDE', 'left'), label: `left${label}`, color: 'blue' },
-  { channel: channel.replace('SIDE', 'right'), label: `right${label}`, color: 'orange' },
+  { channel: channel.replace('SIDE', 'right'), label: `right${label}`, color: 'orange', style: 'dashed' },
 ];
 const PANELS = [
   { title: 'E-stop line', unit: '1: open', scale: 1, digits: 0, series: [{ channel: 'emergency_stop', label: 'open', color: 'orange', style: 'steps' }] },

@@ -37,9 +37,9 @@ class StudyFigure {
   }
 
   static swatch(series) {
-    if (series.mark === 'points') return 'points';
+    if (series.mark === 'points') return series.hollow ? 'points hollow' : 'points';
     if (series.mark === 'band') return 'band';
-    return series.dashed ? 'dashed' : 'line';
+    return series.dotted ? 'dotted' : series.dashed ? 'dashed' : 'line';
   }
 
   draw() {
@@ -50,6 +50,7 @@ class StudyFigure {
       viewBox: `${this.box.x} ${this.box.y} ${this.box.w} ${this.box.h}` });
     for (const [at, word] of this.figure.marks) clip.append(...this.drawMark(at, word));
     for (const series of this.figure.series) if (series.shown) clip.append(this.drawSeries(series));
+    if (this.empty) clip.append(svgText('no values', { x: this.box.x + this.box.w / 2, y: this.box.y + this.box.h / 2, 'text-anchor': 'middle' }));
     this.mark = svgElement('circle', { r: 5, fill: 'none', stroke: 'var(--text)', 'stroke-width': 1.5, visibility: 'hidden' });
     clip.append(this.mark);
     this.svg.append(clip);
@@ -59,6 +60,7 @@ class StudyFigure {
   fit() {
     const { log_x, log_y, categories } = this.figure;
     const shown = this.figure.series.filter(series => series.shown);
+    this.empty = !shown.some(series => series.y.some(value => value !== null));
     this.xRange = StudyFigure.range(shown.flatMap(series => series.x), log_x);
     this.yRange = StudyFigure.range(shown.flatMap(series => [...series.y, ...series.low, ...series.high]), log_y);
     if (categories.length) this.xRange = [-0.5, categories.length - 0.5];
@@ -147,7 +149,10 @@ class StudyFigure {
       const radius = indices.length > 400 ? 1.6 : indices.length > 60 ? 2.3 : 3.2;
       for (const i of indices) {
         if (series.low.length) group.append(this.interval(series, i, color));
-        group.append(svgElement('circle', { cx: this.x(series.x[i]), cy: this.y(series.y[i]), r: radius, fill: color, 'fill-opacity': indices.length > 60 ? 0.6 : 0.9 }));
+        const look = series.hollow && series.mark === 'points'
+          ? { fill: 'none', stroke: color, 'stroke-width': 1.3 }
+          : { fill: color, 'fill-opacity': indices.length > 60 ? 0.6 : 0.9 };
+        group.append(svgElement('circle', { cx: this.x(series.x[i]), cy: this.y(series.y[i]), r: radius, ...look }));
       }
     }
     return group;
@@ -166,7 +171,7 @@ class StudyFigure {
       if (known(i)) path += `${pen ? 'L' : 'M'}${this.x(series.x[i]).toFixed(1)} ${this.y(series.y[i]).toFixed(1)}`;
       pen = known(i);
     }
-    return svgElement('path', { d: path, fill: 'none', stroke: color, 'stroke-width': 1.7, 'stroke-dasharray': series.dashed ? '7 4' : 'none' });
+    return svgElement('path', { d: path, fill: 'none', stroke: color, 'stroke-width': 1.7, 'stroke-dasharray': series.dotted ? '2 3' : series.dashed ? '7 4' : 'none' });
   }
 
   area(series, indices, color) {
