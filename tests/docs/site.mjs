@@ -136,7 +136,7 @@ try {
   const layout = await Layout.of(browser);
   for (const page of named.length ? named : pages) {
     const looked = kLookedAt.includes(page);
-    if (looked) assert.deepEqual(await layout.everywhere(join(site, page)), [], page);
+    assert.deepEqual(await (looked ? layout.everywhere(join(site, page)) : layout.at(join(site, page), 400, 'light')), [], page);
     for (const width of kSizes) for (const theme of looked ? ['light', 'dark'] : ['light']) await look(browser, page, width, theme);
   }
   await checkTheme(browser);

@@ -216,11 +216,16 @@ export class Layout {
     const found = new Map();
     for (const width of kWidths)
       for (const theme of kThemes) {
-        await this.open(file, width, theme);
-        for (const fault of await this.faults()) found.set(fault, [...(found.get(fault) ?? []), `${width} ${theme}`]);
+        for (const fault of await this.at(file, width, theme)) found.set(fault, [...(found.get(fault) ?? []), `${width} ${theme}`]);
       }
-    await this.end();
     return [...found].map(([fault, places]) => `${fault} [${places.join(', ')}]`);
+  }
+
+  async at(file, width, theme) {
+    await this.open(file, width, theme);
+    const found = await this.faults();
+    await this.end();
+    return found;
   }
 
   async end() {

@@ -151,14 +151,15 @@ StudyFigure residual_figure(const LegIdentification& leg) {
 }
 
 StudyFigure choice_figure(const LegIdentification& leg) {
-  StudyFigure figure{.title = "Choices", .x_label = "time, ms", .y_label = "rms error, N"};
+  StudyFigure figure{
+      .title = "Choices", .x_label = "half width or time left out, s", .y_label = "rms error, N"};
   StudySeries width{.label = "smoothing half width: fit hops, each left out in turn",
                     .x = {},
                     .y = {},
                     .mark = StudySeries::Mark::line_and_points,
                     .color = "blue"};
   for (const auto& [half_width_s, rms_N] : leg.cross_validation_N) {
-    width.x.push_back(1e3 * half_width_s);
+    width.x.push_back(half_width_s);
     width.y.push_back(rms_N);
   }
   StudySeries settling{.label = "time after the landing that is left out: held-out hops",
@@ -167,7 +168,7 @@ StudyFigure choice_figure(const LegIdentification& leg) {
                        .mark = StudySeries::Mark::line_and_points,
                        .color = "orange"};
   for (const auto& [settling_s, rms_N] : leg.settling_rms_N) {
-    settling.x.push_back(1e3 * settling_s);
+    settling.x.push_back(settling_s);
     settling.y.push_back(rms_N);
   }
   figure.series = {std::move(width), std::move(settling)};

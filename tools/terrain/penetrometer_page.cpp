@@ -54,9 +54,9 @@ double greatest_resistance(const PenetrometerDrop& drop) {
 
 StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
   StudyTable table{.title = "Drops",
-                   .columns = {"drop", "speed at touchdown, m/s", "depth, mm", "greatest resistance, m/s²",
-                               "greatest resistance, N", "speed before the release, m/s", "fallen, m",
-                               "fallen by pressure, m"}};
+                   .columns = {"drop", "speed at touchdown, m/s", "depth, mm",
+                               "greatest resistance per mass, m/s²", "greatest resistance, N",
+                               "speed before the release, m/s", "fallen, m", "fallen by pressure, m"}};
   for (const auto& drop : drops) {
     const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
     const double greatest = greatest_resistance(drop);
