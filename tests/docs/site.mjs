@@ -7,6 +7,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, relative, resolve } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { Browser } from '../report/browser.mjs';
+import { Layout } from '../report/layout.mjs';
 
 const build = resolve(process.argv[2]);
 const site = join(build, 'docs');
@@ -132,8 +133,10 @@ async function checkTheme(browser) {
 
 const browser = await Browser.start({ width: 1366, height: 900 });
 try {
+  const layout = await Layout.of(browser);
   for (const page of named.length ? named : pages) {
     const looked = kLookedAt.includes(page);
+    assert.deepEqual(await (looked ? layout.everywhere(join(site, page)) : layout.at(join(site, page), 400, 'light')), [], page);
     for (const width of kSizes) for (const theme of looked ? ['light', 'dark'] : ['light']) await look(browser, page, width, theme);
   }
   await checkTheme(browser);

@@ -8,6 +8,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:f
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { Browser } from './browser.mjs';
+import { Layout } from './layout.mjs';
 import { checkStudy } from './study_page.mjs';
 
 const build = resolve(process.argv[2]);
@@ -38,7 +39,7 @@ function firstScreen(browser) {
   }));
 }
 
-async function check(browser, campaign, i) {
+async function check(browser, layout, campaign, i) {
   const said = JSON.parse(execFileSync(hop, ['diagnose', campaign, '--output', join(scratch, `answer${i}`), '--json'], { stdio: ['ignore', 'pipe', 'ignore'] }));
   const page = join(scratch, `answer${i}`, 'diagnosis.html');
   assert.deepEqual(JSON.parse(readFileSync(join(scratch, `answer${i}`, 'diagnosis.json'))), said);
@@ -58,6 +59,7 @@ async function check(browser, campaign, i) {
   if (said.verdict === 'consistent') assert.match(boxes[0].lead, /Nowhere/);
   assert.ok(boxes[4].text.length > 20, 'nothing is said of the next trial');
   const drawn = await checkStudy(browser, page);
+  assert.deepEqual(await layout.everywhere(page), [], campaign);
   console.log(`ok ${said.verdict} ${said.detail ?? ''}: ${drawn.length} figures; next: ${boxes[4].lead}`);
   return said.verdict;
 }
@@ -70,8 +72,9 @@ try {
     concealed('drag', '--effect', 'air.quadratic_drag', '--size', '2', '--seed', '12'),
     concealed('class', '--kind', 'indistinguishable', '--seed', '7101'),
   ];
+  const layout = await Layout.of(browser);
   const verdicts = [];
-  for (const [i, campaign] of campaigns.entries()) verdicts.push(await check(browser, campaign, i));
+  for (const [i, campaign] of campaigns.entries()) verdicts.push(await check(browser, layout, campaign, i));
   if (!named.length) assert.deepEqual(verdicts.slice(0, 2), ['consistent', 'missing_physics']);
 } finally {
   await browser.stop();

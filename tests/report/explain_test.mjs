@@ -10,6 +10,7 @@ import { tmpdir } from 'node:os';
 import { basename, join, resolve } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { Browser } from './browser.mjs';
+import { Layout } from './layout.mjs';
 
 const build = resolve(process.argv[2]);
 const shots = join(build, 'report_screenshots');
@@ -65,14 +66,16 @@ async function check(browser, page, width, height) {
 
 const browser = await Browser.start({ width: 1366, height: 768 });
 try {
+  const layout = await Layout.of(browser);
   const all = process.argv.includes('--all');
   const named = process.argv.slice(3).filter(file => file !== '--all').map(file => resolve(file));
   const pages = named.length ? named : pagesOfEveryFault().filter((_, i) => all || i % 6 === 0);
   for (const page of pages) {
     await check(browser, page, 1366, 768);
     await check(browser, page, 400, 800);
+    assert.deepEqual(await layout.everywhere(page), [], basename(page));
   }
-  console.log(`ok ${pages.length} pages at 1366 and 400 pixels`);
+  console.log(`ok ${pages.length} pages at 1366, 800 and 400 pixels, light and dark`);
 } finally {
   await browser.stop();
   rmSync(scratch, { recursive: true });

@@ -7,6 +7,7 @@ import { mkdirSync, rmSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { Browser } from './browser.mjs';
+import { Layout } from './layout.mjs';
 
 const build = resolve(process.argv[2]);
 const shots = join(build, 'report_screenshots');
@@ -175,6 +176,11 @@ async function checkStudy(browser, name) {
   });
 }
 
+// Nothing overlaps, is clipped or too pale to read, on any screen, in the light and in the dark.
+function checkLayout(layout, name, file) {
+  return check(`${name}: readable at every width, light and dark`, async () => assert.deepEqual(await layout.everywhere(file), []));
+}
+
 async function wholePage(browser, width, file) {
   const height = await browser.run(() => document.documentElement.scrollHeight);
   await browser.resize(width, height + 150);
@@ -185,6 +191,8 @@ async function wholePage(browser, width, file) {
 async function everything() {
   const browser = await Browser.start({ width: 1440, height: 900 });
   try {
+    const layout = await Layout.of(browser);
+    for (const [name, strides] of [['sample_none', 0], ['sample_one', 1], ['sample_many', 30]]) await checkLayout(layout, name, sample(name, strides, 0.2));
     await open(browser, sample('sample_one', 1, 0.2));
     await checkPage(browser, 'one stride', { panels: 6, strides: 1 });
     await check('text of a log is shown as text', async () => {
@@ -237,9 +245,19 @@ async function everything() {
       assert.equal(paper.numbers.claims.length, 36);
     });
     await wholePage(browser, 1366, 'programme.png');
+    await checkLayout(layout, 'the programme', paper.page);
 
     await browser.resize(1440, 1000);
-    await open(browser, process.argv[3] ? resolve(process.argv[3]) : trial());
+    const page = process.argv[3] ? resolve(process.argv[3]) : trial();
+    await checkLayout(layout, 'a trial', page);
+    await browser.resize(1366, 768);
+    await open(browser, page);
+    await check('a trial: the joint fit stands on the first screen of a laptop', async () => {
+      const box = await browser.run(() => document.querySelector('#stride-table tbody tr td:last-child').getBoundingClientRect().toJSON());
+      assert.ok(box.width > 0 && box.right <= 1366 && box.bottom <= 768, JSON.stringify(box));
+    });
+    await browser.resize(1440, 1000);
+    await open(browser, page);
     const strides = await browser.run(() => document.querySelectorAll('#stride-table tbody tr').length);
     await check('a trial: begins with what is known of the ground', async () => {
       assert.match(await browser.run(() => document.getElementById('answer').textContent), /^Ground: .* mm/);

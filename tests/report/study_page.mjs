@@ -20,10 +20,36 @@ function figures(browser) {
   })));
 }
 
+// Two curves of a figure differ by more than a shade of one colour, which no reader tells apart.
+function checkLooks(figure) {
+  const look = ({ mark, color, shade, dashed, dotted, hollow }) => [mark, color, dashed, dotted, hollow, mark === 'band' ? shade : 0].join();
+  const known = new Map();
+  for (const series of figure.series) {
+    const twin = known.get(look(series));
+    assert.ok(!twin, `${figure.title}: ${twin} and ${series.label} look the same`);
+    known.set(look(series), series.label);
+  }
+}
+
+// One quantity has one unit wherever it stands on the page.
+function checkUnits(items) {
+  const units = new Map();
+  const labels = items.flatMap(item => (item.kind === 'figure' ? [item.x_label, item.y_label] : item.kind === 'table' ? item.columns : []));
+  for (const label of labels) {
+    const [quantity, unit] = label.split(/, (?=[^,]*$)/);
+    if (!unit) continue;
+    const known = units.get(quantity) ?? unit;
+    if (/^(k|m|µ)?(m|g|s|N|Nm|rad)(\/|$)/.test(unit)) assert.equal(unit, known, `${quantity} stands in ${known} and in ${unit}`);
+    units.set(quantity, known);
+  }
+}
+
 export async function checkStudy(browser, file) {
   await browser.open(file);
-  const wanted = await browser.run(() => JSON.parse(document.getElementById('data').textContent).sections
-    .flatMap(section => section.items.filter(item => item.kind === 'figure')));
+  const items = await browser.run(() => JSON.parse(document.getElementById('data').textContent).sections.flatMap(section => section.items));
+  const wanted = items.filter(item => item.kind === 'figure');
+  wanted.forEach(checkLooks);
+  checkUnits(items);
   await browser.run(() => document.querySelectorAll('details').forEach(details => { details.open = true; }));
   const drawn = await figures(browser);
   assert.equal(drawn.length, wanted.length);

@@ -7,6 +7,7 @@ import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join, resolve } from 'node:path';
 import { Browser } from './browser.mjs';
+import { Layout } from './layout.mjs';
 import { checkStudy } from './study_page.mjs';
 
 const build = resolve(process.argv[2]);
@@ -39,12 +40,14 @@ async function narrow(browser, name) {
 
 const browser = await Browser.start({ width: 1366, height: 768 });
 try {
+  const layout = await Layout.of(browser);
   const named = process.argv.slice(3).map(file => resolve(file));
   const pages = named.length ? named : ['hopper', 'intruder'].map(simulated);
   for (const [i, file] of pages.entries()) {
     const drawn = await checkStudy(browser, file);
     console.log(`ok ${basename(file)}: ${drawn.length} figures, ${drawn.flatMap(figure => figure.series).length} series`);
     await narrow(browser, basename(file));
+    assert.deepEqual(await layout.everywhere(file), [], basename(file));
     await browser.resize(1366, 2400);
     await browser.screenshot(join(shots, `study_${i + 1}.png`));
     await browser.resize(1366, 768);

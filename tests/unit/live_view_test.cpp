@@ -176,6 +176,19 @@ TEST(LiveView, AStrideInItsCraterSaysThatAndTheGroundStaysKnown) {
   EXPECT_TRUE(shows(screen, "ground known from 1 to 45 mm: a line, 1500 N/m"));
 }
 
+TEST(LiveView, OfASearchForEventsOnlyWhatWasFoundIsAMessage) {
+  auto model = in_state(State::flight);
+  const auto before = model.messages;
+  GroundEvents found{.stride = 2};
+  model.take(operator_text(found));
+  EXPECT_EQ(model.messages, before);
+  found.rupture = {GroundEventKind::crust_rupture, 0.0123, 14.2, 0.45, 3.1, 0.4, 20.0, 13.7};
+  model.take(operator_text(found));
+  ASSERT_EQ(model.messages.size(), before.size() + 1);
+  EXPECT_EQ(model.messages.back(),
+            "stride 2: a crust broke at 12.3 mm: 14.2 N at 0.45 m/s, size 3.1 +- 0.4 N");
+}
+
 TEST(LiveView, AFaultIsShownInFullWithItsCureOnTheSmallestScreen) {
   for (const auto& entry : kFaults) {
     if (entry.fault == Fault::none) continue;

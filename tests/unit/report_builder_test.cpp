@@ -166,7 +166,7 @@ TEST(LogReport, LogIsReadWithItsFactsAndConfiguration) {
   std::filesystem::remove(file);
   EXPECT_EQ(data.time_s.size(), 5u);
   EXPECT_THAT(data.facts, testing::Contains(testing::Pair("date", "2023-11-14 22:13:20 UTC")));
-  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("release height", "0.0618 m")));
+  EXPECT_THAT(data.facts, testing::Contains(testing::Pair("release height", "61.8 mm")));
   EXPECT_EQ(data.configuration, "# robot.toml\n[robot]\n");
   EXPECT_THAT(data.notes, testing::IsEmpty());
 }

@@ -5,6 +5,7 @@
 
 #include "tools/report/base64.hpp"
 #include "tools/report/envelope.hpp"
+#include "tools/report/report_json.hpp"
 #include "tools/report/trial_page.hpp"
 
 namespace sandhopper {
@@ -75,6 +76,18 @@ TEST(Report, PageNamesNoAddressToLoadFrom) {
   EXPECT_THAT(page, Not(HasSubstr("<link")));
   EXPECT_THAT(page, Not(HasSubstr("sourceMappingURL")));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(Report, WhatAStanceFoundInTheGroundIsAnEventOfThePage) {
+  ReportData data;
+  data.events = {{0.1, 1, "touchdown", "leg_rate", ""}, {0.6, 2, "touchdown", "leg_rate", ""}};
+  ReportStride stride{.number = 1, .liftoff_s = 0.4};
+  stride.ground_events.rupture = {GroundEventKind::crust_rupture, 0.0123, 14.2, 0.45, 3.1, 0.4, 20.0, 13.7};
+  data.strides = {stride};
+  const auto events = report_json(data, 1).at("events");
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[1].at("name"), "ground");
+  EXPECT_EQ(events[1].at("values"), "a crust broke at 12.3 mm: 14.2 N at 0.45 m/s, size 3.1 +- 0.4 N");
 }
 
 TEST(Report, UnwritablePlaceIsNamed) {

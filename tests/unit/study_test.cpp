@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <tuple>
 
 namespace sandhopper {
 namespace {
@@ -28,6 +30,17 @@ TEST(StudyPage, CarriesEveryItemAndAsksForNothing) {
   EXPECT_THAT(page, Not(HasSubstr("<script>alert(1)")));
   EXPECT_THAT(page, Not(HasSubstr("https://")));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
+}
+
+TEST(StudyPage, FifteenTrialsLookDifferentByMoreThanAShade) {
+  std::set<std::tuple<std::string, bool, bool>> lines;
+  for (std::size_t i = 0; i < 15; ++i) {
+    StudySeries series;
+    tell_apart(series, i);
+    EXPECT_EQ(series.shade, 0.0);
+    lines.emplace(series.color, series.dashed, series.dotted);
+  }
+  EXPECT_EQ(lines.size(), 15u);
 }
 
 TEST(StudyPage, ThousandsOfPointsAreThinnedAndItSaysSo) {

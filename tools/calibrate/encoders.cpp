@@ -108,7 +108,8 @@ Zero zero_of(const Side& side, const CubeMarsConfig& motor, double angle_rad, do
 
 StudySection section_of(const std::vector<Side>& sides, const std::vector<Zero>& zeros) {
   StudySection section{.title = "Pairs of poses"};
-  StudyFigure figure{.title = "Zero of each pair less the mean", .x_label = "pair", .y_label = "rad"};
+  StudyFigure figure{
+      .title = "Zero of each pair less the mean", .x_label = "pair", .y_label = "zero less its mean, rad"};
   StudyTable table{.title = "Moves",
                    .columns = {"motor", "pair", "drive in the known pose, rad", "moved by, rad"}};
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -135,7 +136,7 @@ StudySection section_of(const std::vector<Side>& sides, const std::vector<SpeedR
     for (std::size_t k = 0; k < speed.of_recording.size(); ++k)
       table.rows.push_back(
           {sides[i].name, std::to_string(k + 1), fmt::format("{:.4f}", speed.of_recording[k])});
-    table.rows.push_back({sides[i].name, "mean", fmt::format("{:.4f} +- {:.4f}", speed.value, speed.ci95)});
+    table.rows.push_back({sides[i].name, "mean", fmt::format("{:.4f} ± {:.4f}", speed.value, speed.ci95)});
   }
   section.items = {table};
   return section;

@@ -41,7 +41,7 @@ Pose measure(const Recording& recording, const ImuChoice& which, const ImuConfig
     at_the_end |= std::ranges::any_of(accel.value, [&](double v) { return std::abs(v) > end_mps2; });
     const auto name = fmt::format("{}, {}, axis {}", recording.name, which.table, "xyz"[axis]);
     const auto before = refusals.size();
-    const auto mean = still_mean(accel, {.max_wander = kAccelWander_mps2}, name + ", m/s2", refusals);
+    const auto mean = still_mean(accel, {.max_wander = kAccelWander_mps2}, name + ", m/s²", refusals);
     if (refusals.size() == before)
       out.gyro_radps[static_cast<Eigen::Index>(axis)] =
           still_mean(gyro, {.max_wander = kGyroWander_radps}, name + ", rate in rad/s", refusals).value;
@@ -115,7 +115,7 @@ void judge(const std::vector<Pose>& poses, const Fit& found, const ImuLimits& li
   const double worst = found.residual.cwiseAbs().maxCoeff();
   if (worst <= allowed) return;
   const auto text =
-      fmt::format("a pose feels {:.3f} m/s2 more or less than gravity, allowed {:.3f}", worst, allowed);
+      fmt::format("a pose feels {:.3f} m/s² more or less than gravity, allowed {:.3f}", worst, allowed);
   if (const auto pose = name_of_worst(poses, limits.gravity_mps2, allowed); !pose.empty())
     refusals.push_back({"outlier", fmt::format("{}; without pose {} all others fit", text, pose),
                         "record this pose again, lying still on something firm"});
@@ -143,10 +143,11 @@ GyroBias gyro_bias(const std::vector<Pose>& poses) {
 StudySection section_of(const std::vector<Pose>& poses, const Fit& found, const std::string& table_name,
                         double gravity_mps2) {
   StudySection section{.title = table_name};
-  StudyFigure residual{
-      .title = "Length of each pose's specific force less gravity", .x_label = "pose", .y_label = "m/s2"};
+  StudyFigure residual{.title = "Length of each pose's specific force less gravity",
+                       .x_label = "pose",
+                       .y_label = "length less gravity, m/s²"};
   StudySeries before{.label = "as delivered", .color = "grey"}, after{.label = "calibrated"};
-  StudyTable table{.title = "Poses", .columns = {"pose", "x, m/s2", "y, m/s2", "z, m/s2", "residual, m/s2"}};
+  StudyTable table{.title = "Poses", .columns = {"pose", "x, m/s²", "y, m/s²", "z, m/s²", "residual, m/s²"}};
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const auto& a = poses[k].accel_mps2;
     const double rest = found.residual[static_cast<Eigen::Index>(k)];
@@ -166,7 +167,7 @@ StudySection section_of(const std::vector<Pose>& poses, const Fit& found, const 
 
 Outcome calibrate_imu(const std::vector<Recording>& poses, const ImuChoice& which, const ImuConfig& before,
                       const ImuLimits& limits) {
-  Outcome out{.points = poses.size(), .residual_unit = "m/s2"};
+  Outcome out{.points = poses.size(), .residual_unit = "m/s²"};
   if (poses.size() < kFewestPoses) {
     out.refusals.push_back({"too_few_points",
                             fmt::format("{} poses, at least {} are needed", poses.size(), kFewestPoses),
@@ -194,7 +195,7 @@ Outcome calibrate_imu(const std::vector<Recording>& poses, const ImuChoice& whic
     target.values.push_back(
         {key("accel_scale"), "", before.accel_scale[axis], 1.0 + found.value[i], scale_ci});
     target.values.push_back(
-        {key("accel_bias_mps2"), "m/s2", before.accel_bias_mps2[axis], found.value[i + 3], bias_ci});
+        {key("accel_bias_mps2"), "m/s²", before.accel_bias_mps2[axis], found.value[i + 3], bias_ci});
     target.values.push_back(
         {key("gyro_bias_radps"), "rad/s", before.gyro_bias_radps[axis], gyro.value[axis], gyro.ci95[axis]});
     wide |= scale_ci > limits.max_scale_ci95 || bias_ci > limits.max_bias_ci95_mps2 ||
@@ -206,7 +207,7 @@ Outcome calibrate_imu(const std::vector<Recording>& poses, const ImuChoice& whic
   if (wide)
     out.refusals.push_back(
         {"interval_too_wide",
-         fmt::format("asked for are {} of the scale, {} m/s2 of the bias and {} rad/s of the gyro",
+         fmt::format("asked for are {} of the scale, {} m/s² of the bias and {} rad/s of the gyro",
                      limits.max_scale_ci95, limits.max_bias_ci95_mps2, limits.max_gyro_ci95_radps),
          "record each of the six faces twice, lying still"});
   return out;

@@ -8,7 +8,7 @@ namespace sandhopper::calibrate {
 namespace {
 
 StudyTable values_table(const Outcome& outcome) {
-  StudyTable table{.columns = {"key", "unit", "before", "after", "95 % interval, +-"}};
+  StudyTable table{.columns = {"key", "unit", "before", "after", "95 % interval, ±"}};
   table.text_columns = 2;
   table.whole = true;
   for (const auto& target : outcome.targets)

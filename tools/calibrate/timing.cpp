@@ -88,10 +88,11 @@ Delays delays_of(const Series& reference, const Series& other, const std::vector
 }
 
 StudyFigure figure_of(const Delays& delays, const TrialMean& mean, const std::string& name) {
-  StudyFigure figure{
-      .title = "Delay of " + name + ", tap by tap", .x_label = "time, s", .y_label = "less the mean, ms"};
+  StudyFigure figure{.title = "Delay of " + name + ", tap by tap",
+                     .x_label = "time, s",
+                     .y_label = "delay less its mean, s"};
   StudySeries series{.label = name, .x = delays.tap_s};
-  for (const double delay : delays.delay_s) series.y.push_back(1e3 * (delay - mean.value));
+  for (const double delay : delays.delay_s) series.y.push_back(delay - mean.value);
   figure.series = {series};
   return figure;
 }

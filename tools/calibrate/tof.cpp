@@ -60,7 +60,7 @@ StudySection section_of(const Measured& m, double offset_m) {
   StudySection section{.title = "Readings"};
   StudyFigure residual{.title = "Height less reading",
                        .x_label = "height, m",
-                       .y_label = "m",
+                       .y_label = "height less reading, m",
                        .note = "Line: the offset. Bars: 95 % of each mean's own noise."};
   StudySeries series{.label = "height less reading", .x = m.height_m, .y = m.offset_m};
   StudyTable table{.title = "Heights", .columns = {"height, m", "reading, m", "residual, m"}};

@@ -154,9 +154,9 @@ StudySection section_of(const std::vector<Press>& presses, const std::vector<Pre
   StudySection section{.title = "Presses"};
   StudyFigure loop{.title = "Force at the load cell as torque, against current",
                    .x_label = "both currents, A",
-                   .y_label = "N m",
+                   .y_label = "torque of both motors, N m",
                    .note = "The loop's height is twice the friction."};
-  StudyFigure residual{.title = "Residuals", .x_label = "time, s", .y_label = "N m"};
+  StudyFigure residual{.title = "Residuals", .x_label = "time, s", .y_label = "torque less the fit, N m"};
   StudyTable table{.title = "Fits",
                    .columns = {"press", "left, N m/A", "right, N m/A", "friction, N m", "residual, N m"}};
   for (std::size_t p = 0; p < presses.size(); ++p) {
@@ -165,11 +165,13 @@ StudySection section_of(const std::vector<Press>& presses, const std::vector<Pre
       points.x.push_back(total_at(presses[p], i));
       points.y.push_back(presses[p].lever_m_per_rad * presses[p].force_N[i]);
     }
+    tell_apart(points, p);
     loop.series.push_back(points);
     residual.series.push_back({.label = fmt::format("press {}", p + 1),
                                .x = fits[p].time_s,
                                .y = fits[p].residual,
                                .shown = p == 0});
+    tell_apart(residual.series.back(), p);
     const auto& v = fits[p].value;
     table.rows.push_back({std::to_string(p + 1), fmt::format("{:.5f}", v[0]), fmt::format("{:.5f}", v[1]),
                           fmt::format("{:.4f}", v[3]), fmt::format("{:.4f}", fits[p].residual_Nm)});

@@ -31,10 +31,13 @@ function(sandhopper_embed_report_assets target)
     string(REGEX REPLACE "(//|/\\*)# sourceMappingURL=[^\n]*" "" ${name} "${content}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   endforeach()
-  sandhopper_join_scripts(kScript ${page} data theme legend svg panels time_plots profile_band force_depth stiffness_chart tables main)
-  sandhopper_join_scripts(kStudyScript ${page} data theme legend svg study_figure math answers study)
+  file(READ ${page}/fitted_table.css content)
+  string(APPEND kStyle "${content}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page}/fitted_table.css)
+  sandhopper_join_scripts(kScript ${page} data theme legend fitted_table svg panels time_plots profile_band force_depth stiffness_chart tables main)
+  sandhopper_join_scripts(kStudyScript ${page} data theme legend fitted_table svg study_figure math answers study)
 
-  sandhopper_join_scripts(kExplainScript ${page} data theme legend explain_panels time_plots tables explain)
+  sandhopper_join_scripts(kExplainScript ${page} data theme legend fitted_table explain_panels time_plots tables explain)
 
   configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
                  ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)

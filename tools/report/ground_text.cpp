@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <vector>
 
 namespace sandhopper {
@@ -44,6 +45,26 @@ std::string headline(const GroundSummary& g) {
       return no_line + "neither a power law nor two layers; use the profile";
   }
   return {};
+}
+
+std::vector<const GroundEvent*> found_in(const GroundEvents& found) {
+  std::vector<const GroundEvent*> events;
+  for (const auto* event : {&found.rupture, &found.boundary, &found.suction})
+    if (event->kind != GroundEventKind::none) events.push_back(event);
+  return events;
+}
+
+std::string_view unit_of_size(GroundEventKind kind) {
+  return kind == GroundEventKind::layer_boundary || kind == GroundEventKind::box_floor ? "N/m" : "N";
+}
+
+std::string in_words(const GroundEvent& e) {
+  static constexpr std::array<std::string_view, 5> kWords{"nothing", "a crust broke", "another layer begins",
+                                                          "the floor of the box",
+                                                          "suction while the foot leaves"};
+  return fmt::format("{} at {:.1f} mm: {:.1f} N at {:.2f} m/s, size {:.3g} +- {:.1g} {}",
+                     kWords[static_cast<std::size_t>(e.kind)], 1e3 * e.depth_m, e.force_N, e.speed_mps,
+                     e.size, e.size_sd, unit_of_size(e.kind));
 }
 
 std::string trial_line(const ReportData& data) {

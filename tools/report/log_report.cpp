@@ -59,22 +59,26 @@ struct Feed {
   }
 };
 
-// "release_height_m", "0.061800" -> "release height", "0.0618 m"
+// "release_height_m", "0.061800" -> "release height", "61.8 mm": lengths as in the figures
 std::pair<std::string, std::string> fact_of(std::string key, std::string value) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kUnits{{{"_kg", " kg"},
-                                                                                        {"_N_per_m", " N/m"},
-                                                                                        {"_mps", " m/s"},
-                                                                                        {"_Hz", " Hz"},
-                                                                                        {"_m", " m"},
-                                                                                        {"_s", " s"},
-                                                                                        {"_N", " N"}}};
-  for (const auto& [suffix, unit] : kUnits) {
+  struct Unit {
+    std::string_view suffix, text;
+    double scale = 1.0;
+  };
+  static constexpr std::array<Unit, 7> kUnits{{{"_kg", " kg"},
+                                               {"_N_per_m", " N/m"},
+                                               {"_mps", " m/s"},
+                                               {"_Hz", " Hz"},
+                                               {"_m", " mm", 1e3},
+                                               {"_s", " s"},
+                                               {"_N", " N"}}};
+  for (const auto& [suffix, unit, scale] : kUnits) {
     if (!key.ends_with(suffix)) continue;
     double number = 0.0;
     const auto end = value.data() + value.size();
     if (std::from_chars(value.data(), end, number).ptr != end) break;
     key.resize(key.size() - suffix.size());
-    value = fmt::format("{:g}{}", number, unit);
+    value = fmt::format("{:g}{}", scale * number, unit);
     break;
   }
   std::ranges::replace(key, '_', ' ');
@@ -150,7 +154,7 @@ ReportData report_data_from_log(const std::filesystem::path& file) {
   data.title = "Hop trial " + file.stem().string();
   if (began_ns) data.facts.emplace_back("date", utc(*began_ns));
   if (!data.time_s.empty()) {
-    data.facts.emplace_back("length", fmt::format("{:.2f} s", data.time_s.back() - data.time_s.front()));
+    data.facts.emplace_back("duration", fmt::format("{:.2f} s", data.time_s.back() - data.time_s.front()));
     data.facts.emplace_back("cycles", std::to_string(data.time_s.size()));
     data.facts.emplace_back("overruns", std::to_string(feed.frame.overruns));
   }

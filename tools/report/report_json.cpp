@@ -1,5 +1,6 @@
 #include "tools/report/report_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/report/base64.hpp"
@@ -67,6 +68,16 @@ Json columns_json(const std::vector<ReportColumn>& columns) {
   return result;
 }
 
+// The events of the firmware and, at each liftoff, what the stance found in the ground.
+std::vector<ReportEvent> with_ground_events(const ReportData& data) {
+  auto events = data.events;
+  for (const ReportStride& stride : data.strides)
+    for (const auto* found : found_in(stride.ground_events))
+      events.push_back({stride.liftoff_s, stride.number, "ground", "found in the stance", in_words(*found)});
+  std::ranges::stable_sort(events, {}, &ReportEvent::time_s);
+  return events;
+}
+
 }  // namespace
 
 nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
@@ -85,7 +96,7 @@ nlohmann::json report_json(const ReportData& data, std::size_t envelope_run) {
     json["phases"].push_back({{"from_s", phase.from_s}, {"to_s", phase.to_s}, {"name", phase.name}});
   }
   json["events"] = Json::array();
-  for (const ReportEvent& event : data.events) {
+  for (const ReportEvent& event : with_ground_events(data)) {
     json["events"].push_back({{"time_s", event.time_s},
                               {"stride", event.stride},
                               {"name", event.name},

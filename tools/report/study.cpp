@@ -42,6 +42,7 @@ Json series_json(const StudySeries& full) {
           {"y", numbers(series.y)},       {"low", numbers(series.low)},
           {"high", numbers(series.high)}, {"mark", kMarks[static_cast<std::size_t>(series.mark)]},
           {"color", series.color},        {"dashed", series.dashed},
+          {"dotted", series.dotted},      {"hollow", series.hollow},
           {"shade", series.shade},        {"shown", series.shown}};
 }
 
@@ -98,6 +99,15 @@ std::string data_json(const Study& study) {
 }
 
 }  // namespace
+
+void tell_apart(StudySeries& series, std::size_t n) {
+  constexpr std::array<const char*, 5> kColors{"blue", "orange", "green", "purple", "sand"};
+  const std::size_t round = n / kColors.size() % 3;
+  series.color = kColors[n % kColors.size()];
+  series.dashed = round == 1;
+  series.dotted = round == 2;
+  series.hollow = round > 0;
+}
 
 std::string study_page(const Study& study) {
   using html::replaced;

@@ -27,8 +27,14 @@ struct StudySeries {
   std::string color = "blue";  // blue, orange, green, purple, sand, grey, text
   double shade = 0.0;          // 0 to 1: how far the colour is drawn towards the paper's
   bool dashed = false;
-  bool shown = true;  // false: hidden until its name in the legend is pressed
+  bool dotted = false;
+  bool hollow = false;  // points as rings
+  bool shown = true;    // false: hidden until its name in the legend is pressed
 };
+
+// Gives the n-th of several trials a look of its own: five colours; then dashed or rings; then dotted. From
+// the sixteenth on looks repeat.
+void tell_apart(StudySeries& series, std::size_t n);
 
 struct StudyFigure {
   std::string title{};

@@ -67,10 +67,12 @@ StudyTable pooled_table(const std::vector<PooledQuantity>& pooled) {
       .note =
           "Intervals come from the spread between trials (Student's t); samples of one trial are "
           "never counted as independent."};
-  for (const auto& q : pooled)
-    table.rows.push_back({figure_title(q.name), figure_unit(q.name), figure_number(q.value),
-                          interval_text(q.ci95_low, q.ci95_high), figure_number(q.standard_deviation),
-                          fmt::format("{}", q.trials)});
+  for (const auto& q : pooled) {
+    const double scale = page_scale(q.name);
+    table.rows.push_back({figure_title(q.name), figure_unit(q.name), figure_number(scale * q.value),
+                          interval_text(scale * q.ci95_low, scale * q.ci95_high),
+                          figure_number(scale * q.standard_deviation), fmt::format("{}", q.trials)});
+  }
   return table;
 }
 
@@ -100,6 +102,17 @@ StudySection ruled_out_section(const std::vector<RuledOut>& reasons) {
   return section;
 }
 
+std::string spaced(std::string words) {
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+// "max_depth_m", "38.7" -> "max depth 38.7 mm"
+std::string in_words(std::string_view name, std::string_view number) {
+  const auto unit = figure_unit(name);
+  return fmt::format("{} {}{}", figure_title(name), number, unit == "–" ? "" : " " + unit);
+}
+
 StudySection trials_section(const CampaignResults& results) {
   constexpr std::size_t kMostRows = 500;
   StudySection section{.title = "Trial by trial", .folded = true};
@@ -107,13 +120,15 @@ StudySection trials_section(const CampaignResults& results) {
   for (const auto& result : results.results) {
     if (table.rows.size() >= kMostRows) break;
     std::vector<std::string> setup, figures;
-    for (const auto& [key, value] : result.setup) setup.push_back(fmt::format("{} {:.6g}", key, value));
+    for (const auto& [key, value] : result.setup)
+      setup.push_back(in_words(key, fmt::format("{:.6g}", page_scale(key) * value)));
     for (const auto& q : result.quantities)
-      figures.push_back(q.invalid.empty() ? fmt::format("{} {}", q.name, figure_number(q.value))
-                                          : fmt::format("{} – ({})", q.name, q.invalid));
+      figures.push_back(q.invalid.empty()
+                            ? in_words(q.name, figure_number(page_scale(q.name) * q.value))
+                            : fmt::format("{}: none, {}", figure_title(q.name), spaced(q.invalid)));
     table.rows.push_back({result.trial, result.usable ? result.kind : result.kind + " (not usable)",
-                          fmt::format("{}", fmt::join(setup, ", ")),
-                          fmt::format("{}", fmt::join(figures, ", "))});
+                          fmt::format("{}", fmt::join(setup, "; ")),
+                          fmt::format("{}", fmt::join(figures, "; "))});
   }
   if (results.results.size() > kMostRows)
     table.note = fmt::format("The first {} of {} trials; all are in the JSON file.", kMostRows,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -17,7 +18,7 @@ std::string figure_number(double value) {
 }
 
 std::string interval_text(double low, double high) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "one trial says nothing";
+  if (!std::isfinite(low) || !std::isfinite(high)) return "one trial: no interval";
   return fmt::format("{} to {}", figure_number(low), figure_number(high));
 }
 
@@ -26,10 +27,22 @@ std::string figure_title(std::string_view name) {
   std::string title(unit ? unit->quantity : name);
   for (char& c : title)
     if (c == '_') c = ' ';
+  for (const std::string_view fit : {" ols", " wls"})  // fits are written as everywhere else
+    if (const auto at = title.find(fit); at != std::string::npos)
+      for (std::size_t i = at; i < at + fit.size(); ++i)
+        title[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[i])));
   return title;
 }
 
+double page_scale(std::string_view name) {
+  const bool height = name.find("depth") != std::string_view::npos ||
+                      name.find("height") != std::string_view::npos ||
+                      name.find("diameter") != std::string_view::npos;
+  return height && name.ends_with("_m") ? 1e3 : 1.0;
+}
+
 std::string figure_unit(std::string_view name) {
+  if (page_scale(name) != 1.0) return "mm";
   const auto unit = unit_of_key(name);
   return unit.empty() ? "–" : unit;
 }

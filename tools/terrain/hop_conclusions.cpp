@@ -122,7 +122,7 @@ StudyFigure against(Results results, std::string_view x_name, const std::string&
       const auto name = stiffness_name(way.name, is_joint(way.name) ? "" : "A");
       const double y = result->value(name);
       if (!std::isfinite(x) || !std::isfinite(y)) continue;
-      series.x.push_back(x);
+      series.x.push_back(page_scale(x_name) * x);
       series.y.push_back(y);
       if (!is_joint(way.name)) continue;
       const double error = result->find(name)->standard_error;
@@ -215,7 +215,7 @@ StudySection stiffness_section(Results results, const PooledStiffness& pooled) {
   section.items.emplace_back(against(results, "touchdown_speed_mps", "touchdown speed, m/s"));
   for (const auto& [key, label] :
        {std::pair{"compression_stiffness_N_per_m", "compression stiffness, N/m"},
-        std::pair{"release_height_m", "release height, m"}, std::pair{"payload_kg", "payload, kg"}})
+        std::pair{"release_height_m", "release height, mm"}, std::pair{"payload_kg", "payload, kg"}})
     if (differs(results, key)) section.items.emplace_back(against(results, key, label));
   return section;
 }

@@ -16,9 +16,9 @@ namespace sandhopper {
 namespace {
 
 constexpr std::array kWays{StiffnessWay{"quasi_static_ols", "quasi-static, OLS", "orange"},
-                           StiffnessWay{"observer_ols", "observer, OLS", "blue"},
-                           StiffnessWay{"observer_wls", "observer, weighted", "green"},
-                           StiffnessWay{"joint", "joint fit", "purple"},
+                           StiffnessWay{"observer_ols", "observer, OLS", "purple"},
+                           StiffnessWay{"observer_wls", "observer, weighted", "blue"},
+                           StiffnessWay{"joint", "joint fit", "green"},
                            StiffnessWay{"load_cell_ols", "load cell, OLS", "sand"},
                            StiffnessWay{"load_cell_joint", "load cell, joint fit", "grey"}};
 constexpr std::size_t kDrawnTrials = 4;  // whose curves travel with the result

@@ -128,7 +128,7 @@ StudyFigure force_figure(const LegHopFit& hop) {
 }
 
 StudyFigure residual_figure(const LegIdentification& leg) {
-  StudyFigure figure{.title = "What remains of the offline estimate, held-out hops",
+  StudyFigure figure{.title = "Residual of the offline estimate, held-out hops",
                      .x_label = "joint rate, rad/s",
                      .y_label = "estimate − plate, N"};
   constexpr std::array kColors{"blue", "orange", "green", "purple", "sand", "grey"};
@@ -151,14 +151,15 @@ StudyFigure residual_figure(const LegIdentification& leg) {
 }
 
 StudyFigure choice_figure(const LegIdentification& leg) {
-  StudyFigure figure{.title = "Choices", .x_label = "time, ms", .y_label = "rms error, N"};
+  StudyFigure figure{
+      .title = "Choices", .x_label = "half width or time left out, s", .y_label = "rms error, N"};
   StudySeries width{.label = "smoothing half width: fit hops, each left out in turn",
                     .x = {},
                     .y = {},
                     .mark = StudySeries::Mark::line_and_points,
                     .color = "blue"};
   for (const auto& [half_width_s, rms_N] : leg.cross_validation_N) {
-    width.x.push_back(1e3 * half_width_s);
+    width.x.push_back(half_width_s);
     width.y.push_back(rms_N);
   }
   StudySeries settling{.label = "time after the landing that is left out: held-out hops",
@@ -167,7 +168,7 @@ StudyFigure choice_figure(const LegIdentification& leg) {
                        .mark = StudySeries::Mark::line_and_points,
                        .color = "orange"};
   for (const auto& [settling_s, rms_N] : leg.settling_rms_N) {
-    settling.x.push_back(1e3 * settling_s);
+    settling.x.push_back(settling_s);
     settling.y.push_back(rms_N);
   }
   figure.series = {std::move(width), std::move(settling)};
@@ -239,7 +240,8 @@ CampaignConclusions tell_leg(const LegIdentification& leg, const RigidGround& gr
   if (tested) section.items.emplace_back(residual_figure(leg));
   section.items.emplace_back(choice_figure(leg));
   section.items.emplace_back(fmt::format(
-      "What remains: the blow of the landing and the ringing of the plate after it, which the angle does not "
+      "Not explained: the blow of the landing and the ringing of the plate after it, which the angle does "
+      "not "
       "show; vibration of leg and plate in mid-stance; friction that depends on the load; and the plate's "
       "gain, "
       "which is not told apart from the torque's scale. The mass believed is {} kg, by the plate's "

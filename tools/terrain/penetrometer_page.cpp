@@ -54,15 +54,15 @@ double greatest_resistance(const PenetrometerDrop& drop) {
 
 StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
   StudyTable table{.title = "Drops",
-                   .columns = {"drop", "speed at touchdown, m/s", "depth, m", "greatest resistance, m/s²",
-                               "greatest resistance, N", "speed while it hung, m/s", "fallen, m",
-                               "fallen by pressure, m"}};
+                   .columns = {"drop", "speed at touchdown, m/s", "depth, mm",
+                               "greatest resistance per mass, m/s²", "greatest resistance, N",
+                               "speed before the release, m/s", "fallen, m", "fallen by pressure, m"}};
   for (const auto& drop : drops) {
     const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
     const double greatest = greatest_resistance(drop);
     table.rows.push_back(
         {trial_label(drop.trial), fmt::format("{:.2f}", drop.impact_speed_mps),
-         fmt::format("{:.3f}", drop.depth_m), fmt::format("{:.1f}", greatest),
+         fmt::format("{:.0f}", 1e3 * drop.depth_m), fmt::format("{:.1f}", greatest),
          range(low.moving_mass_kg * greatest, high.moving_mass_kg * greatest),
          fmt::format("{:+.3f}", drop.speed_before_release_mps), fmt::format("{:.2f}", drop.fallen_m),
          std::isnan(drop.fallen_by_pressure_m) ? "–" : fmt::format("{:.2f}", drop.fallen_by_pressure_m)});
@@ -70,9 +70,9 @@ StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
   table.note =
       "Speed is integrated back from the rest after the impact, where it is zero and the accelerometer's "
       "bias is "
-      "known. The speed it gives while the body still hung, seconds earlier, shows what the integral is off "
-      "by "
-      "then. Forces for both ends of the range of the mass. The pressure's way is a check, used for nothing: "
+      "known. The body hung at rest before the release: the speed that the integral gives there is its "
+      "error. "
+      "Forces for both ends of the range of the mass. The pressure's way is a check, used for nothing: "
       "its sensor lags, and the bed has a pressure of its own.";
   return table;
 }
@@ -117,7 +117,7 @@ StudyTable sensor_table(const std::vector<PenetrometerDrop>& drops) {
 
 StudyTable law_table(const PenetrometerFit& fit) {
   StudyTable table{.title = "Resistance against depth z and speed v",
-                   .columns = {"law", "n", "n, 95 % interval", "b", "b, 95 % interval", "rms, m/s²",
+                   .columns = {"equation", "n", "n, 95 % interval", "b", "b, 95 % interval", "rms, m/s²",
                                "left out, share of the greatest"}};
   for (std::size_t i = 0; i < fit.laws.size(); ++i) {
     const auto& law = fit.laws[i];
@@ -141,34 +141,36 @@ StudyTable law_table(const PenetrometerFit& fit) {
 
 StudyFigure resistance_figure(const PenetrometerFit& fit, const std::vector<PenetrometerDrop>& drops) {
   StudyFigure figure{.title = "Resistance against depth",
-                     .x_label = "depth, m",
+                     .x_label = "depth, mm",
                      .y_label = "resistance per moving mass, m/s²",
                      .wide = true};
   const auto& law = fit.laws[fit.chosen].fit;
   for (std::size_t i = 0; i < drops.size(); ++i) {
     StudySeries measured{.label = trial_label(drops[i].trial), .x = {}, .y = {}, .color = color_of(i)};
-    StudySeries fitted{.label = title_of(law.law),
+    StudySeries fitted{.label = trial_label(drops[i].trial) + ", law",
                        .x = {},
                        .y = {},
                        .mark = StudySeries::Mark::line,
                        .color = color_of(i),
                        .dashed = true};
     for (const auto& sample : drops[i].penetration) {
-      measured.x.push_back(sample.depth_m);
+      measured.x.push_back(1e3 * sample.depth_m);
       measured.y.push_back(sample.resistance);
-      fitted.x.push_back(sample.depth_m);
+      fitted.x.push_back(1e3 * sample.depth_m);
       fitted.y.push_back(
           resistance(law.law, law.exponent, law.rate, law.strength[i], sample.depth_m, sample.speed_mps));
     }
     figure.series.push_back(std::move(measured));
     figure.series.push_back(std::move(fitted));
   }
-  figure.note = "Dashed: the chosen law, exponents common, strength of each drop.";
+  figure.note = fmt::format(
+      "Dashed: the chosen law, {}. All drops share its exponents; each has a strength k of its own.",
+      title_of(law.law));
   return figure;
 }
 
 StudyFigure speed_figure(const std::vector<PenetrometerDrop>& drops) {
-  StudyFigure figure{.title = "Speed against depth", .x_label = "depth, m", .y_label = "speed, m/s"};
+  StudyFigure figure{.title = "Speed against depth", .x_label = "depth, mm", .y_label = "speed, m/s"};
   for (std::size_t i = 0; i < drops.size(); ++i) {
     StudySeries series{.label = trial_label(drops[i].trial),
                        .x = {},
@@ -176,7 +178,7 @@ StudyFigure speed_figure(const std::vector<PenetrometerDrop>& drops) {
                        .mark = StudySeries::Mark::line,
                        .color = color_of(i)};
     for (const auto& sample : drops[i].penetration) {
-      series.x.push_back(sample.depth_m);
+      series.x.push_back(1e3 * sample.depth_m);
       series.y.push_back(sample.speed_mps);
     }
     figure.series.push_back(std::move(series));
@@ -212,7 +214,7 @@ std::string untold(const PenetrometerFit& fit, const std::vector<PenetrometerDro
       "trade against each other; whether the bed's strength or a change with depth of its kind makes n; "
       "added "
       "mass of the bed, which lowers and raises the same curve. Where touchdown is gradual, zero depth is "
-      "uncertain by a centimetre or two. What remains: sharp peaks of hard inclusions or layers, which no "
+      "uncertain by a centimetre or two. Not explained: sharp peaks of hard inclusions or layers, which no "
       "smooth law has.",
       drop.mass_min_kg, drop.mass_max_kg, correlations);
 }
@@ -260,10 +262,10 @@ CampaignConclusions tell_penetrations(const PenetrometerFit& fit,
   out.lines.push_back(
       fmt::format("Resistance of the bed over {} {}: {} with n = {:.2f}, b = {:.2f}; {}.", drops.size(),
                   drops.size() == 1 ? "drop" : "drops", title_of(law.fit.law), law.fit.exponent, law.fit.rate,
-                  drops.size() == 1
-                      ? std::string("fitted, not tested on another")
-                      : fmt::format("the others' shape misses a drop by {:.1f} % of its greatest resistance",
-                                    100.0 * law.cross_validation)));
+                  drops.size() == 1 ? std::string("fitted, not tested on another")
+                                    : fmt::format("exponents fitted on the other drops predict a drop with "
+                                                  "an error of {:.1f} % of its greatest resistance",
+                                                  100.0 * law.cross_validation)));
   out.json = json_of(fit, drops);
   StudySection section{.title = "Penetration into the bed"};
   section.items.emplace_back(

@@ -35,11 +35,11 @@ LawText text_of(DepthLaw law) {
     case DepthLaw::power:
       return {"K A z (z/1 cm)^(n−1)", "exponent n", 1.0, ""};
     case DepthLaw::cone:
-      return {"K A [z + c D (1 − e^(−z/0.1 D))]", "cone factor c", 1.0, ""};
+      return {"K A [z + c D (1 − exp(−z/0.1 D))]", "cone factor c", 1.0, ""};
     case DepthLaw::floor_stiffening:
-      return {"K A z [1 + e^(−(H−z)/0.25 D)]", "floor H, mm", 1e3, "mm"};
+      return {"K A z [1 + exp(−(H−z)/0.25 D)]", "floor H, mm", 1e3, "mm"};
     case DepthLaw::confined_layer:
-      return {"K A z · 2 (e^x − x − 1)/x², x = K_p tan φ D/(H−z)", "layer H, mm", 1e3, "mm"};
+      return {"K A z · 2 (exp(x) − x − 1)/x², x = K_p tan φ D/(H−z)", "layer H, mm", 1e3, "mm"};
   }
   return {"", "", 1.0, ""};
 }
@@ -52,14 +52,15 @@ std::string title_of(DepthLaw law) {
 
 StudyTable law_table(const IntrusionFit& fit) {
   StudyTable table{.title = "Laws, fitted on the trials that are not held out",
-                   .columns = {"law", "F", "shape", "K, N/cm³ (95 % interval)", "shape (95 % interval)",
-                               "rms, N", "left out, N"},
+                   .columns = {"law", "equation", "shape", "K, N/cm³ (95 % interval)",
+                               "shape (95 % interval)", "rms, N", "left out, N"},
                    .text_columns = 3};
   for (std::size_t i = 0; i < fit.laws.size(); ++i) {
     const auto& law = fit.laws[i];
     const auto text = text_of(law.fit.law);
-    table.rows.push_back({title_of(law.fit.law) + (fit.chosen == i ? " (chosen)" : ""), text.equation,
-                          text.shape, mean_text(law.stiffness_per_area_N_per_m3, 1e-6),
+    table.rows.push_back({title_of(law.fit.law) + (fit.chosen == i ? " (chosen)" : ""),
+                          fmt::format("F = {}", text.equation), text.shape,
+                          mean_text(law.stiffness_per_area_N_per_m3, 1e-6),
                           law.fit.law == DepthLaw::linear ? "–" : mean_text(law.shape, text.scale),
                           figure_number(law.fit.rms_N), figure_number(law.cross_validation_N)});
   }
@@ -110,10 +111,10 @@ StudyFigure force_figure(const IntrusionFit& fit, std::span<const PressTrial> tr
   std::vector<double> diameters;
   for (const auto& trial : trials) {
     if (trial.on_stop || trial.loading.samples.empty()) continue;
-    StudySeries series{.label = trial_label(trial.trial) + (trial.held_out ? " (held out)" : ""),
-                       .x = {},
-                       .y = {},
-                       .color = trial.held_out ? "orange" : "blue"};
+    StudySeries series{
+        .label = trial_label(trial.trial) + (trial.held_out ? " (held out)" : ""), .x = {}, .y = {}};
+    tell_apart(series, figure.series.size());
+    series.hollow = trial.held_out;
     for (const auto& sample : trial.loading.samples) {
       series.x.push_back(1e3 * sample.depth_m);
       series.y.push_back(sample.force_N);
@@ -124,16 +125,16 @@ StudyFigure force_figure(const IntrusionFit& fit, std::span<const PressTrial> tr
   }
   if (!fit.chosen) return figure;
   for (const auto& [index, dashed] :
-       {std::pair{*fit.chosen, false}, std::pair{static_cast<std::size_t>(DepthLaw::power), true}})
+       {std::pair{*fit.chosen, false}, std::pair{static_cast<std::size_t>(DepthLaw::power), true}}) {
+    if (dashed && index == *fit.chosen) continue;
+    const auto& law = fit.laws[index].fit;
+    StudySeries line{.label = title_of(law.law) + " law",
+                     .x = {},
+                     .y = {},
+                     .mark = StudySeries::Mark::line,
+                     .color = "text",
+                     .dashed = dashed};
     for (const double diameter_m : diameters) {
-      const auto& law = fit.laws[index].fit;
-      StudySeries line{.label = fmt::format("{}, {:.0f} mm", title_of(law.law), 1e3 * diameter_m),
-                       .x = {},
-                       .y = {},
-                       .mark = StudySeries::Mark::line,
-                       .color = "text",
-                       .dashed = dashed,
-                       .shown = true};
       double deepest_m = 0.0;
       for (const auto& trial : trials)
         if (trial.loading.diameter_m == diameter_m)
@@ -142,9 +143,15 @@ StudyFigure force_figure(const IntrusionFit& fit, std::span<const PressTrial> tr
         line.x.push_back(1e3 * deepest_m * i / 100);
         line.y.push_back(depth_law_force_N(law, deepest_m * i / 100, diameter_m, fit.options));
       }
-      figure.series.push_back(std::move(line));
+      line.x.push_back(NAN);  // the next plate's line is one of its own
+      line.y.push_back(NAN);
     }
-  figure.note = "Lines: the chosen law and, dashed, the power law, both fitted on the trials in blue alone.";
+    figure.series.push_back(std::move(line));
+  }
+  figure.note = "Lines, one for each plate: the chosen law";
+  if (*fit.chosen != static_cast<std::size_t>(DepthLaw::power)) figure.note += " and, dashed, the power law";
+  figure.note += ", fitted on the trials that are not held out.";
+  if (fit.held_out_trials > 0) figure.note += " Rings: trials held out.";
   return figure;
 }
 
@@ -152,8 +159,6 @@ StudyFigure rig_figure(std::span<const PressTrial> trials) {
   StudyFigure figure{.title = "The rig on a rigid stop, and relieved in the bed",
                      .x_label = "displacement from the greatest force, mm",
                      .y_label = "force, N"};
-  constexpr std::array kColors{"purple", "green", "sand"};
-  std::size_t stops = 0;
   for (const auto& trial : trials) {
     const auto& z = trial.path_displacement_m;
     const auto& f = trial.path_force_N;
@@ -162,8 +167,8 @@ StudyFigure rig_figure(std::span<const PressTrial> trials) {
     StudySeries series{.label = trial_label(trial.trial) + (trial.on_stop ? " (stop)" : " (bed)"),
                        .x = {},
                        .y = {},
-                       .mark = StudySeries::Mark::line_and_points,
-                       .color = trial.on_stop ? kColors[stops++ % kColors.size()] : "blue"};
+                       .mark = StudySeries::Mark::line_and_points};
+    tell_apart(series, figure.series.size());
     for (std::size_t i = trial.on_stop ? 0 : peak; i < f.size(); ++i) {
       if (z[i] < z[peak] - 5e-3) continue;
       series.x.push_back(1e3 * (z[i] - z[peak]));
@@ -195,11 +200,11 @@ std::string rig_text(const RigResult& rig) {
   if (rig.stop_compliance_m_per_N.trials > 0)
     text += fmt::format(
         " On the stop: {} µm/N above a quarter of the greatest force, after a toe of {} mm; relieved at {} "
-        "N/mm.",
+        "N/m.",
         mean_text(rig.stop_compliance_m_per_N, 1e6), mean_text(rig.toe_m, 1e3),
-        figure_number(1e-3 * rig.stop_unloading_N_per_m.value));
+        figure_number(rig.stop_unloading_N_per_m.value));
   if (rig.bed_unloading_N_per_m.trials > 0)
-    text += fmt::format(" In the bed: relieved at {} N/mm.", mean_text(rig.bed_unloading_N_per_m, 1e-3));
+    text += fmt::format(" In the bed: relieved at {} N/m.", mean_text(rig.bed_unloading_N_per_m, 1.0));
   return text;
 }
 
@@ -267,12 +272,11 @@ std::string line_of(const IntrusionFit& fit) {
 std::string answer_of(const IntrusionFit& fit) {
   if (!fit.chosen) return line_of(fit);
   const auto& law = fit.laws[*fit.chosen];
-  auto answer =
-      fmt::format("Of {} laws of the depth \"{}\" fits best", fit.laws.size(), title_of(law.fit.law));
+  auto answer = fmt::format("Of {} depth laws the {} law fits best", fit.laws.size(), title_of(law.fit.law));
   if (fit.held_out_trials > 0)
     answer +=
-        fmt::format("; at {:.0f} mm it is {} off on the {} held-out presses", 1e3 * kPredictedDepths_m.back(),
-                    percent(law.relative_error.back()), fit.held_out_trials);
+        fmt::format("; at {:.0f} mm its prediction of the {} held-out presses is off by {} on average",
+                    1e3 * kPredictedDepths_m.back(), fit.held_out_trials, percent(law.relative_error.back()));
   return answer + ".";
 }
 
@@ -304,7 +308,8 @@ CampaignConclusions tell_presses(const IntrusionFit& fit, std::span<const PressT
   section.items.emplace_back(rig_text(fit.rig));
   section.items.emplace_back(rig_figure(trials));
   section.items.emplace_back(std::string(
-      "What remains: strength from trial to trial; the first millimetres, where the plate's tilt and the "
+      "Not explained: how the strength differs from trial to trial; the first millimetres, where the plate's "
+      "tilt and the "
       "height "
       "of the surface matter; whether a stiffening with depth is the floor below, the walls, or sand that "
       "compacts on the way. Only another depth of bed, or a third size of plate, would tell these apart."));

@@ -13,7 +13,7 @@ constexpr std::size_t kNamedCurves = 12;  // more are one entry of the legend
 constexpr std::size_t kDrawnCurves = 40;  // more hide one another
 
 StudySeries line_of(const StrengthCurve& curve) {
-  StudySeries series{.mark = StudySeries::Mark::line, .color = curve.held_out ? "orange" : "blue"};
+  StudySeries series{.mark = StudySeries::Mark::line};
   for (std::size_t i = 0; i < curve.force_N.size(); ++i) {
     const double depth_m = static_cast<double>(i + 1) * 0.5 * curve.cell_m;
     if (depth_m < curve.from_m || depth_m > curve.to_m) continue;
@@ -43,7 +43,7 @@ StudySeries band(std::string label, std::span<const PooledDepth> depths, const s
   return series;
 }
 
-// Few trials by name, in shades of one colour; many as one entry.
+// Few trials by name, each with a look of its own; many as one entry.
 void add_curves(std::span<const StrengthCurve> curves, const std::string& label, StudyFigure& figure) {
   const std::size_t drawn = std::min(curves.size(), kDrawnCurves);
   if (drawn == 0) return;
@@ -51,7 +51,7 @@ void add_curves(std::span<const StrengthCurve> curves, const std::string& label,
     for (std::size_t i = 0; i < drawn; ++i) {
       auto series = line_of(curves[i]);
       series.label = trial_label(curves[i].trial) + (curves[i].held_out ? " (held out)" : "");
-      series.shade = drawn > 1 ? static_cast<double>(i) / static_cast<double>(drawn - 1) : 0.0;
+      tell_apart(series, i);
       figure.series.push_back(std::move(series));
     }
     return;

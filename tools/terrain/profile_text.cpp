@@ -46,7 +46,7 @@ std::string trials_text(std::size_t trials) {
 }
 
 std::string limits(double low, double high, double scale) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial]";
+  if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial: none]";
   return fmt::format("[{}, {}]", short_number(scale * low), short_number(scale * high));
 }
 

@@ -133,7 +133,7 @@ StudyFigure slope_figure(const std::vector<Plate>& plates) {
 
 StudyFigure residual_figure(const Plate& plate, const StrokeMap& map) {
   StudyFigure figure{
-      .title = fmt::format("What is left of the force, {:.0f} mm plate", 1e3 * plate.diameter_m),
+      .title = fmt::format("Residual of the force, {:.0f} mm plate", 1e3 * plate.diameter_m),
       .x_label = "speed, m/s",
       .y_label = "rms of the residual, N",
       .note =
@@ -157,12 +157,12 @@ StudyFigure residual_figure(const Plate& plate, const StrokeMap& map) {
 StudyFigure profile_figure(const Plate& plate, const StrokeMap& map) {
   StudyFigure figure{.title = fmt::format("Added mass, {:.0f} mm plate", 1e3 * plate.diameter_m),
                      .x_label = "depth, mm",
-                     .y_label = "added mass, g",
+                     .y_label = "added mass, kg",
                      .note = "Integral of the drag coefficient over depth."};
   StudySeries series{.label = "added mass", .mark = StudySeries::Mark::line};
   for (int mm = 0; mm <= 45; ++mm) {
     series.x.push_back(mm);
-    series.y.push_back(1e3 * map.added_mass_kg(1e-3 * mm));
+    series.y.push_back(map.added_mass_kg(1e-3 * mm));
   }
   figure.series.push_back(std::move(series));
   return figure;
@@ -171,13 +171,12 @@ StudyFigure profile_figure(const Plate& plate, const StrokeMap& map) {
 StudyFigure path_figure(Results results) {
   StudyFigure figure{
       .title = "Force against depth, first strokes", .x_label = "depth, mm", .y_label = "force, N"};
-  constexpr std::array<const char*, 6> kColors{"blue", "orange", "green", "purple", "sand", "grey"};
   for (const auto* result : results) {
     const auto depth = result->series.find("stroke_depth_m");
     if (depth == result->series.end()) continue;
     StudySeries series{.label = fmt::format("{}, {:.2g} m/s", result->trial, speed_of(*result)),
-                       .mark = StudySeries::Mark::line,
-                       .color = kColors[figure.series.size() % kColors.size()]};
+                       .mark = StudySeries::Mark::line};
+    tell_apart(series, figure.series.size());
     for (const double value : depth->second) series.x.push_back(1e3 * value);
     series.y = result->series.at("stroke_force_N");
     figure.series.push_back(std::move(series));
@@ -271,13 +270,12 @@ CampaignConclusions conclude_strokes(Results results) {
     std::move(report.figures.begin(), report.figures.end(), std::back_inserter(figures));
     if (!plate.tells_drag())
       told.lines.push_back(fmt::format(
-          "strokes, {:.0f} mm plate: {} trials, slope of a straight line {} N/m; {}", 1e3 * plate.diameter_m,
-          plate.trials.size(), mean_text(any_slope(plate)), plate.why_no_drag()));
+          "Strokes with the {:.0f} mm plate, {} trials: slope of a straight line {} N/m; {}.",
+          1e3 * plate.diameter_m, plate.trials.size(), mean_text(any_slope(plate)), plate.why_no_drag()));
     else
       told.lines.push_back(fmt::format(
-          "strokes, {:.0f} mm plate: {} trials, k {} N/m, drag at the surface {} kg/m, added mass at 30 mm "
-          "{} "
-          "kg",
+          "Strokes with the {:.0f} mm plate, {} trials: stiffness {} N/m, drag at the surface {} kg/m, added "
+          "mass at 30 mm {} kg.",
           1e3 * plate.diameter_m, plate.trials.size(), report.row[3], report.row[5], report.row[6]));
     list.push_back(std::move(report.json));
   }

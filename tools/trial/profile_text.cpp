@@ -92,30 +92,9 @@ nlohmann::ordered_json profile_json(const StrengthProfile& p, const GroundSummar
             {"ci95", {g.reloading_N_per_m.ci95_low, g.reloading_N_per_m.ci95_high}}}}};
 }
 
-namespace {
-
-std::string_view unit_of_size(GroundEventKind kind) {
-  return kind == GroundEventKind::layer_boundary || kind == GroundEventKind::box_floor ? "N/m" : "N";
-}
-
-std::vector<const GroundEvent*> found_in(const GroundEvents& found) {
-  std::vector<const GroundEvent*> events;
-  for (const auto* event : {&found.rupture, &found.boundary, &found.suction})
-    if (event->kind != GroundEventKind::none) events.push_back(event);
-  return events;
-}
-
-}  // namespace
-
 std::vector<std::string> ground_event_lines(const GroundEvents& found) {
-  static constexpr std::array<std::string_view, 5> kWords{"nothing", "a crust broke", "another layer begins",
-                                                          "the floor of the box",
-                                                          "suction while the foot leaves"};
   std::vector<std::string> lines;
-  for (const auto* e : found_in(found))
-    lines.push_back(fmt::format("{:<24} {} at {:.1f} mm: {:.1f} N at {:.2f} m/s, size {:.3g} +- {:.1g} {}",
-                                "event", kWords[static_cast<std::size_t>(e->kind)], 1e3 * e->depth_m,
-                                e->force_N, e->speed_mps, e->size, e->size_sd, unit_of_size(e->kind)));
+  for (const auto* e : found_in(found)) lines.push_back(fmt::format("{:<24} {}", "event", in_words(*e)));
   return lines;
 }
 

@@ -75,8 +75,8 @@ struct Trace {
   std::string trial;
   std::string setup;  // in words
   std::string channel;
-  double floor = 0.0;
   std::vector<double> time_s, measured, before, after;  // after: held out
+  std::vector<double> floor;  // standard deviation of each row when nothing is missing
 };
 
 // A row that was compared: recorded minus simulated.

@@ -52,7 +52,7 @@ void report_traces(const Problem& problem, const Recordings& recordings, const R
       for (std::size_t k = 0; k < model.rows.size(); ++k)
         if (model.rows[k].channel == c && problem.used[t][k]) rows.push_back(k);
       if (rows.empty()) continue;
-      Trace trace{model.name, setup, problem.channels[c], problem.noise.channel(c).sd(), {}, {}, {}, {}};
+      Trace trace{model.name, setup, problem.channels[c], {}, {}, {}, {}, {}};
       const std::size_t step = (rows.size() + kMostTracePoints - 1) / kMostTracePoints;
       for (std::size_t i = 0; i < rows.size(); i += step) {
         const Row& row = model.rows[rows[i]];
@@ -61,6 +61,7 @@ void report_traces(const Problem& problem, const Recordings& recordings, const R
         trace.measured.push_back(row.measured);
         trace.before.push_back(row.measured - residuals.before[t][k]);
         trace.after.push_back(row.measured - residuals.held_out[t][k]);
+        trace.floor.push_back(row_sd(problem, t, rows[i]));
       }
       diagnosis.traces.push_back(std::move(trace));
     }

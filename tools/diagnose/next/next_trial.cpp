@@ -85,9 +85,13 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
     next.by_second.push_back(at.second[rows[i]]);
   }
   const Row& row = model.rows[where];
-  next.why = fmt::format("{} at {:.3g} s ({}): {} predicts {:.4g}, {} {:+.2g} from that, floor {:.2g}.",
-                         next.channel, row.time_s, problem.phases[row.phase], next.first, at.first[where],
-                         next.second, at.second[where] - at.first[where], next.floor);
+  next.why = fmt::format(
+      "{} at {:.3g} s ({}): {} predicts {:.4g}, {} predicts {:.4g}; that is {:.2g} apart, with a noise floor "
+      "of {:.2g} "
+      "{}.",
+      next.channel, row.time_s, problem.phases[row.phase], next.first, at.first[where], next.second,
+      at.second[where], std::abs(at.second[where] - at.first[where]), next.floor,
+      quantity_of(next.channel).unit);
 }
 
 // A pair of explanations in one contest.
@@ -195,12 +199,11 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
     return;
   }
   take(planned[choice.trial], "sharpen", next);
-  next.why =
-      fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; a middling trial to {:.0f} %.",
-                  amplitudes.size() > 1 ? "s" : "",
-                  diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
-                  100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
-                  100.0 * std::exp2(-0.5 * median(choice.all)));
+  next.why = fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; an average one to {:.0f} %.",
+                         amplitudes.size() > 1 ? "s" : "",
+                         diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
+                         100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
+                         100.0 * std::exp2(-0.5 * median(choice.all)));
 }
 
 void map_further(const Problem& problem, const PlannedTrials& planned, const Search& search,
@@ -222,7 +225,7 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
   });
   take(planned[choice.trial], "map", next);
   next.why = fmt::format(
-      "Maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with a middling trial "
+      "Maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with an average one "
       "to {:.0f} %.",
       rest.family.port, rest.family.variable, 100.0 * std::exp2(-0.5 * choice.worth),
       100.0 * std::exp2(-0.5 * median(choice.all)));
@@ -245,7 +248,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   const Candidate& candidate = problem.candidates[widest->candidate];
   if (!few && typicals < kNarrow) {
     next.why = fmt::format(
-        "None needed: everything this plant can have is excluded beyond {:.2g} of its typical size.",
+        "None needed: everything this plant can have is excluded beyond {:.2g} times its typical size.",
         typicals);
     return;
   }
@@ -275,14 +278,15 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   });
   if (!few && choice.worth < kWorthATrial) {
     next.why = fmt::format(
-        "None: no trial like these would exclude more. The widest bound is that of {}, {:.2g} of its "
-        "typical size.",
+        "None: no trial like these would exclude more. The widest bound is that of {}, {:.2g} times "
+        "its typical size.",
         candidate.label(), typicals);
     return;
   }
   take(planned[choice.trial], "bound", next);
   next.why = fmt::format(
-      "{}The widest bound is that of {}, {:.2g} of its typical size; this trial narrows it to {:.2g}.",
+      "{}The widest bound is that of {}, {:.2g} times its typical size; this trial narrows it to "
+      "{:.2g} times.",
       few ? "At least five trials are needed to know how far they repeat. " : "", candidate.label(), typicals,
       typicals * std::exp2(-0.5 * choice.worth));
 }

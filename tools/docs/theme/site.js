@@ -1,20 +1,20 @@
-// Menu of a phone, light and dark, wide tables, and the search. The index is a script, because a page that is opened from
+// Menu of a phone, light and dark, tables of a small screen, and the search. The index is a script, because a page that is opened from
 // a folder may not read other files; it is loaded when somebody first searches.
 'use strict';
 const byId = (id) => document.getElementById(id);
 
-// Wide tables scroll within the page instead of widening it.
-for (const table of document.querySelectorAll('main table')) {
-  const box = document.createElement('div');
-  box.className = 'table';
-  box.tabIndex = 0;
-  table.replaceWith(box);
-  box.append(table);
-}
-
 // In a table, names break where a reader would break them.
 for (const code of document.querySelectorAll('main td code'))
   code.replaceChildren(...code.textContent.split(/(?<=[_./])/).flatMap((part) => [part, document.createElement('wbr')]));
+
+// Tables that are too wide for the page become cards: see fitted_table.js.
+for (const table of document.querySelectorAll('main table')) {
+  const box = document.createElement('div');
+  box.className = 'table';
+  table.replaceWith(box);
+  box.append(table);
+  fitTable(box);
+}
 
 const menuButton = byId('menu-button');
 function showMenu(open) {

@@ -9,7 +9,9 @@ function showAnswers(study) {
   for (const answer of study.answers) {
     const box = element('section', { className: 'answer' }, element('h2', {}, answer.heading));
     box.style.gridColumn = `span ${answer.columns}`;
-    box.style.setProperty('--label', `${Math.max(0, ...answer.bars.map(bar => bar.label.length)) * 0.6 + 0.8}em`);
+    for (const [name, key] of [['--label', 'label'], ['--value', 'text']]) {
+      box.style.setProperty(name, `${Math.max(0, ...answer.bars.map(bar => bar[key].length)) * 0.6 + 0.8}em`);
+    }
     answer.lines.forEach((line, i) => {
       box.append(element('p', { className: line.style }, ...(line.style === 'equation' ? mathOf(line.text) : [line.text])));
       if (i === 0) box.append(...answer.bars.map(barOf));

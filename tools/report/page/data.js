@@ -33,3 +33,8 @@ function element(tag, properties = {}, ...children) {
   made.append(...children);
   return made;
 }
+
+// Words between backquotes are commands or keys.
+function withCode(text) {
+  return text.split('`').map((part, i) => (i % 2 ? element('code', {}, part) : part));
+}

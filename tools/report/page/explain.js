@@ -64,18 +64,13 @@ function fillAnswers(explained) {
   for (const fault of explained.faults) box(explained.faults.length > 1 ? `Cure of ${fault.name}` : 'Cure', element('p', {}, ...withCode(fault.cure)));
 }
 
-// Words between backquotes are commands or keys.
-function withCode(text) {
-  return text.split('`').map((part, i) => (i % 2 ? element('code', {}, part) : part));
-}
-
 function stepTable(steps) {
   const seconds = t => (t > 0 ? `+${t.toFixed(3)}` : t.toFixed(3));
   return element('div', { className: 'scroll' }, element('table', { className: 'steps' },
     element('thead', {}, element('tr', {}, headerCell('From', 's'), headerCell('To', 's'), headerCell('State', '', 'text'), headerCell('Drives', '', 'text'))),
     element('tbody', {}, ...steps.map(step => element('tr', { className: step.state === 'fault' ? 'bad' : '' },
       element('td', {}, seconds(step.from_s)), element('td', {}, seconds(step.to_s)),
-      element('td', { className: 'text' }, step.state), element('td', { className: 'text' }, step.drives))))));
+      element('td', { className: 'text' }, step.state.replaceAll('_', ' ')), element('td', { className: 'text' }, step.drives))))));
 }
 
 start();

@@ -1,7 +1,8 @@
 // What was measured around a fault, by panel. Channels are in SI units; a panel shows them times `scale`.
+// Two sides that agree lie on one another: the right one is dashed, so that both are seen.
 const sides = (channel, label = '') => [
   { channel: channel.replace('SIDE', 'left'), label: `left${label}`, color: 'blue' },
-  { channel: channel.replace('SIDE', 'right'), label: `right${label}`, color: 'orange' },
+  { channel: channel.replace('SIDE', 'right'), label: `right${label}`, color: 'orange', style: 'dashed' },
 ];
 const PANELS = [
   { title: 'E-stop line', unit: '1: open', scale: 1, digits: 0, series: [{ channel: 'emergency_stop', label: 'open', color: 'orange', style: 'steps' }] },
@@ -9,8 +10,8 @@ const PANELS = [
   { title: 'Angle of the upper links', unit: 'rad', scale: 1, digits: 3, series: sides('motor_SIDE_position_rad') },
   { title: 'Speed of the motors', unit: 'rad/s', scale: 1, digits: 2, series: sides('motor_SIDE_velocity_radps') },
   { title: 'Current', unit: 'A', scale: 1, digits: 1, series: sides('motor_SIDE_current_A') },
-  { title: 'Commanded torque', unit: 'N·m', scale: 1, digits: 2, series: sides('command_SIDE_torque_Nm') },
-  { title: 'Commanded damping', unit: 'N·m·s/rad', scale: 1, digits: 2, series: sides('command_SIDE_damping_Nm_s_per_rad') },
+  { title: 'Commanded torque', unit: 'N m', scale: 1, digits: 2, series: sides('command_SIDE_torque_Nm') },
+  { title: 'Commanded damping', unit: 'N m s/rad', scale: 1, digits: 2, series: sides('command_SIDE_damping_Nm_s_per_rad') },
   { title: 'Temperature of the drives', unit: '°C', scale: 1, digits: 0, series: sides('motor_SIDE_temperature_C') },
   { title: 'Supply voltage', unit: 'V', scale: 1, digits: 1, series: sides('motor_SIDE_voltage_V') },
   {

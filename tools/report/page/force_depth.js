@@ -201,7 +201,12 @@ class ForceDepth {
     context.stroke();
     const left = x > this.box.x + this.box.w * 0.7;
     context.textAlign = left ? 'right' : 'left';
-    context.fillText(text, x + (left ? -8 : 8), y - 6);
+    const at = x + (left ? -8 : 8);
+    context.lineWidth = 4;
+    context.lineJoin = 'round';
+    context.strokeStyle = theme.color('sheet'); // read on its own paper, not on the lines below it
+    context.strokeText(text, at, y - 6);
+    context.fillText(text, at, y - 6);
   }
 
   // Marks the sample of an instant, chosen elsewhere.

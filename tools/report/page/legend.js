@@ -11,7 +11,7 @@ class Legend {
     this.buttons = entries.map((entry, i) => {
       const swatch = element('i', { className: entry.style || 'line' });
       swatch.style.color = colorOf(entry);
-      if (entry.style !== 'points' && entry.style !== 'band') swatch.style.borderTopColor = colorOf(entry);
+      if (!entry.style?.startsWith('points') && entry.style !== 'band') swatch.style.borderTopColor = colorOf(entry);
       const button = element('button', { type: 'button' }, swatch, entry.label, this.values[i]);
       button.setAttribute('aria-pressed', String(entry.shown));
       button.onclick = () => {

@@ -52,7 +52,7 @@ const PANELS = [
     ],
   },
   {
-    title: 'Torque of both motors', unit: 'N·m', scale: 1, digits: 2,
+    title: 'Torque of both motors', unit: 'N m', scale: 1, digits: 2,
     series: [
       { channel: 'truth_leg_torque_Nm', label: 'truth', color: 'text', style: 'dashed' },
       { channel: 'command_leg_torque_Nm', label: 'command', color: 'orange' },

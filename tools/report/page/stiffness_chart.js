@@ -1,4 +1,4 @@
-// Stiffness of every stride by the three treatments with 95 % intervals; hollow where not valid.
+// Stiffness of every stride by the three treatments and the joint fit with 95 % intervals, where they are valid.
 function drawStiffness(data, figure) {
   const fits = data.strides.flatMap(stride => TREATMENTS.map(treatment => stride[treatment.key]));
   const known = fits.filter(fit => fit.value_N_per_m !== null && fit.valid);
@@ -7,34 +7,44 @@ function drawStiffness(data, figure) {
     return;
   }
   const caption = element('figcaption', {}, element('b', {}, 'Stiffness ', element('span', {}, 'N/m, with 95 % intervals')));
-  figure.append(caption);
   const shown = TREATMENTS.map(treatment => ({ ...treatment, shown: true }));
-  const width = 480;
-  const row = Math.max(4, Math.min(13, 260 / (data.strides.length * 4)));
-  const height = data.strides.length * row * 4 + 30;
+  const svg = svgElement('svg', { role: 'img', 'aria-label': 'Stiffness of each stride' });
+  // One unit of the drawing is one pixel, so that letters keep their size.
+  const draw = () => {
+    const width = Math.round(svg.clientWidth);
+    if (width > 100) drawIntervals(svg, data.strides, known, shown, width);
+  };
+  new Legend(caption, shown, draw, false);
+  figure.append(caption, svg);
+  new ResizeObserver(draw).observe(svg);
+}
+
+function drawIntervals(svg, strides, known, treatments, width) {
+  const row = Math.max(4, Math.min(13, 260 / (strides.length * 4)));
+  const height = strides.length * row * 4 + 30;
   const low = Math.min(...known.map(fit => fit.ci95_N_per_m[0]));
   const high = Math.max(...known.map(fit => fit.ci95_N_per_m[1]));
   const pad = 0.08 * (high - low || high);
   const x = value => 46 + ((value - low + pad) / (high - low + 2 * pad)) * (width - 60);
-  const svg = svgElement('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Stiffness of each stride' });
-
-  for (const tick of roundTicks(low - pad, high + pad, 5)) {
+  svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+  svg.style.height = `${height}px`;
+  svg.replaceChildren();
+  for (const tick of roundTicks(low - pad, high + pad, width / 60)) {
     svg.append(
       svgElement('line', { x1: x(tick), x2: x(tick), y1: 4, y2: height - 22, stroke: 'var(--grid)' }),
       svgText(tick, { x: x(tick), y: height - 8, 'text-anchor': 'middle' }),
     );
   }
-  const marks = shown.map(() => svgElement('g'));
-  data.strides.forEach((stride, i) => {
+  strides.forEach((stride, i) => {
     const top = 8 + i * row * 4;
     if (row > 7 || i % Math.ceil(11 / (4 * row)) === 0) {
       svg.append(svgText(stride.number, { x: 34, y: top + row * 1.5 + 4, 'text-anchor': 'end' }));
     }
-    shown.forEach((treatment, j) => marks[j].append(...whisker(stride[treatment.key], treatment, x, top + j * row + row / 2)));
+    treatments.forEach((treatment, j) => {
+      if (treatment.shown) svg.append(...whisker(stride[treatment.key], treatment, x, top + j * row + row / 2));
+    });
   });
-  svg.append(...marks, svgText('stride', { transform: `translate(10 ${(height - 22) / 2}) rotate(-90)`, 'text-anchor': 'middle' }));
-  new Legend(caption, shown, (i, visible) => { marks[i].style.display = visible ? '' : 'none'; }, false);
-  figure.append(svg);
+  svg.append(svgText('stride', { transform: `translate(10 ${(height - 22) / 2}) rotate(-90)`, 'text-anchor': 'middle' }));
 }
 
 function whisker(fit, treatment, x, y) {

@@ -40,7 +40,7 @@ function fillSection(section, body) {
 }
 
 function shadeOf(share) {
-  return `color-mix(in srgb, var(--orange) ${Math.round(70 * share)}%, transparent)`;
+  return `color-mix(in srgb, var(--orange) ${Math.round(42 * share)}%, transparent)`;
 }
 
 function tableOf(table) {
@@ -56,8 +56,12 @@ function tableOf(table) {
     return made;
   })));
   const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j, table.shades[i]?.[j]))));
-  return element('div', { className: 'table' },
+  const made = element('div', { className: 'table' },
     ...(table.title ? [element('h3', {}, table.title)] : []),
-    element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows))),
+    rows.length
+      ? element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows)))
+      : element('p', { className: 'note' }, 'No entry.'),
     ...(table.note ? [element('p', { className: 'note' }, table.note)] : []));
+  if (rows.length) fitTable(made.querySelector('.scroll'));
+  return made;
 }

@@ -1,6 +1,10 @@
 // Points, lines, intervals and bands over two axes, as SVG.
 class StudyFigure {
-  static kMargin = { left: 62, right: 14, top: 10, bottom: 42 };
+  static kMargin = { right: 14, top: 10, bottom: 42 };
+
+  static kDigit = 6.6; // pixels of one in a tick's label
+
+  static kWordHeight = 18; // pixels above the data for the word of a mark
 
   constructor(figure, panel, width) {
     this.figure = figure;
@@ -33,9 +37,9 @@ class StudyFigure {
   }
 
   static swatch(series) {
-    if (series.mark === 'points') return 'points';
+    if (series.mark === 'points') return series.hollow ? 'points hollow' : 'points';
     if (series.mark === 'band') return 'band';
-    return series.dashed ? 'dashed' : 'line';
+    return series.dotted ? 'dotted' : series.dashed ? 'dashed' : 'line';
   }
 
   draw() {
@@ -46,6 +50,7 @@ class StudyFigure {
       viewBox: `${this.box.x} ${this.box.y} ${this.box.w} ${this.box.h}` });
     for (const [at, word] of this.figure.marks) clip.append(...this.drawMark(at, word));
     for (const series of this.figure.series) if (series.shown) clip.append(this.drawSeries(series));
+    if (this.empty) clip.append(svgText('no values', { x: this.box.x + this.box.w / 2, y: this.box.y + this.box.h / 2, 'text-anchor': 'middle' }));
     this.mark = svgElement('circle', { r: 5, fill: 'none', stroke: 'var(--text)', 'stroke-width': 1.5, visibility: 'hidden' });
     clip.append(this.mark);
     this.svg.append(clip);
@@ -53,13 +58,19 @@ class StudyFigure {
 
   // The view holds every value and interval shown, with a margin.
   fit() {
-    const margin = StudyFigure.kMargin;
-    this.box = { x: margin.left, y: margin.top, w: this.width - margin.left - margin.right, h: this.height - margin.top - margin.bottom };
     const { log_x, log_y, categories } = this.figure;
     const shown = this.figure.series.filter(series => series.shown);
+    this.empty = !shown.some(series => series.y.some(value => value !== null));
     this.xRange = StudyFigure.range(shown.flatMap(series => series.x), log_x);
     this.yRange = StudyFigure.range(shown.flatMap(series => [...series.y, ...series.low, ...series.high]), log_y);
     if (categories.length) this.xRange = [-0.5, categories.length - 0.5];
+    const margin = StudyFigure.kMargin;
+    const h = this.height - margin.top - margin.bottom;
+    if (this.figure.marks.length) this.yRange[1] += ((this.yRange[1] - this.yRange[0]) * StudyFigure.kWordHeight) / (h - StudyFigure.kWordHeight);
+    // Labels of the ticks, right of the axis' name.
+    const longest = Math.max(0, ...StudyFigure.ticks(this.yRange, log_y, h / 38).map(tick => String(tick).length));
+    const left = Math.max(48, 30 + StudyFigure.kDigit * longest);
+    this.box = { x: left, y: margin.top, w: this.width - left - margin.right, h };
   }
 
   static range(values, log) {
@@ -138,7 +149,10 @@ class StudyFigure {
       const radius = indices.length > 400 ? 1.6 : indices.length > 60 ? 2.3 : 3.2;
       for (const i of indices) {
         if (series.low.length) group.append(this.interval(series, i, color));
-        group.append(svgElement('circle', { cx: this.x(series.x[i]), cy: this.y(series.y[i]), r: radius, fill: color, 'fill-opacity': indices.length > 60 ? 0.6 : 0.9 }));
+        const look = series.hollow && series.mark === 'points'
+          ? { fill: 'none', stroke: color, 'stroke-width': 1.3 }
+          : { fill: color, 'fill-opacity': indices.length > 60 ? 0.6 : 0.9 };
+        group.append(svgElement('circle', { cx: this.x(series.x[i]), cy: this.y(series.y[i]), r: radius, ...look }));
       }
     }
     return group;
@@ -157,7 +171,7 @@ class StudyFigure {
       if (known(i)) path += `${pen ? 'L' : 'M'}${this.x(series.x[i]).toFixed(1)} ${this.y(series.y[i]).toFixed(1)}`;
       pen = known(i);
     }
-    return svgElement('path', { d: path, fill: 'none', stroke: color, 'stroke-width': 1.7, 'stroke-dasharray': series.dashed ? '7 4' : 'none' });
+    return svgElement('path', { d: path, fill: 'none', stroke: color, 'stroke-width': 1.7, 'stroke-dasharray': series.dotted ? '2 3' : series.dashed ? '7 4' : 'none' });
   }
 
   area(series, indices, color) {

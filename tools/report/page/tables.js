@@ -3,7 +3,7 @@ function fillText(data) {
   const facts = document.getElementById('facts');
   for (const [label, text] of data.facts) facts.append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
   const answer = document.getElementById('answer');
-  if (data.answer) answer.textContent = data.answer[0].toUpperCase() + data.answer.slice(1);
+  if (data.answer) answer.append(...withCode(data.answer[0].toUpperCase() + data.answer.slice(1)));
   else answer?.remove(); // the page of a fault has none
   const notes = document.getElementById('notes');
   for (const note of data.notes) notes.append(element('p', {}, note));
@@ -38,19 +38,32 @@ function fillStrides(data, table, onChoose) {
       element('td', { className: 'when' }, fixed(stride.liftoff_s, 3)),
       element('td', { className: 'detail' }, fixed(stride.peak_force_N, 1)),
       element('td', {}, fixed(stride.max_depth_m === null ? null : 1000 * stride.max_depth_m, 1)),
-      ...TREATMENTS.map(treatment => stiffnessCell(stride[treatment.key], classOf(treatment))));
+      ...stiffnessCells(stride));
     row.onclick = () => onChoose(stride);
     row.onkeydown = event => { if (event.key === 'Enter') onChoose(stride); };
     return row;
   });
   table.append(element('tbody', {}, ...rows));
   if (!rows.length) table.append(element('caption', {}, 'No stride in this trial.'));
+  fitTable(table.parentElement);
   return rows;
 }
 
 // A small screen has room for the joint fit only.
 function classOf(treatment) {
   return treatment.key === 'joint' ? '' : 'line';
+}
+
+// One cell where no treatment has a figure, all for the same reason.
+function stiffnessCells(stride) {
+  const fits = TREATMENTS.map(treatment => stride[treatment.key]);
+  if (fits.some(fit => fit.valid || fit.value_N_per_m !== null || fit.reason !== fits[0].reason)) {
+    return TREATMENTS.map((treatment, i) => stiffnessCell(fits[i], classOf(treatment)));
+  }
+  const made = stiffnessCell(fits[0], '');
+  made.colSpan = TREATMENTS.length;
+  made.dataset.name = 'stiffness';
+  return [made];
 }
 
 function stiffnessCell(fit, className) {
@@ -68,4 +81,5 @@ function fillEvents(data, table) {
     element('td', {}, event.time_s.toFixed(3)), element('td', {}, event.stride ? String(event.stride) : ''),
     element('td', { className: 'text' }, event.name), element('td', { className: 'text' }, event.reason),
     element('td', { className: 'text' }, event.values)))));
+  fitTable(table.parentElement);
 }

@@ -2,6 +2,8 @@
 class TimePlots {
   static kMaxRows = 20000;  // more are drawn as least and greatest of groups, finer where the view is
 
+  static kMarkLine = 11;    // pixels from the name of one mark to that of the next
+
   static kShaded = ['compression', 'extension', 'fault'];
 
   static kGapRows = 30;     // a line ends where a channel has nothing for longer
@@ -45,11 +47,12 @@ class TimePlots {
       connectSeparatedPoints: true,
       highlightCircleSize: 3,
       xRangePad: 0,
-      yRangePad: this.plots.length ? 6 : 13, // the first holds the names of the marks
+      // The first holds the names of the marks, one in a line.
+      yRangePad: this.plots.length ? 6 : 16 + TimePlots.kMarkLine * Math.max(0, (this.data.marks || []).length - 1),
       axisLabelFontSize: 11,
       axes: {
         x: { pixelsPerLabel: 70, axisLabelFormatter: (t, granularity, options, graph) => t.toFixed(TimePlots.digits(graph)) },
-        y: { axisLabelWidth: 44, pixelsPerLabel: 17 },
+        y: { axisLabelWidth: 54, pixelsPerLabel: 17, axisLabelFormatter: value => String(Number(value.toPrecision(6))) },
       },
       ...this.colors(entries),
       underlayCallback: (context, box, graph) => this.drawPhases(context, box, graph, plot),
@@ -203,10 +206,10 @@ class TimePlots {
     context.save();
     context.strokeStyle = context.fillStyle = theme.color('bad');
     context.font = '10px system-ui, "DejaVu Sans", sans-serif';
-    for (const mark of this.data.marks || []) {
+    for (const [line, mark] of (this.data.marks || []).entries()) {
       const x = Math.round(graph.toDomXCoord(mark.time_s)) + 0.5;
       context.fillRect(x - 0.5, box.y, 1, box.h);
-      if ((this.plots[0] || plot) === plot) context.fillText(mark.name, x + 4, box.y + 9);
+      if ((this.plots[0] || plot) === plot) context.fillText(mark.name, x + 4, box.y + 9 + TimePlots.kMarkLine * line);
     }
     context.setLineDash([6, 4]);
     for (const value of plot.panel.lines || []) {

@@ -9,6 +9,7 @@
 #include "firmware/event.hpp"
 #include "firmware/fault_check.hpp"
 #include "firmware/request_box.hpp"
+#include "terrain/ground_events.hpp"
 #include "terrain/ground_summary.hpp"
 #include "tools/trial/profile_text.hpp"
 #include "tools/trial/trial_text.hpp"
@@ -82,6 +83,13 @@ void take_ground(TrialModel& model, const Json& json) {
   if (profile.depth_max_m > 0.0)
     model.known_ground = fmt::format("known from {:.0f} to {:.0f} mm: {}", 1e3 * profile.depth_min_m,
                                      1e3 * profile.depth_max_m, headline(ground));
+}
+
+// Only what was found: a search that found nothing is no message.
+void take_ground_events(TrialModel& model, const Json& json) {
+  const auto found = record_of<GroundEvents>(json);
+  for (const auto* event : found_in(found))
+    model.say(fmt::format("stride {}: {}", found.stride, in_words(*event)));
 }
 
 LiveStride stride_of(const Json& json) {
@@ -198,6 +206,7 @@ void take_json(TrialModel& model, const Json& json) {
   if (json.contains("event")) return take_event(model, json);
   if (json.contains("stiffness_N_per_m")) return model.strides.push_back(stride_of(json));
   if (json.contains("ground")) return take_ground(model, json);
+  if (json.contains("ground_events")) return take_ground_events(model, json["ground_events"]);
   if (json.contains("end")) return take_end(model, json["end"]);
   if (json.contains("request")) return take_answer(model, json["request"]);
   if (json.contains("ready")) {

@@ -11,12 +11,9 @@ namespace {
 
 using Style = StudyAnswer::Style;
 
-std::string in_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+std::string p_text(double p) {
+  return p < 1e-4 ? "p\u00a0<\u00a00.0001" : fmt::format("p\u00a0=\u00a0{:.2g}", p);
 }
-
-std::string p_text(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
 
 std::string joined(const std::vector<std::string>& words, const char* last) {
   std::string text;
@@ -165,13 +162,13 @@ StudyAnswer how_much_better(const Diagnosis& d) {
   const auto bar = [&](const char* label, double value, const char* color) {
     box.bars.push_back({label, value / most, number(value) + " " + q.unit, color});
   };
-  const bool changed = !nothing_found(d) && d.detail != "data_fault";
+  const bool changed = is_changed(d);
   box.lines.emplace_back(Style::lead, fmt::format("{}: held-out error {}", f.channel,
                                                   changed ? times_the_floor(f.heldout, f.floor)
                                                           : times_the_floor(f.heldout.before, f.floor)));
   bar(changed ? "before" : "error", f.heldout.before, "orange");
   if (changed) bar("after", f.heldout.after, "blue");
-  bar("floor", f.floor, "grey");
+  bar("noise floor", f.floor, "grey");
   box.lines.emplace_back(
       Style::quiet, changed ? "Root mean square on trials held out of the fit; the noise floor is what "
                               "trials differ by when nothing is missing."
@@ -193,6 +190,13 @@ StudyAnswer what_next(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool is_changed(const Diagnosis& d) { return !nothing_found(d) && d.detail != "data_fault"; }
 
 std::vector<StudyAnswer> page_answers(const Diagnosis& d) {
   return {where(d), what(d), how_sure(d), how_much_better(d), what_next(d)};

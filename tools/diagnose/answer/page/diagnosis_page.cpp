@@ -11,7 +11,7 @@ Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
   study.title = "Diagnosis: " + facts.campaign;
   study.facts = {{"plant", facts.plant},
                  {"trials", fmt::format("{}", d.trials)},
-                 {"verdict", d.detail == "null" ? d.verdict : d.verdict + ", " + d.detail},
+                 {"verdict", in_words(d.detail == "null" ? d.verdict : d.verdict + ", " + d.detail)},
                  {"simulations", fmt::format("{} in {:.1f} s, {:.0f} a second", d.simulations, d.seconds,
                                              simulations_per_second(d))}};
   if (!facts.findings.empty() || !d.notes.empty())

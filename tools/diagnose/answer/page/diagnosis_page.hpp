@@ -25,6 +25,8 @@ void write_diagnosis_page(const Diagnosis& diagnosis, const PageFacts& facts,
                           const std::filesystem::path& path);
 
 // Parts of it.
+std::string in_words(std::string name);       // "fast fall" of "fast_fall"
+bool is_changed(const Diagnosis& diagnosis);  // something was found that changes the simulation
 std::vector<StudyAnswer> page_answers(const Diagnosis& diagnosis);
 std::vector<StudySection> page_sections(const Diagnosis& diagnosis, const PageFacts& facts);
 StudySection trial_section(const Diagnosis& diagnosis, const std::string& trial);

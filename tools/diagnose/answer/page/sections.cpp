@@ -23,11 +23,12 @@ StudySection errors_section(const Diagnosis& d) {
   for (const auto& e : d.phase_errors) add(phases, e.phase);
   StudyTable table;
   table.columns = {"channel"};
-  for (auto phase : phases) {
-    std::replace(phase.begin(), phase.end(), '_', ' ');
-    table.columns.push_back(phase);
-  }
-  table.columns.insert(table.columns.end(), {"all, before", "all, after", "floor"});
+  for (const auto& phase : phases) table.columns.push_back(in_words(phase));
+  const bool found = is_changed(d);
+  if (found)
+    table.columns.insert(table.columns.end(), {"all, before", "all, after", "noise floor"});
+  else
+    table.columns.insert(table.columns.end(), {"all phases", "noise floor"});
   for (const auto& channel : channels) {
     std::vector<std::string> row{channel};
     std::vector<std::pair<double, double>> shades{{0.0, 0.0}};
@@ -41,13 +42,16 @@ StudySection errors_section(const Diagnosis& d) {
         continue;
       }
       const double before = cell->before / cell->floor, after = cell->after / cell->floor;
-      row.push_back(fmt::format("{:.2f} → {:.2f}", before, after));
-      shades.emplace_back(shade(before), shade(after));
+      row.push_back(found ? fmt::format("{:.2f} → {:.2f}", before, after) : fmt::format("{:.2f}", before));
+      shades.emplace_back(shade(before), shade(found ? after : before));
     }
     const auto fit =
         std::find_if(d.fits.begin(), d.fits.end(), [&](const ChannelFit& f) { return f.channel == channel; });
     const auto unit = quantity_of(channel).unit;
-    for (const double value : {fit->heldout.before, fit->heldout.after, fit->floor}) {
+    std::vector<double> values{fit->heldout.before};
+    if (found) values.push_back(fit->heldout.after);
+    values.push_back(fit->floor);
+    for (const double value : values) {
       row.push_back(number(value) + " " + unit);
       shades.emplace_back(0.0, 0.0);
     }
@@ -55,10 +59,14 @@ StudySection errors_section(const Diagnosis& d) {
     table.shades.push_back(std::move(shades));
   }
   table.note =
-      "Held-out error as a multiple of the noise floor of its channel and phase, before → after what was "
-      "found "
-      "is added. 1.00 is as good as trials repeat; the darker, the more is missing.";
-  return {"Before and after, by channel and phase", {table}};
+      found
+          ? "Held-out error as a multiple of the noise floor of its channel and phase, before → after what "
+            "was "
+            "found is added. 1.00 is as good as trials repeat; the stronger the colour, the more is missing."
+          : "Held-out error as a multiple of the noise floor of its channel and phase. 1.00 is as good as "
+            "trials "
+            "repeat; the stronger the colour, the more is missing.";
+  return {found ? "Before and after, by channel and phase" : "Error by channel and phase", {table}};
 }
 
 StudySection effects_section(const Diagnosis& d) {
@@ -68,11 +76,10 @@ StudySection effects_section(const Diagnosis& d) {
                    "equation",
                    "parameter",
                    "value",
-                   "95 % from",
-                   "95 % to",
+                   "95 % interval",
                    "probability",
                    "share of the fall of the held-out error",
-                   "of its typical size",
+                   "times the typical size",
                    "p"};
   table.text_columns = 4;
   table.whole = true;
@@ -84,9 +91,10 @@ StudySection effects_section(const Diagnosis& d) {
                                    first ? e.statement : "", first ? e.equation : ""};
       if (i < e.parameters.size()) {
         const auto& p = e.parameters[i];
-        row.insert(row.end(), {quantity_of(p.name).label(), number(p.value), number(p.low), number(p.high)});
+        row.insert(row.end(), {quantity_of(p.name).label(), number(p.value),
+                               fmt::format("{} to {}", number(p.low), number(p.high))});
       } else {
-        row.insert(row.end(), {"", "", "", ""});
+        row.insert(row.end(), {"", "", ""});
       }
       if (first)
         row.insert(row.end(), {fmt::format("{:.2f}", e.probability), fmt::format("{:.2f}", e.heldout_gain),
@@ -137,41 +145,52 @@ StudySection where_section(const Diagnosis& d) {
       "p",       "trials"};
   table.text_columns = 4;
   for (const auto& w : d.where)
-    table.rows.push_back({w.channel, w.phase, w.port, quantity_of(w.coordinate).label(), number(w.range_low),
-                          number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
+    table.rows.push_back({w.channel, in_words(w.phase), w.port, quantity_of(w.coordinate).label(),
+                          number(w.range_low), number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
                           fmt::format("{:.1e}", w.p_value), fmt::format("{}", w.trials.size())});
   table.note =
-      "Where the error of the simulation as believed gathers. The axis is the quantity along which it is "
-      "least even, "
-      "with the range that holds its larger values. A port stands here only where something found acts on "
-      "that cell.";
+      "Channels and phases in which the error of the simulation as believed is largest. The axis is the "
+      "quantity "
+      "along which that error is least even, with the range of its larger values. A port is named only where "
+      "something found acts on that channel and phase.";
   return {"Where it shows", {table}};
 }
 
 StudySection trial_to_trial_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"", "believed sd", "mean as believed", "sd", "mean with what was found", "sd"};
+  table.columns = {"fitted in each trial",     "believed sd",           "mean as believed", "sd as believed",
+                   "mean with what was found", "sd with what was found"};
   for (const auto& n : d.trial_to_trial)
     table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
                           number(n.sd_before), number(n.mean_after), number(n.sd_after)});
   table.note =
-      "What every trial is fitted with beside the model. A mean that is far from zero for its believed sd, "
-      "or a sd that is much larger, says that something is taken up there.";
+      "Parameters that are fitted in each trial beside the model. Where their mean lies many believed "
+      "standard "
+      "deviations (sd) from zero, or their sd is much larger than believed, they have absorbed something "
+      "that "
+      "the model lacks.";
   return {"What differs from trial to trial", {table}};
 }
 
 StudySection absent_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"effect", "parameter", "magnitude below", "of its typical size"};
+  table.columns = {"effect", "parameter", "magnitude below (95 %)", "that bound, times the typical size"};
   table.text_columns = 2;
   for (const auto& b : d.absent)
     table.rows.push_back(
         {b.id, quantity_of(b.parameter).label(), number(b.value), fmt::format("{:.2g}", b.typicals)});
   table.note =
-      "95 % upper bounds of what was looked for and not found, each alone beside what was found. Above 1 of "
-      "the "
-      "typical size these recordings say little.";
+      "95 % upper bounds of what was looked for and not found, each alone beside what was found. A bound "
+      "above "
+      "1 typical size is wide: an effect of the usual size could hide below it.";
   return {"What is absent", {table}};
+}
+
+// "m/s²" of "m/s^2".
+std::string with_powers(std::string unit) {
+  for (const auto& [typed, set] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
+    for (auto at = unit.find(typed); at != std::string::npos; at = unit.find(typed)) unit.replace(at, 2, set);
+  return unit;
 }
 
 StudySection belief_section(const Diagnosis& d) {
@@ -183,7 +202,7 @@ StudySection belief_section(const Diagnosis& d) {
     const auto value =
         n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
     table.rows.push_back(
-        {n.key, n.said_by, value, n.unit, number(n.usual_error),
+        {n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
          std::isfinite(n.error_that_shows) ? number(n.error_that_shows) : std::string("none"),
          n.matters() ? "yes" : ""});
   }

@@ -29,13 +29,13 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
   return out;
 }
 
-StudySeries floor_band(const std::vector<double>& time_s, double floor) {
-  StudySeries band{"floor, ± 2 sd", {}, {}, {}, {}, Mark::band, "grey"};
-  if (time_s.empty()) return band;
-  band.x = {time_s.front(), time_s.back()};
-  band.y = {0.0, 0.0};
-  band.low = {-2.0 * floor, -2.0 * floor};
-  band.high = {2.0 * floor, 2.0 * floor};
+StudySeries floor_band(const std::vector<double>& time_s, const std::vector<double>& floor) {
+  StudySeries band{"noise floor, ± 2 sd", time_s, {}, {}, {}, Mark::band, "grey"};
+  for (const double sd : floor) {
+    band.y.push_back(0.0);
+    band.low.push_back(-2.0 * sd);
+    band.high.push_back(2.0 * sd);
+  }
   return band;
 }
 
@@ -59,7 +59,7 @@ StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
 }  // namespace
 
 StudySection trial_section(const Diagnosis& d, const std::string& trial) {
-  const bool found = !d.effects.empty() && d.detail != "data_fault";
+  const bool found = is_changed(d);
   StudySection section{"Trial " + trial + ": recorded and simulated", {}};
   for (const auto& fit : d.fits)  // the channel that shows most first
     for (const auto& trace : d.traces) {
@@ -88,7 +88,7 @@ StudySection next_trial_section(const Diagnosis& d) {
                          .color = "orange",
                          .dashed = true});
   StudyFigure apart{"Difference of the two: " + q.words, "time, s", q.label(), {}};
-  apart.series.push_back(floor_band(next.time_s, next.floor));
+  apart.series.push_back(floor_band(next.time_s, std::vector<double>(next.time_s.size(), next.floor)));
   apart.series.push_back({next.second + " less " + next.first,
                           next.time_s,
                           difference(next.by_second, next.by_first),

@@ -34,7 +34,7 @@ const EffectRegistration kEffect(
     {.id = "body.mass",
      .port = "inertia",
      .statement = "The body's mass is not what is believed.",
-     .equation = "m -> m + e (p m + (1 - p) m_0), p 1 where all have one mass m_0",
+     .equation = "m -> m + e (p m + (1 - p) m_0), p = 1 if all trials have one mass m_0",
      .plants = {PlantKind::falling_body, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply,

@@ -44,17 +44,17 @@ Claim touchdown_speeds(const ProgrammeResults& r) {
 }
 
 Claim leg_stiffnesses(const ProgrammeResults& r) {
-  Claim c{15, "Extension stiffness 5.00 N/cm, compression 2.50, 3.75 and 5.00 N/cm",
+  Claim c{15, "Extension stiffness 500 N/m, compression 250, 375 and 500 N/m",
           "dF/dL of the leg within 1 % in each mode, where the torque is not at its limit"};
   double worst = 0.0;
   for (const double set : {250.0, 375.0, 500.0}) {
     const auto found = leg_stiffness(r.setup.cycle, r.setup.world, set);
-    c.figures.push_back({fmt::format("compression set to {:.2f} N/cm", set / 100.0),
-                         found.compression_N_per_m / 100.0, "N/cm", 3});
+    c.figures.push_back(
+        {fmt::format("compression set to {:.0f} N/m", set), found.compression_N_per_m, "N/m", 1});
     worst = std::max(worst, std::abs(found.compression_N_per_m / set - 1.0));
     if (set != 375.0 || std::isnan(found.extension_N_per_m)) continue;
     const double extension = r.setup.cycle.controller.extension_stiffness_N_per_m;
-    c.figures.push_back({"extension", found.extension_N_per_m / 100.0, "N/cm", 3});
+    c.figures.push_back({"extension", found.extension_N_per_m, "N/m", 1});
     worst = std::max(worst, std::abs(found.extension_N_per_m / extension - 1.0));
   }
   c.verdict = comes_out_if(worst <= 0.01);

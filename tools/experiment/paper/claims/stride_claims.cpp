@@ -33,7 +33,7 @@ Claim event_times(const ProgrammeResults& r) {
   c.verdict =
       comes_out_if(std::abs(compression / 0.15 - 1.0) <= 0.2 && std::abs(extension / 0.19 - 1.0) <= 0.2);
   c.why = fmt::format(
-      "1.0 m/s, 3.75 N/cm, {} trials; extension is short by {:.0f} %: a stronger push shortens it",
+      "1.0 m/s, 375 N/m, {} trials; extension is short by {:.0f} %: a stronger push shortens it",
       trials.size(), 100.0 * (1.0 - extension / 0.19));
   return c;
 }
@@ -58,11 +58,11 @@ Claim second_penetration(const ProgrammeResults& r) {
       [](const HopResult& h) { return h.shape.plateau_s >= 0.020; });
   Claim c{19, "The foot's height stays on a plateau, then it penetrates again",
           "two phases of penetration with at least 20 ms below 0.02 m/s between"};
-  c.figures = {share_figure(share), {"with 2.5 and 3.75 N/cm", 100.0 * slow_leg, "%", 1}};
+  c.figures = {share_figure(share), {"with 250 and 375 N/m", 100.0 * slow_leg, "%", 1}};
   add_range(c, "plateau", "ms", 1e3, 1, over(trials, [](const HopResult& h) { return h.shape.plateau_s; }));
   c.verdict = verdict_of_share(share);
   c.why =
-      "the leg is softer in compression than the bed is strong: with 5 N/cm and a fast touchdown the "
+      "the leg is softer in compression than the bed is strong: with 500 N/m and a fast touchdown the "
       "plateau is short";
   return c;
 }
@@ -167,15 +167,15 @@ Claim three_transients(const ProgrammeResults& r) {
   };
   Claim c{25, "Three transients of the acceleration: touchdown, switch, liftoff",
           "foot's acceleration departs by over 3 m/s² within 20 ms of each: up, down, up"};
-  c.figures = {{"trials with 2.5 and 3.75 N/cm in which it holds", 100.0 * share, "%", 1},
-               {"trials with 5 N/cm", 100.0 * share_equal, "%", 1},
+  c.figures = {{"trials with 250 and 375 N/m in which it holds", 100.0 * share, "%", 1},
+               {"trials with 500 N/m", 100.0 * share_equal, "%", 1},
                {"touchdown, mean", average(&StrideShape::touchdown_transient_mps2), "m/s²", 1},
                {"switch, mean", average(&StrideShape::switch_transient_mps2), "m/s²", 1},
                {"liftoff, mean", average(&StrideShape::liftoff_transient_mps2), "m/s²", 1}};
   c.verdict =
       share >= 0.95 ? (share_equal >= 0.95 ? Verdict::comes_out : Verdict::only_if) : verdict_of_share(share);
   c.why =
-      "the leg's stiffness changes at the switch: with 5 N/cm in both phases only the neutral length does, "
+      "the leg's stiffness changes at the switch: with 500 N/m in both phases only the neutral length does, "
       "and at the motors' limit not even that shows";
   return c;
 }

@@ -21,7 +21,7 @@ const ActuatorRun& run_near(const ProgrammeResults& r, double speed_mps) {
 }
 
 StudyFigure curves(const ProgrammeResults& r, bool residual) {
-  StudyFigure figure{.title = residual ? "What the map leaves" : "Force against depth by speed",
+  StudyFigure figure{.title = residual ? "Residual of the map" : "Force against depth by speed",
                      .x_label = "depth, mm",
                      .y_label = residual ? "force less map, N" : "force, N"};
   std::size_t color = 0;

@@ -40,7 +40,7 @@ StudyFigure descriptions(const std::vector<PenetratingSample>& samples) {
 
 StudyFigure remainder(const std::vector<PenetratingSample>& samples) {
   using Sample = PenetratingSample;
-  return {.title = "What the map leaves, and the added mass's force",
+  return {.title = "Residual of the map, and the added mass's force",
           .x_label = "time since contact, ms",
           .y_label = "force, N",
           .series = {over_time(samples, "force less map", "orange",

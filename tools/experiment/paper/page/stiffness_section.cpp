@@ -77,13 +77,13 @@ StudyFigure over_axis(const CaseResult& result, const CellAxis& a) {
 std::vector<StudyFigure> axis_figures(const CaseResult& result) {
   std::vector<StudyFigure> figures;
   for (const double k : {250.0, 375.0, 500.0})
-    figures.push_back(over_axis(
-        result, {&HopCell::touchdown_speed_mps, &HopCell::compression_stiffness_N_per_m, k, 1.0,
-                 "touchdown speed, m/s", fmt::format("Over touchdown speed, {:.2f} N/cm", k / 100.0)}));
+    figures.push_back(
+        over_axis(result, {&HopCell::touchdown_speed_mps, &HopCell::compression_stiffness_N_per_m, k, 1.0,
+                           "touchdown speed, m/s", fmt::format("Over touchdown speed, {:.0f} N/m", k)}));
   for (const double v : {0.2, 0.7, 1.2})
     figures.push_back(over_axis(
-        result, {&HopCell::compression_stiffness_N_per_m, &HopCell::touchdown_speed_mps, v, 0.01,
-                 "compression stiffness, N/cm", fmt::format("Over compression stiffness, {:.1f} m/s", v)}));
+        result, {&HopCell::compression_stiffness_N_per_m, &HopCell::touchdown_speed_mps, v, 1.0,
+                 "compression stiffness, N/m", fmt::format("Over compression stiffness, {:.1f} m/s", v)}));
   return figures;
 }
 
@@ -171,13 +171,12 @@ StudyTable cases_table(const TreatmentStudy& study) {
 StudyTable cells_table(const CaseResult& result) {
   StudyTable table{
       .title = "k/k_GT by cell, case A: mean and standard deviation over seeds of the mean of five trials",
-      .columns = {"touchdown speed, m/s", "compression stiffness, N/cm", "QS", "MO", "WLS"},
+      .columns = {"touchdown speed, m/s", "compression stiffness, N/m", "QS", "MO", "WLS"},
       .text_columns = 0,
       .whole = true};
   for (std::size_t cell = 0; cell < hop_cells().size(); ++cell) {
-    std::vector<std::string> row{
-        fmt::format("{:.2f}", hop_cells()[cell].touchdown_speed_mps),
-        fmt::format("{:.2f}", hop_cells()[cell].compression_stiffness_N_per_m / 100.0)};
+    std::vector<std::string> row{fmt::format("{:.2f}", hop_cells()[cell].touchdown_speed_mps),
+                                 fmt::format("{:.0f}", hop_cells()[cell].compression_stiffness_N_per_m)};
     for (std::size_t t = 0; t < kTreatments; ++t) {
       const auto found = ratios(result, t, cell);
       row.push_back(found.size() > 1 ? fmt::format("{:.2f} ± {:.2f}", mean(found), standard_deviation(found))

@@ -167,9 +167,9 @@ StudySection stride_section(const ProgrammeResults& r) {
   const auto& t = r.example;
   StudySection section{.title = "Single stride"};
   section.items = {
-      fmt::format("One trial of the hop set: touchdown at {:.1f} m/s, compression with {:.2f} N/cm. TD: the "
+      fmt::format("One trial of the hop set: touchdown at {:.1f} m/s, compression with {:.0f} N/m. TD: the "
                   "foot meets the bed; CE: compression ends, extension begins; LO: liftoff.",
-                  t.cell.touchdown_speed_mps, t.cell.compression_stiffness_N_per_m / 100.0),
+                  t.cell.touchdown_speed_mps, t.cell.compression_stiffness_N_per_m),
       leg_length(t),
       body_height(t),
       foot_height(t),
