@@ -40,6 +40,8 @@ class Controller {
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
   // True where the foot has just left its crater: what the ground did to it in the stride before is complete.
   bool ground_events_complete() const noexcept { return recorder_.foot_is_clear() && hopping_; }
+  // Estimated depth of the foot on new ground in the present stride; zero before it is reached.
+  double new_ground_m() const noexcept { return recorder_.new_ground_m(); }
   const GroundEventSums& ground_event_sums() const noexcept { return recorder_.event_sums(); }
   // Whether the last step's request meant anything in the state the robot was in.
   bool request_had_effect() const noexcept { return request_had_effect_; }

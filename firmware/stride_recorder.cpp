@@ -64,7 +64,9 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   events_.close(current_.stride, now_ns);
   leaving_ = true;
   rises_ = false;
-  crater_depth_m_ = deepest_m_;
+  // A foot on new ground is at its deepest point, although the estimated depth may be less than the crater's.
+  if (new_deepest_m_ > 0.0) crater_depth_m_ = new_deepest_m_;
+  deepest_m_ = crater_depth_m_;
   crater_force_N_ = deepest_force_N_;
   surface_z_m_ = std::min(last_foot_z_m_, 0.0);
   begin_flight(now_ns);
@@ -151,15 +153,18 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     weighted_.add({depth_m, e.contact_force_N, weight});
   }
   const JointSample sample = joint_sample(e, depth_m, current_.contact_ns);
-  if (depth_m > deepest_m_) {
-    if (virgin && e.force_velocity_mps > config_.min_speed_mps)
-      accumulate_joint(sample, e.quasi_static_force_N);
-    if (e.force_velocity_mps > config_.min_speed_mps && on_new_ground(sample))
-      deepest_force_N_ = sample.force_N - profile_.inertia_N(sample);
-    deepest_m_ = depth_m;
-    // While the foot unloads, drift of the estimated depth can pass for a new depth; its speed tells.
-    if (!through_stance && e.force_velocity_mps > config_.min_speed_mps) commit();
+  const bool settled = profile_.watch(sample);
+  // While the foot rests or unloads, drift of the estimated depth can pass for a new depth; its speed tells.
+  if (e.force_velocity_mps <= config_.min_speed_mps) return;
+  if (settled && depth_m > new_deepest_m_ && on_new_ground(sample)) {
+    profile_.add(sample, e.quasi_static_force_N);
+    deepest_force_N_ = sample.force_N - profile_.inertia_N(sample);
+    new_deepest_m_ = depth_m;
   }
+  if (depth_m <= deepest_m_) return;
+  if (virgin) joint_.add(sample);
+  deepest_m_ = depth_m;
+  if (!through_stance) commit();
 }
 
 JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
@@ -173,18 +178,14 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
           .duration_s = sample_duration_s_};
 }
 
-// Just below the old crater the estimated depth does not tell on which line the ground answers: a force
-// greater than that at its deepest point does.
+// Near the old crater the estimated depth does not tell on which line the ground answers: a force greater
+// than that at its deepest point does. A test of the depth alone would select landings whose depth is
+// overestimated.
 bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
   constexpr double kDeviations = 2.0;
   const double sure_m = crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
   return crater_depth_m_ == 0.0 || sample.depth_m > sure_m ||
          sample.force_N - profile_.inertia_N(sample) >= crater_force_N_;
-}
-
-void StrideRecorder::accumulate_joint(const JointSample& sample, double motor_force_N) noexcept {
-  joint_.add(sample);
-  if (on_new_ground(sample)) profile_.add(sample, motor_force_N);
 }
 
 void StrideRecorder::restart_sums() noexcept {
@@ -196,6 +197,7 @@ void StrideRecorder::restart_sums() noexcept {
   weighted_.reset();
   joint_.reset();
   unloading_.reset();
+  new_deepest_m_ = 0.0;
 }
 
 void StrideRecorder::commit() noexcept {

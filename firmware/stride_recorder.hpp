@@ -31,6 +31,8 @@ class StrideRecorder {
   bool foot_is_clear() const noexcept { return clear_; }
   const GroundEventSums& event_sums() const noexcept { return events_.sums(); }
   std::uint32_t strides_begun() const noexcept { return current_.stride; }
+  // Deepest point of the present stride on new ground; zero before it is reached.
+  double new_ground_m() const noexcept { return new_deepest_m_; }
   // Where the foot should meet the ground next: the surface at first, then the floor of its own crater.
   double surface_z_m() const noexcept { return surface_z_m_; }
 
@@ -40,7 +42,6 @@ class StrideRecorder {
   void restart_sums() noexcept;
   void accumulate(const Estimate& estimate, double depth_m) noexcept;
   JointSample joint_sample(const Estimate& estimate, double depth_m, std::int64_t contact_ns) const noexcept;
-  void accumulate_joint(const JointSample& sample, double motor_force_N) noexcept;
   void commit() noexcept;
   void take_crater_floor(std::int64_t now_ns) noexcept;
   bool on_new_ground(const JointSample& sample) const noexcept;
@@ -63,6 +64,7 @@ class StrideRecorder {
   StrideSums done_{};
   double datum_m_ = 0.0;          // what the filter calls depth where the first stride met the surface
   double deepest_m_ = 0.0;        // of this and all former strides, below that datum
+  double new_deepest_m_ = 0.0;    // of this stride, on new ground; zero before it is reached
   double crater_depth_m_ = 0.0;   // of former strides
   double deepest_force_N_ = 0.0;  // without drag and added mass, at the deepest point
   double crater_force_N_ = 0.0;   // the same, of former strides

@@ -90,15 +90,21 @@ void ProfileRegression::reset() noexcept {
   if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
 }
 
-void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {
-  if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2)) {
-    // One cycle and three time constants of the IMU's low-pass of 400 Hz still hold what was cut off.
-    constexpr double kSettling_s = 0.003;
+bool ProfileRegression::watch(const JointSample& s) noexcept {
+  // One cycle and three time constants of the IMU's low-pass of 400 Hz still hold what was cut off.
+  constexpr double kSettling_s = 0.003;
+  if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2))
     settled_s_ = s.since_contact_s + kSettling_s;
+  return s.since_contact_s >= settled_s_;
+}
+
+void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {
+  const bool settled = watch(s);
+  if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2)) {
     ++sums_.saturated;
     return;
   }
-  if (s.since_contact_s < settled_s_) return;
+  if (!settled) return;
   if (!(s.depth_m > 0.0)) return;
   if (!(s.depth_m < kProfileDepth_m)) {
     ++sums_.too_deep;
@@ -138,6 +144,7 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
   cell.weighted_force += share * s.force_N;
   sums_.depth_min_m = sums_.samples == 0 ? s.depth_m : std::min(sums_.depth_min_m, s.depth_m);
   sums_.depth_max_m = std::max(sums_.depth_max_m, s.depth_m);
+  sums_.last_s = s.since_contact_s;
   ++sums_.samples;
 }
 

@@ -53,6 +53,7 @@ struct ProfileSums {
   // from the force that it helps to measure; the density of such a sample has the factor 1 + c m_a / M_f.
   double response = 0.0, response_squared = 0.0;
   double reduced_mass_kg = 0.0;  // M_f
+  double last_s = 0.0;           // time since contact of the last sample
   std::int32_t samples = 0;
   std::int32_t saturated = 0;
   std::int32_t too_deep = 0;  // below the last cell
@@ -71,6 +72,9 @@ class ProfileRegression {
  public:
   // `reduced_mass_kg`: what the foot accelerates as, with its leg (estimation/leg.hpp).
   ProfileRegression(const StiffnessConfig& config, double foot_radius_m, double reduced_mass_kg);
+  // For every sample of a stance, on new ground or not. False where the accelerometer is at its range or was
+  // just before: such a sample does not count.
+  bool watch(const JointSample& sample) noexcept;
   // `motor_force_N`: the part of the force that the motors' current gives.
   void add(const JointSample& sample, double motor_force_N) noexcept;
   // Drag and added mass of the believed bed on the foot.

@@ -21,7 +21,10 @@ constexpr double kLeastRatio = 3.0, kGreatestRatio = 600.0;
 // On a steeper line the foot moves by less than the accelerometer's noise hides: rigid ground gives 90 to 190
 // kN/m there (strength_profile_test), so that nothing beyond is an upper end.
 constexpr double kResolvedRatio = 100.0;
-constexpr std::array<double, 3> kDampingRatios{0.0, 0.4, 0.9};
+// Damping ratio: uniform from none to nearly critical. The likelihood's logarithm is a parabola in it,
+// because the force is linear in the damping.
+constexpr std::array<double, 3> kDampingRatios{0.0, 0.45, 0.9};
+constexpr int kDampingSteps = 36;
 // Prior at the start of the trace, as a force and its rate: a foot on a steeper line moves by less. The rate
 // is 60 N in 30 ms.
 constexpr double kForce_N = 10.0, kForceRate_N_per_s = 2000.0;
@@ -129,33 +132,59 @@ void ReloadingPosterior::add(const UnloadingTrace& trace, double foot_kg) noexce
     std::array<double, kDampingRatios.size()> each{};
     for (std::size_t j = 0; j < each.size(); ++j)
       each[j] = log_likelihood(trace, k, 2.0 * kDampingRatios[j] * std::sqrt(k * foot_kg));
-    const double best = *std::ranges::max_element(each);
+    std::array<double, kDampingSteps + 1> fine{};
+    for (int i = 0; i <= kDampingSteps; ++i) {
+      const double x = 2.0 * i / kDampingSteps - 1.0;  // -1, 0 and 1 at the three ratios
+      fine[static_cast<std::size_t>(i)] =
+          each[1] + 0.5 * x * (each[2] - each[0]) + 0.5 * x * x * (each[2] - 2.0 * each[1] + each[0]);
+    }
+    const double best = *std::ranges::max_element(fine);
     double sum = 0.0;
-    for (const double l : each) sum += std::exp(l - best);
+    for (const double l : fine) sum += std::exp(l - best);
     log_likelihood_[g] += best + std::log(sum);
   }
+}
+
+// The likelihood of a good trace is narrower than the grid. Its logarithm is smooth: a cubic through four
+// points.
+double ReloadingPosterior::log_likelihood_at(double place) const noexcept {
+  const auto first = static_cast<std::size_t>(std::clamp(place - 1.0, 0.0, static_cast<double>(kGrid - 4)));
+  double sum = 0.0;
+  for (std::size_t i = first; i < first + 4; ++i) {
+    double weight = 1.0;
+    for (std::size_t j = first; j < first + 4; ++j)
+      if (j != i)
+        weight *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+    sum += weight * log_likelihood_[i];
+  }
+  return sum;
 }
 
 ReloadingLine ReloadingPosterior::line() const noexcept {
   if (!known_) return {};
   constexpr double kTail = 0.025;
-  const double best = *std::ranges::max_element(log_likelihood_);
-  std::array<double, kGrid> share{};
+  constexpr std::size_t kFine = 16, kPlaces = (kGrid - 1) * kFine + 1;  // 1.4 % apart
+  constexpr double kStep = 1.0 / static_cast<double>(kFine);
+  std::array<double, kPlaces> share{};
+  for (std::size_t i = 0; i < kPlaces; ++i) share[i] = log_likelihood_at(static_cast<double>(i) * kStep);
+  const double best = *std::ranges::max_element(share);
   double total = 0.0;
-  for (std::size_t g = 0; g < kGrid; ++g) total += share[g] = std::exp(log_likelihood_[g] - best);
+  for (double& s : share) total += s = std::exp(s - best);
   const auto quantile = [&](double probability) {
     double below = 0.0;
-    for (std::size_t g = 0; g < kGrid; ++g) {
-      const double here = share[g] / total;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+      const double here = share[i] / total;
       if (below + here >= probability)
-        return stiffness_N_per_m(static_cast<double>(g) + (probability - below) / here - 0.5);
+        return stiffness_N_per_m(kStep * (static_cast<double>(i) + (probability - below) / here - 0.5));
       below += here;
     }
     return stiffness_N_per_m(static_cast<double>(kGrid));
   };
-  // The torque constant's error is common to all strides and no noise.
-  const double scale = std::exp(1.959964 * force_scale_relative_);
-  ReloadingLine line{quantile(0.5), quantile(kTail) / scale, quantile(1.0 - kTail) * scale};
+  // The torque constant's error is common to all strides and no noise; it is independent of theirs.
+  const double scale = 1.959964 * force_scale_relative_;
+  const double middle = quantile(0.5);
+  const auto beyond = [&](double end) { return std::exp(std::hypot(std::log(end / middle), scale)); };
+  ReloadingLine line{middle, middle / beyond(quantile(kTail)), middle * beyond(quantile(1.0 - kTail))};
   if (line.ci95_high_N_per_m > kResolvedRatio * config_.believed_stiffness_N_per_m)
     line.ci95_high_N_per_m = std::numeric_limits<double>::infinity();
   return line;

@@ -11,7 +11,8 @@
 //   F = k z + c v + noise,   dz/dt = v,   dv/dt = a - b + noise
 // with F the force and a the acceleration as measured, b the accelerometer's bias and c = 2 zeta sqrt(k M)
 // the damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b; zeta
-// is integrated over a grid, and the posterior of k is that of a grid with a log-uniform prior. Strides of
+// is integrated out, and the posterior of k has a log-uniform prior. Between the points of a grid the
+// likelihood's logarithm is interpolated, by a cubic in log k and a parabola in zeta. Strides of
 // one trial multiply their likelihoods. Where the line is too steep for the sensors the answer is a lower
 // bound. Sources: the line and its damping as in bed.hpp; likelihood of a linear state-space model by
 // prediction errors (Schweppe 1965).
@@ -64,6 +65,7 @@ class ReloadingPosterior {
 
  private:
   double stiffness_N_per_m(double place) const noexcept;
+  double log_likelihood_at(double place) const noexcept;
   double log_likelihood(const UnloadingTrace& trace, double k, double c) const noexcept;
 
   ProfileConfig config_;

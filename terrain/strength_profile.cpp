@@ -19,6 +19,13 @@ constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
 constexpr double kDegrees = 1.0;  // of Student's distribution: Cauchy
 
+// Cell of the shallowest sample.
+std::size_t first_observed(const ProfileSums& sums) noexcept {
+  const auto first =
+      std::ranges::find_if(sums.cells, [](const ProfileCell& c) { return c.observations > 0.0; });
+  return static_cast<std::size_t>(first - sums.cells.begin());
+}
+
 struct Column {
   ProfileFeature feature;
   double scale;
@@ -46,13 +53,15 @@ ProfileSolver::ProfileSolver(const StiffnessConfig& config)
 void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
+  kept_normal_.back() = 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
+  shared_normal_ = {};
+  shared_moment_ = {};
   posterior_ = {};
   profile_ = {};
   response_ = {};
   slope_N_per_m_ = believed_N_per_m_;
   reloading_.restart();
   unresolved_N2_.fill(0.0);
-  jump_.fill(1.0);
   line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
@@ -96,21 +105,6 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
   return info;
 }
 
-void ProfileSolver::add_stride_prior(Information& info, double landings) const noexcept {
-  const double landing_m = std::sqrt(landings) * prior_.landing_depth_sd_m;
-  const auto& joint = config_.joint;
-  const std::array<std::pair<std::size_t, double>, 4> priors{
-      {{kSurface, std::sqrt(joint.surface_sd_m * joint.surface_sd_m + landing_m * landing_m)},
-       {kDrift, landings > 0.0 ? prior_.landing_drift_sd_mps : joint.depth_drift_sd_mps},
-       {kLag, prior_.depth_lag_sd_s},
-       {kFriction, joint.joint_friction_sd_N}}};
-  for (const auto& [term, sd] : priors) info.normal[term * kTerms + term] += 1.0 / (sd * sd);
-  for (std::size_t i = 0; i < kShared; ++i) {
-    info.moment[i] += kept_moment_[i];
-    for (std::size_t j = 0; j < kShared; ++j) info.normal[i * kTerms + j] += kept_normal_[i * kShared + j];
-  }
-}
-
 // Change of kappa from a cell to the next, in units of the prior: here * kappa_j + above * kappa_j-1.
 ProfileSolver::Innovation ProfileSolver::innovation(std::size_t j, double keep, double fresh,
                                                     double spread) const noexcept {
@@ -124,7 +118,7 @@ void ProfileSolver::take_jumps(double smoothness_m, double spread, const Matrix<
                                const Vector<kTerms>& mean) noexcept {
   const double keep = std::exp(-kProfileCell_m / smoothness_m);
   const double fresh = std::sqrt(1.0 - keep * keep);
-  for (std::size_t j = 0; j < kN; ++j) {
+  for (std::size_t j = first_cell_; j < kN; ++j) {
     const Innovation r = innovation(j, keep, fresh, spread);
     double value = r.here * mean[j];
     double square = r.here * r.here * covariance[j * kTerms + j];
@@ -202,7 +196,8 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
   if (!last) {
     const auto g = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
     solve_at(g, data, p);
-    take_jumps(p.smoothness_m, p.spread, Cholesky<kTerms>(p.covariance).inverse(), p.mean);
+    posterior_.covariance = Cholesky<kTerms>(p.covariance).inverse();
+    take_jumps(p.smoothness_m, p.spread, posterior_.covariance, p.mean);
     return;
   }
   for (std::size_t g = 0; g < kGrid; ++g) {
@@ -284,6 +279,7 @@ double chi_squared_quantile(double degrees, double normal_quantile) noexcept {
 void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
   constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles of 1 % and 1 % / 28
   broken_cells_ = 0;
+  const double depth_variance = posterior_.covariance[kSurface * kTerms + kSurface];
   for (std::size_t s = 0; s < kN; ++s) {
     const double n = sums.cells[s].observations;
     if (n == 0.0) continue;
@@ -293,7 +289,10 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
     unresolved_N2_[s] = n * found > chi_squared_quantile(n, k99) * expected ? found - expected : 0.0;
     broken_cells_ += n * found > chi_squared_quantile(n, kAllCells99) * expected;
-    noise_factor_[s] = (expected + unresolved_N2_[s]) / own;
+    // The depth's error times the slope's: beyond the linear model, and common to all samples of a cell.
+    const double slope_sd = tangent_N_per_m(s).sd;
+    const double product = n * depth_variance * slope_sd * slope_sd;
+    noise_factor_[s] = (expected + unresolved_N2_[s] + product) / own;
   }
 }
 
@@ -305,61 +304,23 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     report(sums, stride);
     return;
   }
+  if (stride > 1) land(prior_.landing_depth_sd_m);
   noise_factor_.fill(1.0);
+  // Expectation maximisation begins again below the strides before. Continued everywhere from stride to
+  // stride it would narrow the band although nothing new was measured.
+  first_cell_ = stride > 1 ? first_observed(sums) : 0;
+  std::fill(jump_.begin() + static_cast<std::ptrdiff_t>(first_cell_), jump_.end(), 1.0);
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
     info = information_of(sums);
-    add_stride_prior(info, stride > 1 ? stride - 1.0 : 0.0);
+    add_stride_prior(info);
     integrate(info, pass + 1 == kPasses);
     take_slopes();
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
   take_responses(sums);
-  keep(info);
+  keep(info, sums.last_s);
   report(sums, stride);
-}
-
-// Change of the moment by one newton more in every sample of a cell.
-void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
-  using F = ProfileFeature;
-  for (std::size_t s = 0; s < kN; ++s) {
-    auto& response = response_[s];
-    for (std::size_t i = kShared; i < kTerms; ++i) response[i] = 0.0;
-    const double weight = 1.0 / noise_factor_[s];
-    const auto sum = [&](F feature) { return weight * sums.cells[s].product(F::one, feature); };
-    for (std::size_t i = 0; i < s; ++i) response[i] += kProfileCell_m * sum(F::one);
-    response[s] += kProfileCell_m * sum(F::place);
-    response[kAddedMass] += sum(F::added_mass);
-    response[kScale] += sum(F::motor);
-    response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
-    response[kSurface] += slope_N_per_m_[s] * sum(F::one);
-    response[kDrift] += slope_N_per_m_[s] * sum(F::time);
-    response[kLag] += slope_N_per_m_[s] * sum(F::speed);
-    response[kFriction] += sum(F::friction);
-  }
-}
-
-// Integrates out what belongs to this stride alone: the Schur complement of its four terms.
-void ProfileSolver::keep(const Information& info) noexcept {
-  constexpr std::size_t kOwn = kTerms - kShared;
-  Matrix<kOwn> own{};
-  for (std::size_t i = 0; i < kOwn; ++i)
-    for (std::size_t j = 0; j < kOwn; ++j)
-      own[i * kOwn + j] = info.normal[(kShared + i) * kTerms + kShared + j];
-  const Matrix<kOwn> inverse = Cholesky<kOwn>(own).inverse();
-  for (std::size_t i = 0; i < kShared; ++i) {
-    Vector<kOwn> gain{};
-    for (std::size_t a = 0; a < kOwn; ++a)
-      for (std::size_t b = 0; b < kOwn; ++b)
-        gain[a] += info.normal[i * kTerms + kShared + b] * inverse[b * kOwn + a];
-    kept_moment_[i] = info.moment[i];
-    for (std::size_t a = 0; a < kOwn; ++a) kept_moment_[i] -= gain[a] * info.moment[kShared + a];
-    for (std::size_t j = 0; j < kShared; ++j) {
-      double value = info.normal[i * kTerms + j];
-      for (std::size_t a = 0; a < kOwn; ++a) value -= gain[a] * info.normal[(kShared + a) * kTerms + j];
-      kept_normal_[i * kShared + j] = value;
-    }
-  }
 }
 
 }  // namespace sandhopper

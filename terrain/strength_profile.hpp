@@ -20,8 +20,12 @@
 // added mass. A boundary is a jump of kappa, a crust an outlier: innovations of kappa have Student's
 // distribution (their variances by expectation maximisation), and a cell that the curve does not fit at a
 // level of 1 % counts less and has a wider band. The band holds the bed's own fluctuation and the depth's
-// noise. Between strides the information on kappa, c and e is kept and d, r, l and f are integrated out: the
-// posterior of a stride is the prior of the next. Everything is bounded; nothing is allocated.
+// noise. Between strides the information on kappa, c, e and b is kept and r, l and f are integrated out: the
+// posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
+// the stride before ended, so that their depths have an error in common: the depth error D at the crater's
+// deepest point is kept too,
+//   D = d + r T, T the time from contact to the deepest point;  d of the next stride = D + N(0, landing^2)
+// Everything is bounded; nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: half-way through every cell and at its end.
@@ -92,6 +96,7 @@ class ProfileSolver {
  public:
   static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
   static constexpr std::size_t kTerms = kShared + 4;         // d, r, l, f
+  static constexpr std::size_t kKept = kShared + 1;          // and D, in the place of d
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
                                kIntercept = kProfileCells + 2, kSurface = kProfileCells + 3,
@@ -110,8 +115,8 @@ class ProfileSolver {
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
   // Information of the strides on kappa, c, e and b, without their prior.
-  const Matrix<kShared>& normal() const noexcept { return kept_normal_; }
-  const Vector<kShared>& moment() const noexcept { return kept_moment_; }
+  const Matrix<kShared>& normal() const noexcept { return shared_normal_; }
+  const Vector<kShared>& moment() const noexcept { return shared_moment_; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
   double intercept_N_per_m(std::size_t cell) const noexcept { return intercept_N_per_m_[cell]; }
   // The joint fit's line, of the strides that have one; NaN where none has.
@@ -137,7 +142,7 @@ class ProfileSolver {
     double smoothness_m = 0.0, spread = 0.0;
   };
   Information information_of(const ProfileSums& sums) const noexcept;
-  void add_stride_prior(Information& information, double landings) const noexcept;
+  void add_stride_prior(Information& information) const noexcept;
   double add_shared_prior(Information& information, double smoothness_m, double spread) const noexcept;
   struct Innovation {
     double here, above;
@@ -149,7 +154,8 @@ class ProfileSolver {
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
-  void keep(const Information& information) noexcept;
+  void keep(Information information, double last_s) noexcept;
+  void land(double landing_m) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
   void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
@@ -169,9 +175,15 @@ class ProfileSolver {
   std::array<double, kProfileCells> unresolved_N2_{};  // what the curve does within a cell
   std::array<double, kProfileCells> jump_{};           // variance of each innovation, of the prior's
   std::array<Vector<kTerms>, kProfileCells> response_{};
-  Matrix<kShared> kept_normal_{};
-  Vector<kShared> kept_moment_{};
+  Matrix<kKept> kept_normal_{};  // with the prior of D
+  Vector<kKept> kept_moment_{};
+  // What integrating out r, l and f takes from the kept moments, for each unit of theirs; and T.
+  std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
+  double last_s_ = 0.0;
+  Matrix<kShared> shared_normal_{};
+  Vector<kShared> shared_moment_{};
   std::size_t broken_cells_ = 0;
+  std::size_t first_cell_ = 0;  // of the last stride's new ground
   ReloadingPosterior reloading_;
   double line_weight_ = 0.0, line_sum_ = 0.0, line_degrees_ = 0.0;  // of the strides' joint fits
   Posterior posterior_{};

@@ -33,6 +33,21 @@ TEST(BedTrial, LaterStridesKnowTheirDepthAfterTheBlowOfLanding) {
   EXPECT_LT(std::sqrt(squares / strides), 0.0015);
 }
 
+TEST(BedTrial, LandingsErrAsTheirPriorSays) {
+  const double prior_m = ProfileConfig{}.landing_depth_sd_m;
+  double squares_m2 = 0.0, landings = 0.0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    for (const auto& stride : trial_on("line", seed).strides)
+      if (stride.landing_error_m) {
+        squares_m2 += *stride.landing_error_m * *stride.landing_error_m;
+        landings += 1.0;
+      }
+  ASSERT_GE(landings, 30.0);
+  // Three standard errors of a root mean square of 30 are 39 %.
+  EXPECT_GT(std::sqrt(squares_m2 / landings), 0.61 * prior_m);
+  EXPECT_LT(std::sqrt(squares_m2 / landings), 1.39 * prior_m);
+}
+
 TEST(BedTrial, EveryStrideOfACrustIsSearchedAndTheRuptureFoundOnce) {
   const auto trial = trial_on("crust", 12);
   ASSERT_GE(trial.strides.size(), 2U);

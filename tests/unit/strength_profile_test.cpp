@@ -193,6 +193,19 @@ TEST(ReloadingStiffness, IntervalHoldsTheLineOnWhichTheFootLeaves) {
   }
 }
 
+// The interval is as narrow as the trace allows, wherever the truth lies between two points of the grid.
+TEST(ReloadingStiffness, IntervalIsNarrowerThanTheGrid) {
+  int holds = 0, lines = 0;
+  for (double truth = 15e3; truth < 25e3; truth *= 1.04) {
+    const auto k = line_of(leaving(truth));
+    holds += k.ci95_low_N_per_m < truth && truth < k.ci95_high_N_per_m;
+    EXPECT_LT(k.ci95_high_N_per_m, 1.25 * k.ci95_low_N_per_m) << truth;
+    EXPECT_GT(k.ci95_high_N_per_m, 1.08 * k.ci95_low_N_per_m) << truth;  // torque constant: 2 x 1.96 x 2 %
+    ++lines;
+  }
+  EXPECT_GE(holds, lines - 2);
+}
+
 TEST(ReloadingStiffness, IsNotMovedByTheAccelerometersBias) {
   const auto with = line_of(leaving(45e3, 0.2)), without = line_of(leaving(45e3, 0.0));
   EXPECT_NEAR(with.value_N_per_m, without.value_N_per_m, 0.15 * without.value_N_per_m);

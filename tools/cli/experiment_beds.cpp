@@ -51,15 +51,17 @@ void say_later(Session& session, const std::vector<BedScore>& scores) {
   session.say(
       "\nstrides 2 and 3 in the crater [%]: reloading stiffness given with an interval of two ends, its");
   session.say("coverage and median width, a lower bound alone; strides that went deeper, curve given there,");
-  session.say("its coverage at the new depths and at all depths");
-  session.say("  {:<17} {:>7} {:>8} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>8}", "bed", "strides", "reloading",
-              "coverage", "width", "bound", "deeper", "curve", "new depths", "band");
+  session.say(
+      "its coverage at the new depths and at all depths; rms error of the depth that a landing adds [mm]");
+  session.say("  {:<17} {:>7} {:>8} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>8} {:>8}", "bed", "strides",
+              "reloading", "coverage", "width", "bound", "deeper", "curve", "new depths", "band", "landing");
   for (const auto& s : scores) {
     const auto& c = s.crater;
-    session.say("  {:<17} {:>7.0f} {:>9} {:>8} {:>6} {:>6} {:>7.0f} {:>6} {:>10} {:>8}", s.bed, c.strides,
-                share(c.reloading.count, c.strides), share(c.reloading.covered, c.reloading.count),
+    session.say("  {:<17} {:>7.0f} {:>9} {:>8} {:>6} {:>6} {:>7.0f} {:>6} {:>10} {:>8} {:>8.2f}", s.bed,
+                c.strides, share(c.reloading.count, c.strides), share(c.reloading.covered, c.reloading.count),
                 percent(median(c.reloading_width)), share(c.bounds, c.strides), c.deeper,
-                share(c.curves, c.deeper), percent(c.fresh.share()), percent(c.band.share()));
+                share(c.curves, c.deeper), percent(c.fresh.share()), percent(c.band.share()),
+                1e3 * c.landing_rms_m());
   }
 }
 

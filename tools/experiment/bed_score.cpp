@@ -133,6 +133,11 @@ void score_later(const BedStride& stride, const BedTruth& truth, const Answer& a
                  CraterScore& score) {
   const auto& profile = answer.profile;
   score.strides += 1.0;
+  if (stride.landing_error_m) {
+    score.landings += 1.0;
+    score.landing_error_m += *stride.landing_error_m;
+    score.landing_squared_m2 += *stride.landing_error_m * *stride.landing_error_m;
+  }
   const auto& k = answer.ground.reloading_N_per_m;
   if (k.ci95_low > 0.0 && std::isfinite(k.ci95_high)) {
     score.reloading.add(k.value, k.ci95_low, k.ci95_high, truth.unloading_stiffness_N_per_m);
@@ -270,6 +275,9 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
             {"curves", s.crater.curves},
             {"fresh_depths", json_of(s.crater.fresh)},
             {"band", json_of(s.crater.band)},
+            {"landings", s.crater.landings},
+            {"landing_mean_m", s.crater.landing_error_m / std::max(1.0, s.crater.landings)},
+            {"landing_rms_m", s.crater.landing_rms_m()},
             {"events", json_of(s.later_events)}}},
           {"median_solve_s", median(s.solve_s)},
           {"median_search_s", median(s.search_s)}};

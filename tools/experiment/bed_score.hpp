@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -49,6 +50,8 @@ struct CraterScore {
   double curves = 0.0;                    // of these, with samples on new ground
   CoverageScore fresh{};                  // at the depths that are new in this stride
   CoverageScore band{};                   // at every depth visited so far
+  double landings = 0.0, landing_error_m = 0.0, landing_squared_m2 = 0.0;  // BedStride::landing_error_m
+  double landing_rms_m() const { return std::sqrt(landing_squared_m2 / landings); }
 };
 
 struct EventScore {

@@ -64,6 +64,7 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
   bool touched = false;
   HoppedCycles hop(cycle, world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true});
   double crater_m = 0.0;
+  std::optional<double> new_ground_error_m;
   while (hop.next()) {
     const auto& controller = hop.controller();
     const auto& truth = hop.truth();
@@ -72,9 +73,14 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
       touched = true;
       trial.contact_error_m = std::max(0.0, -truth.foot_z_m);
     }
+    if (controller.new_ground_m() > 0.0 && !new_ground_error_m)
+      new_ground_error_m = controller.new_ground_m() + hop.truth_before().foot_z_m;
     if (controller.stride_finished()) {
-      trial.strides.push_back(
-          {.sums = controller.stride_sums(), .true_crater_m = crater_m, .true_deepest_m = truth.max_depth_m});
+      auto& stride = trial.strides.emplace_back(BedStride{
+          .sums = controller.stride_sums(), .true_crater_m = crater_m, .true_deepest_m = truth.max_depth_m});
+      if (new_ground_error_m && trial.strides.size() > 1)
+        stride.landing_error_m = *new_ground_error_m - (stride.sums.summary.crater_depth_m - crater_m);
+      new_ground_error_m.reset();
       crater_m = truth.max_depth_m;
     }
     if (controller.ground_events_complete() && !trial.strides.empty()) {

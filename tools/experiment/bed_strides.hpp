@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct BedStride {
   GroundEventSums events{};
   double true_crater_m = 0.0;  // deepest point of the strides before
   double true_deepest_m = 0.0;
+  // Of a later stride, where its foot reached new ground: error of the depth there, less that of the
+  // crater's.
+  std::optional<double> landing_error_m{};
   bool events_complete = false;
 };
 

@@ -1,0 +1,102 @@
+#include <array>
+#include <utility>
+
+#include "terrain/small_gaussian.hpp"
+#include "terrain/strength_profile.hpp"
+
+// From one stride of a trial to the next: what is kept, and what the landing adds.
+namespace sandhopper {
+
+void ProfileSolver::add_stride_prior(Information& info) const noexcept {
+  const auto& joint = config_.joint;
+  const std::array<std::pair<std::size_t, double>, 3> priors{{{kDrift, joint.depth_drift_sd_mps},
+                                                              {kLag, prior_.depth_lag_sd_s},
+                                                              {kFriction, joint.joint_friction_sd_N}}};
+  for (const auto& [term, sd] : priors) info.normal[term * kTerms + term] += 1.0 / (sd * sd);
+  for (std::size_t i = 0; i < kKept; ++i) {
+    info.moment[i] += kept_moment_[i];
+    for (std::size_t j = 0; j < kKept; ++j) info.normal[i * kTerms + j] += kept_normal_[i * kKept + j];
+  }
+}
+
+// Change of the moment by one newton more in every sample of a cell.
+void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
+  using F = ProfileFeature;
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    auto& response = response_[s];
+    const double weight = 1.0 / noise_factor_[s];
+    const auto sum = [&](F feature) { return weight * sums.cells[s].product(F::one, feature); };
+    for (std::size_t i = 0; i < s; ++i) response[i] += kProfileCell_m * sum(F::one);
+    response[s] += kProfileCell_m * sum(F::place);
+    response[kAddedMass] += sum(F::added_mass);
+    response[kScale] += sum(F::motor);
+    response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
+    response[kSurface] += slope_N_per_m_[s] * sum(F::one);
+    response[kDrift] += slope_N_per_m_[s] * sum(F::time);
+    response[kLag] += slope_N_per_m_[s] * sum(F::speed);
+    response[kFriction] += sum(F::friction);
+  }
+}
+
+// Keeps D = d + r T in the place of d, and integrates out what belongs to this stride alone: a Schur
+// complement.
+void ProfileSolver::keep(Information info, double last_s) noexcept {
+  last_s_ = last_s;
+  for (std::size_t i = 0; i < kTerms; ++i)
+    info.normal[i * kTerms + kDrift] -= last_s * info.normal[i * kTerms + kSurface];
+  for (std::size_t j = 0; j < kTerms; ++j)
+    info.normal[kDrift * kTerms + j] -= last_s * info.normal[kSurface * kTerms + j];
+  info.moment[kDrift] -= last_s * info.moment[kSurface];
+  constexpr std::size_t kOwn = kTerms - kKept;
+  Matrix<kOwn> own{};
+  for (std::size_t i = 0; i < kOwn; ++i)
+    for (std::size_t j = 0; j < kOwn; ++j) own[i * kOwn + j] = info.normal[(kKept + i) * kTerms + kKept + j];
+  const Matrix<kOwn> inverse = Cholesky<kOwn>(own).inverse();
+  for (std::size_t i = 0; i < kKept; ++i) {
+    Vector<kOwn>& gain = own_gain_[i];
+    gain = {};
+    for (std::size_t a = 0; a < kOwn; ++a)
+      for (std::size_t b = 0; b < kOwn; ++b)
+        gain[a] += info.normal[i * kTerms + kKept + b] * inverse[b * kOwn + a];
+    kept_moment_[i] = info.moment[i];
+    for (std::size_t a = 0; a < kOwn; ++a) kept_moment_[i] -= gain[a] * info.moment[kKept + a];
+    for (std::size_t j = 0; j < kKept; ++j) {
+      double value = info.normal[i * kTerms + j];
+      for (std::size_t a = 0; a < kOwn; ++a) value -= gain[a] * info.normal[(kKept + a) * kTerms + j];
+      kept_normal_[i * kKept + j] = value;
+    }
+  }
+  static_assert(kSurface == kShared && kShared + 1 == kKept);
+  const auto kept = [&](std::size_t i, std::size_t j) { return kept_normal_[i * kKept + j]; };
+  for (std::size_t i = 0; i < kShared; ++i) {
+    const double gain = kept(i, kSurface) / kept(kSurface, kSurface);
+    shared_moment_[i] = kept_moment_[i] - gain * kept_moment_[kSurface];
+    for (std::size_t j = 0; j < kShared; ++j)
+      shared_normal_[i * kShared + j] = kept(i, j) - gain * kept(kSurface, j);
+  }
+}
+
+// From D of the strides before to d = D + N(0, landing^2) of the next. With A the information on D alone,
+// integrating D out takes q times the products of its row from what was kept, q = landing^2 / (1 + A
+// landing^2). Responses are moments and change like them.
+void ProfileSolver::land(double landing_m) noexcept {
+  const double variance = landing_m * landing_m;
+  const double q = variance / (1.0 + kept_normal_[kSurface * kKept + kSurface] * variance);
+  Vector<kKept> row{};
+  for (std::size_t i = 0; i < kKept; ++i) row[i] = kept_normal_[i * kKept + kSurface];
+  for (Vector<kTerms>& response : response_) {
+    response[kDrift] -= last_s_ * response[kSurface];
+    for (std::size_t i = 0; i < kKept; ++i)
+      for (std::size_t a = 0; a < kTerms - kKept; ++a) response[i] -= own_gain_[i][a] * response[kKept + a];
+    const double of_depth = response[kSurface];
+    for (std::size_t i = 0; i < kKept; ++i) response[i] -= q * row[i] * of_depth;
+    for (std::size_t i = kKept; i < kTerms; ++i) response[i] = 0.0;
+  }
+  const double of_depth = kept_moment_[kSurface];
+  for (std::size_t i = 0; i < kKept; ++i) {
+    kept_moment_[i] -= q * row[i] * of_depth;
+    for (std::size_t j = 0; j < kKept; ++j) kept_normal_[i * kKept + j] -= q * row[i] * row[j];
+  }
+}
+
+}  // namespace sandhopper
