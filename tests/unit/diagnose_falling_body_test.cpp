@@ -124,10 +124,10 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
     }
     return r;
   };
-  EXPECT_EQ(diagnose(thrown(0.5, 0.5)).verdict, "consistent");
-  EXPECT_EQ(diagnose(thrown(0.0, 0.0)).verdict, "consistent");
+  EXPECT_EQ(diagnose(thrown(0.5, 0.5)).verdict, Verdict::consistent);
+  EXPECT_EQ(diagnose(thrown(0.0, 0.0)).verdict, Verdict::consistent);
   const auto more = diagnose(thrown(0.75, 0.5));
-  ASSERT_EQ(more.verdict, "missing_physics");
+  ASSERT_EQ(more.verdict, Verdict::missing_physics);
   EXPECT_EQ(more.effects.front().id, "air.quadratic_drag");
 }
 
@@ -148,7 +148,7 @@ TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
       drops([](double t_s, double, double v) { return t_s > 0.3 ? -0.006 * std::abs(v) * v : 0.0; }, 4);
   for (auto& trial : recordings.trials) trial.channels.erase("accel_mps2");
   const auto d = diagnose(recordings);
-  EXPECT_NE(d.verdict, "consistent");
+  EXPECT_NE(d.verdict, Verdict::consistent);
   for (const auto& effect : d.effects) {
     const bool named = !effect.is_unknown();
     EXPECT_TRUE(!named || effect.probability < 0.8) << effect.id;
@@ -205,7 +205,7 @@ TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
   recordings.belief.numbers["medium.drag_coefficient"] = 0.0;
   recordings.beliefs.assign(recordings.trials.size(), recordings.belief);
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   const auto problem = prepare(recordings).problem;
   for (const auto& trial : problem.trials)
     EXPECT_TRUE(std::ranges::none_of(trial->trial_nuisances,

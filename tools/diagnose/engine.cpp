@@ -180,8 +180,8 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
                     const Unexplained& rest, Diagnosis& diagnosis) {
   const bool too_few = problem.trials.size() < kTooFewTrials, named = !search.best().set.empty();
   if (!named && !rest.unknown) {
-    diagnosis.verdict = too_few ? "insufficient_data" : "consistent";
-    diagnosis.detail = too_few ? "too_little_data" : "null";
+    diagnosis.verdict = too_few ? Verdict::insufficient_data : Verdict::consistent;
+    diagnosis.detail = too_few ? Detail::too_little_data : Detail::none;
     return;
   }
   if (named) report_effects(problem, search, belief, diagnosis);
@@ -200,17 +200,17 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
       if (rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
     }
   if (!by_names && rest.unknown) {
-    diagnosis.verdict = "unknown_physics";
-    diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
+    diagnosis.verdict = Verdict::unknown_physics;
+    diagnosis.detail = rest.law ? Detail::unknown_at_port : Detail::unknown_not_localised;
     std::ranges::stable_partition(diagnosis.effects, &FoundEffect::is_unknown);
     return;
   }
   const bool classes = std::ranges::any_of(
       diagnosis.effects, [](const auto& effect) { return !effect.indistinguishable_from.empty(); });
-  diagnosis.verdict = "missing_physics";
-  diagnosis.detail = rest.unknown || (rest.law && !classes) ? "known_and_rest"
-                     : classes                              ? "one_of_class"
-                                                            : "known";
+  diagnosis.verdict = Verdict::missing_physics;
+  diagnosis.detail = rest.unknown || (rest.law && !classes) ? Detail::known_and_rest
+                     : classes                              ? Detail::one_of_class
+                                                            : Detail::known;
 }
 
 // Takes out of `faults` what is none, and notes it.
@@ -265,8 +265,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   diagnosis.belief = options.belief;
   note_what_is_missing(prepared, diagnosis);
   if (problem.trials.empty()) {
-    diagnosis.verdict = "insufficient_data";
-    diagnosis.detail = "too_little_data";
+    diagnosis.verdict = Verdict::insufficient_data;
+    diagnosis.detail = Detail::too_little_data;
     report_data_faults(faults, diagnosis);
     return diagnosis;
   }

@@ -105,8 +105,8 @@ Json belief_json(const BelievedNumber& n) {
 
 Json to_json(const Diagnosis& d) {
   Json json;
-  json["verdict"] = d.verdict;
-  json["detail"] = d.detail.empty() || d.detail == "null" ? Json(nullptr) : Json(d.detail);
+  json["verdict"] = name_of(d.verdict);
+  json["detail"] = d.detail == Detail::none ? Json(nullptr) : Json(name_of(d.detail));
   json["noise_floor"] = Json::object();
   for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
   json["where"] = list_of(d.where, where_json);

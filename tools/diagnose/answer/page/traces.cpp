@@ -59,7 +59,7 @@ StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
 }  // namespace
 
 StudySection trial_section(const Diagnosis& d, const std::string& trial) {
-  const bool found = !d.effects.empty() && d.detail != "data_fault";
+  const bool found = !d.effects.empty() && d.detail != Detail::data_fault;
   StudySection section{"Trial " + trial + ": recorded and simulated", {}};
   for (const auto& fit : d.fits)  // the channel that shows most first
     for (const auto& trace : d.traces) {
