@@ -185,7 +185,7 @@ void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagno
   for (const auto& rule : rules) {
     if (std::ranges::any_of(diagnosis.effects, [&](const auto& e) { return e.id == rule.id; })) continue;
     diagnosis.effects.push_back({.id = rule.id,
-                                 .port = rule.port,
+                                 .port = std::string(name_of(rule.port)),
                                  .statement = rule.statement,
                                  .equation = rule.equation,
                                  .parameters = {{rule.parameter, rule.value, rule.low, rule.high}},

@@ -29,7 +29,7 @@ bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, 
 }
 
 const EffectRegistration kEffect({.id = "axis.coulomb",
-                                  .port = "axis",
+                                  .port = Port::axis,
                                   .statement = "Dry friction of constant size opposes the axis.",
                                   .equation = "tau += -c sign(w)",
                                   .plants = {PlantKind::rotary_axis},

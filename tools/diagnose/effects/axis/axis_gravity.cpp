@@ -15,7 +15,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.gravity",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "Gravity pulls on the axis otherwise than believed.",
                                   .equation = "tau += -dG sin(theta)",
                                   .plants = {PlantKind::rotary_axis},

@@ -16,7 +16,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.inertia",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "The inertia of the axis is not what is believed.",
                                   .equation = "J -> J + dJ",
                                   .plants = {PlantKind::rotary_axis},

@@ -25,7 +25,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "axis.stribeck",
-     .port = "axis",
+     .port = Port::axis,
      .statement = "Near standstill dry friction is larger than in motion (Stribeck).",
      .equation = "tau += -dF (1 + q (w/w_s)^2)^(-1/q) sign(w); tail q: 0 exp(-(w/w_s)^2), 1 Hess and Soom",
      .plants = {PlantKind::rotary_axis},
@@ -33,10 +33,10 @@ const EffectRegistration kEffect(
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double torque = v[0], speed = v[1], tail = v[2];
        const double switch_speed = switch_speed_radps(c);
-       edits.law("axis", [=](const PortState& s) {
-         const double square = std::pow(s.velocity / speed, 2);
+       edits.law(LawPort::axis, [=](const AxisState& s) {
+         const double square = std::pow(s.velocity_radps / speed, 2);
          const double left = tail > kNoTail ? std::pow(1.0 + tail * square, -1.0 / tail) : std::exp(-square);
-         return -torque * left * sign_smooth(s.velocity, switch_speed);
+         return -torque * left * sign_smooth(s.velocity_radps, switch_speed);
        });
      }});
 

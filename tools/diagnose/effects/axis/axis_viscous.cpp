@@ -16,7 +16,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.viscous",
-                                  .port = "axis",
+                                  .port = Port::axis,
                                   .statement = "Friction proportional to speed opposes the axis.",
                                   .equation = "tau += -b w",
                                   .plants = {PlantKind::rotary_axis},

@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "air.linear_drag",
-                                  .port = "body",
+                                  .port = Port::body,
                                   .statement = "The medium resists with a force proportional to speed.",
                                   .equation = "F += -b v",
                                   .plants = {PlantKind::falling_body},

@@ -44,16 +44,18 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   if (medium_known(c)) return edits.add("medium.drag_coefficient", v[0]);
   const double factor = v[0];
   if (c.plant == PlantKind::rotary_axis)
-    return edits.law("axis", [=](const PortState& s) { return -factor * std::abs(s.velocity) * s.velocity; });
+    return edits.law(LawPort::axis, [=](const AxisState& s) {
+      return -factor * std::abs(s.velocity_radps) * s.velocity_radps;
+    });
   const double length = front_m(c.scale("wetted_over_m", 0.0));
-  edits.law("body", [=](const PortState& s) {
-    return -factor * wetted_share(s.load, length) * std::abs(s.velocity) * s.velocity;
+  edits.law(LawPort::body, [=](const BodyState& s) {
+    return -factor * wetted_share(s.depth_m, length) * std::abs(s.velocity_mps) * s.velocity_mps;
   });
 }
 
 const EffectRegistration kEffect(
     {.id = "air.quadratic_drag",
-     .port = "body",
+     .port = Port::body,
      .statement = "The medium resists with a force that grows with the square of speed.",
      .equation = "F += -1/2 rho A C_d |v| v",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis},

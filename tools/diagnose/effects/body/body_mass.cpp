@@ -32,7 +32,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 
 const EffectRegistration kEffect(
     {.id = "body.mass",
-     .port = "inertia",
+     .port = Port::inertia,
      .statement = "The body's mass is not what is believed.",
      .equation = "m -> m + e (p m + (1 - p) m_0), p 1 where all have one mass m_0",
      .plants = {PlantKind::falling_body, PlantKind::hopper},

@@ -27,11 +27,11 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   if (displaced_known(c)) return edits.add("medium.buoyancy_factor", v[0]);
   const double force = v[0], length = c.scale("wetted_over_m", 0.0);
-  edits.law("body", [=](const PortState& s) { return force * wetted_share(s.load, length); });
+  edits.law(LawPort::body, [=](const BodyState& s) { return force * wetted_share(s.depth_m, length); });
 }
 
 const EffectRegistration kEffect({.id = "fluid.buoyancy",
-                                  .port = "body",
+                                  .port = Port::body,
                                   .statement = "The medium carries part of the weight, whatever the speed.",
                                   .equation = "F += B rho V g",
                                   .plants = {PlantKind::falling_body},

@@ -12,15 +12,15 @@ constexpr double kRoom_C = 25.0;
 
 const EffectRegistration kEffect(
     {.id = "actuator.temperature",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "The motors' torque falls as they get warm: the magnets weaken.",
      .equation = "torque = K_t i (1 - c (T - 25 C))",
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
        const double derating = v[0];
-       edits.sensor_law("actuator", [=](const PortState& s) {
-         return -derating * (s.temperature_C - kRoom_C) * s.position;
+       edits.sensor_law("actuator", [=](const SensorState& s) {
+         return -derating * (s.temperature_C - kRoom_C) * s.value;
        });
      }});
 

@@ -12,11 +12,11 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double share = v[0], pushes = v[1];
-  stiffen(edits, v[2], [=](const PortState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
+  stiffen(edits, v[2], [=](const GroundState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
 }
 
 const EffectRegistration kEffect({.id = "terrain.compaction",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "Each push since the bed was prepared leaves it stiffer.",
                                   .equation = "F_d -> F_d (1 + C (1 - exp(-n / n_0)))",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},

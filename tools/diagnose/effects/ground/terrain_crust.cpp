@@ -14,17 +14,18 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double force = v[0], depth = v[1], left = v[2], unloads = v[3];
-  const auto crust_N = [=](const PortState& s) {
-    return (s.pushes > 0.0 ? left : 1.0) * force * come_in(s.position, depth);
+  const auto crust_N = [=](const GroundState& s) {
+    return (s.pushes > 0.0 ? left : 1.0) * force * come_in(s.depth_m, depth);
   };
   // Unloading begins at the whole force, or without what had to be broken.
-  edits.law("ground.static", [=](const PortState& s) { return unloads * crust_N(s); });
-  edits.law("ground.force", [=](const PortState& s) { return s.accel * (1.0 - unloads) * crust_N(s); });
+  edits.law(LawPort::ground_static, [=](const GroundState& s) { return unloads * crust_N(s); });
+  edits.law(LawPort::ground_force,
+            [=](const GroundState& s) { return s.virgin * (1.0 - unloads) * crust_N(s); });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.crust",
-     .port = "ground",
+     .port = Port::ground,
      .statement =
          "A cohesive crust resists from the first millimetres on, whatever the depth, until it is broken.",
      .equation = "F += F_c (1 - exp(-z / z_c))",

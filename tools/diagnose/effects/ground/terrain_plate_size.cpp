@@ -11,7 +11,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "terrain.plate_size",
-     .port = "ground",
+     .port = Port::ground,
      .statement =
          "The pressure at a depth depends on the size of the plate (R_0: the median plate's radius).",
      .equation = "F_d -> F_d (R / R_0)^p",
@@ -19,7 +19,8 @@ const EffectRegistration kEffect(
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double exponent = v[0], median_m = c.belief.value("foot.radius_m", 0.04);
-       edits.law("foot.size", [=](const PortState& s) { return exponent * std::log(s.position / median_m); });
+       edits.law(LawPort::foot_size,
+                 [=](const FootState& s) { return exponent * std::log(s.radius_m / median_m); });
      }});
 
 }  // namespace

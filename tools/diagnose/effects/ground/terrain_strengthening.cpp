@@ -12,11 +12,11 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double share = v[0], time_s = v[1];
-  stiffen(edits, v[2], [=](const PortState& s) { return share * std::log1p(s.wait_s / time_s); });
+  stiffen(edits, v[2], [=](const GroundState& s) { return share * std::log1p(s.wait_s / time_s); });
 }
 
 const EffectRegistration kEffect({.id = "terrain.strengthening",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "The bed grows stiffer while it waits.",
                                   .equation = "F_d -> F_d (1 + A ln(1 + t / t_0))",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},

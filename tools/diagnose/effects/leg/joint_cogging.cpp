@@ -35,17 +35,18 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "joint.cogging",
-     .port = "joint",
+     .port = Port::joint,
      .statement = "Torque ripples with the angle of the motor (cogging).",
      .equation = "tau += A sin(h theta) + B cos(h theta) + A_2 sin(2 h theta) + B_2 cos(2 h theta)",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double a = v[0], b = v[1], h = v[2], a2 = v[3], b2 = v[4];
-       edits.law(port_on(c.plant, "joint"), [=](const PortState& s) {
-         const double sin = std::sin(h * s.position), cos = std::cos(h * s.position);
-         return a * sin + b * cos + 2.0 * a2 * sin * cos + b2 * (1.0 - 2.0 * sin * sin);
-       });
+       edits.law(port_on(c.plant, Port::joint) == Port::axis ? LawPort::axis : LawPort::joint,
+                 [=](const AxisState& s) {
+                   const double sin = std::sin(h * s.angle_rad), cos = std::cos(h * s.angle_rad);
+                   return a * sin + b * cos + 2.0 * a2 * sin * cos + b2 * (1.0 - 2.0 * sin * sin);
+                 });
      }});
 
 }  // namespace

@@ -27,7 +27,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 
 const EffectRegistration kEffect(
     {.id = "sensor.bias",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder},

@@ -65,8 +65,8 @@ class Falling {
   Falling(const Fall& fall, const Edits& edits, std::span<const double> nuisances, bool stop)
       : fall_(fall),
         f_(fall.belief, edits),
-        laws_(edits.at("body")),
-        added_mass_(edits.at("body.added_mass")),
+        laws_(edits.at(LawPort::body)),
+        added_mass_(edits.at(LawPort::body_added_mass)),
         ground_(edits),
         on_bed_(stop) {
     f_.mass_kg += fall.payload_kg;
@@ -118,7 +118,7 @@ class Falling {
     const double length_m = fall_.length_m, depth_m = f_.surface_height_m - h;
     const auto carried_kg = [&](double d) {
       return wetted_share(d, length_m) * f_.added_mass_factor * displaced_kg_ +
-             sum_of(added_mass_, {.load = d});
+             sum_of(added_mass_, BodyState{.depth_m = d});
     };
     double force_N =
         wetted_share(depth_m, length_m) * buoyancy_N_ - weight_N_ -
@@ -131,11 +131,11 @@ class Falling {
     }
     if (fall_.bed && v < 0.0 && (on_bed_ || !told_)) force_N += bed_force_N(f_, ground_, depth_m, -v);
     if (!laws_.empty())
-      force_N += sum_of(laws_, {.time_s = t - let_go_s_,
-                                .position = h,
-                                .velocity = v,
-                                .load = depth_m,
-                                .extreme = fall_.start_height_m});
+      force_N += sum_of(laws_, BodyState{.time_s = t - let_go_s_,
+                                         .height_m = h,
+                                         .velocity_mps = v,
+                                         .depth_m = depth_m,
+                                         .start_height_m = fall_.start_height_m});
     return force_N / inertia_kg;
   }
 

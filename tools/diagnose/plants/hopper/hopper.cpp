@@ -37,7 +37,7 @@ std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief
       if (balance.port == "joint") {
         const auto rest = rest_without_known(balance);
         for (std::size_t i = 0; i < rest.size(); ++i) {
-          angles.push_back(balance.states[i].position);
+          angles.push_back(std::get<AxisState>(balance.states[i]).angle_rad);
           torques.push_back(rest[i]);
         }
       }
@@ -141,7 +141,7 @@ class Hopper final : public PlantModel {
     const auto& shown = all ? late_s : far_s;
     const auto [low, high] = std::ranges::minmax(shown);
     return {{.id = "controller.not_as_configured",
-             .port = "controller",
+             .port = Port::controller,
              .statement = "The controller begins to push off at another time than its rule says.",
              .equation = "t_switch -> t_switch + t_late",
              .parameter = "switch_late_s",

@@ -193,7 +193,7 @@ class Instant {
     const double load_N = r_.driven() ? std::abs(r_.motor_Nm.values[i_] / dl()) : 0.0;
     const double on_ground = r_.aloft[i_] != 0 ? 0.0 : 1.0;
     rail.rest.push_back(rail_N_ - r_.rail_believed_N.values[i_]);
-    rail.states.push_back({.time_s = time_s_, .position = z, .velocity = v});
+    rail.states.push_back(RailState{.time_s = time_s_, .height_m = z, .velocity_mps = v});
     know(rail, {sign, v, sign * std::exp(-std::pow(v / kStribeck_mps, 2)), sign * load_N, z,
                 on_ground * r_.body_mps2.values[i_], on_ground * r_.foot_mps2.values[i_]});
   }
@@ -205,7 +205,8 @@ class Instant {
     const double torque_Nm =
         d_.m22_kg_m2 * phidd_ + d_.m12_kg_m * r_.foot_mps2.values[i_] + 0.5 * d_.dm22_kg_m2_per_rad * spin2_;
     joint.rest.push_back(torque_Nm - tau - dl() * rail_N_ - r_.joint_believed_Nm.values[i_]);
-    joint.states.push_back({.time_s = time_s_, .position = phi, .velocity = w, .load = tau});
+    joint.states.push_back(
+        AxisState{.time_s = time_s_, .angle_rad = phi, .velocity_radps = w, .torque_Nm = tau});
     const double cog = cogging_periods_per_rev * phi;
     know(joint,
          {std::tanh(w / kSlow_radps), w, tau, tau * std::abs(tau), motor_rate, std::sin(cog), std::cos(cog)});

@@ -129,10 +129,10 @@ void HopperTrial::read_channel(const WorldConfig& world, const HopperTraces& tra
       for (double& v : signal.values) v = scale_of(c, n) * (v + world.gravity_mps2);
       break;
     case kLoadCell: {
-      const auto laws = edits.at("load_cell");
+      const auto laws = edits.at(LawPort::load_cell);
       if (!laws.empty())
         for (std::size_t i = 0; i < signal.values.size(); ++i)
-          signal.values[i] += sum_of(laws, {.accel = traces.foot_accel_mps2.values[i]});
+          signal.values[i] += sum_of(laws, CellState{.foot_accel_mps2 = traces.foot_accel_mps2.values[i]});
       break;
     }
     default:

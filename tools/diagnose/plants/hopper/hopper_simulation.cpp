@@ -13,21 +13,23 @@ namespace {
 
 class PortLaws final : public PlantExtension {
  public:
-  explicit PortLaws(const Edits& edits) : rail_(edits.at("rail")), joint_(edits.at("joint")) {}
+  explicit PortLaws(const Edits& edits) : rail_(edits.at(LawPort::rail)), joint_(edits.at(LawPort::joint)) {}
   bool empty() const { return rail_.empty() && joint_.empty(); }
   void at_time(double time_s) { time_s_ = time_s; }
 
   double rail_force_N(double z, double v, double leg_force_N) const override {
     return rail_.empty()
                ? 0.0
-               : sum_of(rail_, {.time_s = time_s_, .position = z, .velocity = v, .load = leg_force_N});
+               : sum_of(rail_,
+                        RailState{
+                            .time_s = time_s_, .height_m = z, .velocity_mps = v, .leg_force_N = leg_force_N});
   }
   double joint_torque_Nm(const PlantState& s, double motor_torque_Nm) const override {
     if (joint_.empty()) return 0.0;
-    return sum_of(joint_, {.time_s = time_s_,
-                           .position = s.angle_rad,
-                           .velocity = s.angular_velocity_radps,
-                           .load = motor_torque_Nm});
+    return sum_of(joint_, AxisState{.time_s = time_s_,
+                                    .angle_rad = s.angle_rad,
+                                    .velocity_radps = s.angular_velocity_radps,
+                                    .torque_Nm = motor_torque_Nm});
   }
 
  private:
@@ -42,7 +44,7 @@ class Actuator {
       : step_s_(run.step_s),
         factor_(run.torque_constant_factor),
         temperature_C_(run.motor_temperature_C),
-        limits_(edits.at("actuator.limit")) {
+        limits_(edits.at(LawPort::actuator_limit)) {
     const double time_constant_s = run.world.motor.current_loop_time_constant_s;
     for (const auto& edit : edits.sensors) {
       if (edit.channel != "actuator") continue;
@@ -78,7 +80,8 @@ class Actuator {
   // the step.
   double step(double command_Nm, double rate_radps) {
     if (!limits_.empty()) {
-      const double limit_Nm = std::max(0.0, sum_of(limits_, {.velocity = rate_radps, .load = command_Nm}));
+      const double limit_Nm =
+          std::max(0.0, sum_of(limits_, DriveState{.rate_radps = rate_radps, .command_Nm = command_Nm}));
       command_Nm = std::clamp(command_Nm, -limit_Nm, limit_Nm);
     }
     newest_ = (newest_ + 1) % history_.size();
@@ -102,7 +105,8 @@ class Actuator {
   double torque_Nm(double current_Nm, double time_s) const {
     double torque = factor_ * current_Nm + offset_Nm_;
     if (!laws_.empty())
-      torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm, .temperature_C = temperature_C_});
+      torque +=
+          sum_of(laws_, SensorState{.time_s = time_s, .value = current_Nm, .temperature_C = temperature_C_});
     return torque;
   }
 
@@ -142,7 +146,8 @@ class MeasuredAngle {
  private:
   double read(double rotor_rad, double rotor_radps) const {
     const double angle = gain_ * rotor_rad + offset_;
-    return laws_.empty() ? angle : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = rotor_radps});
+    return laws_.empty() ? angle
+                         : angle + 0.5 * sum_of(laws_, SensorState{.value = angle, .rate = rotor_radps});
   }
 
   double gain_ = 1.0, offset_ = 0.0;

@@ -153,8 +153,8 @@ class IntruderTrial final : public TrialModel {
     parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[kStiffness];
     parameters.unloading_stiffness_ratio *=
         1.0 - nuisances[kStiffness] * (1.0 - edits.edited(kLineFollows, 0.5)) / (1.0 + nuisances[kStiffness]);
-    if (const auto size = edits.at("foot.size"); !size.empty()) {
-      const double factor = std::exp(sum_of(size, {.position = radius_m_}));
+    if (const auto size = edits.at(LawPort::foot_size); !size.empty()) {
+      const double factor = std::exp(sum_of(size, FootState{.radius_m = radius_m_}));
       parameters.stiffness_N_per_m *= factor;
       parameters.stiffness_per_area_N_per_m3 *= factor;
     }
@@ -221,7 +221,7 @@ class IntruderTrial final : public TrialModel {
     const double surface_m = edits.edited("surface_height_m", nuisances[kSurface]);
     const double turning_m = nuisances[kTurning];
     const Read read = reading(edits);
-    const auto cell = edits.at("load_cell");
+    const auto cell = edits.at(LawPort::load_cell);
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
@@ -261,7 +261,8 @@ class IntruderTrial final : public TrialModel {
         pushed.deepest_m = pushed.down_before ? met.depth_m : std::max(pushed.deepest_m, met.depth_m);
       pushed.down_before = met.down;
       before_N = force_N;
-      run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
+      run.force.values[i] =
+          cell.empty() ? force_N : force_N + sum_of(cell, CellState{.foot_accel_mps2 = -read.accel_mps2(i)});
     }
     return run;
   }

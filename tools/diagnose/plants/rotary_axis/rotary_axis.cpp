@@ -49,7 +49,7 @@ std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const B
       if (balance.rest.size() < kLeastRows) continue;
       const auto rest = rest_without_known(balance);
       torques.insert(torques.end(), rest.begin(), rest.end());
-      for (const auto& state : balance.states) angles.push_back(state.position);
+      for (const auto& state : balance.states) angles.push_back(std::get<AxisState>(state).angle_rad);
     }
   if (torques.size() < 100) return {};
   return strongest_orders(angles, torques, kFirst, kLast);

@@ -43,11 +43,11 @@ void simulate_axis(const RotaryFigures& f, const std::vector<const Law*>& laws, 
     double sum = torque_Nm - f.gravity_torque_Nm * sine(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
     if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
     if (!laws.empty())
-      sum += sum_of(laws, {.time_s = t,
-                           .position = angle,
-                           .velocity = speed,
-                           .load = torque_Nm,
-                           .extreme = turned_at(inputs.turned_at, t)});
+      sum += sum_of(laws, AxisState{.time_s = t,
+                                    .angle_rad = angle,
+                                    .velocity_radps = speed,
+                                    .torque_Nm = torque_Nm,
+                                    .turned_rad = turned_at(inputs.turned_at, t)});
     return sum / f.inertia_kg_m2;
   };
   const auto torque_at = [&](double t) {  // mean of the step that begins then

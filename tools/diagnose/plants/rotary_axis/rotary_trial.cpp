@@ -78,7 +78,7 @@ class RotaryTrial final : public TrialModel {
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
     const RotaryFigures f(belief_, edits);
-    const auto laws = edits.at("axis");
+    const auto laws = edits.at(LawPort::axis);
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
     if (q > 0)
@@ -114,7 +114,8 @@ class RotaryTrial final : public TrialModel {
     for (const auto& edit : edits.sensors)
       if (edit.channel == kVelocityOfAngle)
         for (std::size_t i = 0; i < velocity.values.size(); ++i)
-          velocity.values[i] += edit.law({.position = position.values[i], .velocity = velocity.values[i]});
+          velocity.values[i] +=
+              edit.law(AxisState{.angle_rad = position.values[i], .velocity_radps = velocity.values[i]});
   }
 
   // A stretch begins where the encoder says, less what it is believed to be off by.
@@ -138,7 +139,7 @@ class RotaryTrial final : public TrialModel {
     if (laws.empty()) return gain;
     const double torque_Nm = gain * drive_.at(time_s);
     const double apart_Nm = kApart * std::max(std::abs(torque_Nm), 0.1);
-    const auto acting = [&](double t) { return t + sum_of(laws, {.time_s = time_s, .position = t}); };
+    const auto acting = [&](double t) { return t + sum_of(laws, SensorState{.time_s = time_s, .value = t}); };
     return gain * (acting(torque_Nm + apart_Nm) - acting(torque_Nm - apart_Nm)) / (2.0 * apart_Nm);
   }
 
