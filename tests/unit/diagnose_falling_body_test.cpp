@@ -136,7 +136,7 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
 TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
   const auto speed_mps = [](double drag_N_s_per_m) {
     const auto sinking = drops([=](double, double, double v) { return -drag_N_s_per_m * v; });
-    return prepare(sinking).problem.context.scale("speed_mps");
+    return prepare(sinking).problem.context.facts.speed_mps;
   };
   EXPECT_NEAR(speed_mps(0.0), std::sqrt(2.0 * 9.81 * 7.0), 0.3);
   EXPECT_NEAR(speed_mps(1.0), 0.2 * 9.81, 0.1);
@@ -189,7 +189,7 @@ TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
     const auto drag = std::ranges::find_if(
         problem.candidates, [](const Candidate& c) { return c.effect->id == "air.quadratic_drag"; });
     ASSERT_NE(drag, problem.candidates.end());
-    const double speed_mps = problem.context.scale("speed_mps");
+    const double speed_mps = problem.context.facts.speed_mps;
     const double force_N = 0.5 * 1.2 * 0.01 * drag->parameters.front().typical * speed_mps * speed_mps;
     EXPECT_GE(force_N, 0.099 * mass_kg * 9.81);
     EXPECT_GE(drag->parameters.front().typical, 0.5);

@@ -31,7 +31,7 @@ inline std::vector<std::string> accelerometers(const Context& context) {
 
 // Of an intruder's position and force, the one whose clock may be off.
 inline std::string intruder_out_of_time(const Context& context) {
-  return context.scale("position_is_out_of_time", 0.0) > 0.0 ? "foot_z_m" : "force_N";
+  return context.facts.position_is_out_of_time ? "foot_z_m" : "force_N";
 }
 
 // Whether this campaign has ground at all: a falling body need not.

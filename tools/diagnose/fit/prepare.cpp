@@ -268,7 +268,7 @@ Prepared prepare(const Recordings& recordings) {
     smallest_m = std::min(smallest_m, belief.value("foot.radius_m"));
     largest_m = std::max(largest_m, belief.value("foot.radius_m"));
   }
-  problem.context.scales["foot_radius_ratio"] = smallest_m > 0.0 ? largest_m / smallest_m : 1.0;
+  problem.context.facts.foot_radius_ratio = smallest_m > 0.0 ? largest_m / smallest_m : 1.0;
   take_trials(recordings, prepared);
   take_channels(recordings, prepared);
   problem.plant->describe(recordings.trials, problem.context);

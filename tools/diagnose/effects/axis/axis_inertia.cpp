@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
+  if (!c.facts.moves) return {};
   const double believed = c.belief.value("axis.inertia_kg_m2", 1.0);
   const double typical = 0.1 * believed;
   return {{.name = "inertia_kg_m2",

@@ -11,7 +11,7 @@ const EffectRegistration kEffect(
      .plants = {PlantKind::rotary_axis},
      .parameters =
          [](const Context& c, const std::string&) {
-           if (c.scale("moves") == 0.0) return std::vector<EffectParameter>{};
+           if (!c.facts.moves) return std::vector<EffectParameter>{};
            std::vector<EffectParameter> all{
                {.name = "load_friction_coefficient", .typical = 0.05, .low = 0.0, .high = 0.9}};
            all.push_back(own_switch_speed(c));

@@ -5,7 +5,7 @@ namespace {
 
 // A torque that is always there, and where gravity acts an angle between its zero and the encoder's.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double typical = 0.05 * c.scale("torque_Nm");
+  const double typical = 0.05 * c.facts.torque_Nm;
   std::vector<EffectParameter> all{{.name = "torque_offset_Nm",
                                     .typical = typical,
                                     .low = -100.0 * typical,

@@ -8,11 +8,11 @@ constexpr double kFastest_radps = 1.5;
 constexpr double kNoTail = 1e-3;
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
-  const double torque = 0.1 * c.scale("torque_Nm");
+  if (!c.facts.moves) return {};
+  const double torque = 0.1 * c.facts.torque_Nm;
   // Below its switch speed all dry friction fades through zero: nothing slower can be told apart.
   const double slowest = 2.0 * switch_speed_radps(c), fastest = std::max(kFastest_radps, 4.0 * slowest);
-  const double speed = std::clamp(0.05 * c.scale("speed_radps"), 1.5 * slowest, 0.5 * fastest);
+  const double speed = std::clamp(0.05 * c.facts.speed_radps, 1.5 * slowest, 0.5 * fastest);
   return {{.name = "stribeck_torque_Nm", .typical = torque, .low = 0.0, .high = 50.0 * torque},
           {.name = "stribeck_speed_radps",
            .typical = speed,

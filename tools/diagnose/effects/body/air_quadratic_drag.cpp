@@ -15,13 +15,13 @@ bool medium_known(const Context& c) {
 
 // What takes so much of the weight at the speed that was reached.
 double noticeable_N_s2_per_m2(const Context& c) {
-  return kShareOfWeight * c.scale("weight_N") / std::pow(c.scale("speed_mps"), 2);
+  return kShareOfWeight * c.facts.weight_N / std::pow(c.facts.speed_mps, 2);
 }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.plant == PlantKind::rotary_axis) {
-    if (c.scale("moves") == 0.0) return {};
-    const double typical = kShareOfWeight * c.scale("torque_Nm") / std::pow(c.scale("speed_radps"), 2);
+    if (!c.facts.moves) return {};
+    const double typical = kShareOfWeight * c.facts.torque_Nm / std::pow(c.facts.speed_radps, 2);
     return {{.name = "quadratic_drag_Nm_s2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
   }
   if (medium_known(c)) {
@@ -47,7 +47,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
     return edits.law(LawPort::axis, [=](const AxisState& s) {
       return -factor * std::abs(s.velocity_radps) * s.velocity_radps;
     });
-  const double length = front_m(c.scale("wetted_over_m", 0.0));
+  const double length = front_m(c.facts.wetted_over_m);
   edits.law(LawPort::body, [=](const BodyState& s) {
     return -factor * wetted_share(s.depth_m, length) * std::abs(s.velocity_mps) * s.velocity_mps;
   });

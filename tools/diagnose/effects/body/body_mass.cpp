@@ -20,7 +20,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .base = believed_kg(c),
                                     .scale = believed_kg(c)}};
   // A balance that reads too much, or something on every body that nobody weighed.
-  if (c.scale("masses_differ", 0.0) > 0.0) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
+  if (c.facts.masses_differ) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
   return all;
 }
 

@@ -8,11 +8,11 @@ bool displaced_known(const Context& c) {
 }
 
 // On its way into a liquid the body takes fluid along little by little.
-bool enters(const Context& c) { return c.scale("wetted_over_m", 0.0) > 0.0; }
+bool enters(const Context& c) { return c.facts.wetted_over_m > 0.0; }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (enters(c)) {
-    const double mass = c.belief.value("body.mass_kg", 1.0), length = c.scale("wetted_over_m");
+    const double mass = c.belief.value("body.mass_kg", 1.0), length = c.facts.wetted_over_m;
     return {{.name = "added_mass_kg", .typical = 0.02 * mass, .low = 0.0, .high = 2.0 * mass},
             {.name = "taken_up_over_m",
              .typical = 0.2 * length,

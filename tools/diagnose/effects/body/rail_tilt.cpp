@@ -7,7 +7,7 @@ constexpr double kRailFriction = 0.1;
 
 // On a leaning rail less of gravity acts along it, and the rest presses on the rail.
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-  const double tilt = v[0], pressed_N = kRailFriction * c.scale("weight_N", 20.0) * std::sin(tilt);
+  const double tilt = v[0], pressed_N = kRailFriction * c.facts.weight_N * std::sin(tilt);
   edits.scale("gravity_mps2", std::cos(tilt));
   edits.law(LawPort::rail,
             [=](const RailState& s) { return -pressed_N * sign_smooth(s.velocity_mps, kSwitchSpeed_mps); });

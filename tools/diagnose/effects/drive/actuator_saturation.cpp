@@ -6,7 +6,7 @@ namespace {
 // Beyond this torque no more of it is lost.
 double reference_of(const Context& c) {
   return c.plant == PlantKind::hopper ? c.belief.value("motor.torque_limit_Nm", 2.8) * 2.0
-                                      : 3.0 * c.scale("torque_Nm");
+                                      : 3.0 * c.facts.torque_Nm;
 }
 
 const EffectRegistration kEffect(

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("temperature_K", 0.0) < 3.0) return {};
+  if (c.facts.temperature_K < 3.0) return {};
   return {{.name = "derating_per_K", .typical = 1.2e-3, .low = -0.01, .high = 0.02, .either_sign = true}};
 }
 

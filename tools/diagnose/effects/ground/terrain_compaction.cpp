@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("range of pushes_since_preparation", 0.0) <= 0.0) return {};
+  if (c.facts.range_of_pushes <= 0.0) return {};
   return {{.name = "compaction_share", .typical = 0.2, .low = -0.8, .high = 10.0},
           {.name = "pushes", .typical = 2.0, .low = 0.2, .high = 20.0, .shapes = {0.7, 6.0}},
           part_of_unloading()};

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("range of pushes_since_preparation", 0.0) <= 0.0) return {};
+  if (c.facts.range_of_pushes <= 0.0) return {};
   return {{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05}};
 }
 

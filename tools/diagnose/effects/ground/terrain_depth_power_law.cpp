@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!has_bed(c)) return {};
-  const double depth = c.scale("depth_m", 0.04);
+  const double depth = c.facts.depth_m;
   const double believed = c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0
                               ? c.belief.value("terrain.exponent", 1.0)
                               : 1.0;

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double typical = 20.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
+  const double typical = 20.0 * std::pow(c.facts.foot_radius_m / 0.04, 2);
   return {{.name = "coupling_share", .typical = 0.25, .low = -0.8, .high = 5.0, .either_sign = true},
           {.name = "coupling_speed_mps", .typical = 0.3, .low = 0.02, .high = 3.0, .shapes = {0.08, 1.0}},
           {.name = "speed_law_N_s2_per_m2",

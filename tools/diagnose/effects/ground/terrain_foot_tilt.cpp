@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double typical = 0.07 * c.scale("foot_radius_m", 0.04);
+  const double typical = 0.07 * c.facts.foot_radius_m;
   return {{.name = "tilt_depth_m", .typical = typical, .low = 0.0, .high = 8.0 * typical},
           {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0, .shapes = {1.0, 3.0}}};
 }

@@ -5,7 +5,7 @@ namespace {
 
 // Only plates of more than one size show it.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("foot_radius_ratio") < 1.05) return {};
+  if (c.facts.foot_radius_ratio < 1.05) return {};
   return {{.name = "size_exponent", .typical = 0.3, .low = -2.0, .high = 3.0, .either_sign = true}};
 }
 

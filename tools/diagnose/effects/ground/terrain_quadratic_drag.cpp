@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!has_bed(c)) return {};
-  const double typical = 5.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
+  const double typical = 5.0 * std::pow(c.facts.foot_radius_m / 0.04, 2);
   std::vector<EffectParameter> all{
       {.name = "quadratic_drag_N_s2_per_m2", .typical = typical, .low = 0.0, .high = 100.0 * typical}};
   add_onset(c, all);

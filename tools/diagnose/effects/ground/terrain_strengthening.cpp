@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("range of wait_s", 0.0) <= 0.0) return {};
+  if (c.facts.range_of_wait_s <= 0.0) return {};
   return {{.name = "share_per_e_fold", .typical = 0.03, .low = 0.0, .high = 1.0},
           {.name = "time_constant_s", .typical = 2.0, .low = 0.05, .high = 100.0, .shapes = {0.5, 10.0}},
           part_of_unloading()};

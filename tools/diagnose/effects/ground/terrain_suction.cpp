@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double radius = c.scale("foot_radius_m", 0.04);
+  const double radius = c.facts.foot_radius_m;
   const double typical = 2.0 * std::pow(radius / 0.04, 2);
   return {{.name = "suction_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}},

@@ -6,12 +6,13 @@ namespace {
 constexpr double kFewestPeriods = 3.0;  // slower ripple is gravity's, or the encoder's
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("angle_rad") < 0.3) return {};
-  const double typical = 0.1 * c.scale("torque_Nm");
+  if (c.facts.angle_rad < 0.3) return {};
+  const double typical = 0.1 * c.facts.torque_Nm;
   // How many periods a turn has is asked of the recordings; the fit starts there.
   std::vector<double> orders;
-  for (const char* key : {"ripple_order_1", "ripple_order_2", "ripple_order_3"})
-    if (const double order = c.scale(key, 0.0); order > 0.0) orders.push_back(order);
+  constexpr std::size_t kMost = 3;
+  for (std::size_t i = 0; i < c.facts.ripple_orders.size() && i < kMost; ++i)
+    if (const double order = c.facts.ripple_orders[i]; order > 0.0) orders.push_back(order);
   if (orders.empty()) return {};
   const double likeliest = orders.front();
   const auto of_sine = [&](const char* name, bool amplitude) {
