@@ -36,8 +36,8 @@ double peak_at(const FreeGain& gain) {
 
 TEST(DiagnoseBalance, ATorqueThatHoldsTheLegAtAnAngleShowsAtTheJointAndThere) {
   Edits edits;
-  edits.law("joint",
-            [](const PortState& s) { return -0.6 * std::exp(-std::pow((s.position - 1.1) / 0.1, 2)); });
+  edits.law(LawPort::joint,
+            [](const AxisState& s) { return -0.6 * std::exp(-std::pow((s.angle_rad - 1.1) / 0.1, 2)); });
   const auto laws = laws_with(edits);
   ASSERT_FALSE(laws.empty());
   EXPECT_EQ(laws.front().family.port, "joint");
@@ -49,8 +49,8 @@ TEST(DiagnoseBalance, ATorqueThatHoldsTheLegAtAnAngleShowsAtTheJointAndThere) {
 
 TEST(DiagnoseBalance, ARoughSpotOfTheRailShowsAtTheRailAndAtItsHeight) {
   Edits edits;
-  edits.law("rail", [](const PortState& s) {
-    return -6.0 * std::exp(-std::pow((s.position - 0.38) / 0.01, 2)) * std::tanh(s.velocity / 0.01);
+  edits.law(LawPort::rail, [](const RailState& s) {
+    return -6.0 * std::exp(-std::pow((s.height_m - 0.38) / 0.01, 2)) * std::tanh(s.velocity_mps / 0.01);
   });
   const auto laws = laws_with(edits);
   ASSERT_FALSE(laws.empty());
@@ -63,8 +63,8 @@ TEST(DiagnoseBalance, ARoughSpotOfTheRailShowsAtTheRailAndAtItsHeight) {
 
 TEST(DiagnoseBalance, WhatIsOnTheListOrNotThereIsNoLawOfItsOwn) {
   Edits friction;
-  friction.law("rail", [](const PortState& s) { return -2.0 * std::tanh(s.velocity / 0.01); });
-  friction.law("joint", [](const PortState& s) { return -0.01 * s.velocity; });
+  friction.law(LawPort::rail, [](const RailState& s) { return -2.0 * std::tanh(s.velocity_mps / 0.01); });
+  friction.law(LawPort::joint, [](const AxisState& s) { return -0.01 * s.velocity_radps; });
   Edits heavier;
   heavier.scale("robot.body_mass_kg", 1.1);
   for (const auto& edits : {Edits{}, friction, heavier})
@@ -84,7 +84,7 @@ TEST(DiagnoseBalance, NothingIsAskedWhereAnAccelerometerClipped) {
   ASSERT_EQ(whole.size(), rest.size());
   for (std::size_t b = 0; b < whole.size(); ++b) {
     EXPECT_NEAR(static_cast<double>(whole[b].rest.size() - rest[b].rest.size()), clipped, 2.0);
-    for (const auto& state : rest[b].states) EXPECT_FALSE(state.time_s > 0.2005 && state.time_s < 0.2185);
+    for (const auto& state : rest[b].states) EXPECT_FALSE(time_of(state) > 0.2005 && time_of(state) < 0.2185);
   }
 }
 

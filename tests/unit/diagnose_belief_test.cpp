@@ -57,7 +57,7 @@ TEST(DiagnoseBelief, TheErrorThatShowsGrowsWithTheNoise) {
   write_swings(quiet, 1e-3);
   write_swings(loud, 4e-3);
   const auto a = diagnosed(quiet), b = diagnosed(loud);
-  EXPECT_EQ(a.verdict, "consistent");
+  EXPECT_EQ(a.verdict, Verdict::consistent);
   for (const auto* key : {"axis.inertia_kg_m2", "axis.gravity_torque_Nm", "axis.viscous_friction_Nm_s"}) {
     const double ratio = number(b, key).error_that_shows / number(a, key).error_that_shows;
     EXPECT_GT(ratio, 2.5) << key;

@@ -34,12 +34,13 @@ TEST(DiagnoseCorrectedModel, HoldsTheWholeOfWhatWasBelievedInPart) {
     return (torque - 2.0 * std::sin(angle)) * (0.1 / 0.12 - 1.0);
   });
   const auto first = diagnose(recordings);
-  ASSERT_EQ(first.verdict, "missing_physics");
+  ASSERT_EQ(first.verdict, Verdict::missing_physics);
   ASSERT_EQ(first.effects.front().id, "axis.inertia");
   const auto inertia_kg_m2 = number(first.corrected_model_toml, "axis", "inertia_kg_m2");
   ASSERT_TRUE(inertia_kg_m2) << first.corrected_model_toml;
   EXPECT_NEAR(*inertia_kg_m2, 0.12, 0.002);
-  EXPECT_EQ(diagnose(believing(recordings, "axis.inertia_kg_m2", *inertia_kg_m2)).verdict, "consistent");
+  EXPECT_EQ(diagnose(believing(recordings, "axis.inertia_kg_m2", *inertia_kg_m2)).verdict,
+            Verdict::consistent);
 }
 
 TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
@@ -48,7 +49,7 @@ TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
   auto recordings = drops([&](double, double, double v) { return drag_N(v) * 0.2 / 0.25; });
   recordings = believing(std::move(recordings), "medium.drag_coefficient", 0.9);
   const auto first = diagnose(recordings);
-  ASSERT_EQ(first.verdict, "missing_physics");
+  ASSERT_EQ(first.verdict, Verdict::missing_physics);
   for (const auto& effect : first.effects)
     for (const auto& p : effect.parameters) {
       if (p.derived) continue;

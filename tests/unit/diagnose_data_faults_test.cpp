@@ -190,7 +190,7 @@ TEST(DiagnoseDataFaults, AGapNowAndThenIsNoFinding) {
     trial.time_s.erase(trial.time_s.begin() + 20, trial.time_s.begin() + 24);
     for (auto& [name, values] : trial.channels) values.erase(values.begin() + 20, values.begin() + 24);
   }
-  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
 TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
@@ -205,7 +205,7 @@ TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
       for (auto& [name, values] : trial.channels) cut(values);
     }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.detail, "data_fault");
+  EXPECT_EQ(d.detail, Detail::data_fault);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "data.dropout");
 }
@@ -237,7 +237,7 @@ TEST(DiagnoseDataFaults, FewRowsThatAreMissingAreNoFault) {
         values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
     }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   EXPECT_TRUE(d.effects.empty());
 }
 
@@ -333,7 +333,7 @@ TEST(DiagnoseDataFaults, WhereAChannelShowsNothingButItsLimitNothingElseIsNamed)
     trial.channels.erase("height_m");
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "missing_physics");
+  EXPECT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "sensor.saturation");
 }

@@ -29,6 +29,13 @@ Recordings recordings_of(PlantKind plant) {
   return presses([](double, double) { return 0.0; }, 3, 6);
 }
 
+// Something that moves at a port, under a load.
+PortState moving(LawPort port, double v) {
+  if (port == LawPort::body) return BodyState{.height_m = 0.01, .velocity_mps = v, .depth_m = 3.0};
+  if (port == LawPort::axis) return AxisState{.angle_rad = 0.01, .velocity_radps = v, .torque_Nm = 3.0};
+  return GroundState{.depth_m = 0.01, .speed_mps = v, .virgin = v > 0.0 ? 1.0 : 0.0, .quasi_static_N = 3.0};
+}
+
 TEST(EffectParameters, AreFittedInOneScaleAndReportedInAnother) {
   const EffectParameter tilt{.typical = 0.01, .power = 0.5};
   EXPECT_NEAR(tilt.reported(0.04), 0.2, 1e-12);
@@ -62,12 +69,10 @@ TEST_P(EveryEffect, BringsNoEnergyWhereItIsAFriction) {
     Edits edits;
     candidate.effect->apply(problem.context, candidate.channel, values_of(candidate, 1.0), edits);
     for (const auto& [port, law] : edits.laws) {
-      if (port == "ground.tension") continue;  // how far the force may go, no force
-      const bool ground = port.starts_with("ground");
+      if (port == LawPort::ground_tension) continue;  // how far the force may go, no force
       for (double v = -2.0; v <= 2.0; v += 0.1) {
         // On the bed a force upward is positive and speed counts downward.
-        const PortState s{.position = 0.01, .velocity = v, .accel = v > 0.0 ? 1.0 : 0.0, .load = 3.0};
-        const double power = law(s) * (ground ? -v : v);
+        const double power = law(moving(port, v)) * (name_of(port).starts_with("ground") ? -v : v);
         EXPECT_LE(power, 1e-12) << candidate.label() << " at " << v;
       }
     }

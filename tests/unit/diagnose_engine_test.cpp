@@ -25,7 +25,7 @@ const FoundEffect* effect(const Diagnosis& d, const std::string& id) {
 }
 
 void expect_alone(const Diagnosis& d, const std::string& id, double low, double high) {
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   const auto& found = d.effects.front();
   EXPECT_EQ(found.id, id);
@@ -39,7 +39,7 @@ void expect_alone(const Diagnosis& d, const std::string& id, double low, double 
 TEST(Diagnose, FindsNothingWhereNothingIsMissing) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     const auto d = diagnose(drops(no_force, seed));
-    EXPECT_EQ(d.verdict, "consistent") << seed;
+    EXPECT_EQ(d.verdict, Verdict::consistent) << seed;
     EXPECT_TRUE(d.effects.empty());
     EXPECT_FALSE(d.absent.empty());
   }
@@ -47,7 +47,7 @@ TEST(Diagnose, FindsNothingWhereNothingIsMissing) {
 
 TEST(Diagnose, FindsNothingOnAnAxisWhereNothingIsMissing) {
   const auto d = diagnose(swings([](double, double, double) { return 0.0; }));
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   EXPECT_TRUE(d.effects.empty());
 }
 
@@ -57,7 +57,7 @@ TEST(Diagnose, NoiseOfATorqueThatIsOffIsNoTorque) {
   Random random(9, 0);
   for (auto& trial : recordings.trials)
     for (double& torque : trial.channels["torque_Nm"]) torque = 0.1 * random.normal();
-  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
 TEST(Diagnose, NamesAirDragWithItsCoefficient) {
@@ -128,7 +128,7 @@ TEST(Diagnose, ALowPassThatRunsOnceARowIsNoSkew) {
       velocity[i] = filtered;
     }
   }
-  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
 // An axis is simulated in stretches. A reading that is late shows at the start of one what was before.
@@ -163,8 +163,8 @@ TEST(Diagnose, ALateReadingOfAnAxisShowsWhatWasBeforeAStretch) {
 TEST(Diagnose, StatesTheClassWhereAConstantForceHasTwoExplanations) {
   // A constant share of the weight: carried by the medium, or spent on fluid that moves along.
   const auto d = diagnose(drops([](double, double, double) { return 0.05 * 0.2 * 9.81; }));
-  ASSERT_EQ(d.verdict, "missing_physics");
-  EXPECT_EQ(d.detail, "one_of_class");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
+  EXPECT_EQ(d.detail, Detail::one_of_class);
   ASSERT_EQ(d.effects.size(), 1u);
   const auto& found = d.effects.front();
   auto named = found.indistinguishable_from;
@@ -177,7 +177,7 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
   // A tether that tightens below 3.5 m.
   const auto d = diagnose(
       drops([](double, double h, double) { return 0.4 * std::max(0.0, 3.5 - h) * (h < 3.0 ? 1.0 : 0.0); }));
-  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
+  EXPECT_EQ(d.verdict, Verdict::unknown_physics) << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@body"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "height_m");
@@ -197,7 +197,7 @@ TEST(Diagnose, ANameThatClosesTheGapStaysWhereAnAccelerometerIsFarNoisierThanIts
     }
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "missing_physics") << to_text(d) << ::testing::PrintToString(d.log);
+  EXPECT_EQ(d.verdict, Verdict::missing_physics) << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "air.quadratic_drag"), nullptr) << to_text(d);
   EXPECT_GT(d.gap_closed, 0.9);
 }
@@ -206,7 +206,7 @@ TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
   // Drag, and a spring far weaker that begins at 3 m and is on no list.
   const auto d = diagnose(drops(
       [](double, double h, double v) { return -0.03 * std::abs(v) * v + 0.1 * std::max(0.0, 3.0 - h); }));
-  EXPECT_EQ(d.verdict, "missing_physics") << to_text(d);
+  EXPECT_EQ(d.verdict, Verdict::missing_physics) << to_text(d);
   const auto* drag = effect(d, "air.quadratic_drag");
   ASSERT_NE(drag, nullptr) << to_text(d);
   EXPECT_GT(drag->probability, 0.5);
@@ -223,7 +223,7 @@ TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
   // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
   const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
                                   [](double since_s) { return -0.5 * std::exp(-since_s / 0.05); }));
-  EXPECT_EQ(d.verdict, "unknown_physics") << to_text(d) << ::testing::PrintToString(d.log);
+  EXPECT_EQ(d.verdict, Verdict::unknown_physics) << to_text(d) << ::testing::PrintToString(d.log);
   EXPECT_NE(effect(d, "unknown@ground"), nullptr);
   ASSERT_FALSE(d.unknown.empty());
   EXPECT_EQ(d.unknown.front().curve.variable, "time since touchdown, s, times the quasi-static force");
@@ -236,7 +236,7 @@ TEST(Diagnose, NamesAStuckSensorAndIsNotMisledByIt) {
     for (std::size_t i = 40; i < 60; ++i) accel[i] = accel[40];
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.detail, "data_fault");
+  EXPECT_EQ(d.detail, Detail::data_fault);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "data.stuck");
   EXPECT_EQ(d.effects.front().channel, "accel_mps2");
@@ -256,15 +256,15 @@ TEST(Diagnose, DoesNotDependOnTheOrderOfTrials) {
 
 TEST(Diagnose, SaysTooLittleDataWhereOneTrialShowsNothing) {
   const auto d = diagnose(drops(no_force, 1, 1));
-  EXPECT_EQ(d.verdict, "insufficient_data");
-  EXPECT_EQ(d.detail, "too_little_data");
+  EXPECT_EQ(d.verdict, Verdict::insufficient_data);
+  EXPECT_EQ(d.detail, Detail::too_little_data);
 }
 
 TEST(Diagnose, TellsWhatAMissingChannelRulesOut) {
   auto recordings = drops(no_force);
   for (auto& trial : recordings.trials) trial.channels.erase("accel_mps2");
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   EXPECT_THAT(d.notes, Contains(::testing::HasSubstr("accel_mps2")));
 }
 

@@ -124,10 +124,10 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
     }
     return r;
   };
-  EXPECT_EQ(diagnose(thrown(0.5, 0.5)).verdict, "consistent");
-  EXPECT_EQ(diagnose(thrown(0.0, 0.0)).verdict, "consistent");
+  EXPECT_EQ(diagnose(thrown(0.5, 0.5)).verdict, Verdict::consistent);
+  EXPECT_EQ(diagnose(thrown(0.0, 0.0)).verdict, Verdict::consistent);
   const auto more = diagnose(thrown(0.75, 0.5));
-  ASSERT_EQ(more.verdict, "missing_physics");
+  ASSERT_EQ(more.verdict, Verdict::missing_physics);
   EXPECT_EQ(more.effects.front().id, "air.quadratic_drag");
 }
 
@@ -136,7 +136,7 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
 TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
   const auto speed_mps = [](double drag_N_s_per_m) {
     const auto sinking = drops([=](double, double, double v) { return -drag_N_s_per_m * v; });
-    return prepare(sinking).problem.context.scale("speed_mps");
+    return prepare(sinking).problem.context.facts.speed_mps;
   };
   EXPECT_NEAR(speed_mps(0.0), std::sqrt(2.0 * 9.81 * 7.0), 0.3);
   EXPECT_NEAR(speed_mps(1.0), 0.2 * 9.81, 0.1);
@@ -148,7 +148,7 @@ TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
       drops([](double t_s, double, double v) { return t_s > 0.3 ? -0.006 * std::abs(v) * v : 0.0; }, 4);
   for (auto& trial : recordings.trials) trial.channels.erase("accel_mps2");
   const auto d = diagnose(recordings);
-  EXPECT_NE(d.verdict, "consistent");
+  EXPECT_NE(d.verdict, Verdict::consistent);
   for (const auto& effect : d.effects) {
     const bool named = !effect.is_unknown();
     EXPECT_TRUE(!named || effect.probability < 0.8) << effect.id;
@@ -189,7 +189,7 @@ TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
     const auto drag = std::ranges::find_if(
         problem.candidates, [](const Candidate& c) { return c.effect->id == "air.quadratic_drag"; });
     ASSERT_NE(drag, problem.candidates.end());
-    const double speed_mps = problem.context.scale("speed_mps");
+    const double speed_mps = problem.context.facts.speed_mps;
     const double force_N = 0.5 * 1.2 * 0.01 * drag->parameters.front().typical * speed_mps * speed_mps;
     EXPECT_GE(force_N, 0.099 * mass_kg * 9.81);
     EXPECT_GE(drag->parameters.front().typical, 0.5);
@@ -205,7 +205,7 @@ TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
   recordings.belief.numbers["medium.drag_coefficient"] = 0.0;
   recordings.beliefs.assign(recordings.trials.size(), recordings.belief);
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   const auto problem = prepare(recordings).problem;
   for (const auto& trial : problem.trials)
     EXPECT_TRUE(std::ranges::none_of(trial->trial_nuisances,

@@ -50,7 +50,7 @@ class DiagnoseGivenSets : public ::testing::Test {
 
 TEST_F(DiagnoseGivenSets, AThrownPhoneIsSlowedByTheSquareOfItsSpeed) {
   if (!run("phone_throws")) GTEST_SKIP();
-  EXPECT_EQ(answer_.verdict, "missing_physics");
+  EXPECT_EQ(answer_.verdict, Verdict::missing_physics);
   ASSERT_TRUE(names("air.quadratic_drag")) << to_text(answer_);
   EXPECT_GT(value("air.quadratic_drag"), 0.045);
   EXPECT_LT(value("air.quadratic_drag"), 0.054);

@@ -13,8 +13,8 @@ namespace {
 // Two pushes lowered the surface by 10 mm each; of the 60 mm to the floor 40 are left.
 TEST(DiagnoseGround, TheFloorStaysWhereItIsUnderACrater) {
   Edits edits;
-  edits.law("ground.surface", [](const PortState& s) { return -0.01 * s.pushes; });
-  edits.law("ground.factor", [](const PortState& s) { return s.bed_depth_m - s.position; });
+  edits.law(LawPort::ground_surface, [](const GroundState& s) { return -0.01 * s.pushes; });
+  edits.law(LawPort::ground_factor, [](const GroundState& s) { return s.bed_depth_m - s.depth_m; });
   const GroundLaws laws(edits, {.pushes = 2.0, .wait_s = 0.0, .bed_depth_m = 0.06});
   EXPECT_NEAR(laws.deeper_m(), -0.02, 1e-12);
   EXPECT_NEAR(laws.quasi_static_N(1.0, 0.03), 1.0 + 0.04 - 0.03, 1e-12);

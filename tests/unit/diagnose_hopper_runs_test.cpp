@@ -35,7 +35,7 @@ TEST(DiagnoseHopperRuns, AreSharedByWhatOnlyASensorReadsOtherwise) {
     EXPECT_NE(HopperRuns::key(edits, nuisances), with_law) << channel;
   }
   Edits at_port = plain;
-  at_port.law("rail", nothing);
+  at_port.law(LawPort::rail, nothing);
   at_port.laws_key = 0;
   EXPECT_TRUE(HopperRuns::key(at_port, nuisances).empty());
 }

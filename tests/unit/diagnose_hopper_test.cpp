@@ -222,7 +222,7 @@ Recordings hops_on_sand(const std::function<void(Edits&)>& hidden) {
 // and only beside the believed nuisances a search sees what bends them.
 TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
   const auto tilted = [](Edits& edits) {
-    edits.law("ground.factor", [](const PortState& s) { return -std::exp(-s.position / 5e-3); });
+    edits.law(LawPort::ground_factor, [](const GroundState& s) { return -std::exp(-s.depth_m / 5e-3); });
   };
   const auto found = [](const Recordings& recordings) {
     Prepared prepared = prepare(recordings);

@@ -34,7 +34,7 @@ TEST(DiagnoseLate, ADriveOutOfTimeIsNamedWithAnIntervalNoNarrowerThanSampling) {
   for (auto& trial : recordings.trials) trial.channels.erase("velocity_radps");
   make_late(recordings, "torque_Nm", 2);
   const auto d = diagnose(recordings);
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   const auto& found = d.effects.front();
   EXPECT_TRUE(found.id == "clock.skew" || found.id == "actuator.delay") << found.id;
@@ -49,7 +49,7 @@ TEST(DiagnoseLate, AVelocityThatIsEarlyIsOneSkew) {
   auto recordings = swings(no_torque, 1, 10);
   make_late(recordings, "velocity_radps", -2);
   const auto d = diagnose(recordings);
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "clock.skew");
   EXPECT_EQ(d.effects.front().channel, "velocity_radps");
@@ -63,7 +63,7 @@ TEST(DiagnoseLate, OfAnIntrudersTwoChannelsTheOneThatIsLateIsNamed) {
     auto recordings = presses(bed);
     make_late(recordings, channel, 2);
     const auto d = diagnose(recordings);
-    ASSERT_EQ(d.verdict, "missing_physics") << channel;
+    ASSERT_EQ(d.verdict, Verdict::missing_physics) << channel;
     const auto skew =
         std::ranges::find_if(d.effects, [](const FoundEffect& e) { return e.id == "clock.skew"; });
     ASSERT_NE(skew, d.effects.end()) << channel;
@@ -96,7 +96,7 @@ TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
     for (std::size_t i = 0; i < force.size(); ++i) force[i] -= 0.15 * trial.channels["foot_accel_mps2"][i];
   }
   const auto d = diagnose(recordings);
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "load_cell.inertia");
   EXPECT_NEAR(d.effects.front().parameters.front().value, 0.15, 0.01);
@@ -129,7 +129,7 @@ TEST(DiagnoseSmall, WhatIsBarelyThereIsNamedAloneButNotConfidently) {
 TEST(DiagnoseSmall, ADragOfATwentiethOfItsTypicalSizeIsNoUnknown) {
   const auto d =
       diagnose(drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.025 * std::abs(v) * v; }));
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "air.quadratic_drag");
   EXPECT_NEAR(d.effects.front().parameters.front().value, 0.025, 0.005);
@@ -141,7 +141,7 @@ TEST(DiagnoseSmall, AFallingAccelerometerMayBeOffByMoreThanItShows) {
   for (auto& trial : recordings.trials)
     for (double& a : trial.channels["accel_mps2"]) a -= 0.4;
   const auto d = diagnose(recordings);
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "sensor.bias");
   EXPECT_NEAR(d.effects.front().parameters.front().value, -0.4, 0.02);

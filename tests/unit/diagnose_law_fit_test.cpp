@@ -17,8 +17,9 @@ TEST(DiagnoseLawFit, ALawOfFreeFormIsFittedThroughTheSimulation) {
           .problem;
   const Fit null = fit_from(problem, null_point(problem));
   FreeGain law;
-  law.family.terms = {
-      {"axis", false, [](const PortState& s) { return kScale_Nm * std::sin(2.0 * s.position); }, kScale_Nm}};
+  law.family.terms = {{"axis", false,
+                       law_of([](const AxisState& s) { return kScale_Nm * std::sin(2.0 * s.angle_rad); }),
+                       kScale_Nm}};
   law.size = law.sd = Eigen::VectorXd::Zero(1);
   const Point point = with_law_fitted(problem, null, law);
   ASSERT_EQ(point.hypothesis.law_sizes.size(), 1u);

@@ -94,7 +94,7 @@ TEST(DiagnoseMisfit, MoreThanTheNoiseIsLeftWhereSomethingIsMissing) {
 // Hum has another phase in every trial: no law of time, depth or force finds it, and it passes for noise.
 TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
   auto recordings = presses([](double, double) { return 0.0; }, 3, 8);
-  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
   for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
     auto& trial = recordings.trials[i];
     auto& force = trial.channels["force_N"];
@@ -102,7 +102,7 @@ TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
       force[k] += 1.0 * std::sin(2.0 * M_PI * 50.0 * trial.time_s[k] + 2.4 * static_cast<double>(i));
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, Verdict::unknown_physics);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "unknown@force_N");
 }

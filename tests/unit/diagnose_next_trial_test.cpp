@@ -30,7 +30,7 @@ Recordings more_drag_with_payloads() {
 
 TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
   const auto d = diagnose(more_drag_with_payloads());
-  ASSERT_EQ(d.detail, "one_of_class");
+  ASSERT_EQ(d.detail, Detail::one_of_class);
   EXPECT_EQ(d.next.kind, "drop");
   ASSERT_TRUE(d.next.setup.contains("payload_kg"));
   EXPECT_THAT(d.next.setup.at("payload_kg"), ::testing::AnyOf(0.1, 0.2, 0.6));
@@ -50,7 +50,7 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
 // A lab that has no weights is told which set-up would help, not sent to buy one.
 TEST(DiagnoseNextTrial, ProposesNoSetUpThatTheLabDoesNotHave) {
   const auto d = diagnose(more_drag());
-  ASSERT_EQ(d.detail, "one_of_class");
+  ASSERT_EQ(d.detail, Detail::one_of_class);
   EXPECT_FALSE(d.next.setup.contains("payload_kg"));
   if (d.next.kind.empty())
     EXPECT_THAT(d.next.why, HasSubstr("lists under [available]"));
@@ -92,7 +92,7 @@ TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
     torque.insert(torque.end(), 2, torque.back());
   }
   const auto d = diagnose(recordings);
-  ASSERT_EQ(d.detail, "one_of_class");
+  ASSERT_EQ(d.detail, Detail::one_of_class);
   EXPECT_EQ(d.next.kind, "");
   EXPECT_EQ(d.next.purpose, "");
   EXPECT_THAT(d.next.why, HasSubstr("not one tells"));
@@ -100,21 +100,21 @@ TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
 
 TEST(DiagnoseNextTrial, TightensTheWidestBoundWhereNothingIsMissing) {
   const auto d = diagnose(drops([](double, double, double) { return 0.0; }));
-  ASSERT_EQ(d.verdict, "consistent");
+  ASSERT_EQ(d.verdict, Verdict::consistent);
   ASSERT_GT(d.absent.front().typicals, 0.5);
   EXPECT_THAT(d.next.why, HasSubstr(d.absent.front().id));
 }
 
 TEST(DiagnoseNextTrial, NarrowsTheIntervalOfTheOneExplanation) {
   const auto d = diagnose(drops([](double, double, double v) { return -0.01 * v; }));
-  ASSERT_EQ(d.detail, "known");
+  ASSERT_EQ(d.detail, Detail::known);
   EXPECT_EQ(d.next.kind, "drop");
   EXPECT_THAT(d.next.why, HasSubstr("air.linear_drag"));
 }
 
 TEST(DiagnoseNextTrial, PlansAMotionOfAnAxis) {
   const auto d = diagnose(swings([](double, double velocity, double) { return -0.05 * velocity; }));
-  ASSERT_EQ(d.verdict, "missing_physics");
+  ASSERT_EQ(d.verdict, Verdict::missing_physics);
   EXPECT_TRUE(d.next.kind == "motion" || d.next.kind == "hold") << d.next.kind;
   EXPECT_GT(d.next.setup.at("duration_s"), 0.0);
 }

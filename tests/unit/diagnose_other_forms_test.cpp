@@ -81,7 +81,7 @@ TEST(DiagnoseOtherForms, WhatGoesWithNothingActsAtThePlantsOnlyPort) {
     before_s = t;
     return 0.1 * std::sin(6.2832 * 6.3 * t + 2.4 * trial * trial);
   }));
-  EXPECT_EQ(d.verdict, "unknown_physics");
+  EXPECT_EQ(d.verdict, Verdict::unknown_physics);
   EXPECT_TRUE(std::ranges::any_of(d.effects, [](const auto& e) { return e.id == "unknown@body"; }));
 }
 

@@ -65,7 +65,7 @@ class DiagnoseRecordings : public ::testing::Test {
 
 TEST_F(DiagnoseRecordings, WhiffleBallFallsAgainstTheAir) {
   if (!run("whiffle_ball", 3)) GTEST_SKIP();
-  ASSERT_EQ(answer_.verdict, "missing_physics");
+  ASSERT_EQ(answer_.verdict, Verdict::missing_physics);
   ASSERT_EQ(answer_.effects.size(), 1u);
   const auto& drag = answer_.effects.front();
   EXPECT_TRUE(drag.id == "air.linear_drag" || drag.id == "air.quadratic_drag") << drag.id;
@@ -89,7 +89,7 @@ TEST_F(DiagnoseRecordings, VolleyballFallsAgainstTheAir) {
 
 TEST_F(DiagnoseRecordings, HeavyBallsAreConsistentAndTheCameraIsNotBlamed) {
   if (!run("heavy_balls", 3)) GTEST_SKIP();
-  EXPECT_EQ(answer_.verdict, "consistent");
+  EXPECT_EQ(answer_.verdict, Verdict::consistent);
   EXPECT_TRUE(answer_.effects.empty());
   const auto drag = std::find_if(answer_.absent.begin(), answer_.absent.end(),
                                  [](const Bound& bound) { return bound.id == "air.quadratic_drag"; });
@@ -102,7 +102,7 @@ TEST_F(DiagnoseRecordings, HeavyBallsAreConsistentAndTheCameraIsNotBlamed) {
 // Over these depths a power law and a bed that stiffens towards its floor are nearly one curve.
 TEST_F(DiagnoseRecordings, PlatesMeetABedThatStiffensWithDepth) {
   if (!run("plates_on_springs", 3)) GTEST_SKIP();
-  EXPECT_EQ(answer_.verdict, "missing_physics");
+  EXPECT_EQ(answer_.verdict, Verdict::missing_physics);
   ASSERT_TRUE(found("terrain.depth_power_law") != nullptr || found("terrain.floor_stiffening") != nullptr);
   // Found together the two share what stiffens.
   if (found("terrain.depth_power_law") != nullptr && found("terrain.floor_stiffening") == nullptr) {
@@ -114,7 +114,7 @@ TEST_F(DiagnoseRecordings, PlatesMeetABedThatStiffensWithDepth) {
 
 TEST_F(DiagnoseRecordings, PenetrometerFallsAgainstTheWater) {
   if (!run("penetrometer_on_spring", 3)) GTEST_SKIP();
-  EXPECT_EQ(answer_.verdict, "missing_physics");
+  EXPECT_EQ(answer_.verdict, Verdict::missing_physics);
   EXPECT_GT(value("air.quadratic_drag"), 0.3);
   EXPECT_LT(value("air.quadratic_drag"), 1.1);
   EXPECT_LT(left_of_error(), 0.7);
@@ -122,7 +122,7 @@ TEST_F(DiagnoseRecordings, PenetrometerFallsAgainstTheWater) {
 
 TEST_F(DiagnoseRecordings, LegOnWoodHasInertiaAndFriction) {
   if (!run("hopper_on_wood", 3)) GTEST_SKIP();
-  EXPECT_EQ(answer_.verdict, "missing_physics");
+  EXPECT_EQ(answer_.verdict, Verdict::missing_physics);
   EXPECT_GT(value("joint.rotor_inertia"), 1.0e-3);
   EXPECT_LT(value("joint.rotor_inertia"), 3.0e-3);
   EXPECT_LT(left_of_error(), 0.5);

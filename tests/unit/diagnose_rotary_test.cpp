@@ -28,7 +28,7 @@ TEST(DiagnoseRotary, NoiseOfTheTorquesSensorIsNoErrorOfTheAngle) {
     for (double& torque : recordings.trials[i].channels["torque_Nm"]) torque += kNoise_Nm * random.normal();
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   const auto angle =
       std::ranges::find_if(d.fits, [](const ChannelFit& fit) { return fit.channel == "position_rad"; });
   ASSERT_NE(angle, d.fits.end());
@@ -48,7 +48,7 @@ TEST(DiagnoseRotary, AZeroOfTheTorqueThatNobodyStatedIsNoTorque) {
       torque = zero_Nm + 0.03 * random.normal();
   }
   const auto d = diagnose(recordings);
-  EXPECT_EQ(d.verdict, "consistent");
+  EXPECT_EQ(d.verdict, Verdict::consistent);
   for (const auto& fit : d.fits) EXPECT_LT(fit.heldout.before, 1.2 * fit.floor) << fit.channel;
 }
 
@@ -212,7 +212,7 @@ TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
   EXPECT_EQ(prepared.problem.trials.size(), recordings.trials.size() - 3);
   ASSERT_EQ(prepared.left_out.size(), 3u);
   EXPECT_NE(prepared.left_out.front().find("clamped"), std::string::npos);
-  EXPECT_EQ(diagnose(recordings).verdict, "consistent");
+  EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
 // Without an encoder the angle is where the set-up says, and gravity what it is there: in an axis that stands
@@ -233,7 +233,7 @@ TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
     }
     const auto d = diagnose(recordings);
     if (gravity_Nm == 2.0) {
-      EXPECT_EQ(d.verdict, "consistent");
+      EXPECT_EQ(d.verdict, Verdict::consistent);
       continue;
     }
     ASSERT_EQ(d.effects.size(), 1u);

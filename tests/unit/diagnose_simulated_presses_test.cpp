@@ -19,7 +19,7 @@ TEST(DiagnoseSimulatedPresses, OurOwnAgreeWithTheirBelief) {
   setup.trials = 6;
   make_intrusion_campaign(setup);
   const auto answer = diagnose(read_campaign(load_campaign(folder.path())).recordings);
-  EXPECT_EQ(answer.verdict, "consistent") << to_text(answer);
+  EXPECT_EQ(answer.verdict, Verdict::consistent) << to_text(answer);
 }
 
 }  // namespace

@@ -79,8 +79,6 @@ void tell_belief(Session& session, const UsedNumbers& used,
 // Not one trial could be read: there is nothing to say about physics, and the findings say why.
 ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& folder, std::size_t trials) {
   sandhopper::diagnose::Diagnosis nothing;
-  nothing.verdict = "insufficient_data";
-  nothing.detail = "null";
   nothing.notes.push_back(
       fmt::format("none of {} trials can be used: correct what is said about them", trials));
   session.result = sandhopper::diagnose::to_json(nothing);

@@ -93,6 +93,17 @@ Settled settled_null(Problem& problem) {
   return {std::move(null), std::move(starts)};
 }
 
+// Of many trials whose simulation takes long some are searched: what came near there.
+std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, const Point& null,
+                                 const SearchOptions& options) {
+  Prepared some = prepare(spread_over(clean, kSearchedTrials));
+  const Settled of_some = settled_null(some.problem);
+  Search search(some.problem, options);
+  search.run(of_some.null, of_some.starts);
+  problem.simulations += some.problem.simulations;
+  return carried_over(some.problem, search.best_points(kSeeds), problem, null);
+}
+
 // All that is searched: once, and again with the noise as it shows with what was found in place. Of many
 // trials whose simulation takes long some are searched; what comes near there is where all of them begin.
 Search searched(Problem& problem, const Recordings& clean, const Settled& settled,
@@ -114,12 +125,7 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   }
   std::vector<Point> seeds = settled.starts;
   if (problem.plant->is_costly() && problem.trials.size() > kManyTrialsInAll) {
-    Prepared some = prepare(spread_over(clean, kSearchedTrials));
-    const Settled of_some = settled_null(some.problem);
-    Search search(some.problem, search_options);
-    search.run(of_some.null, of_some.starts);
-    seeds = carried_over(some.problem, search.best_points(kSeeds), problem, null);
-    problem.simulations += some.problem.simulations;
+    seeds = seeds_of_some(problem, clean, null, search_options);
     search_options.most_effects = search_options.fits_per_screen = search_options.fits_of_singles = 0;
     search_options.straight = false;
   }
@@ -174,8 +180,8 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
                     const Unexplained& rest, Diagnosis& diagnosis) {
   const bool too_few = problem.trials.size() < kTooFewTrials, named = !search.best().set.empty();
   if (!named && !rest.unknown) {
-    diagnosis.verdict = too_few ? "insufficient_data" : "consistent";
-    diagnosis.detail = too_few ? "too_little_data" : "null";
+    diagnosis.verdict = too_few ? Verdict::insufficient_data : Verdict::consistent;
+    diagnosis.detail = too_few ? Detail::too_little_data : Detail::none;
     return;
   }
   if (named) report_effects(problem, search, belief, diagnosis);
@@ -194,17 +200,55 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
       if (rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
     }
   if (!by_names && rest.unknown) {
-    diagnosis.verdict = "unknown_physics";
-    diagnosis.detail = rest.law ? "unknown_at_port" : "unknown_not_localised";
+    diagnosis.verdict = Verdict::unknown_physics;
+    diagnosis.detail = rest.law ? Detail::unknown_at_port : Detail::unknown_not_localised;
     std::ranges::stable_partition(diagnosis.effects, &FoundEffect::is_unknown);
     return;
   }
   const bool classes = std::ranges::any_of(
       diagnosis.effects, [](const auto& effect) { return !effect.indistinguishable_from.empty(); });
-  diagnosis.verdict = "missing_physics";
-  diagnosis.detail = rest.unknown || (rest.law && !classes) ? "known_and_rest"
-                     : classes                              ? "one_of_class"
-                                                            : "known";
+  diagnosis.verdict = Verdict::missing_physics;
+  diagnosis.detail = rest.unknown || (rest.law && !classes) ? Detail::known_and_rest
+                     : classes                              ? Detail::one_of_class
+                                                            : Detail::known;
+}
+
+// Takes out of `faults` what is none, and notes it.
+void note_what_is_no_fault(std::vector<DataFault>& faults, const Recordings& clean, Diagnosis& diagnosis) {
+  for (const auto& limit : take_known_limits(faults, clean.belief))
+    diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
+                                          limit.channel, limit.stretches, limit.limit));
+  for (const auto& event : take_single_events(faults, clean.trials.size()))
+    diagnosis.notes.push_back(fmt::format("{}: {} once, for {:.3g} s; left out", event.channel,
+                                          event.id == "data.stuck" ? "stood still" : "fell out",
+                                          event.duration_s));
+}
+
+// Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
+// nuisances move too much for that to say anything.
+void drop_names_in_vain(const Problem& problem, Search& search, Diagnosis& diagnosis) {
+  if (problem.plant->is_costly() || search.best().set.empty()) return;
+  const Point &null = search.null().fit.point, &point = search.best().fit.point;
+  if (held_out_gain(problem, residuals_of(problem, null, point), null, point) > 0.0) return;
+  diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
+  search.name_nothing();
+}
+
+// Everything that goes with the verdict: errors, places, bounds, the next trial, the corrected model.
+void report_around(Problem& problem, const Recordings& recordings, const Recordings& clean,
+                   const Posterior& belief, const Unexplained& rest, const Point& answer, Search& search,
+                   Diagnosis& diagnosis) {
+  const Residuals residuals = residuals_of(problem, search.null().fit.point, answer);
+  report_errors(problem, residuals, diagnosis);
+  report_trial_to_trial(problem, search, diagnosis);
+  report_residuals(problem, residuals, diagnosis);
+  report_absent(problem, search, diagnosis);
+  report_belief(problem, search.best().fit.point, diagnosis);
+  report_where(problem, search, residuals, diagnosis);
+  report_traces(problem, clean, residuals, diagnosis);
+  propose_next_trial(problem, clean, search, belief, rest.law ? &*rest.law : nullptr, diagnosis);
+  if (!diagnosis.effects.empty())
+    diagnosis.corrected_model_toml = corrected_model(recordings, problem, diagnosis);
 }
 
 }  // namespace
@@ -214,21 +258,15 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   Diagnosis diagnosis;
   Recordings clean = recordings;
   auto faults = remove_data_faults(clean.trials);
-  for (const auto& limit : take_known_limits(faults, clean.belief))
-    diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
-                                          limit.channel, limit.stretches, limit.limit));
-  for (const auto& event : take_single_events(faults, clean.trials.size()))
-    diagnosis.notes.push_back(fmt::format("{}: {} once, for {:.3g} s; left out", event.channel,
-                                          event.id == "data.stuck" ? "stood still" : "fell out",
-                                          event.duration_s));
+  note_what_is_no_fault(faults, clean, diagnosis);
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();
   diagnosis.belief = options.belief;
   note_what_is_missing(prepared, diagnosis);
   if (problem.trials.empty()) {
-    diagnosis.verdict = "insufficient_data";
-    diagnosis.detail = "too_little_data";
+    diagnosis.verdict = Verdict::insufficient_data;
+    diagnosis.detail = Detail::too_little_data;
     report_data_faults(faults, diagnosis);
     return diagnosis;
   }
@@ -249,22 +287,13 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     balance = BalanceLaw(problem, clean);
     search = searched(problem, clean, settled, options, balance, diagnosis);
   }
-  // Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
-  // nuisances move too much for that to say anything.
-  const auto drop_names_in_vain = [&] {
-    if (problem.plant->is_costly() || search.best().set.empty()) return;
-    const Point &null = search.null().fit.point, &point = search.best().fit.point;
-    if (held_out_gain(problem, residuals_of(problem, null, point), null, point) > 0.0) return;
-    diagnosis.log.push_back("held-out trials are no nearer with " + set_text(problem, search.best().set));
-    search.name_nothing();
-  };
-  drop_names_in_vain();
+  drop_names_in_vain(problem, search, diagnosis);
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   // What a name on the list says as well is not unknown, however small the effect.
   if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
-    drop_names_in_vain();
+    drop_names_in_vain(problem, search, diagnosis);
     rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
   }
   Point answer = search.best().fit.point;
@@ -275,18 +304,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_verdict(problem, search, belief, rest, diagnosis);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);
-  const FreeGain* law = rest.law ? &*rest.law : nullptr;
-  const Residuals residuals = residuals_of(problem, search.null().fit.point, answer);
-  report_errors(problem, residuals, diagnosis);
-  report_trial_to_trial(problem, search, diagnosis);
-  report_residuals(problem, residuals, diagnosis);
-  report_absent(problem, search, diagnosis);
-  report_belief(problem, search.best().fit.point, diagnosis);
-  report_where(problem, search, residuals, diagnosis);
-  report_traces(problem, clean, residuals, diagnosis);
-  propose_next_trial(problem, clean, search, belief, law, diagnosis);
-  if (!diagnosis.effects.empty())
-    diagnosis.corrected_model_toml = corrected_model(recordings, problem, diagnosis);
+  report_around(problem, recordings, clean, belief, rest, answer, search, diagnosis);
   diagnosis.simulations = problem.simulations;
   diagnosis.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   options.progress(1.0, "");

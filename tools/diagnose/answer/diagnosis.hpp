@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/answer/verdict.hpp"
 #include "tools/diagnose/evidence/simple_answers.hpp"
 
 namespace sandhopper::diagnose {
@@ -153,8 +154,8 @@ struct TrialToTrial {
 };
 
 struct Diagnosis {
-  std::string verdict;
-  std::string detail;
+  Verdict verdict = Verdict::insufficient_data;
+  Detail detail = Detail::none;
   std::map<std::string, double> noise_floor;
   std::vector<Where> where;
   std::vector<FoundEffect> effects;

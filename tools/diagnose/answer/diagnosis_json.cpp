@@ -6,99 +6,120 @@ namespace sandhopper::diagnose {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+// One object for each item, by `object(item)`.
+template <class Items, class ToObject>
+Json list_of(const Items& items, ToObject object) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(object(item));
+  return list;
+}
+
+Json before_after(const ErrorBeforeAfter& error) {
+  return {{"before", error.before}, {"after", error.after}};
+}
+
+Json where_json(const Where& w) {
+  return {{"channel", w.channel},
+          {"port", w.port.empty() ? Json(nullptr) : Json(w.port)},
+          {"phase", w.phase},
+          {"from_s", w.from_s},
+          {"to_s", w.to_s},
+          {"trials", w.trials},
+          {"coordinate", w.coordinate},
+          {"range", {w.range_low, w.range_high}},
+          {"share_of_excess", w.share_of_excess},
+          {"p_value", w.p_value}};
+}
+
+Json effect_json(const FoundEffect& e) {
+  Json parameters = Json::object();
+  for (const auto& p : e.parameters) parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
+  Json effect{{"id", e.id},
+              {"statement", e.statement},
+              {"equation", e.equation},
+              {"parameters", parameters},
+              {"probability", e.probability},
+              {"heldout_gain", e.heldout_gain},
+              {"interval_holds_zero", e.may_be_zero()},
+              {"indistinguishable_from", e.indistinguishable_from}};
+  if (!e.channel.empty()) effect["channel"] = e.channel;
+  return effect;
+}
+
+Json fit_json(const ChannelFit& f) {
+  Json held_out = before_after(f.heldout);
+  held_out["floor"] = f.floor;
+  return {{"channel", f.channel}, {"train", before_after(f.train)}, {"heldout", held_out}};
+}
+
+Json next_json(const NextTrial& next) {
+  Json setup = Json::object();
+  if (!next.kind.empty()) setup["kind"] = next.kind;
+  for (const auto& [key, text] : next.words) setup[key] = text;
+  for (const auto& [key, value] : next.setup) setup[key] = value;
+  Json trial{{"why", next.why}, {"purpose", next.purpose}, {"setup", setup}};
+  if (next.splits > 0.0) {
+    trial["probability_it_settles"] = next.settles;
+    trial["probability_it_splits"] = next.splits;
+  }
+  return trial;
+}
+
+Json phase_json(const PhaseError& e) {
+  return {{"channel", e.channel},
+          {"phase", e.phase},
+          {"heldout", {{"before", e.before}, {"after", e.after}, {"floor", e.floor}}},
+          {"samples", e.samples}};
+}
+
+Json spread_json(const TrialToTrial& n) {
+  return {{"name", n.name},
+          {"believed_sd", n.believed_sd},
+          {"before", {{"mean", n.mean_before}, {"sd", n.sd_before}}},
+          {"after", {{"mean", n.mean_after}, {"sd", n.sd_after}}}};
+}
+
+Json unknown_json(const UnknownForce& u) {
+  return {{"port", u.port},   {"p_value", u.p_value},   {"share", u.share}, {"variable", u.curve.variable},
+          {"at", u.curve.at}, {"value", u.curve.value}, {"sd", u.curve.sd}};
+}
+
+Json bound_json(const Bound& b) {
+  return {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}};
+}
+
+Json belief_json(const BelievedNumber& n) {
+  return {{"key", n.key},
+          {"low", n.low},
+          {"high", n.high},
+          {"unit", n.unit},
+          {"said_by", n.said_by},
+          {"usual_error", n.usual_error},
+          {"error_that_shows", std::isfinite(n.error_that_shows) ? Json(n.error_that_shows) : Json(nullptr)},
+          {"matters", n.matters()}};
+}
+
+}  // namespace
+
 Json to_json(const Diagnosis& d) {
   Json json;
-  json["verdict"] = d.verdict;
-  json["detail"] = d.detail.empty() || d.detail == "null" ? Json(nullptr) : Json(d.detail);
+  json["verdict"] = name_of(d.verdict);
+  json["detail"] = d.detail == Detail::none ? Json(nullptr) : Json(name_of(d.detail));
   json["noise_floor"] = Json::object();
   for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
-  json["where"] = Json::array();
-  for (const auto& w : d.where)
-    json["where"].push_back({{"channel", w.channel},
-                             {"port", w.port.empty() ? Json(nullptr) : Json(w.port)},
-                             {"phase", w.phase},
-                             {"from_s", w.from_s},
-                             {"to_s", w.to_s},
-                             {"trials", w.trials},
-                             {"coordinate", w.coordinate},
-                             {"range", {w.range_low, w.range_high}},
-                             {"share_of_excess", w.share_of_excess},
-                             {"p_value", w.p_value}});
-  json["effects"] = Json::array();
-  for (const auto& e : d.effects) {
-    Json parameters = Json::object();
-    for (const auto& p : e.parameters) parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
-    Json effect{{"id", e.id},
-                {"statement", e.statement},
-                {"equation", e.equation},
-                {"parameters", parameters},
-                {"probability", e.probability},
-                {"heldout_gain", e.heldout_gain},
-                {"interval_holds_zero", e.may_be_zero()},
-                {"indistinguishable_from", e.indistinguishable_from}};
-    if (!e.channel.empty()) effect["channel"] = e.channel;
-    json["effects"].push_back(std::move(effect));
-  }
+  json["where"] = list_of(d.where, where_json);
+  json["effects"] = list_of(d.effects, effect_json);
   json["gap_closed"] = d.effects.empty() ? Json(nullptr) : Json(d.gap_closed);
-  if (!d.fits.empty()) {
-    const auto one = [](const ChannelFit& f) {
-      return Json{
-          {"channel", f.channel},
-          {"train", {{"before", f.train.before}, {"after", f.train.after}}},
-          {"heldout", {{"before", f.heldout.before}, {"after", f.heldout.after}, {"floor", f.floor}}}};
-    };
-    json["fit"] = one(d.fits.front());
-    json["fit_by_channel"] = Json::array();
-    for (const auto& fit : d.fits) json["fit_by_channel"].push_back(one(fit));
-  } else {
-    json["fit"] = nullptr;
-  }
-  Json setup = Json::object();
-  if (!d.next.kind.empty()) setup["kind"] = d.next.kind;
-  for (const auto& [key, text] : d.next.words) setup[key] = text;
-  for (const auto& [key, value] : d.next.setup) setup[key] = value;
-  json["next_trial"] = {{"why", d.next.why}, {"purpose", d.next.purpose}, {"setup", setup}};
-  if (d.next.splits > 0.0) {
-    json["next_trial"]["probability_it_settles"] = d.next.settles;
-    json["next_trial"]["probability_it_splits"] = d.next.splits;
-  }
-  json["fit_by_phase"] = Json::array();
-  for (const auto& e : d.phase_errors)
-    json["fit_by_phase"].push_back(
-        {{"channel", e.channel},
-         {"phase", e.phase},
-         {"heldout", {{"before", e.before}, {"after", e.after}, {"floor", e.floor}}},
-         {"samples", e.samples}});
-  json["trial_to_trial"] = Json::array();
-  for (const auto& n : d.trial_to_trial)
-    json["trial_to_trial"].push_back({{"name", n.name},
-                                      {"believed_sd", n.believed_sd},
-                                      {"before", {{"mean", n.mean_before}, {"sd", n.sd_before}}},
-                                      {"after", {{"mean", n.mean_after}, {"sd", n.sd_after}}}});
-  json["unknown"] = Json::array();
-  for (const auto& u : d.unknown)
-    json["unknown"].push_back({{"port", u.port},
-                               {"p_value", u.p_value},
-                               {"share", u.share},
-                               {"variable", u.curve.variable},
-                               {"at", u.curve.at},
-                               {"value", u.curve.value},
-                               {"sd", u.curve.sd}});
-  json["absent"] = Json::array();
-  for (const auto& b : d.absent)
-    json["absent"].push_back(
-        {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}});
-  json["belief"] = Json::array();
-  for (const auto& n : d.belief)
-    json["belief"].push_back(
-        {{"key", n.key},
-         {"low", n.low},
-         {"high", n.high},
-         {"unit", n.unit},
-         {"said_by", n.said_by},
-         {"usual_error", n.usual_error},
-         {"error_that_shows", std::isfinite(n.error_that_shows) ? Json(n.error_that_shows) : Json(nullptr)},
-         {"matters", n.matters()}});
+  json["fit"] = d.fits.empty() ? Json(nullptr) : fit_json(d.fits.front());
+  if (!d.fits.empty()) json["fit_by_channel"] = list_of(d.fits, fit_json);
+  json["next_trial"] = next_json(d.next);
+  json["fit_by_phase"] = list_of(d.phase_errors, phase_json);
+  json["trial_to_trial"] = list_of(d.trial_to_trial, spread_json);
+  json["unknown"] = list_of(d.unknown, unknown_json);
+  json["absent"] = list_of(d.absent, bound_json);
+  json["belief"] = list_of(d.belief, belief_json);
   json["baselines"] = {
       {"largest_correlation", {{"id", d.simple.largest_correlation}, {"correlation", d.simple.correlation}}},
       {"fit_every_parameter", {{"id", d.simple.fit_every_parameter}, {"typicals", d.simple.typicals}}}};

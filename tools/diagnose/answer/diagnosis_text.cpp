@@ -89,11 +89,12 @@ std::string times_the_floor(double error, double floor) {
 }
 
 std::string headline(const Diagnosis& d) {
-  if (d.verdict == "consistent")
+  if (d.verdict == Verdict::consistent)
     return fmt::format(
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
-  if (d.verdict == "insufficient_data") return fmt::format("{} trials are too little to say.", d.trials);
-  if (d.verdict == "unknown_physics") return "Something is missing that is on no list.";
+  if (d.verdict == Verdict::insufficient_data)
+    return fmt::format("{} trials are too little to say.", d.trials);
+  if (d.verdict == Verdict::unknown_physics) return "Something is missing that is on no list.";
   std::vector<std::string> names;
   bool all_suspected = true;
   for (const auto& e : d.effects)
@@ -103,10 +104,10 @@ std::string headline(const Diagnosis& d) {
     }
   if (!names.empty() && all_suspected)
     return fmt::format("Something may be missing: {}; its 95 % interval holds zero.", joined(names));
-  if (d.detail == "data_fault") return "The physics agrees; the recording has faults.";
-  if (d.detail == "one_of_class")
+  if (d.detail == Detail::data_fault) return "The physics agrees; the recording has faults.";
+  if (d.detail == Detail::one_of_class)
     return "Something is missing; these recordings leave more than one explanation.";
-  if (d.detail == "known_and_rest")
+  if (d.detail == Detail::known_and_rest)
     return fmt::format(
         "Something is missing: {}; that closes {} of the gap between simulation and recording, "
         "and what is left is on no list.",
@@ -119,8 +120,7 @@ double simulations_per_second(const Diagnosis& d) {
 }
 
 std::string to_text(const Diagnosis& d) {
-  std::string text =
-      fmt::format("verdict: {}{}. {}\n", d.verdict, d.detail == "null" ? "" : ", " + d.detail, headline(d));
+  std::string text = fmt::format("verdict: {}. {}\n", name_of(d.verdict, d.detail), headline(d));
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
   for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);

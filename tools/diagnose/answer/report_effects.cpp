@@ -76,6 +76,57 @@ std::string filled(std::string text, const std::string& channel) {
   return text;
 }
 
+// The fitted numbers of one effect with their 95 % intervals; `at` is the first one's row of the covariance.
+std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std::vector<double>& values,
+                                          const MatrixXd& covariance, double quantile, Index at) {
+  std::vector<FoundParameter> found;
+  for (std::size_t j = 0; j < candidate.parameters.size(); ++j, ++at) {
+    const auto& p = candidate.parameters[j];
+    const double value = values[j];
+    const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
+    FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
+                       p.reported(std::min(p.high, value + half)), false};
+    if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
+      const double within = p.resolution + 1e-3 * std::abs(out.value);
+      out.low = out.value - within;
+      out.high = out.value + within;
+    }
+    if (out.low > out.high) std::swap(out.low, out.high);
+    found.push_back(out);
+    // What was added to the belief, where that held something already.
+    if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
+      found.push_back({change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
+  }
+  return found;
+}
+
+// What cannot be told apart from a candidate: by its law, and on these recordings.
+std::vector<std::string> class_of(const Problem& problem, std::size_t c, const Posterior& belief) {
+  std::vector<std::string> list = problem.candidates[c].effect->same_as;
+  if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
+    for (const auto other : it->second) {
+      const auto& id = problem.candidates[other].effect->id;
+      if (id != problem.candidates[c].effect->id && std::find(list.begin(), list.end(), id) == list.end())
+        list.push_back(id);
+    }
+  return list;
+}
+
+// Sorts by what each explains, and takes from the probabilities of those beside the first.
+void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
+  std::ranges::sort(effects, std::greater<>{}, &FoundEffect::heldout_gain);
+  bool form_in_doubt = false;
+  for (std::size_t i = 1; i < effects.size(); ++i) {
+    auto& beside = effects[i];
+    if (beside.is_unknown()) continue;
+    beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+    form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
+  }
+  // A small fault of a sensor may be all that another form of the large law leaves.
+  if (form_in_doubt && !is_fault(effects.front()))
+    effects.front().probability = std::min(effects.front().probability, kMostBeside);
+}
+
 }  // namespace
 
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
@@ -95,32 +146,10 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     found.channel = candidate.channel;
     found.statement = filled(candidate.effect->statement, candidate.channel);
     found.equation = candidate.effect->equation;
-    for (std::size_t j = 0; j < candidate.parameters.size(); ++j, ++at) {
-      const auto& p = candidate.parameters[j];
-      const double value = point.hypothesis.values[e][j];
-      const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
-      FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
-                         p.reported(std::min(p.high, value + half)), false};
-      if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
-        const double within = p.resolution + 1e-3 * std::abs(out.value);
-        out.low = out.value - within;
-        out.high = out.value + within;
-      }
-      if (out.low > out.high) std::swap(out.low, out.high);
-      found.parameters.push_back(out);
-      // What was added to the belief, where that held something already.
-      if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
-        found.parameters.push_back(
-            {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
-    }
+    found.parameters = parameters_of(candidate, point.hypothesis.values[e], covariance, quantile, at);
+    at += static_cast<Index>(candidate.parameters.size());
     found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
-    found.indistinguishable_from = candidate.effect->same_as;
-    if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
-      for (const auto other : it->second) {
-        const auto& id = problem.candidates[other].effect->id;
-        auto& list = found.indistinguishable_from;
-        if (id != found.id && std::find(list.begin(), list.end(), id) == list.end()) list.push_back(id);
-      }
+    found.indistinguishable_from = class_of(problem, c, belief);
     for (const auto& evidence : best.evidence)
       if (evidence.candidate == c) {
         found.heldout_gain = std::min(1.0, held_out_loss(search, evidence) / explained);
@@ -130,17 +159,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
       }
     diagnosis.effects.push_back(std::move(found));
   }
-  std::ranges::sort(diagnosis.effects, std::greater<>{}, &FoundEffect::heldout_gain);
-  bool form_in_doubt = false;
-  for (std::size_t i = 1; i < diagnosis.effects.size(); ++i) {
-    auto& beside = diagnosis.effects[i];
-    if (beside.is_unknown()) continue;
-    beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
-    form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
-  }
-  // A small fault of a sensor may be all that another form of the large law leaves.
-  if (form_in_doubt && !is_fault(diagnosis.effects.front()))
-    diagnosis.effects.front().probability = std::min(diagnosis.effects.front().probability, kMostBeside);
+  weigh_beside_each_other(diagnosis.effects);
 }
 
 }  // namespace sandhopper::diagnose

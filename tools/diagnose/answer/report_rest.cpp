@@ -14,9 +14,9 @@ namespace {
 constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
 constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
 
-void found_without_a_fit(Diagnosis& diagnosis, const char* detail) {
-  if (diagnosis.verdict != "consistent" && diagnosis.verdict != "insufficient_data") return;
-  diagnosis.verdict = "missing_physics";
+void found_without_a_fit(Diagnosis& diagnosis, Detail detail) {
+  if (diagnosis.verdict != Verdict::consistent && diagnosis.verdict != Verdict::insufficient_data) return;
+  diagnosis.verdict = Verdict::missing_physics;
   diagnosis.detail = detail;
 }
 
@@ -185,12 +185,12 @@ void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagno
   for (const auto& rule : rules) {
     if (std::ranges::any_of(diagnosis.effects, [&](const auto& e) { return e.id == rule.id; })) continue;
     diagnosis.effects.push_back({.id = rule.id,
-                                 .port = rule.port,
+                                 .port = std::string(name_of(rule.port)),
                                  .statement = rule.statement,
                                  .equation = rule.equation,
                                  .parameters = {{rule.parameter, rule.value, rule.low, rule.high}},
                                  .probability = kSeenDirectly});
-    found_without_a_fit(diagnosis, "known");
+    found_without_a_fit(diagnosis, Detail::known);
   }
 }
 
@@ -223,7 +223,7 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     }
     if (fault.borderline)
       effect.indistinguishable_from = {fault.id == "data.stuck" ? "data.dropout" : "data.stuck"};
-    found_without_a_fit(diagnosis, "data_fault");
+    found_without_a_fit(diagnosis, Detail::data_fault);
     diagnosis.effects.push_back(std::move(effect));
   }
 }

@@ -84,7 +84,7 @@ std::string port_in_cell(const Problem& problem, const Search& search, const Res
 // The null fit's residual by channel and phase, above the floor. Trials are the units of the p-value.
 void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
                   Diagnosis& diagnosis) {
-  if (diagnosis.verdict == "consistent" || diagnosis.verdict == "insufficient_data") return;
+  if (diagnosis.verdict == Verdict::consistent || diagnosis.verdict == Verdict::insufficient_data) return;
   const auto& residual = residuals.before;
   const std::size_t channels = problem.channels.size(), phases = problem.phases.size();
   double whole = 0.0;

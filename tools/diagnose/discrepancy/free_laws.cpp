@@ -23,49 +23,71 @@ struct Variable {
 };
 
 double one(const PortState&) { return 1.0; }
-double time_of(const PortState& s) { return s.time_s; }
-double position_of(const PortState& s) { return s.position; }
-double velocity_of(const PortState& s) { return s.velocity; }
-double fallen_of(const PortState& s) { return s.extreme - s.position; }
-double since_turn_of(const PortState& s) { return std::abs(s.position - s.extreme); }
-double load_of(const PortState& s) { return s.load; }
-double direction_of(const PortState& s) { return sign_smooth(s.velocity, 0.02); }
-double virgin(const PortState& s) { return s.accel; }
-double not_virgin(const PortState& s) { return 1.0 - s.accel; }
-double virgin_load(const PortState& s) { return s.accel * s.load / 20.0; }
-double since_touch_of(const PortState& s) { return s.since_touch_s; }
-double virgin_speed(const PortState& s) { return s.accel * s.velocity; }
+
+const BodyState& body(const PortState& s) { return std::get<BodyState>(s); }
+double height_of_body(const PortState& s) { return body(s).height_m; }
+double velocity_of_body(const PortState& s) { return body(s).velocity_mps; }
+double fallen_of(const PortState& s) { return body(s).start_height_m - body(s).height_m; }
+
+const RailState& rail(const PortState& s) { return std::get<RailState>(s); }
+double height_on_rail(const PortState& s) { return rail(s).height_m; }
+double velocity_on_rail(const PortState& s) { return rail(s).velocity_mps; }
+double direction_on_rail(const PortState& s) { return sign_smooth(rail(s).velocity_mps, 0.02); }
+
+const AxisState& axis(const PortState& s) { return std::get<AxisState>(s); }
+double angle_of(const PortState& s) { return axis(s).angle_rad; }
+double rate_of_axis(const PortState& s) { return axis(s).velocity_radps; }
+double since_turn_of(const PortState& s) { return std::abs(axis(s).angle_rad - axis(s).turned_rad); }
+double torque_of(const PortState& s) { return axis(s).torque_Nm; }
+double direction_of_axis(const PortState& s) { return sign_smooth(axis(s).velocity_radps, 0.02); }
+
+const GroundState& ground(const PortState& s) { return std::get<GroundState>(s); }
+double depth_of(const PortState& s) { return ground(s).depth_m; }
+double speed_of(const PortState& s) { return ground(s).speed_mps; }
+double since_touch_of(const PortState& s) { return ground(s).since_touch_s; }
+double virgin(const PortState& s) { return ground(s).virgin; }
+double not_virgin(const PortState& s) { return 1.0 - ground(s).virgin; }
+double virgin_load(const PortState& s) { return ground(s).virgin * ground(s).quasi_static_N / 20.0; }
+double virgin_speed(const PortState& s) { return ground(s).virgin * ground(s).speed_mps; }
+
+double value_of(const PortState& s) { return std::get<SensorState>(s).value; }
+double rate_of(const PortState& s) { return std::get<SensorState>(s).rate; }
 
 std::vector<Variable> variables_of(const std::string& port, bool sensor) {
-  if (sensor) return {{"value", position_of, one}, {"rate", velocity_of, one}, {"t_s", time_of, one}};
-  if (port == "ground.force")
-    return {{"depth_m", position_of, virgin, true, true},
-            {"speed_mps", velocity_of, virgin, false, true},
-            {"speed_mps, times the quasi-static force", velocity_of, virgin_load},
-            {"depth_m, times speed", position_of, virgin_speed},
-            {"time since touchdown, s, times the quasi-static force", since_touch_of, virgin_load},
-            {"depth_m, unloading", position_of, not_virgin, false, true},
-            {"t_s", time_of, one, true}};
-  if (port == "body")
-    return {{"velocity_mps", velocity_of, one, false, true},
-            {"height_m", position_of, one, true, true},
-            {"distance fallen, m", fallen_of, one, true},
-            {"t_s", time_of, one, true}};
-  if (port == "axis")
-    return {{"velocity_radps", velocity_of, one, false, true},
-            {"position_rad", position_of, one, false, true},
-            {"position_rad, with the sign of velocity", position_of, direction_of},
-            {"angle since the last turn, rad, with the sign of velocity", since_turn_of, direction_of},
-            {"torque_Nm", load_of, one},
-            {"t_s", time_of, one}};
-  if (port == "joint")
-    return {{"velocity_radps", velocity_of, one, false, true},
-            {"angle_rad", position_of, one, false, true},
-            {"torque_Nm", load_of, one}};
-  return {{"velocity_mps", velocity_of, one, false, true},
-          {"height_m", position_of, one, false, true},
-          {"height_m, with the sign of velocity", position_of, direction_of, false, true},
-          {"t_s", time_of, one}};
+  if (sensor) return {{"value", value_of, one}, {"rate", rate_of, one}, {"t_s", time_of, one}};
+  switch (law_port(port)) {
+    case LawPort::ground_force:
+      return {{"depth_m", depth_of, virgin, true, true},
+              {"speed_mps", speed_of, virgin, false, true},
+              {"speed_mps, times the quasi-static force", speed_of, virgin_load},
+              {"depth_m, times speed", depth_of, virgin_speed},
+              {"time since touchdown, s, times the quasi-static force", since_touch_of, virgin_load},
+              {"depth_m, unloading", depth_of, not_virgin, false, true},
+              {"t_s", time_of, one, true}};
+    case LawPort::body:
+      return {{"velocity_mps", velocity_of_body, one, false, true},
+              {"height_m", height_of_body, one, true, true},
+              {"distance fallen, m", fallen_of, one, true},
+              {"t_s", time_of, one, true}};
+    case LawPort::axis:
+      return {{"velocity_radps", rate_of_axis, one, false, true},
+              {"position_rad", angle_of, one, false, true},
+              {"position_rad, with the sign of velocity", angle_of, direction_of_axis},
+              {"angle since the last turn, rad, with the sign of velocity", since_turn_of, direction_of_axis},
+              {"torque_Nm", torque_of, one},
+              {"t_s", time_of, one}};
+    case LawPort::joint:
+      return {{"velocity_radps", rate_of_axis, one, false, true},
+              {"angle_rad", angle_of, one, false, true},
+              {"torque_Nm", torque_of, one}};
+    case LawPort::rail:
+      return {{"velocity_mps", velocity_on_rail, one, false, true},
+              {"height_m", height_on_rail, one, false, true},
+              {"height_m, with the sign of velocity", height_on_rail, direction_on_rail, false, true},
+              {"t_s", time_of, one}};
+    default:
+      return {};
+  }
 }
 
 // Values that the simulation visits, with the share of its trial that each is.
@@ -209,7 +231,7 @@ Edits with_term(Edits base, const FreeTerm& term, double amplitude) {
   if (term.sensor) {
     base.sensor_law(term.port, scaled);
   } else {
-    base.law(term.port, scaled);
+    base.law(law_port(term.port), scaled);
     base.laws_key = 0;
   }
   return base;

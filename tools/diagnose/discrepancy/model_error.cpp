@@ -33,7 +33,7 @@ MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edi
     const double knot = first + apart * static_cast<double>(k), scale = port.scale;
     const FreeTerm term{port.port, port.sensor,
                         [=](const PortState& s) {
-                          const double u = 1.0 - std::abs(s.time_s - knot) / apart;
+                          const double u = 1.0 - std::abs(time_of(s) - knot) / apart;
                           return u > 0.0 ? scale * u : 0.0;
                         },
                         scale};
@@ -132,10 +132,10 @@ RepeatableError repeatable_error(const Problem& problem, const Signatures& signa
   }
   for (const auto& alternative : signatures.alternatives) {
     if (!out.candidate.empty() && out.candidate.back() == alternative.candidate) continue;
-    const auto& port = problem.candidates[alternative.candidate].effect->port;
+    const Port port = problem.candidates[alternative.candidate].effect->port;
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
       take(alternative.first + static_cast<Index>(i), alternative.candidate,
-           port == "sensor" || port == "clock" ? s.reading : s.typical);
+           port == Port::sensor || port == Port::clock ? s.reading : s.typical);
   }
   out.white.resize(problem.trials.size());
   parallel_for(problem.trials.size(), [&](std::size_t t) {

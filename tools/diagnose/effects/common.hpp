@@ -31,7 +31,7 @@ inline std::vector<std::string> accelerometers(const Context& context) {
 
 // Of an intruder's position and force, the one whose clock may be off.
 inline std::string intruder_out_of_time(const Context& context) {
-  return context.scale("position_is_out_of_time", 0.0) > 0.0 ? "foot_z_m" : "force_N";
+  return context.facts.position_is_out_of_time ? "foot_z_m" : "force_N";
 }
 
 // Whether this campaign has ground at all: a falling body need not.
@@ -57,9 +57,11 @@ inline double onset_of(std::span<const double> values) { return values.size() > 
 inline EffectParameter part_of_unloading() {
   return {.name = "part_of_unloading", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}};
 }
-inline void stiffen(Edits& edits, double part, const Law& share) {
-  edits.law("ground.factor", share);
-  edits.law("ground.unloading", [=](const PortState& s) { return part * share(s); });
+// `share`: a function of GroundState.
+template <class Share>
+void stiffen(Edits& edits, double part, const Share& share) {
+  edits.law(LawPort::ground_factor, share);
+  edits.law(LawPort::ground_unloading, [=](const GroundState& s) { return part * share(s); });
 }
 
 inline double range_of(const Context& context, const std::string& channel) {
@@ -98,7 +100,7 @@ inline Effect adds_to(std::vector<BelievedNumber> numbers, Effect effect) {
 inline Effect scale_effect(std::string id, std::vector<PlantKind> plants,
                            std::function<std::vector<std::string>(const Context&)> channels) {
   return {.id = std::move(id),
-          .port = "sensor",
+          .port = Port::sensor,
           .statement = "{channel} reads in proportion too much or too little.",
           .equation = "y = (1 + s) x",
           .plants = std::move(plants),

@@ -81,29 +81,68 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   return kept;
 }
 
+// Products of whitened columns: those of `x`, then kept ones in the order of `columns`.
+MatrixXd gram_of(const MatrixXd& x, const std::vector<Index>& columns, const KeptColumns& kept) {
+  const Index own = x.cols(), more = static_cast<Index>(columns.size());
+  const MatrixXd cross = x.transpose() * kept.white_shared;
+  MatrixXd gram(own + more, own + more);
+  MatrixXd products = MatrixXd::Zero(own, own);
+  products.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+  gram.topLeftCorner(own, own) = products.selfadjointView<Eigen::Lower>();
+  for (Index j = 0; j < more; ++j) {
+    const Index c = columns[static_cast<std::size_t>(j)];
+    gram.block(0, own + j, own, 1) = cross.col(c);
+    gram.block(own + j, 0, 1, own) = cross.col(c).transpose();
+    for (Index i = 0; i < more; ++i)
+      gram(own + i, own + j) = kept.gram(columns[static_cast<std::size_t>(i)], c);
+  }
+  return gram;
+}
+
+// Takes the nuisances of each block out of `gram`; what they become, block by block.
+std::vector<MatrixXd> eliminate_blocks(const TrialModel& trial, const std::vector<double>& zeta,
+                                       const MatrixXd& x, const std::vector<Index>& columns,
+                                       const KeptColumns& kept, double damping, MatrixXd& gram) {
+  const Index nb = kept.block.cols(), own = x.cols();
+  const auto q = static_cast<Index>(trial.trial_nuisances.size());
+  std::vector<MatrixXd> solution;
+  if (nb == 0) return solution;
+  std::vector<MatrixXd> c(trial.blocks, MatrixXd::Zero(nb, own));
+  for (std::size_t k = 0; k < trial.rows.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    c[trial.rows[k].block].noalias() += kept.white_block.row(row).transpose() * x.row(row);
+  }
+  for (std::size_t b = 0; b < trial.blocks; ++b) {
+    MatrixXd hb = kept.block_gram[b];
+    MatrixXd cb(nb, gram.cols());
+    cb.leftCols(own) = c[b];
+    for (Index j = 0; j < gram.cols() - own; ++j)
+      cb.col(own + j) = kept.block_by_shared[b].col(columns[static_cast<std::size_t>(j)]);
+    for (Index j = 0; j < nb; ++j) {
+      const double weight = 1.0 / std::pow(trial.block_nuisances[static_cast<std::size_t>(j)].sd, 2);
+      const double value = zeta[static_cast<std::size_t>(q + static_cast<Index>(b) * nb + j)];
+      hb(j, j) = (1.0 + damping) * (hb(j, j) + weight);
+      cb(j, 0) -= weight * value;
+      gram(0, 0) += weight * value * value;
+    }
+    solution.push_back(hb.ldlt().solve(cb));
+    gram.noalias() -= cb.transpose() * solution.back();
+  }
+  return solution;
+}
+
 // Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first; after
 // its columns come the tolerances `wanted` of the kept ones.
 void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
                const std::vector<Index>& wanted, const KeptColumns& kept, double damping, TrialLinear& out) {
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
-  const Index nb = kept.block.cols(), own = x.cols();
-  const Index width = own + static_cast<Index>(wanted.size());
+  const Index nb = kept.block.cols();
+  const Index width = x.cols() + static_cast<Index>(wanted.size());
   const auto count = static_cast<Index>(trial.nuisance_count());
   // Kept columns that take part, in the order of the result: tolerances asked for, then nuisances.
   std::vector<Index> columns = wanted;
   for (Index i = 0; i < q; ++i) columns.push_back(kept.shared.cols() - q + i);
-  const MatrixXd cross = x.transpose() * kept.white_shared;
-  MatrixXd gram(width + q, width + q);
-  MatrixXd products = MatrixXd::Zero(own, own);
-  products.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
-  gram.topLeftCorner(own, own) = products.selfadjointView<Eigen::Lower>();
-  for (Index j = 0; j < width + q - own; ++j) {
-    const Index c = columns[static_cast<std::size_t>(j)];
-    gram.block(0, own + j, own, 1) = cross.col(c);
-    gram.block(own + j, 0, 1, own) = cross.col(c).transpose();
-    for (Index i = 0; i < width + q - own; ++i)
-      gram(own + i, own + j) = kept.gram(columns[static_cast<std::size_t>(i)], c);
-  }
+  MatrixXd gram = gram_of(x, columns, kept);
   for (Index i = 0; i < q; ++i) {
     const double weight = 1.0 / std::pow(trial.trial_nuisances[static_cast<std::size_t>(i)].sd, 2);
     const double value = zeta[static_cast<std::size_t>(i)];
@@ -112,30 +151,7 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
     gram(0, width + i) -= weight * value;
     gram(0, 0) += weight * value * value;
   }
-  std::vector<MatrixXd> block_solution;
-  if (nb > 0) {
-    std::vector<MatrixXd> c(trial.blocks, MatrixXd::Zero(nb, own));
-    for (std::size_t k = 0; k < trial.rows.size(); ++k) {
-      const auto row = static_cast<Index>(k);
-      c[trial.rows[k].block].noalias() += kept.white_block.row(row).transpose() * x.row(row);
-    }
-    for (std::size_t b = 0; b < trial.blocks; ++b) {
-      MatrixXd hb = kept.block_gram[b];
-      MatrixXd cb(nb, width + q);
-      cb.leftCols(own) = c[b];
-      for (Index j = 0; j < width + q - own; ++j)
-        cb.col(own + j) = kept.block_by_shared[b].col(columns[static_cast<std::size_t>(j)]);
-      for (Index j = 0; j < nb; ++j) {
-        const double weight = 1.0 / std::pow(trial.block_nuisances[static_cast<std::size_t>(j)].sd, 2);
-        const double value = zeta[static_cast<std::size_t>(q + static_cast<Index>(b) * nb + j)];
-        hb(j, j) = (1.0 + damping) * (hb(j, j) + weight);
-        cb(j, 0) -= weight * value;
-        gram(0, 0) += weight * value * value;
-      }
-      block_solution.push_back(hb.ldlt().solve(cb));
-      gram.noalias() -= cb.transpose() * block_solution.back();
-    }
-  }
+  const auto block_solution = eliminate_blocks(trial, zeta, x, columns, kept, damping, gram);
   out.solution = MatrixXd::Zero(count, width);
   if (q > 0) {
     const MatrixXd inner = gram.bottomRightCorner(q, q).ldlt().solve(gram.bottomLeftCorner(q, width));
@@ -206,13 +222,62 @@ MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
   return out;
 }
 
+// Columns of one trial while they are gathered. Simulated ones come first, then tolerances; `order` puts
+// them back as they were asked for.
+struct Gathered {
+  MatrixXd x;                 // residual and simulated columns
+  std::vector<Index> wanted;  // tolerances, by their place among the kept columns
+  std::vector<Index> order{0};
+
+  // Columns behind those asked for, in the result behind the tolerances, too.
+  void append(const MatrixXd& more) {
+    const Index own = x.cols();
+    x.conservativeResize(Eigen::NoChange, own + more.cols());
+    x.rightCols(more.cols()) = more;
+    for (auto& place : order)
+      if (place >= own) place += more.cols();
+    for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
+  }
+};
+
+// `simulate(direction)` predicts the trial with that direction's edits.
+template <class Simulate>
+Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::vector<Direction>& directions,
+                  const Simulate& simulate) {
+  Gathered columns;
+  std::vector<const Direction*> simulated;
+  for (const auto& direction : directions)
+    if (direction.tolerance < 0)
+      simulated.push_back(&direction);
+    else
+      columns.wanted.push_back(direction.tolerance);
+  Index next_simulated = 1, next_wanted = 1 + static_cast<Index>(simulated.size());
+  for (const auto& direction : directions)
+    columns.order.push_back(direction.tolerance < 0 ? next_simulated++ : next_wanted++);
+  columns.x.resize(residual.size(), 1 + static_cast<Index>(simulated.size()));
+  columns.x.col(0) = residual;
+  for (std::size_t i = 0; i < simulated.size(); ++i)
+    columns.x.col(static_cast<Index>(i) + 1) = (simulate(*simulated[i]) - centre) / simulated[i]->step;
+  return columns;
+}
+
+// With the nuisances free to follow: each plain column minus what they take up.
+void let_nuisances_follow(const TrialModel& trial, const KeptColumns& kept, TrialLinear& out) {
+  const auto q = static_cast<Index>(trial.trial_nuisances.size());
+  const Index nb = kept.block.cols();
+  out.plain.noalias() -= kept.shared.rightCols(q) * out.solution.topRows(q);
+  for (Index k = 0; k < out.plain.rows() && nb > 0; ++k)
+    out.plain.row(k) -= kept.block.row(k) *
+                        out.solution.middleRows(
+                            q + static_cast<Index>(trial.rows[static_cast<std::size_t>(k)].block) * nb, nb);
+}
+
 }  // namespace
 
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options) {
   const TrialModel& trial = *problem.trials[index];
-  const auto rows = static_cast<Index>(trial.rows.size());
   const VectorXd centre =
       options.prediction != nullptr ? *options.prediction : predicted(problem, trial, base, nuisances);
   KeptColumns own_columns;
@@ -221,66 +286,36 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
   if (fresh) own_columns = columns_at(problem, {index, base, nuisances, centre});
   const KeptColumns& kept = fresh ? own_columns : known[index];
 
-  // Simulated columns first, then tolerances; `order` puts them back as they were asked for.
-  std::vector<const Direction*> simulated;
-  std::vector<Index> wanted;
-  for (const auto& direction : directions)
-    if (direction.tolerance < 0)
-      simulated.push_back(&direction);
-    else
-      wanted.push_back(direction.tolerance);
-  std::vector<Index> order{0};
-  Index next_simulated = 1, next_wanted = 1 + static_cast<Index>(simulated.size());
-  for (const auto& direction : directions)
-    order.push_back(direction.tolerance < 0 ? next_simulated++ : next_wanted++);
-
   TrialLinear out;
   out.residual = residual_of(trial, centre);
-  MatrixXd x(rows, 1 + static_cast<Index>(simulated.size()));
-  x.col(0) = out.residual;
-  for (std::size_t i = 0; i < simulated.size(); ++i)
-    x.col(static_cast<Index>(i) + 1) =
-        (predicted(problem, trial, simulated[i]->edits, nuisances) - centre) / simulated[i]->step;
-  // Columns behind those asked for, in the result behind the tolerances, too.
-  const auto append = [&](const MatrixXd& more) {
-    const Index own = x.cols();
-    x.conservativeResize(Eigen::NoChange, own + more.cols());
-    x.rightCols(more.cols()) = more;
-    for (auto& place : order)
-      if (place >= own) place += more.cols();
-    for (Index i = 0; i < more.cols(); ++i) order.push_back(own + i);
-  };
+  Gathered columns = gathered(out.residual, centre, directions, [&](const Direction& direction) {
+    return predicted(problem, trial, direction.edits, nuisances);
+  });
+  MatrixXd& x = columns.x;
   if (options.forms != nullptr) {
     std::vector<VectorXd> derivatives(directions.size());
     Index at = 1;
     for (std::size_t i = 0; i < directions.size(); ++i)
       if (directions[i].tolerance < 0) derivatives[i] = x.col(at++);
-    append(form_columns(trial, *options.forms, derivatives));
+    columns.append(form_columns(trial, *options.forms, derivatives));
   }
-  if (options.more != nullptr) append((*options.more)[index]);
+  if (options.more != nullptr) columns.append((*options.more)[index]);
   if (options.keep_plain) {
-    out.plain.resize(rows, x.cols() + static_cast<Index>(wanted.size()));
+    out.plain.resize(x.rows(), x.cols() + static_cast<Index>(columns.wanted.size()));
     out.plain.leftCols(x.cols()) = x;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(wanted[i]);
+    for (std::size_t i = 0; i < columns.wanted.size(); ++i)
+      out.plain.col(x.cols() + static_cast<Index>(i)) = kept.shared.col(columns.wanted[i]);
   }
   whiten(problem, index, x);
   if (options.with_repeatable_error && index < problem.repeatable_error.white.size())
-    append(problem.repeatable_error.white[index]);
-  eliminate(trial, nuisances, x, wanted, kept, options.damping, out);
+    columns.append(problem.repeatable_error.white[index]);
+  eliminate(trial, nuisances, x, columns.wanted, kept, options.damping, out);
   if (options.keep_plain) {
-    // With the nuisances free to follow: column minus what they take up.
-    const auto q = static_cast<Index>(trial.trial_nuisances.size());
-    const Index nb = kept.block.cols();
-    out.plain.noalias() -= kept.shared.rightCols(q) * out.solution.topRows(q);
-    for (Index k = 0; k < rows && nb > 0; ++k)
-      out.plain.row(k) -= kept.block.row(k) *
-                          out.solution.middleRows(
-                              q + static_cast<Index>(trial.rows[static_cast<std::size_t>(k)].block) * nb, nb);
-    out.plain = in_order(out.plain, order);
+    let_nuisances_follow(trial, kept, out);
+    out.plain = in_order(out.plain, columns.order);
   }
-  out.solution = in_order(out.solution, order);
-  out.gram = in_order(MatrixXd(in_order(out.gram, order).transpose()), order);
+  out.solution = in_order(out.solution, columns.order);
+  out.gram = in_order(MatrixXd(in_order(out.gram, columns.order).transpose()), columns.order);
   return out;
 }
 

@@ -62,6 +62,87 @@ struct Products {
   }
 };
 
+// Residuals of all trials, and which of them count.
+struct Sample {
+  const std::vector<const TrialModel*>& trials;
+  const std::vector<std::vector<std::uint8_t>>& used;
+  const std::vector<Eigen::VectorXd>& residuals;
+};
+
+// Root mean square without outliers, at least `floor_sd`.
+double spread(const std::vector<double>& values, double floor_sd) {
+  const double limit = kOutlier * 1.4826 * std::max(median_magnitude(values), 1e-300);
+  double sum = 0.0, count = 0.0;
+  for (const double v : values)
+    if (std::abs(v) <= limit) {
+      sum += v * v;
+      ++count;
+    }
+  return std::max(count > 0.0 ? std::sqrt(sum / count) : 0.0, floor_sd);
+}
+
+// Standard deviations of one channel by phase; of the whole channel where a phase has few samples.
+ChannelNoise levels_of(const Sample& sample, std::size_t channel, std::size_t phases, double floor_sd) {
+  ChannelNoise noise;
+  std::vector<std::vector<double>> of_phase(phases);
+  std::vector<double> all;
+  for (std::size_t t = 0; t < sample.trials.size(); ++t)
+    for (std::size_t k = 0; k < sample.trials[t]->rows.size(); ++k) {
+      const Row& row = sample.trials[t]->rows[k];
+      if (row.channel != channel || !sample.used[t][k]) continue;
+      const double r = sample.residuals[t][static_cast<Eigen::Index>(k)] /
+                       std::hypot(row.relative_sd, row.numerical_sd / floor_sd);
+      of_phase[row.phase].push_back(r);
+      all.push_back(r);
+    }
+  const double overall = all.empty() ? std::max(floor_sd, 1e-12) : spread(all, floor_sd);
+  noise.sd_of_phase.assign(phases, overall);
+  noise.samples_of_phase.assign(phases, 0.0);
+  for (std::size_t p = 0; p < phases; ++p) {
+    noise.samples_of_phase[p] = static_cast<double>(of_phase[p].size());
+    if (noise.samples_of_phase[p] >= kTooFewSamples) noise.sd_of_phase[p] = spread(of_phase[p], floor_sd);
+  }
+  return noise;
+}
+
+// Autocorrelation of scaled residuals, outliers limited.
+void take_correlations(const Sample& sample, std::size_t channel, std::size_t phases, double floor_sd,
+                       ChannelNoise& noise) {
+  Products all_phases;
+  std::vector<Products> products(phases);
+  for (std::size_t t = 0; t < sample.trials.size(); ++t) {
+    std::vector<double> chain;
+    const Row* before = nullptr;
+    for (std::size_t k = 0; k < sample.trials[t]->rows.size(); ++k) {
+      const Row& row = sample.trials[t]->rows[k];
+      if (row.channel != channel) continue;
+      if (before != nullptr && before->block != row.block) chain.clear();
+      before = &row;
+      if (!sample.used[t][k]) {
+        chain.clear();
+        continue;
+      }
+      const double sd = std::hypot(row.relative_sd * noise.sd_of_phase[row.phase], row.numerical_sd);
+      const double e =
+          std::clamp(sample.residuals[t][static_cast<Eigen::Index>(k)] / sd, -kMostOfOne, kMostOfOne);
+      chain.push_back(e);
+      for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
+        all_phases.add(lag, e * chain[chain.size() - 1 - lag]);
+        products[row.phase].add(lag, e * chain[chain.size() - 1 - lag]);
+      }
+    }
+  }
+  for (std::size_t p = 0; p < phases; ++p) {
+    const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
+    auto correlation = (enough ? products[p] : all_phases).autoregression();
+    // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than
+    // that.
+    const double white = std::min(1.0, floor_sd / noise.sd_of_phase[p]);
+    correlation.innovation_sd = std::max(correlation.innovation_sd, white);
+    noise.correlation_of_phase.push_back(std::move(correlation));
+  }
+}
+
 }  // namespace
 
 void NoiseModel::fix(std::size_t channel, double sd) {
@@ -127,70 +208,11 @@ NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,
                           std::span<const double> floor_sd) {
-  std::vector<ChannelNoise> channels(floor_sd.size());
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    ChannelNoise& noise = channels[c];
-    std::vector<std::vector<double>> of_phase(phases);
-    std::vector<double> all;
-    for (std::size_t t = 0; t < trials.size(); ++t)
-      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
-        const Row& row = trials[t]->rows[k];
-        if (row.channel != c || !used[t][k]) continue;
-        const double r = residuals[t][static_cast<Eigen::Index>(k)] /
-                         std::hypot(row.relative_sd, row.numerical_sd / floor_sd[c]);
-        of_phase[row.phase].push_back(r);
-        all.push_back(r);
-      }
-    const auto spread = [&](const std::vector<double>& values) {
-      const double limit = kOutlier * 1.4826 * std::max(median_magnitude(values), 1e-300);
-      double sum = 0.0, count = 0.0;
-      for (const double v : values)
-        if (std::abs(v) <= limit) {
-          sum += v * v;
-          ++count;
-        }
-      return std::max(count > 0.0 ? std::sqrt(sum / count) : 0.0, floor_sd[c]);
-    };
-    const double overall = all.empty() ? std::max(floor_sd[c], 1e-12) : spread(all);
-    noise.sd_of_phase.assign(phases, overall);
-    noise.samples_of_phase.assign(phases, 0.0);
-    for (std::size_t p = 0; p < phases; ++p) {
-      noise.samples_of_phase[p] = static_cast<double>(of_phase[p].size());
-      if (noise.samples_of_phase[p] >= kTooFewSamples) noise.sd_of_phase[p] = spread(of_phase[p]);
-    }
-    // Autocorrelation of scaled residuals, outliers limited.
-    Products all_phases;
-    std::vector<Products> products(phases);
-    for (std::size_t t = 0; t < trials.size(); ++t) {
-      std::vector<double> chain;
-      const Row* before = nullptr;
-      for (std::size_t k = 0; k < trials[t]->rows.size(); ++k) {
-        const Row& row = trials[t]->rows[k];
-        if (row.channel != c) continue;
-        if (before != nullptr && before->block != row.block) chain.clear();
-        before = &row;
-        if (!used[t][k]) {
-          chain.clear();
-          continue;
-        }
-        const double sd = std::hypot(row.relative_sd * noise.sd_of_phase[row.phase], row.numerical_sd);
-        const double e = std::clamp(residuals[t][static_cast<Eigen::Index>(k)] / sd, -kMostOfOne, kMostOfOne);
-        chain.push_back(e);
-        for (std::size_t lag = 0; lag <= kOrder && lag < chain.size(); ++lag) {
-          all_phases.add(lag, e * chain[chain.size() - 1 - lag]);
-          products[row.phase].add(lag, e * chain[chain.size() - 1 - lag]);
-        }
-      }
-    }
-    for (std::size_t p = 0; p < phases; ++p) {
-      const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
-      auto correlation = (enough ? products[p] : all_phases).autoregression();
-      // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than
-      // that.
-      const double white = std::min(1.0, floor_sd[c] / noise.sd_of_phase[p]);
-      correlation.innovation_sd = std::max(correlation.innovation_sd, white);
-      noise.correlation_of_phase.push_back(std::move(correlation));
-    }
+  const Sample sample{trials, used, residuals};
+  std::vector<ChannelNoise> channels;
+  for (std::size_t c = 0; c < floor_sd.size(); ++c) {
+    channels.push_back(levels_of(sample, c, phases, floor_sd[c]));
+    take_correlations(sample, c, phases, floor_sd[c], channels.back());
   }
   return NoiseModel(std::move(channels));
 }

@@ -129,6 +129,69 @@ void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
           problem.trials[t]->noise_factor[problem.trials[t]->rows[k].channel];
 }
 
+// Trials that can be simulated; the others are named in `left_out`.
+void take_trials(const Recordings& recordings, Prepared& prepared) {
+  Problem& problem = prepared.problem;
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    std::string why;
+    auto model = problem.plant->trial(recordings.trials[i], recordings.beliefs[i], why);
+    if (!model) {
+      prepared.left_out.push_back(recordings.trials[i].name + ": " + why);
+      continue;
+    }
+    if (!can_be_simulated(*model)) {
+      prepared.left_out.push_back(recordings.trials[i].name +
+                                  ": what is believed cannot be simulated there (a mass of zero?)");
+      continue;
+    }
+    problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
+    problem.trials.push_back(std::move(model));
+  }
+}
+
+// Scale and least noise of each channel; those that never change are named in `missing_channels`.
+void take_channels(const Recordings& recordings, Prepared& prepared) {
+  Problem& problem = prepared.problem;
+  for (const auto& channel : problem.channels) {
+    if (const double sd = problem.plant->least_sd(channel); sd > 0.0) {
+      problem.floor_sd.push_back(sd);
+      continue;
+    }
+    const ChannelScale scale = scale_of(recordings.trials, channel);
+    const double span = std::max(scale.high - scale.low, 0.0);
+    const double floor = std::max({scale.noise_rms, 0.5 * scale.grid / std::sqrt(12.0), 1e-6 * span, 1e-12});
+    problem.floor_sd.push_back(floor);
+    if (span > 0.0)
+      problem.context.channels[channel] = scale;
+    else
+      prepared.missing_channels.push_back(channel);
+  }
+}
+
+// Facts that no recording states and all trials share: times of samples, means over a row, open numbers.
+std::vector<Tolerance> tolerances_of(const Problem& problem) {
+  std::vector<Tolerance> tolerances;
+  const double row_s = problem.row_s;
+  for (const auto& [channel, scale] : problem.context.channels) {
+    const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
+    const double filter_s =
+        problem.plant->filtered_in_rows(channel, problem.context.belief) ? kFilterTolerance * row_s : 0.0;
+    const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
+    tolerances.push_back(
+        {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
+    // Nor whether what is written is the value at an instant or the mean over the row, or over the
+    // conversion.
+    if (problem.plant->changes_within_rows())
+      tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
+                            std::hypot(row_s, conversion_s(problem.context.belief, channel))});
+  }
+  if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
+    tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});
+  for (const auto& key : problem.plant->unsure_keys())
+    tolerances.push_back({key.name, key.most / kMostTolerance, "", 0.0, key.belief_key});
+  return tolerances;
+}
+
 }  // namespace
 
 void update_noise(Problem& problem, const Point& point) {
@@ -205,37 +268,9 @@ Prepared prepare(const Recordings& recordings) {
     smallest_m = std::min(smallest_m, belief.value("foot.radius_m"));
     largest_m = std::max(largest_m, belief.value("foot.radius_m"));
   }
-  problem.context.scales["foot_radius_ratio"] = smallest_m > 0.0 ? largest_m / smallest_m : 1.0;
-  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
-    std::string why;
-    auto model = problem.plant->trial(recordings.trials[i], recordings.beliefs[i], why);
-    if (!model) {
-      prepared.left_out.push_back(recordings.trials[i].name + ": " + why);
-      continue;
-    }
-    if (!can_be_simulated(*model)) {
-      prepared.left_out.push_back(recordings.trials[i].name +
-                                  ": what is believed cannot be simulated there (a mass of zero?)");
-      continue;
-    }
-    problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
-    problem.trials.push_back(std::move(model));
-  }
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    const auto& channel = problem.channels[c];
-    if (const double sd = problem.plant->least_sd(channel); sd > 0.0) {
-      problem.floor_sd.push_back(sd);
-      continue;
-    }
-    const ChannelScale scale = scale_of(recordings.trials, channel);
-    const double span = std::max(scale.high - scale.low, 0.0);
-    const double floor = std::max({scale.noise_rms, 0.5 * scale.grid / std::sqrt(12.0), 1e-6 * span, 1e-12});
-    problem.floor_sd.push_back(floor);
-    if (span > 0.0)
-      problem.context.channels[channel] = scale;
-    else
-      prepared.missing_channels.push_back(channel);
-  }
+  problem.context.facts.foot_radius_ratio = smallest_m > 0.0 ? largest_m / smallest_m : 1.0;
+  take_trials(recordings, prepared);
+  take_channels(recordings, prepared);
   problem.plant->describe(recordings.trials, problem.context);
   problem.effects = known_effects();
   problem.candidates = candidates_for(problem.effects, problem.context);
@@ -243,24 +278,8 @@ Prepared prepare(const Recordings& recordings) {
     prepared.left_out.push_back(label + " of [effects]: no effect of that name can be in this campaign");
   std::vector<double> row_steps;
   for (const auto& trial : recordings.trials) row_steps.push_back(median_step_s(trial.time_s));
-  const double row_s = problem.row_s = median(row_steps);
-  for (const auto& [channel, scale] : problem.context.channels) {
-    const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
-    const double filter_s =
-        problem.plant->filtered_in_rows(channel, problem.context.belief) ? kFilterTolerance * row_s : 0.0;
-    const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
-    problem.tolerances.push_back(
-        {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
-    // Nor whether what is written is the value at an instant or the mean over the row, or over the
-    // conversion.
-    if (problem.plant->changes_within_rows())
-      problem.tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
-                                    std::hypot(row_s, conversion_s(problem.context.belief, channel))});
-  }
-  if (const double unsure_s = problem.plant->drive_unsure_s(); unsure_s > 0.0)
-    problem.tolerances.push_back({"time of the drive", unsure_s, "actuator", 0.0});
-  for (const auto& key : problem.plant->unsure_keys())
-    problem.tolerances.push_back({key.name, key.most / kMostTolerance, "", 0.0, key.belief_key});
+  problem.row_s = median(row_steps);
+  problem.tolerances = tolerances_of(problem);
   std::vector<double> first_sd = problem.floor_sd;
   for (std::size_t c = 0; c < first_sd.size(); ++c)
     first_sd[c] = std::max(first_sd[c], believed_noise(recordings.belief, problem.channels[c]));

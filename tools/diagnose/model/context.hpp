@@ -34,18 +34,32 @@ struct ChannelScale {
   double grid = 0.0;  // least step between values that differ
 };
 
+// What the recordings and the belief say of a plant's sizes: effects take their typical sizes from it. A fact
+// that a plant has not keeps its default.
+struct PlantFacts {
+  double weight_N = 1.0, force_N = 1.0, torque_Nm = 1.0;
+  double speed_mps = 1.0, speed_radps = 1.0;
+  double angle_rad = 1.0;  // range of the motion
+  bool moves = true;       // false: an axis that is held still, which shows no friction
+  bool masses_differ = false;
+  double depth_m = 0.04, foot_radius_m = 0.04;  // of a foot in the bed
+  double foot_radius_ratio = 1.0;               // largest to smallest
+  double range_of_pushes = 0.0, range_of_wait_s = 0.0;
+  std::optional<double> floor_distance_m{};  // least that was left under the foot
+  bool position_is_out_of_time = false;
+  double wetted_over_m = 0.0;  // length of a body that meets a liquid
+  double temperature_K = 0.0;  // of the hottest motor over that of a room
+  std::vector<double> ripple_orders{};
+};
+
 // What an effect may know when it says what it would look like in this campaign.
 struct Context {
   PlantKind plant{};
   Belief belief;
   std::map<std::string, ChannelScale> channels;  // those that are predicted
-  std::map<std::string, double> scales;          // of the plant: weight_N, speed_mps, …; see plants/
+  PlantFacts facts{};
 
   bool has(const std::string& channel) const { return channels.contains(channel); }
-  double scale(const std::string& name, double otherwise = 1.0) const {
-    const auto it = scales.find(name);
-    return it == scales.end() ? otherwise : it->second;
-  }
 };
 
 }  // namespace sandhopper::diagnose

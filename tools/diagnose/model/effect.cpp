@@ -20,13 +20,13 @@ std::vector<Effect> known_effects() {
   return effects;
 }
 
-std::string port_on(PlantKind plant, const std::string& port) {
-  return port == "joint" && plant == PlantKind::rotary_axis ? "axis" : port;
+Port port_on(PlantKind plant, Port port) {
+  return port == Port::joint && plant == PlantKind::rotary_axis ? Port::axis : port;
 }
 
 std::string port_of(const Candidate& candidate) {
   if (!candidate.channel.empty()) return candidate.channel;
-  if (candidate.effect->port != "sensor") return candidate.port;
+  if (candidate.effect->port != Port::sensor) return std::string(name_of(candidate.port));
   return candidate.effect->id.substr(0, candidate.effect->id.find('.'));
 }
 

@@ -48,7 +48,7 @@ struct EffectParameter {
 };
 
 // Where an effect of `port` acts on this plant: a rotary axis' only joint is the axis.
-std::string port_on(PlantKind plant, const std::string& port);
+Port port_on(PlantKind plant, Port port);
 
 // Whether zero switches it, or its part of the effect, off; the others are shapes.
 inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::size_t index) {
@@ -60,8 +60,7 @@ inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::si
 // One file in effects/ each, which registers it; its test says that it acts and is found when alone.
 struct Effect {
   std::string id{};  // port.effect, as the design's list has it
-  std::string
-      port{};  // rail joint ground inertia actuator controller clock geometry solver body axis, or sensor
+  Port port{};
   std::string statement{};  // one sentence; {channel} stands for the channel of a sensor's fault
   std::string equation{};
   std::vector<std::string> same_as{};  // other names of what does just this to the recordings
@@ -93,14 +92,16 @@ struct Candidate {
   const Effect* effect = nullptr;
   std::string channel;
   std::vector<EffectParameter> parameters;
-  std::string port{};  // where the effect acts on this plant
+  Port port{};  // where the effect acts on this plant
 
   // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
   // of time, reading, torque or inertia by its tangent, or the steep edges of a signal, or friction that
   // gives way, hide it behind its own curvature.
   double probe() const {
-    const auto& port = effect->port;
-    return port == "sensor" || port == "clock" || port == "actuator" || port == "inertia" ? 0.02 : 0.4;
+    const Port port = effect->port;
+    return port == Port::sensor || port == Port::clock || port == Port::actuator || port == Port::inertia
+               ? 0.02
+               : 0.4;
   }
 
   std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }

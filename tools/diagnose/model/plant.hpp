@@ -128,7 +128,9 @@ struct DoableTrial {
 
 // What the recordings contradict by themselves, whatever a simulation may say.
 struct BrokenRule {
-  std::string id, port, statement, equation;  // as of an effect
+  std::string id;
+  Port port{};
+  std::string statement, equation;  // as of an effect
   std::string parameter;
   double value = 0.0, low = 0.0, high = 0.0;
 };

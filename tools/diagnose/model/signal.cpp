@@ -91,10 +91,10 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
     if (mean_share != 0.0) value += mean_share * (mean_around(signal, at_s, window_s) - value);
     value = gain * value + offset;
     if (!laws.empty())
-      value +=
-          sum_of(laws, {.time_s = at_s,
-                        .position = value,
-                        .velocity = (signal.at(at_s + half_s) - signal.at(at_s - half_s)) / signal.step_s});
+      value += sum_of(
+          laws, SensorState{.time_s = at_s,
+                            .value = value,
+                            .rate = (signal.at(at_s + half_s) - signal.at(at_s - half_s)) / signal.step_s});
     out[i] = std::clamp(value, low, high);
   }
 }

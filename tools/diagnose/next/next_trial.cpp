@@ -316,7 +316,7 @@ void propose_within(const Reach& reach, Problem& problem, const Recordings& reco
   if (!diagnosis.unknown.empty() && rest != nullptr)
     map_further(problem, planned, search, *rest, next);
   else if (search.best().set.empty())
-    bound_closer(problem, planned, search, diagnosis.verdict == "insufficient_data", next);
+    bound_closer(problem, planned, search, diagnosis.verdict == Verdict::insufficient_data, next);
   else if (!rivals.empty())
     split(problem, planned, search, belief, rivals, next);
   else
@@ -328,7 +328,7 @@ void propose_within(const Reach& reach, Problem& problem, const Recordings& reco
 void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
                         const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
   NextTrial& next = diagnosis.next;
-  if (diagnosis.detail == "data_fault") return record_again(recordings, diagnosis, next);
+  if (diagnosis.detail == Detail::data_fault) return record_again(recordings, diagnosis, next);
   const Reach reach(recordings.trials, recordings.available, recordings.words);
   const auto rivals = rivals_of(problem, search, belief);
   propose_within(reach, problem, recordings, search, belief, rivals, rest, diagnosis, next);

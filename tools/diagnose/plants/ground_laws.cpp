@@ -5,18 +5,18 @@
 namespace sandhopper::diagnose {
 
 GroundLaws::GroundLaws(const Edits& edits, const BedHistory& history)
-    : factor_(edits.at("ground.factor")),
-      static_(edits.at("ground.static")),
-      unloading_(edits.at("ground.unloading")),
-      force_(edits.at("ground.force")),
-      mass_(edits.at("ground.mass")),
-      tension_(edits.at("ground.tension")),
-      surface_(edits.at("ground.surface")),
+    : factor_(edits.at(LawPort::ground_factor)),
+      static_(edits.at(LawPort::ground_static)),
+      unloading_(edits.at(LawPort::ground_unloading)),
+      force_(edits.at(LawPort::ground_force)),
+      mass_(edits.at(LawPort::ground_mass)),
+      tension_(edits.at(LawPort::ground_tension)),
+      surface_(edits.at(LawPort::ground_surface)),
       history_(history) {}
 
 double GroundLaws::deeper_m() const {
   if (surface_.empty()) return 0.0;
-  return sum_of(surface_, {.pushes = history_.pushes, .wait_s = history_.wait_s});
+  return sum_of(surface_, GroundState{.pushes = history_.pushes, .wait_s = history_.wait_s});
 }
 
 // How deep under the surface, as it is by now.
@@ -26,35 +26,35 @@ double GroundLaws::floor_m() const {
 
 double GroundLaws::quasi_static_N(double curve_N, double depth_m) const {
   if (factor_.empty() && static_.empty()) return curve_N;
-  const PortState state{.time_s = time_s_,
-                        .position = depth_m,
-                        .pushes = history_.pushes,
-                        .wait_s = history_.wait_s,
-                        .bed_depth_m = floor_m()};
+  const PortState state = GroundState{.time_s = time_s_,
+                                      .depth_m = depth_m,
+                                      .pushes = history_.pushes,
+                                      .wait_s = history_.wait_s,
+                                      .bed_depth_m = floor_m()};
   return curve_N * std::max(0.0, 1.0 + sum_of(factor_, state)) + sum_of(static_, state);
 }
 
 double GroundLaws::unloading_factor() const {
   if (unloading_.empty()) return 1.0;
-  return std::max(0.0, 1.0 + sum_of(unloading_, {.time_s = time_s_,
-                                                 .pushes = history_.pushes,
-                                                 .wait_s = history_.wait_s,
-                                                 .bed_depth_m = floor_m()}));
+  return std::max(0.0, 1.0 + sum_of(unloading_, GroundState{.time_s = time_s_,
+                                                            .pushes = history_.pushes,
+                                                            .wait_s = history_.wait_s,
+                                                            .bed_depth_m = floor_m()}));
 }
 
 BedReaction GroundLaws::added(const BedContact& c, double quasi_static_N, double bearing_N,
                               bool virgin) const {
-  const PortState state{.time_s = time_s_,
-                        .position = c.depth_m,
-                        .velocity = c.speed_mps,
-                        .accel = virgin ? 1.0 : 0.0,
-                        .load = quasi_static_N,
-                        .bearing = bearing_N,
-                        .extreme = c.max_depth_m,
-                        .pushes = history_.pushes,
-                        .wait_s = history_.wait_s,
-                        .bed_depth_m = floor_m(),
-                        .since_touch_s = time_s_ - touched_s_};
+  const PortState state = GroundState{.time_s = time_s_,
+                                      .depth_m = c.depth_m,
+                                      .speed_mps = c.speed_mps,
+                                      .virgin = virgin ? 1.0 : 0.0,
+                                      .quasi_static_N = quasi_static_N,
+                                      .bearing_N = bearing_N,
+                                      .deepest_m = c.max_depth_m,
+                                      .pushes = history_.pushes,
+                                      .wait_s = history_.wait_s,
+                                      .bed_depth_m = floor_m(),
+                                      .since_touch_s = time_s_ - touched_s_};
   return {.force_N = sum_of(force_, state),
           .added_mass_kg = sum_of(mass_, state),
           .least_N = -sum_of(tension_, state)};

@@ -13,17 +13,9 @@ struct BedHistory {
   double bed_depth_m = 0.0;  // 0: not told
 };
 
-// The bed with what effects add to it. Ports:
-//   ground.factor   F_d is multiplied by 1 + law(position = depth)
-//   ground.static   law is added to F_d, and with it to the force where unloading begins
-//   ground.unloading  the unloading line's stiffness is multiplied by 1 + law
-//   ground.force    law is added to the force, everywhere below the surface
-//   ground.mass     law times downward acceleration is added: an added mass
-//   ground.tension  how far below zero the force may go
-// `extreme` is the deepest point; `accel` is 1 on the virgin curve (new depth, going down), else 0; `load`
-// the quasi-static force at this depth; `bearing` that which is there without any law; `time_s` that of the
-// trial, `since_touch_s` from this contact's beginning.
-//   ground.surface  law is added to the depth: the surface is lower by so much less
+// The bed with what effects add to it, at the ports ground_* (model/ports.hpp):
+//   F_d = curve (1 + ground_factor) + ground_static,   depth + ground_surface
+// Their laws see a GroundState.
 class GroundLaws final : public BedExtension {
  public:
   explicit GroundLaws(const Edits& edits, const BedHistory& history = {});

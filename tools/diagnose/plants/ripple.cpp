@@ -31,9 +31,4 @@ std::vector<double> strongest_orders(const std::vector<double>& angles, const st
   return orders;
 }
 
-void tell_ripple_orders(const std::vector<double>& orders, Context& context) {
-  for (std::size_t i = 0; i < orders.size(); ++i)
-    context.scales["ripple_order_" + std::to_string(i + 1)] = orders[i];
-}
-
 }  // namespace sandhopper::diagnose

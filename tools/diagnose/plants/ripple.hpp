@@ -10,7 +10,4 @@ namespace sandhopper::diagnose {
 std::vector<double> strongest_orders(const std::vector<double>& angles, const std::vector<double>& torques,
                                      int first, int last);
 
-// For joint.cogging, which starts there.
-void tell_ripple_orders(const std::vector<double>& orders, Context& context);
-
 }  // namespace sandhopper::diagnose

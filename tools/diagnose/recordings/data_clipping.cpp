@@ -59,40 +59,27 @@ std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double no
   return near;
 }
 
-}  // namespace
-
-void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
-  const auto samples = sampled(trials, channel);
-  double low = 1e300, high = -1e300, total = 0.0;
-  for (const auto& s : samples)
-    for (const double v : s.value) {
-      low = std::min(low, v);
-      high = std::max(high, v);
-      ++total;
-    }
-  if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
-    // The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
-    DataFault always{.channel = channel,
-                     .id = range_fault(channel),
-                     .stretches = samples.size(),
-                     .limit = high,
-                     .borderline = true,
-                     .trials = {}};
-    for (const auto& s : samples) {
-      always.trials.push_back(s.trial->name);
-      for (const std::size_t row : s.rows)
-        s.trial->channels[channel][row] = std::numeric_limits<double>::quiet_NaN();
-    }
-    faults.push_back(std::move(always));
-    return;
+// The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
+DataFault always_at_its_end(const std::vector<SampledChannel>& samples, const std::string& channel,
+                            double value) {
+  DataFault always{.channel = channel,
+                   .id = range_fault(channel),
+                   .stretches = samples.size(),
+                   .limit = value,
+                   .borderline = true,
+                   .trials = {}};
+  for (const auto& s : samples) {
+    always.trials.push_back(s.trial->name);
+    for (const std::size_t row : s.rows)
+      s.trial->channels[channel][row] = std::numeric_limits<double>::quiet_NaN();
   }
-  if (total < 50.0 || !(high > low)) return;
-  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
-  if (noise < kGridSteps * grid) return;
-  DataFault fault;
-  fault.channel = channel;
-  fault.id = range_fault(channel);
-  fault.limit_resolution = 0.5 * grid;
+  return always;
+}
+
+// Of the two values that bound what the channel shows, the larger one at which samples pile up; 0: none.
+double limit_of(const std::vector<SampledChannel>& samples, double low, double high, double total,
+                double grid) {
+  double limit = 0.0;
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;
     std::size_t in_a_row = 0;
@@ -106,13 +93,18 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
     // Without a limit the end value is met about as often as the four steps below it.
     if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;
-    if (fault.limit != 0.0 && std::abs(end) < std::abs(fault.limit)) continue;
-    fault.limit = end;
+    if (limit != 0.0 && std::abs(end) < std::abs(limit)) continue;
+    limit = end;
   }
-  if (fault.limit == 0.0) return;
+  return limit;
+}
+
+// Empties what lies at the limit, at both ends of a range that is symmetric.
+void empty_at_limit(const std::vector<SampledChannel>& samples, double low, double high, double noise,
+                    DataFault& fault) {
   const bool both = high == -low;
   for (const auto& s : samples) {
-    auto& values = s.trial->channels[channel];
+    auto& values = s.trial->channels[fault.channel];
     bool hit = false;
     for (const double sign : {1.0, -1.0}) {
       if (!both && fault.limit != (sign > 0.0 ? high : low)) continue;
@@ -127,6 +119,33 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
       ++fault.stretches;
     }
   }
+}
+
+}  // namespace
+
+void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
+  const auto samples = sampled(trials, channel);
+  double low = 1e300, high = -1e300, total = 0.0;
+  for (const auto& s : samples)
+    for (const double v : s.value) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+      ++total;
+    }
+  if (total >= 50.0 && high == low && high != 0.0 && samples.size() > 1) {
+    faults.push_back(always_at_its_end(samples, channel, high));
+    return;
+  }
+  if (total < 50.0 || !(high > low)) return;
+  const double noise = noise_off(samples, low, high), grid = value_grid(samples);
+  if (noise < kGridSteps * grid) return;
+  DataFault fault{.channel = channel,
+                  .id = range_fault(channel),
+                  .limit = limit_of(samples, low, high, total, grid),
+                  .limit_resolution = 0.5 * grid,
+                  .trials = {}};
+  if (fault.limit == 0.0) return;
+  empty_at_limit(samples, low, high, noise, fault);
   faults.push_back(std::move(fault));
 }
 

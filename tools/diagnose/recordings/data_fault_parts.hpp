@@ -25,6 +25,10 @@ double own_noise(const std::vector<SampledChannel>& channel);
 void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
 void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& faults);
 
+// Stretches of equal values where the quantity went on: a channel that held a value. Their samples after the
+// first are emptied.
+void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
+
 // Samples that pile up exactly on the end of what the channel ever shows although noise would spread them.
 // Those at the limit, and those that noise may have lifted off it, are emptied.
 void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);

@@ -47,7 +47,7 @@ std::vector<std::string> ports_of(const Diagnosis& d) {
 StudyAnswer where(const Diagnosis& d) {
   StudyAnswer box{"Where", {}, {}, 3};
   if (nothing_found(d)) {
-    box.lines.emplace_back(Style::lead, d.verdict == "consistent" ? "Nowhere" : "Not to be said");
+    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent ? "Nowhere" : "Not to be said");
     const PhaseError* worst = nullptr;
     for (const auto& e : d.phase_errors)
       if (e.samples >= 10 && (worst == nullptr || e.before / e.floor > worst->before / worst->floor))
@@ -71,7 +71,7 @@ StudyAnswer where(const Diagnosis& d) {
     box.lines.emplace_back(Style::quiet, fmt::format("and {} more, below", d.where.size() - kMost));
   if (d.where.empty())
     box.lines.emplace_back(Style::text,
-                           d.detail == "data_fault"
+                           d.detail == Detail::data_fault
                                ? "The faulty samples are left out; the rest agrees with the simulation."
                                : "Spread over the trials: no channel and phase stands out alone.");
   return box;
@@ -89,7 +89,8 @@ std::string parameters_of(const FoundEffect& e) {
 StudyAnswer what(const Diagnosis& d) {
   StudyAnswer box{"What", {}, {}, 3};
   if (nothing_found(d)) {
-    box.lines.emplace_back(Style::lead, d.verdict == "consistent" ? "Nothing is missing" : "Too few trials");
+    box.lines.emplace_back(Style::lead,
+                           d.verdict == Verdict::consistent ? "Nothing is missing" : "Too few trials");
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
@@ -120,7 +121,7 @@ StudyAnswer how_sure(const Diagnosis& d) {
   if (nothing_found(d)) {
     box.lines.emplace_back(Style::lead, fmt::format("{} trials", d.trials));
     box.lines.emplace_back(
-        Style::text, d.verdict == "consistent"
+        Style::text, d.verdict == Verdict::consistent
                          ? fmt::format("None of {} effects that this plant can have is needed; whatever is "
                                        "there lies below its bound.",
                                        d.absent.size())
@@ -144,9 +145,9 @@ StudyAnswer how_sure(const Diagnosis& d) {
                     "not fitted to ({}). It takes {:.0f} % of the gap between simulation and recording.",
                     d.unknown.front().curve.variable, d.unknown.front().port,
                     p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
-  else if (!classes && d.detail == "known")
+  else if (!classes && d.detail == Detail::known)
     box.lines.emplace_back(Style::text, "No other effect explains these recordings as well.");
-  if (d.detail == "data_fault") box.lines.emplace_back(Style::text, "Seen in the samples themselves.");
+  if (d.detail == Detail::data_fault) box.lines.emplace_back(Style::text, "Seen in the samples themselves.");
   return box;
 }
 
@@ -196,7 +197,7 @@ std::string in_words(std::string name) {
   return name;
 }
 
-bool is_changed(const Diagnosis& d) { return !nothing_found(d) && d.detail != "data_fault"; }
+bool is_changed(const Diagnosis& d) { return !nothing_found(d) && d.detail != Detail::data_fault; }
 
 std::vector<StudyAnswer> page_answers(const Diagnosis& d) {
   return {where(d), what(d), how_sure(d), how_much_better(d), what_next(d)};

@@ -11,17 +11,17 @@ Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
   study.title = "Diagnosis: " + facts.campaign;
   study.facts = {{"plant", facts.plant},
                  {"trials", fmt::format("{}", d.trials)},
-                 {"verdict", in_words(d.detail == "null" ? d.verdict : d.verdict + ", " + d.detail)},
+                 {"verdict", in_words(name_of(d.verdict, d.detail))},
                  {"simulations", fmt::format("{} in {:.1f} s, {:.0f} a second", d.simulations, d.seconds,
                                              simulations_per_second(d))}};
   if (!facts.findings.empty() || !d.notes.empty())
     study.facts.emplace_back("recordings",
                              fmt::format("{} remarks, see below", facts.findings.size() + d.notes.size()));
   study.verdict = headline(d);
-  study.verdict_mark = d.verdict == "consistent"          ? "good"
-                       : d.verdict == "insufficient_data" ? "partly"
-                       : d.detail == "known"              ? "bad"
-                                                          : "partly";
+  study.verdict_mark = d.verdict == Verdict::consistent          ? "good"
+                       : d.verdict == Verdict::insufficient_data ? "partly"
+                       : d.detail == Detail::known               ? "bad"
+                                                                 : "partly";
   study.answers = page_answers(d);
   study.sections = page_sections(d, facts);
   return study;

@@ -4,9 +4,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
+  if (!c.facts.moves) return {};
   const double believed = c.belief.value("axis.coulomb_friction_Nm", 0.0);
-  const double typical = 0.1 * c.scale("torque_Nm");
+  const double typical = 0.1 * c.facts.torque_Nm;
   std::vector<EffectParameter> all{{.name = "coulomb_friction_Nm",
                                     .typical = typical,
                                     .low = -believed,
@@ -29,7 +29,7 @@ bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, 
 }
 
 const EffectRegistration kEffect({.id = "axis.coulomb",
-                                  .port = "axis",
+                                  .port = Port::axis,
                                   .statement = "Dry friction of constant size opposes the axis.",
                                   .equation = "tau += -c sign(w)",
                                   .plants = {PlantKind::rotary_axis},

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double believed = c.belief.value("axis.gravity_torque_Nm", 0.0);
-  const double typical = std::max(0.1 * std::abs(believed), 0.1 * c.scale("torque_Nm"));
+  const double typical = std::max(0.1 * std::abs(believed), 0.1 * c.facts.torque_Nm);
   return {{.name = "gravity_torque_Nm",
            .typical = typical,
            .low = -100.0 * typical,
@@ -15,7 +15,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.gravity",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "Gravity pulls on the axis otherwise than believed.",
                                   .equation = "tau += -dG sin(theta)",
                                   .plants = {PlantKind::rotary_axis},

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
+  if (!c.facts.moves) return {};
   const double believed = c.belief.value("axis.inertia_kg_m2", 1.0);
   const double typical = 0.1 * believed;
   return {{.name = "inertia_kg_m2",
@@ -16,7 +16,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.inertia",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "The inertia of the axis is not what is believed.",
                                   .equation = "J -> J + dJ",
                                   .plants = {PlantKind::rotary_axis},

@@ -5,13 +5,13 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "axis.load_dependent",
-     .port = "axis",
+     .port = Port::axis,
      .statement = "Friction grows with the torque the gear carries and the load its bearing does.",
      .equation = "tau += -mu (|torque| + part |G sin(th)|) sign(w)",
      .plants = {PlantKind::rotary_axis},
      .parameters =
          [](const Context& c, const std::string&) {
-           if (c.scale("moves") == 0.0) return std::vector<EffectParameter>{};
+           if (!c.facts.moves) return std::vector<EffectParameter>{};
            std::vector<EffectParameter> all{
                {.name = "load_friction_coefficient", .typical = 0.05, .low = 0.0, .high = 0.9}};
            all.push_back(own_switch_speed(c));
@@ -24,10 +24,10 @@ const EffectRegistration kEffect(
            const double mu = v[0], switch_speed = v[1];
            const double hanging_Nm = v.size() > 2 ? v[2] * c.belief.value("axis.gravity_torque_Nm") : 0.0;
            const double bottom_rad = c.belief.value("axis.bottom_rad");
-           edits.law("axis", [=](const PortState& s) {
+           edits.law(LawPort::axis, [=](const AxisState& s) {
              const double load_Nm =
-                 std::abs(s.load) + hanging_Nm * std::abs(std::sin(s.position - bottom_rad));
-             return -mu * load_Nm * sign_smooth(s.velocity, switch_speed);
+                 std::abs(s.torque_Nm) + hanging_Nm * std::abs(std::sin(s.angle_rad - bottom_rad));
+             return -mu * load_Nm * sign_smooth(s.velocity_radps, switch_speed);
            });
          }});
 

@@ -5,7 +5,7 @@ namespace {
 
 // A torque that is always there, and where gravity acts an angle between its zero and the encoder's.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double typical = 0.05 * c.scale("torque_Nm");
+  const double typical = 0.05 * c.facts.torque_Nm;
   std::vector<EffectParameter> all{{.name = "torque_offset_Nm",
                                     .typical = typical,
                                     .low = -100.0 * typical,
@@ -23,13 +23,13 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double torque = v[0];
-  edits.law("axis", [torque](const PortState&) { return torque; });
+  edits.law(LawPort::axis, [torque](const PortState&) { return torque; });
   if (v.size() > 1) edits.add("axis.bottom_rad", v[1]);
 }
 
 const EffectRegistration kEffect(
     {.id = "axis.offset",
-     .port = "axis",
+     .port = Port::axis,
      .statement = "A constant torque acts that the recorded torque does not show, or "
                   "the arm hangs at another angle than believed.",
      .equation = "tau += tau_0, G sin(theta) -> G sin(theta - theta_0)",

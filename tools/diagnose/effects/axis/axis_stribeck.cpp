@@ -8,11 +8,11 @@ constexpr double kFastest_radps = 1.5;
 constexpr double kNoTail = 1e-3;
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
-  const double torque = 0.1 * c.scale("torque_Nm");
+  if (!c.facts.moves) return {};
+  const double torque = 0.1 * c.facts.torque_Nm;
   // Below its switch speed all dry friction fades through zero: nothing slower can be told apart.
   const double slowest = 2.0 * switch_speed_radps(c), fastest = std::max(kFastest_radps, 4.0 * slowest);
-  const double speed = std::clamp(0.05 * c.scale("speed_radps"), 1.5 * slowest, 0.5 * fastest);
+  const double speed = std::clamp(0.05 * c.facts.speed_radps, 1.5 * slowest, 0.5 * fastest);
   return {{.name = "stribeck_torque_Nm", .typical = torque, .low = 0.0, .high = 50.0 * torque},
           {.name = "stribeck_speed_radps",
            .typical = speed,
@@ -25,7 +25,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "axis.stribeck",
-     .port = "axis",
+     .port = Port::axis,
      .statement = "Near standstill dry friction is larger than in motion (Stribeck).",
      .equation = "tau += -dF (1 + q (w/w_s)^2)^(-1/q) sign(w); tail q: 0 exp(-(w/w_s)^2), 1 Hess and Soom",
      .plants = {PlantKind::rotary_axis},
@@ -33,10 +33,10 @@ const EffectRegistration kEffect(
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double torque = v[0], speed = v[1], tail = v[2];
        const double switch_speed = switch_speed_radps(c);
-       edits.law("axis", [=](const PortState& s) {
-         const double square = std::pow(s.velocity / speed, 2);
+       edits.law(LawPort::axis, [=](const AxisState& s) {
+         const double square = std::pow(s.velocity_radps / speed, 2);
          const double left = tail > kNoTail ? std::pow(1.0 + tail * square, -1.0 / tail) : std::exp(-square);
-         return -torque * left * sign_smooth(s.velocity, switch_speed);
+         return -torque * left * sign_smooth(s.velocity_radps, switch_speed);
        });
      }});
 

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "axis.torque_scale",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "The torque that acts is in proportion to the reported one, but not equal to it.",
      .equation = "torque = (1 + e) reported",
      .plants = {PlantKind::rotary_axis},

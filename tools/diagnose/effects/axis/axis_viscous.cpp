@@ -4,9 +4,9 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("moves") == 0.0) return {};
+  if (!c.facts.moves) return {};
   const double believed = c.belief.value("axis.viscous_friction_Nm_s", 0.0);
-  const double typical = 0.1 * c.scale("torque_Nm") / c.scale("speed_radps");
+  const double typical = 0.1 * c.facts.torque_Nm / c.facts.speed_radps;
   return {{.name = "viscous_friction_Nm_s",
            .typical = typical,
            .low = -believed,
@@ -16,7 +16,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "axis.viscous",
-                                  .port = "axis",
+                                  .port = Port::axis,
                                   .statement = "Friction proportional to speed opposes the axis.",
                                   .equation = "tau += -b w",
                                   .plants = {PlantKind::rotary_axis},

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double believed = c.belief.value("medium.linear_drag_N_s_per_m");
-  const double typical = 0.1 * c.scale("weight_N") / c.scale("speed_mps");
+  const double typical = 0.1 * c.facts.weight_N / c.facts.speed_mps;
   return {{.name = "linear_drag_N_s_per_m",
            .typical = typical,
            .low = -believed,
@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "air.linear_drag",
-                                  .port = "body",
+                                  .port = Port::body,
                                   .statement = "The medium resists with a force proportional to speed.",
                                   .equation = "F += -b v",
                                   .plants = {PlantKind::falling_body},

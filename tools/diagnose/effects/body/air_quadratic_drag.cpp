@@ -15,13 +15,13 @@ bool medium_known(const Context& c) {
 
 // What takes so much of the weight at the speed that was reached.
 double noticeable_N_s2_per_m2(const Context& c) {
-  return kShareOfWeight * c.scale("weight_N") / std::pow(c.scale("speed_mps"), 2);
+  return kShareOfWeight * c.facts.weight_N / std::pow(c.facts.speed_mps, 2);
 }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.plant == PlantKind::rotary_axis) {
-    if (c.scale("moves") == 0.0) return {};
-    const double typical = kShareOfWeight * c.scale("torque_Nm") / std::pow(c.scale("speed_radps"), 2);
+    if (!c.facts.moves) return {};
+    const double typical = kShareOfWeight * c.facts.torque_Nm / std::pow(c.facts.speed_radps, 2);
     return {{.name = "quadratic_drag_Nm_s2", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
   }
   if (medium_known(c)) {
@@ -44,16 +44,18 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   if (medium_known(c)) return edits.add("medium.drag_coefficient", v[0]);
   const double factor = v[0];
   if (c.plant == PlantKind::rotary_axis)
-    return edits.law("axis", [=](const PortState& s) { return -factor * std::abs(s.velocity) * s.velocity; });
-  const double length = front_m(c.scale("wetted_over_m", 0.0));
-  edits.law("body", [=](const PortState& s) {
-    return -factor * wetted_share(s.load, length) * std::abs(s.velocity) * s.velocity;
+    return edits.law(LawPort::axis, [=](const AxisState& s) {
+      return -factor * std::abs(s.velocity_radps) * s.velocity_radps;
+    });
+  const double length = front_m(c.facts.wetted_over_m);
+  edits.law(LawPort::body, [=](const BodyState& s) {
+    return -factor * wetted_share(s.depth_m, length) * std::abs(s.velocity_mps) * s.velocity_mps;
   });
 }
 
 const EffectRegistration kEffect(
     {.id = "air.quadratic_drag",
-     .port = "body",
+     .port = Port::body,
      .statement = "The medium resists with a force that grows with the square of speed.",
      .equation = "F += -1/2 rho A C_d |v| v",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis},

@@ -20,7 +20,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .base = believed_kg(c),
                                     .scale = believed_kg(c)}};
   // A balance that reads too much, or something on every body that nobody weighed.
-  if (c.scale("masses_differ", 0.0) > 0.0) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
+  if (c.facts.masses_differ) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
   return all;
 }
 
@@ -32,7 +32,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 
 const EffectRegistration kEffect(
     {.id = "body.mass",
-     .port = "inertia",
+     .port = Port::inertia,
      .statement = "The body's mass is not what is believed.",
      .equation = "m -> m + e (p m + (1 - p) m_0), p = 1 if all trials have one mass m_0",
      .plants = {PlantKind::falling_body, PlantKind::hopper},

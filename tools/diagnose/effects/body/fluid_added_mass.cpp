@@ -8,11 +8,11 @@ bool displaced_known(const Context& c) {
 }
 
 // On its way into a liquid the body takes fluid along little by little.
-bool enters(const Context& c) { return c.scale("wetted_over_m", 0.0) > 0.0; }
+bool enters(const Context& c) { return c.facts.wetted_over_m > 0.0; }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (enters(c)) {
-    const double mass = c.belief.value("body.mass_kg", 1.0), length = c.scale("wetted_over_m");
+    const double mass = c.belief.value("body.mass_kg", 1.0), length = c.facts.wetted_over_m;
     return {{.name = "added_mass_kg", .typical = 0.02 * mass, .low = 0.0, .high = 2.0 * mass},
             {.name = "taken_up_over_m",
              .typical = 0.2 * length,
@@ -34,12 +34,13 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   if (!enters(c)) return edits.add("medium.added_mass_factor", v[0]);
   const double mass_kg = v[0], over_m = v[1];
-  edits.law("body.added_mass", [=](const PortState& s) { return mass_kg * come_in(s.load, over_m); });
+  edits.law(LawPort::body_added_mass,
+            [=](const BodyState& s) { return mass_kg * come_in(s.depth_m, over_m); });
 }
 
 const EffectRegistration kEffect(
     {.id = "fluid.added_mass",
-     .port = "body",
+     .port = Port::body,
      .statement = "The body sets fluid around it in motion, which adds to its inertia but not to its weight.",
      .equation = "(m + C_m rho V) h'' = F; into a liquid (m + m_a(d)) h'' = F + m_a'(d) h'^2",
      .plants = {PlantKind::falling_body},

@@ -20,18 +20,18 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
              .high = std::max(3.0, 0.95 * whole) - believed,
              .base = believed}};
   }
-  const double weight = c.scale("weight_N");
+  const double weight = c.facts.weight_N;
   return {{.name = "buoyancy_force_N", .typical = 0.05 * weight, .low = 0.0, .high = 0.95 * weight}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   if (displaced_known(c)) return edits.add("medium.buoyancy_factor", v[0]);
-  const double force = v[0], length = c.scale("wetted_over_m", 0.0);
-  edits.law("body", [=](const PortState& s) { return force * wetted_share(s.load, length); });
+  const double force = v[0], length = c.facts.wetted_over_m;
+  edits.law(LawPort::body, [=](const BodyState& s) { return force * wetted_share(s.depth_m, length); });
 }
 
 const EffectRegistration kEffect({.id = "fluid.buoyancy",
-                                  .port = "body",
+                                  .port = Port::body,
                                   .statement = "The medium carries part of the weight, whatever the speed.",
                                   .equation = "F += B rho V g",
                                   .plants = {PlantKind::falling_body},

@@ -6,7 +6,7 @@ namespace {
 // About the height of the body at rest, so that the spring is no constant force in disguise.
 const EffectRegistration kEffect(
     {.id = "rail.cable",
-     .port = "rail",
+     .port = Port::rail,
      .statement = "The cable pulls at the body like a spring, perhaps damped.",
      .equation = "F += -k (z - z_0 + T z')",
      .plants = {PlantKind::hopper},
@@ -20,8 +20,8 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double stiffness = v[0], rest = v[1], damping = v[2];
-           edits.law("rail", [=](const PortState& s) {
-             return -stiffness * (s.position - rest + damping * s.velocity);
+           edits.law(LawPort::rail, [=](const RailState& s) {
+             return -stiffness * (s.height_m - rest + damping * s.velocity_mps);
            });
          }});
 

@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "rail.coulomb",
-                                  .port = "rail",
+                                  .port = Port::rail,
                                   .statement = "Dry friction of constant size acts between body and rail.",
                                   .equation = "F += -F_c sign(z')",
                                   .plants = {PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "rail.load_dependent",
-     .port = "rail",
+     .port = Port::rail,
      .statement = "The rail's friction grows with the force that the leg carries.",
      .equation = "F += -mu |F_leg| sign(v)",
      .plants = {PlantKind::hopper},
@@ -17,8 +17,8 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double mu = v[0];
-           edits.law("rail", [=](const PortState& s) {
-             return -mu * std::abs(s.load) * sign_smooth(s.velocity, kSwitchSpeed_mps);
+           edits.law(LawPort::rail, [=](const RailState& s) {
+             return -mu * std::abs(s.leg_force_N) * sign_smooth(s.velocity_mps, kSwitchSpeed_mps);
            });
          }});
 

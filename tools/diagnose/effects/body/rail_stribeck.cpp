@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "rail.stribeck",
-     .port = "rail",
+     .port = Port::rail,
      .statement = "Near standstill the rail's friction is larger than in motion (Stribeck).",
      .equation = "F += -dF exp(-(v/v_s)^2) sign(v)",
      .plants = {PlantKind::hopper},
@@ -18,9 +18,9 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double force = v[0], speed = v[1];
-           edits.law("rail", [=](const PortState& s) {
-             const double u = s.velocity / speed;
-             return -force * std::exp(-u * u) * sign_smooth(s.velocity, kSwitchSpeed_mps);
+           edits.law(LawPort::rail, [=](const RailState& s) {
+             const double u = s.velocity_mps / speed;
+             return -force * std::exp(-u * u) * sign_smooth(s.velocity_mps, kSwitchSpeed_mps);
            });
          }});
 

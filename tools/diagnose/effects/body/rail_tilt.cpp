@@ -7,14 +7,14 @@ constexpr double kRailFriction = 0.1;
 
 // On a leaning rail less of gravity acts along it, and the rest presses on the rail.
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-  const double tilt = v[0], pressed_N = kRailFriction * c.scale("weight_N", 20.0) * std::sin(tilt);
+  const double tilt = v[0], pressed_N = kRailFriction * c.facts.weight_N * std::sin(tilt);
   edits.scale("gravity_mps2", std::cos(tilt));
-  edits.law("rail",
-            [=](const PortState& s) { return -pressed_N * sign_smooth(s.velocity, kSwitchSpeed_mps); });
+  edits.law(LawPort::rail,
+            [=](const RailState& s) { return -pressed_N * sign_smooth(s.velocity_mps, kSwitchSpeed_mps); });
 }
 
 const EffectRegistration kEffect({.id = "rail.tilt",
-                                  .port = "rail",
+                                  .port = Port::rail,
                                   .statement = "The rail is not upright.",
                                   .equation = "g -> g cos(alpha), F += -mu m g sin(alpha) sign(v)",
                                   .plants = {PlantKind::hopper},

@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "rail.viscous",
-                                  .port = "rail",
+                                  .port = Port::rail,
                                   .statement = "Friction proportional to speed acts between body and rail.",
                                   .equation = "F += -b z'",
                                   .plants = {PlantKind::hopper},

@@ -20,7 +20,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 
 const EffectRegistration kEffect(
     {.id = "rig.compliance",
-     .port = "geometry",
+     .port = Port::geometry,
      .statement = "The rig yields under the force: the foot is less deep than the encoder says.",
      .equation = "z = z_recorded - F / k_r",
      .plants = {PlantKind::intruder},

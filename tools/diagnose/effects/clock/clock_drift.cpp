@@ -28,7 +28,7 @@ void apply(const Context& c, const std::string& channel, std::span<const double>
 
 const EffectRegistration kEffect(
     {.id = "clock.drift",
-     .port = "clock",
+     .port = Port::clock,
      .statement = "The clock of {channel} runs fast or slow by a constant ratio.",
      .equation = "t' = (1 + d) t",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},

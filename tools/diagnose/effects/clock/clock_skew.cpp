@@ -42,7 +42,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 
 const EffectRegistration kEffect(
     {.id = "clock.skew",
-     .port = "clock",
+     .port = Port::clock,
      .statement = "The time stamps of {channel} are late against the other channels.",
      .equation = "y(t) = x(t - skew)",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},

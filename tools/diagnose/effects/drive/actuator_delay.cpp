@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "actuator.delay",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "Torque acts later than it is reported or commanded.",
      .equation = "torque(t) = reported(t - T)",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},

@@ -6,12 +6,12 @@ namespace {
 // Beyond this torque no more of it is lost.
 double reference_of(const Context& c) {
   return c.plant == PlantKind::hopper ? c.belief.value("motor.torque_limit_Nm", 2.8) * 2.0
-                                      : 3.0 * c.scale("torque_Nm");
+                                      : 3.0 * c.facts.torque_Nm;
 }
 
 const EffectRegistration kEffect(
     {.id = "actuator.saturation",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "The motor's torque falls behind its current at high torque: the iron saturates.",
      .equation = "torque = reported (1 - s (reported / reference)^2)",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
@@ -31,9 +31,9 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
            const double s = v[0], reference = v.size() > 1 ? v[1] : reference_of(c);
-           edits.sensor_law("actuator", [=](const PortState& at) {
-             const double u = std::min(1.0, std::abs(at.position) / reference);
-             return -s * u * u * at.position;
+           edits.sensor_law("actuator", [=](const SensorState& at) {
+             const double u = std::min(1.0, std::abs(at.value) / reference);
+             return -s * u * u * at.value;
            });
          }});
 

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("temperature_K", 0.0) < 3.0) return {};
+  if (c.facts.temperature_K < 3.0) return {};
   return {{.name = "derating_per_K", .typical = 1.2e-3, .low = -0.01, .high = 0.02, .either_sign = true}};
 }
 
@@ -12,15 +12,15 @@ constexpr double kRoom_C = 25.0;
 
 const EffectRegistration kEffect(
     {.id = "actuator.temperature",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "The motors' torque falls as they get warm: the magnets weaken.",
      .equation = "torque = K_t i (1 - c (T - 25 C))",
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
        const double derating = v[0];
-       edits.sensor_law("actuator", [=](const PortState& s) {
-         return -derating * (s.temperature_C - kRoom_C) * s.position;
+       edits.sensor_law("actuator", [=](const SensorState& s) {
+         return -derating * (s.temperature_C - kRoom_C) * s.value;
        });
      }});
 

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "actuator.torque_constant",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement = "The motors give more or less torque for a current than believed.",
      .equation = "tau = K_t (1 + e) i",
      .plants = {PlantKind::hopper},

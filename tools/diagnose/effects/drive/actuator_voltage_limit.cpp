@@ -17,15 +17,15 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 // The back-electromotive force takes from what the bus can drive while the motor does work.
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double stall_Nm = 1.0 / std::max(v[0], 1e-9), no_load_radps = 1.0 / std::max(v[1], 1e-9);
-  edits.law("actuator.limit", [=](const PortState& s) {
-    const double along = s.load >= 0.0 ? s.velocity : -s.velocity;
+  edits.law(LawPort::actuator_limit, [=](const DriveState& s) {
+    const double along = s.command_Nm >= 0.0 ? s.rate_radps : -s.rate_radps;
     return stall_Nm * (1.0 - along / no_load_radps);
   });
 }
 
 const EffectRegistration kEffect(
     {.id = "actuator.voltage_limit",
-     .port = "actuator",
+     .port = Port::actuator,
      .statement =
          "The bus voltage, less what the motors' speed takes of it, does not drive the commanded current.",
      .equation = "|i| <= (V - K_e w) / R",

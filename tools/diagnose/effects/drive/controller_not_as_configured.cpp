@@ -18,7 +18,7 @@ std::vector<EffectParameter> parameters(const Context&, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "controller.not_as_configured",
-     .port = "controller",
+     .port = Port::controller,
      .statement = "The controller's leg spring has another stiffness than it was set to.",
      .equation = "k_c -> (1 + c) k_c, k_e -> (1 + e) k_e",
      .plants = {PlantKind::hopper},

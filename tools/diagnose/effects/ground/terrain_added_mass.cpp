@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double radius = c.scale("foot_radius_m", 0.04);
+  const double radius = c.facts.foot_radius_m;
   const double cone = 1450.0 * 1.732 * 3.1416 * radius * radius * radius / 3.0;
   return {{.name = "added_mass_kg", .typical = cone, .low = 0.0, .high = 20.0 * cone},
           {.name = "saturation_depth_m",
@@ -19,20 +19,20 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   (void)c;
   const double mass = v[0], depth = v[1], power = v[2];
   const auto taken_up = [=](double z) { return power == 1.0 ? z / depth : std::pow(z / depth, power); };
-  edits.law("ground.force", [=](const PortState& s) {
-    const double taken = taken_up(s.position), l = std::max(0.0, 1.0 - taken);
-    const double gradient = s.position > 0.0 ? 3.0 * mass * power * taken / s.position * l * l : 0.0;
-    return s.accel * gradient * s.velocity * s.velocity;
+  edits.law(LawPort::ground_force, [=](const GroundState& s) {
+    const double taken = taken_up(s.depth_m), l = std::max(0.0, 1.0 - taken);
+    const double gradient = s.depth_m > 0.0 ? 3.0 * mass * power * taken / s.depth_m * l * l : 0.0;
+    return s.virgin * gradient * s.speed_mps * s.speed_mps;
   });
-  edits.law("ground.mass", [=](const PortState& s) {
-    const double l = std::max(0.0, 1.0 - taken_up(s.position));
-    return s.accel * mass * (1.0 - l * l * l) * std::clamp(s.velocity / 0.005, 0.0, 1.0);
+  edits.law(LawPort::ground_mass, [=](const GroundState& s) {
+    const double l = std::max(0.0, 1.0 - taken_up(s.depth_m));
+    return s.virgin * mass * (1.0 - l * l * l) * std::clamp(s.speed_mps / 0.005, 0.0, 1.0);
   });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.added_mass",
-     .port = "ground",
+     .port = Port::ground,
      .statement = "Grains that move with the foot add to its inertia; as they are taken up with depth they "
                   "also resist with the square of speed.",
      .equation = "F += m_a(z) z'' + m_a'(z) z'^2, m_a = m (1 - (1 - (z/z_c)^p)^3)",

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("range of pushes_since_preparation", 0.0) <= 0.0) return {};
+  if (c.facts.range_of_pushes <= 0.0) return {};
   return {{.name = "compaction_share", .typical = 0.2, .low = -0.8, .high = 10.0},
           {.name = "pushes", .typical = 2.0, .low = 0.2, .high = 20.0, .shapes = {0.7, 6.0}},
           part_of_unloading()};
@@ -12,11 +12,11 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double share = v[0], pushes = v[1];
-  stiffen(edits, v[2], [=](const PortState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
+  stiffen(edits, v[2], [=](const GroundState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
 }
 
 const EffectRegistration kEffect({.id = "terrain.compaction",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "Each push since the bed was prepared leaves it stiffer.",
                                   .equation = "F_d -> F_d (1 + C (1 - exp(-n / n_0)))",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!has_bed(c)) return {};
-  const double depth = c.scale("depth_m", 0.04);
+  const double depth = c.facts.depth_m;
   const double believed = c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0
                               ? c.belief.value("terrain.exponent", 1.0)
                               : 1.0;
@@ -21,8 +21,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double power = v[0], reference = v[1];
-  edits.law("ground.factor", [=](const PortState& s) {
-    return s.position > 0.0 ? std::pow(std::max(s.position / reference, 1e-3), power) - 1.0 : 0.0;
+  edits.law(LawPort::ground_factor, [=](const GroundState& s) {
+    return s.depth_m > 0.0 ? std::pow(std::max(s.depth_m / reference, 1e-3), power) - 1.0 : 0.0;
   });
 }
 
@@ -36,7 +36,7 @@ bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, 
 }
 
 const EffectRegistration kEffect({.id = "terrain.depth_power_law",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "Resistance grows with another power of depth than believed.",
                                   .equation = "F_d -> F_d (z / z_r)^(n - n_0)",
                                   .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double typical = 0.07 * c.scale("foot_radius_m", 0.04);
+  const double typical = 0.07 * c.facts.foot_radius_m;
   return {{.name = "tilt_depth_m", .typical = typical, .low = 0.0, .high = 8.0 * typical},
           {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0, .shapes = {1.0, 3.0}}};
 }
@@ -12,13 +12,14 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double depth = v[0], power = v[1];
-  edits.law("ground.factor",
-            [=](const PortState& s) { return depth > 1e-9 ? come_in(s.position, depth, power) - 1.0 : 0.0; });
+  edits.law(LawPort::ground_factor, [=](const GroundState& s) {
+    return depth > 1e-9 ? come_in(s.depth_m, depth, power) - 1.0 : 0.0;
+  });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.foot_tilt",
-     .port = "ground",
+     .port = Port::ground,
      .statement = "The foot is tilted, so that it comes to bear only over some depth.",
      .equation = "F_d -> F_d (1 - exp(-(z / z_t)^p))",
      .plants = {PlantKind::intruder, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!has_bed(c)) return {};
-  const double typical = 5.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
+  const double typical = 5.0 * std::pow(c.facts.foot_radius_m / 0.04, 2);
   std::vector<EffectParameter> all{
       {.name = "quadratic_drag_N_s2_per_m2", .typical = typical, .low = 0.0, .high = 100.0 * typical}};
   add_onset(c, all);
@@ -14,13 +14,13 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double factor = v[0], onset = onset_of(v);
-  edits.law("ground.force", [=](const PortState& s) {
-    return s.accel * factor * s.velocity * s.velocity * come_in(s.position, onset);
+  edits.law(LawPort::ground_force, [=](const GroundState& s) {
+    return s.virgin * factor * s.speed_mps * s.speed_mps * come_in(s.depth_m, onset);
   });
 }
 
 const EffectRegistration kEffect({.id = "terrain.quadratic_drag",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "The bed resists with the square of the intrusion speed.",
                                   .equation = "F += c v^2 (1 - exp(-z / z_0)), v > 0",
                                   .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},

@@ -27,7 +27,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 }
 
 const EffectRegistration kEffect({.id = "terrain.stiffness",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "The bed is stiffer or softer than believed.",
                                   .equation = "F_d -> (1 + e) F_d",
                                   .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},

@@ -4,7 +4,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  const double radius = c.scale("foot_radius_m", 0.04);
+  const double radius = c.facts.foot_radius_m;
   const double typical = 2.0 * std::pow(radius / 0.04, 2);
   return {{.name = "suction_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}},
@@ -17,18 +17,18 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   const double force = v[0], depth = v[1], power = v[2], bearing = v[3];
   // Whether it pulls from the turn on or only where the bed bears no more: there it comes in as the bed lets
   // go.
-  const Law pull = [=](const PortState& s) {
-    if (s.velocity >= -1e-4) return 0.0;
-    const double whole = force * come_in(s.position, depth, power);
-    const double bears = whole > 0.0 ? std::clamp(s.bearing / whole, 0.0, 1.0) : 0.0;
+  const auto pull = [=](const GroundState& s) {
+    if (s.speed_mps >= -1e-4) return 0.0;
+    const double whole = force * come_in(s.depth_m, depth, power);
+    const double bears = whole > 0.0 ? std::clamp(s.bearing_N / whole, 0.0, 1.0) : 0.0;
     return whole * (1.0 - (1.0 - bearing) * bears);
   };
-  edits.law("ground.force", [pull](const PortState& s) { return -pull(s); });
-  edits.law("ground.tension", pull);
+  edits.law(LawPort::ground_force, [pull](const GroundState& s) { return -pull(s); });
+  edits.law(LawPort::ground_tension, pull);
 }
 
 const EffectRegistration kEffect({.id = "terrain.suction",
-                                  .port = "ground",
+                                  .port = Port::ground,
                                   .statement = "The bed holds the foot back when it is withdrawn.",
                                   .equation = "F += -F_s (1 - exp(-(z / z_1)^p)), v < 0",
                                   .plants = {PlantKind::intruder, PlantKind::hopper},

@@ -21,7 +21,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 
 const EffectRegistration kEffect(
     {.id = "terrain.unloading",
-     .port = "ground",
+     .port = Port::ground,
      .statement = "The bed gives back along another line than believed when the foot moves up.",
      .equation = "F = F_max - r k (z_max - z)",
      .plants = {PlantKind::intruder, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!has_bed(c)) return {};
-  const double typical = 3.0 * std::pow(c.scale("foot_radius_m", 0.04) / 0.04, 2);
+  const double typical = 3.0 * std::pow(c.facts.foot_radius_m / 0.04, 2);
   std::vector<EffectParameter> all{
       {.name = "viscous_N_s_per_m", .typical = typical, .low = 0.0, .high = 200.0 * typical}};
   add_onset(c, all);
@@ -15,16 +15,16 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double factor = v[0], onset = onset_of(v);
-  edits.law("ground.force", [=](const PortState& s) {
+  edits.law(LawPort::ground_force, [=](const GroundState& s) {
     // Going down through its own crater the foot meets nothing.
-    const double speed = s.accel > 0.0 ? s.velocity : std::min(s.velocity, 0.0);
-    return factor * speed * come_in(s.position, onset);
+    const double speed = s.virgin > 0.0 ? s.speed_mps : std::min(s.speed_mps, 0.0);
+    return factor * speed * come_in(s.depth_m, onset);
   });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.viscous",
-     .port = "ground",
+     .port = Port::ground,
      .statement = "The bed resists in proportion to the speed, into it and out of it.",
      .equation = "F += b v (1 - exp(-z / z_0)), F >= 0",
      .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},

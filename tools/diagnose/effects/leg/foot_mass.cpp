@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "foot.mass",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "The foot's mass is not what is believed.",
                                   .equation = "m_f -> m_f + dm",
                                   .plants = {PlantKind::hopper},

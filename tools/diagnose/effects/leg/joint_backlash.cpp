@@ -15,7 +15,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(adds_to(
     {kPlay, kGive},
     {.id = "joint.backlash",
-     .port = "joint",
+     .port = Port::joint,
      .statement = "There is play between motors and links: each reversal of the torque costs it.",
      .equation = "tau_t = K (|p| - play/2) sign(p) + D dp/dt where teeth touch, 0 between; p = rotor - link",
      .plants = {PlantKind::hopper},

@@ -6,12 +6,13 @@ namespace {
 constexpr double kFewestPeriods = 3.0;  // slower ripple is gravity's, or the encoder's
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.scale("angle_rad") < 0.3) return {};
-  const double typical = 0.1 * c.scale("torque_Nm");
+  if (c.facts.angle_rad < 0.3) return {};
+  const double typical = 0.1 * c.facts.torque_Nm;
   // How many periods a turn has is asked of the recordings; the fit starts there.
   std::vector<double> orders;
-  for (const char* key : {"ripple_order_1", "ripple_order_2", "ripple_order_3"})
-    if (const double order = c.scale(key, 0.0); order > 0.0) orders.push_back(order);
+  constexpr std::size_t kMost = 3;
+  for (std::size_t i = 0; i < c.facts.ripple_orders.size() && i < kMost; ++i)
+    if (const double order = c.facts.ripple_orders[i]; order > 0.0) orders.push_back(order);
   if (orders.empty()) return {};
   const double likeliest = orders.front();
   const auto of_sine = [&](const char* name, bool amplitude) {
@@ -35,17 +36,18 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "joint.cogging",
-     .port = "joint",
+     .port = Port::joint,
      .statement = "Torque ripples with the angle of the motor (cogging).",
      .equation = "tau += A sin(h theta) + B cos(h theta) + A_2 sin(2 h theta) + B_2 cos(2 h theta)",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double a = v[0], b = v[1], h = v[2], a2 = v[3], b2 = v[4];
-       edits.law(port_on(c.plant, "joint"), [=](const PortState& s) {
-         const double sin = std::sin(h * s.position), cos = std::cos(h * s.position);
-         return a * sin + b * cos + 2.0 * a2 * sin * cos + b2 * (1.0 - 2.0 * sin * sin);
-       });
+       edits.law(port_on(c.plant, Port::joint) == Port::axis ? LawPort::axis : LawPort::joint,
+                 [=](const AxisState& s) {
+                   const double sin = std::sin(h * s.angle_rad), cos = std::cos(h * s.angle_rad);
+                   return a * sin + b * cos + 2.0 * a2 * sin * cos + b2 * (1.0 - 2.0 * sin * sin);
+                 });
      }});
 
 }  // namespace

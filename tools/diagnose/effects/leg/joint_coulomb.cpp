@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "joint.coulomb",
-                                  .port = "joint",
+                                  .port = Port::joint,
                                   .statement = "Dry friction of constant size acts in the joints.",
                                   .equation = "tau += -tau_c sign(w)",
                                   .plants = {PlantKind::hopper},

@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "joint.rotor_inertia",
-                                  .port = "inertia",
+                                  .port = Port::inertia,
                                   .statement = "The rotors' inertia is not what is believed.",
                                   .equation = "J -> J + dJ",
                                   .plants = {PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "joint.viscous",
-     .port = "joint",
+     .port = Port::joint,
      .statement = "Friction proportional to speed acts in the joints.",
      .equation = "tau += -b w, each motor",
      .plants = {PlantKind::hopper},
@@ -17,7 +17,7 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
            const double factor = v[0] * c.belief.value("robot.motor_count", 2.0);
-           edits.law("joint", [factor](const PortState& s) { return -factor * s.velocity; });
+           edits.law(LawPort::joint, [factor](const AxisState& s) { return -factor * s.velocity_radps; });
          }});
 
 }  // namespace

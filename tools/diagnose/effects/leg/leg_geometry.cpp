@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 }
 
 const EffectRegistration kEffect({.id = "leg.geometry",
-                                  .port = "geometry",
+                                  .port = Port::geometry,
                                   .statement = "The upper links have another length than believed.",
                                   .equation = "l_1 -> l_1 + dl",
                                   .plants = {PlantKind::hopper},

@@ -22,7 +22,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     adds_to({kLower, kUpper}, {.id = "leg.link_mass",
-                               .port = "inertia",
+                               .port = Port::inertia,
                                .statement = "The leg's links are heavier or lighter than believed.",
                                .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
                                .plants = {PlantKind::hopper},

@@ -21,7 +21,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(
     adds_to({kCompliance, kDamping},
             {.id = "leg.series_elasticity",
-             .port = "joint",
+             .port = Port::joint,
              .statement =
                  "The leg yields along its length: a spring lies between what the encoders see and the foot.",
              .equation = "x = x_encoder - s,  F = k_s s + 2 zeta sqrt(k_s m_f) ds/dt",

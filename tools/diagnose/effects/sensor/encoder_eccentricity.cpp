@@ -23,21 +23,19 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "encoder.eccentricity",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The encoder's disk or magnet is off centre: the angle's error repeats once a turn.",
      .equation = "y = theta + A sin(theta) + B cos(theta); of the velocity its derivative, in part",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
        const double a = v[0], b = v[1];
-       const auto error = [=](const PortState& s) {
-         return a * std::sin(s.position) + b * std::cos(s.position);
-       };
+       const auto error = [=](const SensorState& s) { return a * std::sin(s.value) + b * std::cos(s.value); };
        if (c.plant == PlantKind::rotary_axis) {
          edits.sensor_law("position_rad", error);
          if (v.size() > 2)
-           edits.sensor_law(kVelocityOfAngle, [a = v[2] * a, b = v[2] * b](const PortState& s) {
-             return s.velocity * (a * std::cos(s.position) - b * std::sin(s.position));
+           edits.sensor_law(kVelocityOfAngle, [a = v[2] * a, b = v[2] * b](const AxisState& s) {
+             return s.velocity_radps * (a * std::cos(s.angle_rad) - b * std::sin(s.angle_rad));
            });
          return;
        }

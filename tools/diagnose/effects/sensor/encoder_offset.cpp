@@ -24,7 +24,7 @@ void apply(const Context& c, const std::string& channel, std::span<const double>
 
 const EffectRegistration kEffect(
     {.id = "encoder.offset",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The encoder's zero is off: the angle is not the one that is read.",
      .equation = "y = theta + o",
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "imu.bias",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
      .plants = {PlantKind::hopper},

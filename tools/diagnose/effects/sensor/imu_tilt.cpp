@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "imu.tilt",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
      .equation = "y = x cos(alpha)",
      .plants = {PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "load_cell.gain",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The load cell reads in proportion too much or too little.",
      .equation = "y = (1 + g) F",
      .plants = {PlantKind::intruder, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "load_cell.inertia",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement =
          "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
      .equation = "y = F - m a",
@@ -19,7 +19,7 @@ const EffectRegistration kEffect(
      .apply =
          [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
            const double mass = v[0];
-           edits.law("load_cell", [mass](const PortState& s) { return -mass * s.accel; });
+           edits.law(LawPort::load_cell, [mass](const CellState& s) { return -mass * s.foot_accel_mps2; });
          }});
 
 }  // namespace

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "load_cell.lag",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The load cell follows with a first-order lag.",
      .equation = "tau y' + y = F",
      .plants = {PlantKind::intruder, PlantKind::hopper},

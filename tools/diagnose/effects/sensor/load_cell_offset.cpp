@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "load_cell.offset",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The load cell reads a constant amount off.",
      .equation = "y = F + o",
      .plants = {PlantKind::intruder, PlantKind::hopper},

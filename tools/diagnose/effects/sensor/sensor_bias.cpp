@@ -9,7 +9,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
   if (channel == "torque_Nm") {
-    const double typical = 0.05 * c.scale("torque_Nm");
+    const double typical = 0.05 * c.facts.torque_Nm;
     return {{.name = "bias_Nm",
              .typical = typical,
              .low = -100.0 * typical,
@@ -27,7 +27,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 
 const EffectRegistration kEffect(
     {.id = "sensor.bias",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder},

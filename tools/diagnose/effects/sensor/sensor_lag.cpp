@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "sensor.lag",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "{channel} follows with a first-order lag.",
      .equation = "tau y' + y = x",
      .plants = {PlantKind::rotary_axis},

@@ -44,8 +44,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
   const SensorRange range = sensor_range(c, channel);
   const double share = v[0];
-  edits.sensor_law(channel, [range, share](const PortState& s) {
-    return share * (std::clamp(s.position, range.low, range.high) - s.position);
+  edits.sensor_law(channel, [range, share](const SensorState& s) {
+    return share * (std::clamp(s.value, range.low, range.high) - s.value);
   });
 }
 
@@ -58,7 +58,7 @@ std::vector<std::string> channels(const Context& c) {
 
 const EffectRegistration kEffect(
     {.id = "sensor.saturation",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "{channel} stops at the end of its range while the quantity goes on.",
      .equation = "y = min(x, limit)",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},

@@ -5,7 +5,7 @@ namespace {
 
 const EffectRegistration kEffect(
     {.id = "tof.bias",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The height's zero is not the surface.",
      .equation = "z = z_recorded + o",
      .plants = {PlantKind::hopper},

@@ -16,7 +16,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 
 const EffectRegistration kEffect(
     {.id = "tof.latency",
-     .port = "sensor",
+     .port = Port::sensor,
      .statement = "The time-of-flight sensor answers later than believed.",
      .equation = "y(t) = x(t - T)",
      .same_as = {"clock.skew"},

@@ -51,15 +51,14 @@ class FallingBody final : public PlantModel {
     // What sinks slowly is never as fast as a fall from there.
     if (seen_mps > 0.0 && seen_mps < kSinks * speed) speed = seen_mps;
     if (std::ranges::any_of(trials, [&](const Trial& trial) { return meets_a_liquid(trial, b); }))
-      context.scales["wetted_over_m"] = body_length_m(b);
-    context.scales["weight_N"] = b.value("body.mass_kg", 1.0) * g;
-    context.scales["speed_mps"] = std::max(speed, 0.1);
-    context.scales["duration_s"] = longest_s;
-    context.scales["masses_differ"] = range_of_setup(trials, "mass_kg");
+      context.facts.wetted_over_m = body_length_m(b);
+    context.facts.weight_N = b.value("body.mass_kg", 1.0) * g;
+    context.facts.speed_mps = std::max(speed, 0.1);
+    context.facts.masses_differ = range_of_setup(trials, "mass_kg") > 0.0;
     if (b.value("bed.stiffness_N_per_m") > 0.0) {
-      context.scales["depth_m"] = std::max(
+      context.facts.depth_m = std::max(
           0.01, std::abs(speed) * std::sqrt(b.value("body.mass_kg", 1.0) / b.value("bed.stiffness_N_per_m")));
-      context.scales["foot_radius_m"] =
+      context.facts.foot_radius_m =
           std::max(0.01, std::sqrt(b.value("body.frontal_area_m2") / std::numbers::pi));
     }
   }
@@ -70,7 +69,7 @@ class FallingBody final : public PlantModel {
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
-    return {{"body", false, 0.1 * context.scale("weight_N")}};
+    return {{"body", false, 0.1 * context.facts.weight_N}};
   }
 };
 

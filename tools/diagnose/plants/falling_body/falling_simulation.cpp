@@ -53,112 +53,161 @@ double wetted_share(double depth_m, double length_m) {
   return length_m > 0.0 ? std::clamp(depth_m / length_m, 0.0, 1.0) : 1.0;
 }
 
-FallingMotion Fall::simulate(const Edits& edits, std::span<const double> nuisances, bool stop) const {
-  FallingFigures f(belief, edits);
-  f.mass_kg += payload_kg;
-  if (length_m > 0.0) f.surface_height_m = surface_m;
-  if (bed_nuisance >= 0) {
-    f.bed_stiffness_N_per_m *= 1.0 + nuisances[index(bed_nuisance)];
-    f.surface_height_m += nuisances[index(bed_nuisance) + 1];
+namespace {
+
+struct FallState {
+  double t, h, v;
+};
+
+// One fall while it is simulated.
+class Falling {
+ public:
+  Falling(const Fall& fall, const Edits& edits, std::span<const double> nuisances, bool stop)
+      : fall_(fall),
+        f_(fall.belief, edits),
+        laws_(edits.at(LawPort::body)),
+        added_mass_(edits.at(LawPort::body_added_mass)),
+        ground_(edits),
+        on_bed_(stop) {
+    f_.mass_kg += fall.payload_kg;
+    if (fall.length_m > 0.0) f_.surface_height_m = fall.surface_m;
+    if (fall.bed_nuisance >= 0) {
+      f_.bed_stiffness_N_per_m *= 1.0 + nuisances[index(fall.bed_nuisance)];
+      f_.surface_height_m += nuisances[index(fall.bed_nuisance) + 1];
+    }
+    displaced_kg_ = f_.density_kg_per_m3 * f_.volume_m3;
+    weight_N_ = f_.mass_kg * f_.gravity_mps2;
+    buoyancy_N_ = f_.buoyancy_factor * displaced_kg_ * f_.gravity_mps2;
+    quadratic_ = 0.5 * f_.density_kg_per_m3 * f_.area_m2 * f_.drag_coefficient;
+    let_go_s_ = stop ? fall.impact_s : fall.release_s;
+    if (fall.release_nuisance >= 0) let_go_s_ += nuisances[index(fall.release_nuisance)];
+    told_ = fall.touchdown_nuisance >= 0;
+    if (told_) told_s_ = fall.touchdown_s + nuisances[index(fall.touchdown_nuisance)];
+    constexpr double kFarAbove_m = 1e6;
+    s_ = {0.0,
+          fall.start_height_m + nuisances[0] - fall.to_entry_s * nuisances[1] +
+              (fall.impact_s >= 0.0 ? kFarAbove_m : 0.0),
+          fall.start_speed_mps + nuisances[1]};
+    if (stop) {
+      s_.h = f_.surface_height_m + nuisances[index(fall.impact_nuisance)];
+      s_.v = fall.impact_speed_mps + nuisances[index(fall.impact_nuisance) + 1];
+    }
+    falling_ = !fall.held;
   }
-  const auto laws = edits.at("body");
-  const auto added_mass = edits.at("body.added_mass");
-  const GroundLaws ground(edits);
-  const double displaced_kg = f.density_kg_per_m3 * f.volume_m3;
-  const double weight_N = f.mass_kg * f.gravity_mps2;
-  const double buoyancy_N = f.buoyancy_factor * displaced_kg * f.gravity_mps2;
-  const double quadratic = 0.5 * f.density_kg_per_m3 * f.area_m2 * f.drag_coefficient;
-  double let_go_s = stop ? impact_s : release_s;
-  if (release_nuisance >= 0) let_go_s += nuisances[index(release_nuisance)];
-  const bool told = touchdown_nuisance >= 0;  // when the bed begins
-  const double told_s = told ? touchdown_s + nuisances[index(touchdown_nuisance)] : 1e300;
-  bool on_bed = stop;
-  const auto accel = [&](double t, double h, double v) {
-    const double depth_m = f.surface_height_m - h;
+
+  FallingMotion run() {
+    const double step_s = fall_.step_s;
+    const auto count = static_cast<std::size_t>(std::ceil(fall_.end_s / step_s)) + 2;
+    FallingMotion m;
+    for (Signal* signal : {&m.height, &m.velocity, &m.accel})
+      *signal = {0.0, step_s, std::vector<double>(count, 0.0)};
+    for (std::size_t i = 0; i < count; ++i) {
+      const double grid_s = step_s * static_cast<double>(i);
+      advance_to_row(grid_s);
+      const bool moves = falling_ && !resting_;
+      m.height.values[i] = s_.h;
+      m.velocity.values[i] = moves ? s_.v : 0.0;
+      m.accel.values[i] = moves ? accel(grid_s, s_.h, s_.v) : 0.0;
+    }
+    m.touchdown_s = !reached_ && touchdown_s_ == 0.0 ? fall_.end_s : touchdown_s_;
+    return m;
+  }
+
+ private:
+  double accel(double t, double h, double v) const {
+    const double length_m = fall_.length_m, depth_m = f_.surface_height_m - h;
     const auto carried_kg = [&](double d) {
-      return wetted_share(d, length_m) * f.added_mass_factor * displaced_kg + sum_of(added_mass, {.load = d});
+      return wetted_share(d, length_m) * f_.added_mass_factor * displaced_kg_ +
+             sum_of(added_mass_, BodyState{.depth_m = d});
     };
     double force_N =
-        wetted_share(depth_m, length_m) * buoyancy_N - weight_N -
-        wetted_share(depth_m, front_m(length_m)) * (quadratic * std::abs(v) + f.linear_drag_N_s_per_m) * v;
-    const double inertia_kg = f.mass_kg + carried_kg(depth_m);
+        wetted_share(depth_m, length_m) * buoyancy_N_ - weight_N_ -
+        wetted_share(depth_m, front_m(length_m)) * (quadratic_ * std::abs(v) + f_.linear_drag_N_s_per_m) * v;
+    const double inertia_kg = f_.mass_kg + carried_kg(depth_m);
     if (length_m > 0.0 && v < 0.0) {
       constexpr double kApart_m = 1e-5;
       const double taken_up_kg = carried_kg(depth_m + kApart_m) - carried_kg(depth_m - kApart_m);
       force_N += taken_up_kg / (2.0 * kApart_m) * v * v;
     }
-    if (bed && v < 0.0 && (on_bed || !told)) force_N += bed_force_N(f, ground, depth_m, -v);
-    if (!laws.empty())
-      force_N += sum_of(
-          laws,
-          {.time_s = t - let_go_s, .position = h, .velocity = v, .load = depth_m, .extreme = start_height_m});
+    if (fall_.bed && v < 0.0 && (on_bed_ || !told_)) force_N += bed_force_N(f_, ground_, depth_m, -v);
+    if (!laws_.empty())
+      force_N += sum_of(laws_, BodyState{.time_s = t - let_go_s_,
+                                         .height_m = h,
+                                         .velocity_mps = v,
+                                         .depth_m = depth_m,
+                                         .start_height_m = fall_.start_height_m});
     return force_N / inertia_kg;
-  };
-  const auto count = static_cast<std::size_t>(std::ceil(end_s / step_s)) + 2;
-  FallingMotion m;
-  for (Signal* s : {&m.height, &m.velocity, &m.accel}) *s = {0.0, step_s, std::vector<double>(count, 0.0)};
-  constexpr double kFarAbove_m = 1e6;
-  struct {
-    double t, h, v;
-  } s{0.0, start_height_m + nuisances[0] - to_entry_s * nuisances[1] + (impact_s >= 0.0 ? kFarAbove_m : 0.0),
-      start_speed_mps + nuisances[1]};
-  if (stop) {
-    s.h = f.surface_height_m + nuisances[index(impact_nuisance)];
-    s.v = impact_speed_mps + nuisances[index(impact_nuisance) + 1];
   }
-  bool falling = !held, resting = false, reached = false;
-  double speed_at_surface_mps = 0.0;
-  const auto advance = [&](double dt) {
-    const double a1 = accel(s.t, s.h, s.v);
-    const double a2 = accel(s.t + 0.5 * dt, s.h + 0.5 * dt * s.v, s.v + 0.5 * dt * a1);
-    const double a3 = accel(s.t + 0.5 * dt, s.h + 0.5 * dt * (s.v + 0.5 * dt * a1), s.v + 0.5 * dt * a2);
-    const double a4 = accel(s.t + dt, s.h + dt * (s.v + 0.5 * dt * a2), s.v + dt * a3);
-    const double before_m = s.h - f.surface_height_m, before_mps = s.v;
-    s.h += dt * (s.v + dt * (a1 + a2 + a3) / 6.0);
-    s.v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
-    s.t += dt;
-    if (!reached && before_m > 0.0 && s.h <= f.surface_height_m) {
+
+  // A Runge-Kutta step of fourth order.
+  void advance(double dt) {
+    const auto [t, h, v] = s_;
+    const double a1 = accel(t, h, v);
+    const double a2 = accel(t + 0.5 * dt, h + 0.5 * dt * v, v + 0.5 * dt * a1);
+    const double a3 = accel(t + 0.5 * dt, h + 0.5 * dt * (v + 0.5 * dt * a1), v + 0.5 * dt * a2);
+    const double a4 = accel(t + dt, h + dt * (v + 0.5 * dt * a2), v + dt * a3);
+    const double before_m = h - f_.surface_height_m, before_mps = v;
+    s_.h += dt * (v + dt * (a1 + a2 + a3) / 6.0);
+    s_.v += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
+    s_.t += dt;
+    if (!reached_ && before_m > 0.0 && s_.h <= f_.surface_height_m) {
       // The time at which a parabola through both ends crosses the surface.
-      const double a = (s.v - before_mps) / dt;
+      const double a = (s_.v - before_mps) / dt;
       const double root = std::sqrt(std::max(0.0, before_mps * before_mps - 2.0 * a * before_m));
       const double part_s = std::clamp(2.0 * before_m / (root - before_mps), 0.0, dt);
-      reached = true;
-      m.touchdown_s = s.t - dt + part_s;
-      speed_at_surface_mps = before_mps + a * part_s;
+      reached_ = true;
+      touchdown_s_ = s_.t - dt + part_s;
+      speed_at_surface_mps_ = before_mps + a * part_s;
     }
-    resting = bed && (on_bed || !told) && s.v >= 0.0 && s.h < f.surface_height_m;
-  };
-  const auto advance_to = [&](double t, int parts) {
-    const double dt = (t - s.t) / parts;
-    for (int part = 0; part < parts && !resting; ++part) advance(dt);
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    const double grid_s = step_s * static_cast<double>(i);
-    if (!falling && grid_s > let_go_s) {
-      falling = true;
-      s.t = std::max(let_go_s, grid_s - step_s);
+    resting_ = fall_.bed && (on_bed_ || !told_) && s_.v >= 0.0 && s_.h < f_.surface_height_m;
+  }
+
+  void advance_to(double t, int parts) {
+    const double dt = (t - s_.t) / parts;
+    for (int part = 0; part < parts && !resting_; ++part) advance(dt);
+  }
+
+  void advance_to_row(double grid_s) {
+    const double step_s = fall_.step_s;
+    if (!falling_ && grid_s > let_go_s_) {
+      falling_ = true;
+      s_.t = std::max(let_go_s_, grid_s - step_s);
     }
-    if (falling && told && !on_bed && grid_s > told_s) {
+    if (falling_ && told_ && !on_bed_ && grid_s > told_s_) {
       // The fall goes on to the surface, be it too late or too early; the bed begins there when it is told.
-      if (s.t < told_s) advance_to(told_s, 1);
-      for (int more = 0; !reached && more < 4000; ++more) advance(step_s);
-      if (!reached) m.touchdown_s = s.t;
-      on_bed = true;
-      s = {std::max(told_s, grid_s - step_s), f.surface_height_m, reached ? speed_at_surface_mps : s.v};
+      if (s_.t < told_s_) advance_to(told_s_, 1);
+      for (int more = 0; !reached_ && more < 4000; ++more) advance(step_s);
+      if (!reached_) touchdown_s_ = s_.t;
+      on_bed_ = true;
+      s_ = {std::max(told_s_, grid_s - step_s), f_.surface_height_m, reached_ ? speed_at_surface_mps_ : s_.v};
     }
-    if (falling && !resting && grid_s > s.t) {
+    if (falling_ && !resting_ && grid_s > s_.t) {
       // The bed begins with a kink: short steps near and in it.
       const bool near_bed =
-          bed && (on_bed || (!told && s.h + 2.0 * (grid_s - s.t) * std::min(s.v, 0.0) < f.surface_height_m));
+          fall_.bed &&
+          (on_bed_ || (!told_ && s_.h + 2.0 * (grid_s - s_.t) * std::min(s_.v, 0.0) < f_.surface_height_m));
       advance_to(grid_s, near_bed ? 5 : 1);
-      s.t = grid_s;
+      s_.t = grid_s;
     }
-    m.height.values[i] = s.h;
-    m.velocity.values[i] = falling && !resting ? s.v : 0.0;
-    m.accel.values[i] = falling && !resting ? accel(grid_s, s.h, s.v) : 0.0;
   }
-  if (!reached && m.touchdown_s == 0.0) m.touchdown_s = end_s;
-  return m;
+
+  const Fall& fall_;
+  FallingFigures f_;
+  std::vector<const Law*> laws_, added_mass_;
+  GroundLaws ground_;
+  double displaced_kg_ = 0.0, weight_N_ = 0.0, buoyancy_N_ = 0.0, quadratic_ = 0.0;
+  double let_go_s_ = 0.0;
+  bool told_ = false;  // when the bed begins
+  double told_s_ = 1e300;
+  FallState s_{};
+  bool on_bed_, falling_ = false, resting_ = false, reached_ = false;
+  double touchdown_s_ = 0.0, speed_at_surface_mps_ = 0.0;
+};
+
+}  // namespace
+
+FallingMotion Fall::simulate(const Edits& edits, std::span<const double> nuisances, bool stop) const {
+  return Falling(*this, edits, nuisances, stop).run();
 }
 
 }  // namespace sandhopper::diagnose

@@ -232,6 +232,13 @@ class FallingTrial final : public TrialModel {
         fall_.surface_m = on_grid(heights, *entry_s_, fall_.step_s, 1, false).values[0];
       if (heights.empty()) begin_before_entry(told_mps, height_sd, speed_sd);
     }
+    add_nuisances(trial, heights, height_sd, speed_sd);
+    height_sensor_ = sensor_belief(fall_.belief, "height", "m");
+    accel_sensor_ = sensor_belief(fall_.belief, "accel", "mps2");
+  }
+
+  // Those of the release, of the sensors, and of the bed.
+  void add_nuisances(const Trial& trial, const Samples& heights, double height_sd, double speed_sd) {
     trial_nuisances.push_back({"release_height_m", height_sd, 1e-4});
     trial_nuisances.push_back({"release_speed_mps", speed_sd, 1e-4});
     if (fall_.held && !from_release_) {
@@ -272,8 +279,6 @@ class FallingTrial final : public TrialModel {
       trial_nuisances.push_back({"impact_height_m", kUnknownImpact_m, 1e-3});
       trial_nuisances.push_back({"impact_speed_mps", kUnknownImpact_mps, 1e-2});
     }
-    height_sensor_ = sensor_belief(fall_.belief, "height", "m");
-    accel_sensor_ = sensor_belief(fall_.belief, "accel", "mps2");
   }
 
   void add_rows(std::uint32_t channel, const Samples& samples) {

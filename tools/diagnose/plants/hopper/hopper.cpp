@@ -37,7 +37,7 @@ std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief
       if (balance.port == "joint") {
         const auto rest = rest_without_known(balance);
         for (std::size_t i = 0; i < rest.size(); ++i) {
-          angles.push_back(balance.states[i].position);
+          angles.push_back(std::get<AxisState>(balance.states[i]).angle_rad);
           torques.push_back(rest[i]);
         }
       }
@@ -83,11 +83,10 @@ class Hopper final : public PlantModel {
 
   void describe(const std::vector<Trial>& trials, Context& context) const override {
     const WorldConfig world = world_of(context.belief, {});
-    double force = 0.0, duration = 0.0, accel = 0.0, current = 0.0, fastest = 0.0, low = 1e9, high = -1e9;
+    double force = 0.0, current = 0.0, fastest = 0.0, low = 1e9, high = -1e9;
     double hottest = kRoom_C;
     for (const auto& trial : trials) {
       force = std::max(force, largest_of(trial, "load_cell_force_N"));
-      accel = std::max(accel, largest_of(trial, "imu_foot_accel_z_mps2"));
       current = std::max(current, largest_of(trial, "motor_left_current_A"));
       fastest =
           std::max(fastest, std::sqrt(2.0 * world.gravity_mps2 * trial.setup_or("release_height_m", 0.05)));
@@ -96,27 +95,24 @@ class Hopper final : public PlantModel {
         high = std::max(high, phi);
       }
       for (const double t : mean_of_motors(trial, "temperature_C").value) hottest = std::max(hottest, t);
-      if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back() - trial.time_s.front());
     }
-    auto& s = context.scales;
-    for (const char* key : {"pushes_since_preparation", "wait_s"})
-      s[std::string("range of ") + key] = range_of_setup(trials, key);
-    s["temperature_K"] = hottest - kRoom_C;
-    s["weight_N"] = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
-    s["foot_radius_m"] = world.robot.leg.foot_radius_m;
-    s["depth_m"] = 0.04;
-    s["speed_mps"] = std::max(fastest, 0.1);
-    s["accel_mps2"] = std::max(accel, 10.0);
-    s["force_N"] = force > 0.0 ? force : 60.0;
-    s["torque_Nm"] = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
-    s["angle_rad"] = high > low ? high - low : 1.0;
+    PlantFacts& s = context.facts;
+    s.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
+    s.range_of_wait_s = range_of_setup(trials, "wait_s");
+    s.temperature_K = hottest - kRoom_C;
+    s.weight_N = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
+    s.foot_radius_m = world.robot.leg.foot_radius_m;
+    s.depth_m = 0.04;
+    s.speed_mps = std::max(fastest, 0.1);
+    s.force_N = force > 0.0 ? force : 60.0;
+    s.torque_Nm = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
+    s.angle_rad = high > low ? high - low : 1.0;
     auto orders = ripple_orders(trials, context.belief);
     // What is believed to ripple may ripple more.
     const double believed = context.belief.value("robot.cogging_periods_per_rev");
     if (believed > 0.0) orders.insert(orders.begin(), believed);
-    tell_ripple_orders(orders, context);
-    s["speed_radps"] = 10.0;
-    s["duration_s"] = duration;
+    s.ripple_orders = std::move(orders);
+    s.speed_radps = 10.0;
   }
 
   std::vector<Balance> balances(const Trial& trial, const Belief& belief) const override {
@@ -141,7 +137,7 @@ class Hopper final : public PlantModel {
     const auto& shown = all ? late_s : far_s;
     const auto [low, high] = std::ranges::minmax(shown);
     return {{.id = "controller.not_as_configured",
-             .port = "controller",
+             .port = Port::controller,
              .statement = "The controller begins to push off at another time than its rule says.",
              .equation = "t_switch -> t_switch + t_late",
              .parameter = "switch_late_s",
@@ -156,10 +152,10 @@ class Hopper final : public PlantModel {
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
-    return {{"rail", false, 0.05 * context.scale("weight_N")},
-            {"joint", false, 0.05 * context.scale("torque_Nm"), true},
-            {"ground.force", false, 0.1 * context.scale("force_N"), true},
-            {"actuator", true, 0.1 * context.scale("torque_Nm")}};
+    return {{"rail", false, 0.05 * context.facts.weight_N},
+            {"joint", false, 0.05 * context.facts.torque_Nm, true},
+            {"ground.force", false, 0.1 * context.facts.force_N, true},
+            {"actuator", true, 0.1 * context.facts.torque_Nm}};
   }
 };
 

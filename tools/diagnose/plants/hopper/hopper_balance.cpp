@@ -91,6 +91,137 @@ std::vector<char> flights(const Grid& grid, const std::vector<PhaseChange>& phas
   return aloft;
 }
 
+// Everything recorded of one trial on one grid of time, and what is believed of friction and cogging.
+struct Recorded {
+  Signal body_mps2, foot_mps2, angle_rad, rate_radps;
+  std::vector<char> body_recorded, foot_recorded, aloft;
+  std::optional<Height> height;
+  Signal cell_N, motor_Nm;  // empty: not recorded
+  Signal rail_believed_N, joint_believed_Nm;
+
+  bool weighed() const { return !cell_N.values.empty(); }
+  bool driven() const { return !motor_Nm.values.empty(); }
+};
+
+Recorded recorded_of(const Trial& trial, const Grid& grid, const WorldConfig& world,
+                     const HopperCourse& course) {
+  const auto body = samples_of(trial, "imu_body_accel_z_mps2");
+  const auto foot = samples_of(trial, "imu_foot_accel_z_mps2");
+  const auto angle = mean_of_motors(trial, "position_rad");
+  Recorded r;
+  r.body_mps2 = on(grid, body);
+  r.foot_mps2 = on(grid, foot);
+  const auto smoothed = smooth(angle, kSmoothing);
+  r.angle_rad = on(grid, {angle.time_s, smoothed.value});
+  r.rate_radps = on(grid, {angle.time_s, smoothed.rate});
+  r.body_recorded = recorded_on(grid, body);
+  r.foot_recorded = recorded_on(grid, foot);
+  Signal accel = r.body_mps2;
+  for (double& a : accel.values) a -= world.gravity_mps2;
+  r.height = height_of(trial, grid, accel);
+  r.aloft = flights(grid, course.phases);
+  const Signal nothing{grid.start_s, kTick_s, {}};
+  const auto cell = samples_of(trial, "load_cell_force_N");
+  r.cell_N = cell.value.size() >= 50 ? on(grid, cell) : nothing;
+  const auto currents = mean_of_motors(trial, "current_A");
+  r.motor_Nm = currents.value.size() >= 100 ? on(grid, currents) : nothing;
+  for (double& tau : r.motor_Nm.values)
+    tau *= world.robot.leg.motor_count * world.motor.torque_constant_Nm_per_A;
+  return r;
+}
+
+// Friction and cogging as believed, seen through the accelerometers' filter like everything else.
+void believe_friction(const Belief& belief, const WorldConfig& world, const Leg& leg, const Grid& grid,
+                      Recorded& r) {
+  const Bed bed(world.terrain, world.robot.leg.foot_radius_m);
+  Plant plant(world, bed);
+  r.rail_believed_N = {grid.start_s, kTick_s, std::vector<double>(grid.count, 0.0)};
+  r.joint_believed_Nm = r.rail_believed_N;
+  for (std::size_t i = 0; i < grid.count; ++i) {
+    const double dl = leg.kinematics(r.angle_rad.values[i]).dlength_m_per_rad;
+    plant.place({.foot_z_m = kAloft_m,
+                 .foot_velocity_mps = (r.height ? r.height->v_mps[i] : 0.0) - dl * r.rate_radps.values[i],
+                 .angle_rad = r.angle_rad.values[i],
+                 .angular_velocity_radps = r.rate_radps.values[i]});
+    const PlantMotion motion = plant.motion(0.0);
+    r.rail_believed_N.values[i] = motion.rail_force_N;
+    r.joint_believed_Nm.values[i] = motion.joint_torque_Nm;
+  }
+  if (const double bandwidth_Hz = sensor_belief(belief, "imu", "mps2").bandwidth_Hz; bandwidth_Hz > 0.0)
+    for (Signal* signal : {&r.motor_Nm, &r.rail_believed_N, &r.joint_believed_Nm})
+      if (!signal->values.empty()) signal->low_pass(1.0 / (2.0 * std::numbers::pi * bandwidth_Hz));
+}
+
+// By differences over two steps; 0 at the ends.
+std::vector<double> rates_of(const Grid& grid, const Signal& signal) {
+  std::vector<double> rate(grid.count, 0.0);
+  for (std::size_t i = 1; i + 1 < grid.count && i + 1 < signal.values.size(); ++i)
+    rate[i] = (signal.values[i + 1] - signal.values[i - 1]) / (2.0 * kTick_s);
+  return rate;
+}
+
+void know(Balance& balance, std::initializer_list<double> shapes) {
+  balance.known.resize(shapes.size());
+  auto column = balance.known.begin();
+  for (const double shape : shapes) (column++)->push_back(shape);
+}
+
+// One instant of both balances.
+class Instant {
+ public:
+  Instant(const Recorded& r, const Leg& leg, const Grid& grid, std::size_t i)
+      : r_(r), i_(i), time_s_(grid.at(i)), d_(leg.dynamics(r.angle_rad.values[i])) {
+    spin2_ = r.rate_radps.values[i] * r.rate_radps.values[i];
+    if (!is_known()) return;
+    phidd_ = (r.body_mps2.values[i] - r.foot_mps2.values[i] - d_.leg.d2length_m_per_rad2 * spin2_) / dl();
+    const double ground_N = r.aloft[i] != 0 ? 0.0 : r.cell_N.values[i];
+    rail_N_ =
+        d_.m11_kg * r.foot_mps2.values[i] + d_.m12_kg_m * phidd_ + d_.dm12_kg_m_per_rad * spin2_ - ground_N;
+  }
+
+  bool is_known() const {
+    if (std::abs(dl()) < kSteepest_m_per_rad || (r_.aloft[i_] == 0 && !r_.weighed())) return false;
+    return r_.body_recorded[i_] != 0 && r_.foot_recorded[i_] != 0;
+  }
+
+  // Friction (dry, viscous, greater near standstill, with the load), cable. Aloft accelerations hold the
+  // force that is asked for; on the ground what masses, accelerometers and load cell show otherwise than
+  // believed goes with them.
+  void add_rail(Balance& rail) const {
+    if (!r_.height) return;
+    const double z = r_.height->z_m[i_], v = r_.height->v_mps[i_], sign = std::tanh(v / kSlow_mps);
+    const double load_N = r_.driven() ? std::abs(r_.motor_Nm.values[i_] / dl()) : 0.0;
+    const double on_ground = r_.aloft[i_] != 0 ? 0.0 : 1.0;
+    rail.rest.push_back(rail_N_ - r_.rail_believed_N.values[i_]);
+    rail.states.push_back(RailState{.time_s = time_s_, .height_m = z, .velocity_mps = v});
+    know(rail, {sign, v, sign * std::exp(-std::pow(v / kStribeck_mps, 2)), sign * load_N, z,
+                on_ground * r_.body_mps2.values[i_], on_ground * r_.foot_mps2.values[i_]});
+  }
+
+  // Friction, the motors' constant, saturation and delay, cogging.
+  void add_joint(double motor_rate, double cogging_periods_per_rev, Balance& joint) const {
+    if (!r_.driven()) return;
+    const double phi = r_.angle_rad.values[i_], w = r_.rate_radps.values[i_], tau = r_.motor_Nm.values[i_];
+    const double torque_Nm =
+        d_.m22_kg_m2 * phidd_ + d_.m12_kg_m * r_.foot_mps2.values[i_] + 0.5 * d_.dm22_kg_m2_per_rad * spin2_;
+    joint.rest.push_back(torque_Nm - tau - dl() * rail_N_ - r_.joint_believed_Nm.values[i_]);
+    joint.states.push_back(
+        AxisState{.time_s = time_s_, .angle_rad = phi, .velocity_radps = w, .torque_Nm = tau});
+    const double cog = cogging_periods_per_rev * phi;
+    know(joint,
+         {std::tanh(w / kSlow_radps), w, tau, tau * std::abs(tau), motor_rate, std::sin(cog), std::cos(cog)});
+  }
+
+ private:
+  double dl() const { return d_.leg.dlength_m_per_rad; }
+
+  const Recorded& r_;
+  std::size_t i_;
+  double time_s_;
+  LegDynamics d_;
+  double spin2_ = 0.0, phidd_ = 0.0, rail_N_ = 0.0;
+};
+
 }  // namespace
 
 std::vector<Balance> balances_of(const Trial& trial, const Belief& belief) {
@@ -107,89 +238,15 @@ std::vector<Balance> balances_of(const Trial& trial, const Belief& belief) {
   if (end_s < grid.start_s + 0.1) return {};
   grid.count = static_cast<std::size_t>((end_s - grid.start_s) / kTick_s);
 
-  const Signal s_body = on(grid, body), s_foot = on(grid, foot);
-  const auto smoothed = smooth(angle, kSmoothing);
-  const Signal phi = on(grid, {angle.time_s, smoothed.value}), spin = on(grid, {angle.time_s, smoothed.rate});
-  const auto body_recorded = recorded_on(grid, body), foot_recorded = recorded_on(grid, foot);
-  Signal accel = s_body;
-  for (double& a : accel.values) a -= world.gravity_mps2;
-  const auto height = height_of(trial, grid, accel);
-  const auto aloft = flights(grid, course.phases);
-  const auto cell_samples = samples_of(trial, "load_cell_force_N");
-  const bool weighed = cell_samples.value.size() >= 50;
-  const Signal cell = weighed ? on(grid, cell_samples) : Signal{grid.start_s, kTick_s, {}};
-  const auto currents = mean_of_motors(trial, "current_A");
-  const bool driven = currents.value.size() >= 100;
-  Signal motor = driven ? on(grid, currents) : Signal{grid.start_s, kTick_s, {}};
-  for (double& tau : motor.values) tau *= world.robot.leg.motor_count * world.motor.torque_constant_Nm_per_A;
-
-  // What is believed of friction and cogging, seen through the accelerometers' filter like everything else.
-  const Bed bed(world.terrain, world.robot.leg.foot_radius_m);
-  Plant plant(world, bed);
-  Signal rail_believed{grid.start_s, kTick_s, std::vector<double>(grid.count, 0.0)};
-  Signal joint_believed = rail_believed;
-  for (std::size_t i = 0; i < grid.count; ++i) {
-    const double dl = leg.kinematics(phi.values[i]).dlength_m_per_rad;
-    plant.place({.foot_z_m = kAloft_m,
-                 .foot_velocity_mps = (height ? height->v_mps[i] : 0.0) - dl * spin.values[i],
-                 .angle_rad = phi.values[i],
-                 .angular_velocity_radps = spin.values[i]});
-    const PlantMotion motion = plant.motion(0.0);
-    rail_believed.values[i] = motion.rail_force_N;
-    joint_believed.values[i] = motion.joint_torque_Nm;
-  }
-  if (const double bandwidth_Hz = sensor_belief(belief, "imu", "mps2").bandwidth_Hz; bandwidth_Hz > 0.0)
-    for (Signal* signal : {&motor, &rail_believed, &joint_believed})
-      if (!signal->values.empty()) signal->low_pass(1.0 / (2.0 * std::numbers::pi * bandwidth_Hz));
-
-  const auto rates = [&](const Signal& signal) {
-    std::vector<double> rate(grid.count, 0.0);
-    for (std::size_t i = 1; i + 1 < grid.count && i + 1 < signal.values.size(); ++i)
-      rate[i] = (signal.values[i + 1] - signal.values[i - 1]) / (2.0 * kTick_s);
-    return rate;
-  };
-  const auto motor_rate = rates(motor);
+  Recorded recorded = recorded_of(trial, grid, world, course);
+  believe_friction(belief, world, leg, grid, recorded);
+  const auto motor_rate = rates_of(grid, recorded.motor_Nm);
   Balance rail{"rail", {}, {}, {}}, joint{"joint", {}, {}, {}};
-  const auto know = [](Balance& balance, std::initializer_list<double> shapes) {
-    balance.known.resize(shapes.size());
-    auto column = balance.known.begin();
-    for (const double shape : shapes) (column++)->push_back(shape);
-  };
   for (std::size_t i = 0; i < grid.count; ++i) {
-    const auto d = leg.dynamics(phi.values[i]);
-    const double dl = d.leg.dlength_m_per_rad, spin2 = spin.values[i] * spin.values[i];
-    if (std::abs(dl) < kSteepest_m_per_rad || (aloft[i] == 0 && !weighed)) continue;
-    if (body_recorded[i] == 0 || foot_recorded[i] == 0) continue;
-    const double phidd = (s_body.values[i] - s_foot.values[i] - d.leg.d2length_m_per_rad2 * spin2) / dl;
-    const double ground_N = aloft[i] != 0 ? 0.0 : cell.values[i];
-    const double rail_N =
-        d.m11_kg * s_foot.values[i] + d.m12_kg_m * phidd + d.dm12_kg_m_per_rad * spin2 - ground_N;
-    if (height) {
-      rail.rest.push_back(rail_N - rail_believed.values[i]);
-      rail.states.push_back({.time_s = grid.at(i), .position = height->z_m[i], .velocity = height->v_mps[i]});
-      // Friction (dry, viscous, greater near standstill, with the load), cable. Aloft accelerations hold the
-      // force that is asked for; on the ground what masses, accelerometers and load cell show otherwise than
-      // believed goes with them.
-      const double v = height->v_mps[i], sign = std::tanh(v / kSlow_mps);
-      const double load_N = driven ? std::abs(motor.values[i] / dl) : 0.0;
-      const double on_ground = aloft[i] != 0 ? 0.0 : 1.0;
-      know(rail, {sign, v, sign * std::exp(-std::pow(v / kStribeck_mps, 2)), sign * load_N, height->z_m[i],
-                  on_ground * s_body.values[i], on_ground * s_foot.values[i]});
-    }
-    if (driven) {
-      const double torque_Nm =
-          d.m22_kg_m2 * phidd + d.m12_kg_m * s_foot.values[i] + 0.5 * d.dm22_kg_m2_per_rad * spin2;
-      joint.rest.push_back(torque_Nm - motor.values[i] - dl * rail_N - joint_believed.values[i]);
-      joint.states.push_back({.time_s = grid.at(i),
-                              .position = phi.values[i],
-                              .velocity = spin.values[i],
-                              .load = motor.values[i]});
-      // Friction, the motors' constant, saturation and delay, cogging.
-      const double w = spin.values[i], tau = motor.values[i];
-      const double cog = world.robot.cogging_periods_per_rev * phi.values[i];
-      know(joint, {std::tanh(w / kSlow_radps), w, tau, tau * std::abs(tau), motor_rate[i], std::sin(cog),
-                   std::cos(cog)});
-    }
+    const Instant instant(recorded, leg, grid, i);
+    if (!instant.is_known()) continue;
+    instant.add_rail(rail);
+    instant.add_joint(motor_rate[i], world.robot.cogging_periods_per_rev, joint);
   }
   return {std::move(rail), std::move(joint)};
 }

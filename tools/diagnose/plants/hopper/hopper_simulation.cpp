@@ -13,21 +13,23 @@ namespace {
 
 class PortLaws final : public PlantExtension {
  public:
-  explicit PortLaws(const Edits& edits) : rail_(edits.at("rail")), joint_(edits.at("joint")) {}
+  explicit PortLaws(const Edits& edits) : rail_(edits.at(LawPort::rail)), joint_(edits.at(LawPort::joint)) {}
   bool empty() const { return rail_.empty() && joint_.empty(); }
   void at_time(double time_s) { time_s_ = time_s; }
 
   double rail_force_N(double z, double v, double leg_force_N) const override {
     return rail_.empty()
                ? 0.0
-               : sum_of(rail_, {.time_s = time_s_, .position = z, .velocity = v, .load = leg_force_N});
+               : sum_of(rail_,
+                        RailState{
+                            .time_s = time_s_, .height_m = z, .velocity_mps = v, .leg_force_N = leg_force_N});
   }
   double joint_torque_Nm(const PlantState& s, double motor_torque_Nm) const override {
     if (joint_.empty()) return 0.0;
-    return sum_of(joint_, {.time_s = time_s_,
-                           .position = s.angle_rad,
-                           .velocity = s.angular_velocity_radps,
-                           .load = motor_torque_Nm});
+    return sum_of(joint_, AxisState{.time_s = time_s_,
+                                    .angle_rad = s.angle_rad,
+                                    .velocity_radps = s.angular_velocity_radps,
+                                    .torque_Nm = motor_torque_Nm});
   }
 
  private:
@@ -42,7 +44,7 @@ class Actuator {
       : step_s_(run.step_s),
         factor_(run.torque_constant_factor),
         temperature_C_(run.motor_temperature_C),
-        limits_(edits.at("actuator.limit")) {
+        limits_(edits.at(LawPort::actuator_limit)) {
     const double time_constant_s = run.world.motor.current_loop_time_constant_s;
     for (const auto& edit : edits.sensors) {
       if (edit.channel != "actuator") continue;
@@ -78,7 +80,8 @@ class Actuator {
   // the step.
   double step(double command_Nm, double rate_radps) {
     if (!limits_.empty()) {
-      const double limit_Nm = std::max(0.0, sum_of(limits_, {.velocity = rate_radps, .load = command_Nm}));
+      const double limit_Nm =
+          std::max(0.0, sum_of(limits_, DriveState{.rate_radps = rate_radps, .command_Nm = command_Nm}));
       command_Nm = std::clamp(command_Nm, -limit_Nm, limit_Nm);
     }
     newest_ = (newest_ + 1) % history_.size();
@@ -102,7 +105,8 @@ class Actuator {
   double torque_Nm(double current_Nm, double time_s) const {
     double torque = factor_ * current_Nm + offset_Nm_;
     if (!laws_.empty())
-      torque += sum_of(laws_, {.time_s = time_s, .position = current_Nm, .temperature_C = temperature_C_});
+      torque +=
+          sum_of(laws_, SensorState{.time_s = time_s, .value = current_Nm, .temperature_C = temperature_C_});
     return torque;
   }
 
@@ -142,7 +146,8 @@ class MeasuredAngle {
  private:
   double read(double rotor_rad, double rotor_radps) const {
     const double angle = gain_ * rotor_rad + offset_;
-    return laws_.empty() ? angle : angle + 0.5 * sum_of(laws_, {.position = angle, .velocity = rotor_radps});
+    return laws_.empty() ? angle
+                         : angle + 0.5 * sum_of(laws_, SensorState{.value = angle, .rate = rotor_radps});
   }
 
   double gain_ = 1.0, offset_ = 0.0;
@@ -213,6 +218,75 @@ HopperTraces empty_traces(double from_s, double step_s, std::size_t count) {
   return traces;
 }
 
+// The start on the plant's zero, the surface. Recorded is the rotors' angle; they lie at the side of the play
+// to which the motors push.
+PlantState start_of(const HopperRun& run, const MeasuredAngle& measured, double surface_m,
+                    SpringLeg& spring) {
+  PlantState start = run.start;
+  start.foot_z_m -= surface_m;
+  start.angle_rad = measured.behind(start.angle_rad);
+  const double play_rad = run.world.robot.joint_play_rad;
+  if (play_rad > 0.0) {
+    start.play_rad = std::copysign(0.5 * play_rad, spring.command_Nm(run.from_s, measured(start), start));
+    start.angle_rad -= start.play_rad;
+  }
+  return start;
+}
+
+// Writes what the plant does in each step.
+//
+// Force and accelerations jump where the bed begins to yield again: their means over a step do not jump from
+// one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse, which is no
+// acceleration: there they are values at the instant.
+class Writer {
+ public:
+  Writer(HopperTraces& traces, const Plant& plant, double surface_m, bool means)
+      : traces_(traces), plant_(plant), surface_m_(surface_m), means_(means) {
+    if (!means_) return;
+    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
+      signal->start_s += 0.5 * signal->step_s;
+  }
+
+  void before_step(std::size_t i, double command_Nm) {
+    const PlantState& state = plant_.state();
+    traces_.angle_rad.values[i] = state.rotor_rad();
+    traces_.rate_radps.values[i] = state.rotor_radps();
+    traces_.command_torque_Nm.values[i] = command_Nm;
+    traces_.foot_z_m.values[i] = state.foot_z_m + surface_m_;
+    traces_.foot_velocity_mps.values[i] = state.foot_velocity_mps;
+    foot_velocity_mps_ = state.foot_velocity_mps;
+    impulse_Ns_ = plant_.contact_impulse_Ns();
+  }
+
+  void after_step(std::size_t i, const PlantMotion& motion) {
+    const double step_s = traces_.force_N.step_s;
+    traces_.body_z_m.values[i] = motion.body_z_m + surface_m_;
+    if (!means_) {
+      traces_.body_accel_mps2.values[i] = motion.body_accel_mps2;
+      traces_.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
+      traces_.force_N.values[i] = motion.contact_force_N;
+      return;
+    }
+    if (i > 0)
+      traces_.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps_) / step_s;
+    body_velocity_mps_ = motion.body_velocity_mps;
+    traces_.foot_accel_mps2.values[i] = (plant_.state().foot_velocity_mps - foot_velocity_mps_) / step_s;
+    traces_.force_N.values[i] = (plant_.contact_impulse_Ns() - impulse_Ns_) / step_s;
+  }
+
+  void end() {
+    auto& accel = traces_.body_accel_mps2.values;
+    if (means_) accel[accel.size() - 1] = accel[accel.size() - 2];
+  }
+
+ private:
+  HopperTraces& traces_;
+  const Plant& plant_;
+  double surface_m_;
+  bool means_;
+  double foot_velocity_mps_ = 0.0, impulse_Ns_ = 0.0, body_velocity_mps_ = 0.0;
+};
+
 }  // namespace
 
 HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s) {
@@ -249,34 +323,19 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   const auto table = leg_table(Leg(run.world.robot.leg));
   options.leg_table = table.get();
   Plant plant(run.world, bed, options);
-  PlantState start = run.start;
   const double surface_m = run.surface_m + ground.deeper_m();
-  start.foot_z_m -= surface_m;  // the plant's zero is the surface
   SpringLeg spring(run, plant.leg());
   Actuator actuator(edits, run);
   const MeasuredAngle measured(edits);
-  start.angle_rad = measured.behind(start.angle_rad);
-  // Recorded is the rotors' angle; they lie at the side of the play to which the motors push.
-  const double play_rad = run.world.robot.joint_play_rad;
-  if (play_rad > 0.0) {
-    start.play_rad = std::copysign(0.5 * play_rad, spring.command_Nm(run.from_s, measured(start), start));
-    start.angle_rad -= start.play_rad;
-  }
-  plant.place_in_crater(start, run.crater_m);
+  plant.place_in_crater(start_of(run, measured, surface_m, spring), run.crater_m);
 
   const double step_s = run.step_s;
   const auto count = static_cast<std::size_t>(std::ceil((run.to_s - run.from_s) / step_s)) + 2;
   const double tick_s = 1.0 / run.world.controller.rate_Hz;
   const auto per_tick = static_cast<std::size_t>(std::max(1.0, std::round(tick_s / step_s)));
   HopperTraces traces = empty_traces(run.from_s, step_s, count);
-  // Force and accelerations jump where the bed begins to yield again: their means over a step do not jump
-  // from one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse,
-  // which is no acceleration.
-  const bool means = !run.world.terrain.rigid;
-  if (means)
-    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
-      signal->start_s += 0.5 * step_s;
-  double command_Nm = 0.0, body_velocity_mps = 0.0;
+  Writer writer(traces, plant, surface_m, !run.world.terrain.rigid);
+  double command_Nm = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = run.from_s + step_s * static_cast<double>(i);
     ground.at_time(t);
@@ -289,27 +348,10 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
     if (i % per_tick == 0 || switched) command_Nm = spring.command_Nm(t, measured(state), state);
     traces.current_torque_Nm.values[i] = actuator.current_Nm();  // read before the command acts
     const double torque_Nm = actuator.torque_Nm(actuator.step(command_Nm, state.rotor_radps()), t);
-    traces.angle_rad.values[i] = state.rotor_rad();
-    traces.rate_radps.values[i] = state.rotor_radps();
-    traces.command_torque_Nm.values[i] = command_Nm;
-    traces.foot_z_m.values[i] = state.foot_z_m + surface_m;
-    traces.foot_velocity_mps.values[i] = state.foot_velocity_mps;
-    const double foot_velocity_mps = state.foot_velocity_mps, impulse_Ns = plant.contact_impulse_Ns();
-    const PlantMotion motion = plant.advance(torque_Nm, step_s);
-    traces.body_z_m.values[i] = motion.body_z_m + surface_m;
-    if (means) {
-      if (i > 0)
-        traces.body_accel_mps2.values[i - 1] = (motion.body_velocity_mps - body_velocity_mps) / step_s;
-      body_velocity_mps = motion.body_velocity_mps;
-      traces.foot_accel_mps2.values[i] = (plant.state().foot_velocity_mps - foot_velocity_mps) / step_s;
-      traces.force_N.values[i] = (plant.contact_impulse_Ns() - impulse_Ns) / step_s;
-    } else {
-      traces.body_accel_mps2.values[i] = motion.body_accel_mps2;
-      traces.foot_accel_mps2.values[i] = motion.foot_accel_mps2;
-      traces.force_N.values[i] = motion.contact_force_N;
-    }
+    writer.before_step(i, command_Nm);
+    writer.after_step(i, plant.advance(torque_Nm, step_s));
   }
-  if (means) traces.body_accel_mps2.values[count - 1] = traces.body_accel_mps2.values[count - 2];
+  writer.end();
   return traces;
 }
 

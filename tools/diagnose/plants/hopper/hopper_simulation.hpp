@@ -64,10 +64,10 @@ struct HopperTraces {
 // Closed loop at the controller's rate on a 0.25 ms grid (RK4): the virtual spring on the simulated leg,
 // whose rate the controller sees through the encoder's low-pass, command through delay and current loop to
 // torque, the plant with the laws of `edits` at its ports
-//   rail    position body height, velocity body velocity; N on the body, up
-//   joint   position angle, velocity its rate, load motors' torque; N m on the links, both sides
-//   actuator.limit  velocity the links', load the command; largest torque of both motors
-//   ground.*  as in ground_laws.hpp
+//   rail    force on the body, up
+//   joint   torque on the links, both sides
+//   actuator_limit  largest torque of both motors
+//   ground_*  as in ground_laws.hpp
 // and the sensor edits of the channel "actuator": delay and lag act on the current, gain, offset and law on
 // the torque it makes. Edits of the motors' position (offset, gain, law) are what the controller sees, too.
 HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits);

@@ -46,7 +46,7 @@ class StandingLeg final : public TrialModel {
     const WorldConfig world = world_of(belief_, edits);
     const Leg leg(world.robot.leg);
     const double motors = world.robot.leg.motor_count;
-    const auto laws = edits.at("joint");
+    const auto laws = edits.at(LawPort::joint);
     const Signal torque = acting_torque(edits);
     const double offset_rad = offset_of_encoder(edits);
     Signal force = angle_;
@@ -56,10 +56,10 @@ class StandingLeg final : public TrialModel {
                         motors * world.robot.leg.rotor_inertia_kg_m2 * acceleration_.values[i] -
                         motors * world.robot.joint_coulomb_Nm * std::tanh(rate / kFrictionSwitch_radps);
       if (!laws.empty())
-        joint_Nm += sum_of(laws, {.time_s = kGrid_s * static_cast<double>(i),
-                                  .position = theta,
-                                  .velocity = rate,
-                                  .load = torque.values[i]});
+        joint_Nm += sum_of(laws, AxisState{.time_s = kGrid_s * static_cast<double>(i),
+                                           .angle_rad = theta,
+                                           .velocity_radps = rate,
+                                           .torque_Nm = torque.values[i]});
       force.values[i] = joint_Nm / leg.kinematics(theta).dlength_m_per_rad +
                         world.robot.leg.foot_mass_kg * world.gravity_mps2;
     }

@@ -27,7 +27,7 @@ class Intruder final : public PlantModel {
   }
 
   void describe(const std::vector<Trial>& trials, Context& context) const override {
-    double deepest = 0.0, fastest = 0.0, strongest = 0.0, duration = 0.0, hardest = 0.0;
+    double deepest = 0.0, fastest = 0.0, strongest = 0.0;
     for (const auto& trial : trials) {
       const auto z = samples_of(trial, "foot_z_m");
       for (const double v : z.value) deepest = std::max(deepest, -v);
@@ -35,38 +35,29 @@ class Intruder final : public PlantModel {
       auto velocity = samples_of(trial, "foot_velocity_mps");
       if (velocity.empty() && z.value.size() > 10) velocity = {z.time_s, smooth(z, 5).rate};
       for (const double v : velocity.value) fastest = std::max(fastest, std::abs(v));
-      for (const double v : samples_of(trial, "foot_accel_mps2").value)
-        hardest = std::max(hardest, std::abs(v));
-      if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back());
     }
-    context.scales["foot_radius_m"] = context.belief.value("foot.radius_m", 0.04);
-    context.scales["depth_m"] = std::max(deepest, 1e-3);
-    context.scales["speed_mps"] = std::max(fastest, 1e-3);
-    context.scales["accel_mps2"] = std::max(hardest, 0.1);
-    context.scales["force_N"] = std::max(strongest, 0.1);
-    context.scales["duration_s"] = duration;
+    context.facts.foot_radius_m = context.belief.value("foot.radius_m", 0.04);
+    context.facts.depth_m = std::max(deepest, 1e-3);
+    context.facts.speed_mps = std::max(fastest, 1e-3);
+    context.facts.force_N = std::max(strongest, 0.1);
     // What the set-ups differ in, and how near the foot came to the floor of the bed.
-    for (const char* key : {"pushes_since_preparation", "wait_s"})
-      context.scales[std::string("range of ") + key] = range_of_setup(trials, key);
+    context.facts.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
+    context.facts.range_of_wait_s = range_of_setup(trials, "wait_s");
     for (const auto& trial : trials) {
       const double bed_m = trial.setup_or("bed_depth_m", 0.0);
       if (bed_m <= 0.0) continue;
       double lowest = 0.0;
       for (const double v : samples_of(trial, "foot_z_m").value) lowest = std::min(lowest, v);
-      const auto it = context.scales.find("floor_distance_m");
       const double near_m = std::max(1e-3, bed_m + lowest);
-      context.scales["floor_distance_m"] = it == context.scales.end() ? near_m : std::min(it->second, near_m);
+      context.facts.floor_distance_m = std::min(near_m, context.facts.floor_distance_m.value_or(near_m));
     }
     // A trial may push more than once.
     double pushes = 0.0;
     for (const auto& trial : trials) pushes = std::max(pushes, pushes_of(samples_of(trial, "foot_z_m")));
-    double& range = context.scales["range of pushes_since_preparation"];
+    double& range = context.facts.range_of_pushes;
     range = std::max(range, pushes - 1.0);
     // The foot's position is an input, no prediction; its faults are candidates, too.
-    double longest_s = 1e-3;
-    for (const auto& trial : trials) longest_s = std::max(longest_s, median_step_s(trial.time_s));
-    context.scales["input_step_s"] = longest_s;
-    context.scales["position_is_out_of_time"] = position_is_out_of_time(trials) ? 1.0 : 0.0;
+    context.facts.position_is_out_of_time = position_is_out_of_time(trials);
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
@@ -87,7 +78,7 @@ class Intruder final : public PlantModel {
   double simulations_differ(const std::string& /*port*/) const override { return 0.01; }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
-    return {{"ground.force", false, 0.1 * context.scale("force_N")}};
+    return {{"ground.force", false, 0.1 * context.facts.force_N}};
   }
 };
 

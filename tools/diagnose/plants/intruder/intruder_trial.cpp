@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/plants/ground_laws.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
+#include "tools/diagnose/plants/intruder/balanced_force.hpp"
 #include "tools/diagnose/plants/intruder/bed_grains.hpp"
 #include "tools/diagnose/plants/intruder/intruder_motion.hpp"
 
@@ -27,53 +28,9 @@ constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
 constexpr double kForceZeroUnknown_N = 0.02;
 constexpr double kNotKnown_N = -1.0;    // of BedContact::deepest_N
 constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr double kClose_N = 1e-6;       // a force to itself where the rig has yielded
 constexpr double kHoldSpeed_mps = 1e-3;
 constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
 enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kTurning, kFirstKnot };
-
-// The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of
-// `f` is there.
-template <class Force>
-double bracketed_N(const Force& f) {
-  constexpr int kMost = 30;
-  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
-  double force_N = high;
-  int side = 0;
-  for (int i = 0; i < kMost && high - low > kClose_N; ++i) {
-    force_N = above > below ? (low * below - high * above) / (below - above) : 0.5 * (low + high);
-    const double off = f(force_N) - force_N;
-    if (std::abs(off) < kClose_N) break;
-    if (off > 0.0) {
-      low = force_N, above = off;
-      if (side > 0) below *= 0.5;
-      side = 1;
-    } else {
-      high = force_N, below = off;
-      if (side < 0) above *= 0.5;
-      side = -1;
-    }
-  }
-  return force_N;
-}
-
-// From the force of the step before by secants, the first along the `slope` of f there, which becomes the
-// present one. `f` is evaluated last where the answer is.
-template <class Force>
-double balanced_N(const Force& f, double guess_N, double& slope) {
-  constexpr int kSecants = 5;
-  double force_N = guess_N, off = f(force_N) - force_N;
-  for (int i = 0; i < kSecants && std::abs(off) >= kClose_N; ++i) {
-    const double next_N = std::max(0.0, force_N + off / (1.0 - slope));
-    const double next_off = f(next_N) - next_N;
-    const double steeper = 1.0 + (next_off - off) / (next_N - force_N);
-    if (!(steeper <= 0.0)) break;
-    slope = steeper;
-    force_N = next_N;
-    off = next_off;
-  }
-  return std::abs(off) < kClose_N ? force_N : bracketed_N(f);
-}
 
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force
 // sensor.
@@ -189,94 +146,123 @@ class IntruderTrial final : public TrialModel {
     std::vector<double> input_sd_N;
     std::vector<IntrusionPhase> phase;
   };
-  Run simulate(const Edits& edits, std::span<const double> nuisances, bool explain = false) const {
+  // The bed as edited, with this trial's stiffness.
+  BedParameters bed_of(const Edits& edits, std::span<const double> nuisances) const {
     BedParameters parameters = bed_parameters(belief_, edits);
     parameters.stiffness_N_per_m *= 1.0 + nuisances[kStiffness];
     parameters.stiffness_per_area_N_per_m3 *= 1.0 + nuisances[kStiffness];
     parameters.unloading_stiffness_ratio *=
         1.0 - nuisances[kStiffness] * (1.0 - edits.edited(kLineFollows, 0.5)) / (1.0 + nuisances[kStiffness]);
-    if (const auto size = edits.at("foot.size"); !size.empty()) {
-      const double factor = std::exp(sum_of(size, {.position = radius_m_}));
+    if (const auto size = edits.at(LawPort::foot_size); !size.empty()) {
+      const double factor = std::exp(sum_of(size, FootState{.radius_m = radius_m_}));
       parameters.stiffness_N_per_m *= factor;
       parameters.stiffness_per_area_N_per_m3 *= factor;
     }
+    return parameters;
+  }
+
+  double compliance_m_per_N(const Edits& edits) const {
+    const double k = belief_.value("rig.stiffness_N_per_m");
+    return edits.edited("rig.compliance_m_per_N", k > 0.0 ? 1.0 / k : 0.0);
+  }
+
+  // Memory of the bed from one instant to the next.
+  struct Pushed {
+    double deepest_m = 0.0, known_m = -1.0, known_N = 0.0;  // the curve's force at a depth, once it is known
+    bool down_before = false, touching = false, touched = false;
+  };
+  // The foot in the bed at one instant; `down`: the bed yields.
+  struct Met {
+    double depth_m = 0.0;
+    bool down = false;
+    BedContact contact{};
+    BedReaction reaction{};
+  };
+
+  // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it stands.
+  // A foot that goes down does so until its speed is none: there the steep line begins.
+  Met meet(const Bed& bed, double depth_m, double speed_mps, double turning_m, Pushed& pushed) const {
+    const double depth_band_m = kNoiseBand * motion_.depth_sd_m;
+    const double deepest_m = pushed.deepest_m;
+    Met met{.depth_m = depth_m};
+    met.down =
+        depth_m > deepest_m + depth_band_m ||
+        (speed_mps > (pushed.down_before ? 0.0 : rest_speed_mps_) && depth_m > deepest_m - depth_band_m);
+    if (!met.down && pushed.known_m != deepest_m) {
+      pushed.known_m = deepest_m;
+      pushed.known_N = bed.curve_N(deepest_m);
+    }
+    const double at_m = !met.down            ? std::min(depth_m - turning_m, deepest_m)
+                        : pushed.down_before ? depth_m
+                                             : std::max(depth_m, deepest_m);
+    const double turned_m = met.down ? std::min(at_m, deepest_m) : deepest_m;
+    met.contact = {.depth_m = std::max(0.0, at_m),
+                   .speed_mps = met.down ? speed_mps : std::min(speed_mps, 0.0),
+                   .max_depth_m = turned_m,
+                   .damping_mass_kg = 0.0,
+                   .deepest_N = pushed.known_m == turned_m ? pushed.known_N : kNotKnown_N};
+    met.reaction = bed.reaction(met.contact);
+    return met;
+  }
+
+  IntrusionPhase phase_of(bool in_contact, bool down, double speed_mps) const {
+    return !in_contact                                              ? kAbove
+           : down                                                   ? kLoading
+           : speed_mps > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold
+                                                                    : kUnloading;
+  }
+
+  Run simulate(const Edits& edits, std::span<const double> nuisances, bool explain = false) const {
     GroundLaws laws(edits, history_);
-    Bed bed(parameters, edits.edited("foot.radius_m", radius_m_),
+    Bed bed(bed_of(edits, nuisances), edits.edited("foot.radius_m", radius_m_),
             grains_.fluctuation(nuisances.subspan(kFirstKnot)));
     if (!laws.empty()) bed.extend(&laws);
-    double compliance_m_per_N = 0.0;
-    if (const double k = belief_.value("rig.stiffness_N_per_m"); k > 0.0) compliance_m_per_N = 1.0 / k;
-    compliance_m_per_N = edits.edited("rig.compliance_m_per_N", compliance_m_per_N);
+    const double yields_m_per_N = compliance_m_per_N(edits);
     const double surface_m = edits.edited("surface_height_m", nuisances[kSurface]);
     const double turning_m = nuisances[kTurning];
     const Read read = reading(edits);
-    const auto cell = edits.at("load_cell");
-    const double depth_band_m = kNoiseBand * motion_.depth_sd_m;
+    const auto cell = edits.at(LawPort::load_cell);
 
     const std::size_t count = motion_.depth_m.size();
     Run run{{motion_.start_s, motion_.step_s, std::vector<double>(count)}, {}, {}};
-    double deepest_m = 0.0, known_m = -1.0, known_N = 0.0, deeper_m = laws.deeper_m();
-    double before_N = 0.0, slope = 0.0;
-    bool touching = false, touched = false, down_before = false;
-    double asked_before_m = 0.0;
+    Pushed pushed;
+    double deeper_m = laws.deeper_m(), before_N = 0.0, slope = 0.0, asked_before_m = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       laws.at_time(motion_.start_s + motion_.step_s * static_cast<double>(i));
-      double depth_m = 0.0;
       const double asked_m = read.depth_m(i) + surface_m + deeper_m;
-      if (touching && asked_m <= 0.0) {
+      if (pushed.touching && asked_m <= 0.0) {
         laws.pushed();
         // The push moved the surface: the deepest point stays, so that its depth changes by as much.
-        deepest_m += laws.deeper_m() - deeper_m;
+        pushed.deepest_m += laws.deeper_m() - deeper_m;
         deeper_m = laws.deeper_m();
       }
-      touching = asked_m > 0.0;
-      laws.touching(touching);
-      BedContact contact{};
-      BedReaction reaction;
-      bool down = false;
+      pushed.touching = asked_m > 0.0;
+      laws.touching(pushed.touching);
+      Met met;
       // The bed's force where the rig has yielded by what `felt_N` asks for; it falls as that grows.
       const auto at_force = [&](double felt_N) {
-        depth_m = asked_m - compliance_m_per_N * felt_N;
-        const double speed_mps =
-            read.speed_mps(i) - compliance_m_per_N * (felt_N - before_N) / motion_.step_s;
-        // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it
-        // stands. A foot that goes down does so until its speed is none: there the steep line begins.
-        down = depth_m > deepest_m + depth_band_m ||
-               (speed_mps > (down_before ? 0.0 : rest_speed_mps_) && depth_m > deepest_m - depth_band_m);
-        if (!down && known_m != deepest_m) {
-          known_m = deepest_m;
-          known_N = bed.curve_N(deepest_m);
-        }
-        const double at_m = !down         ? std::min(depth_m - turning_m, deepest_m)
-                            : down_before ? depth_m
-                                          : std::max(depth_m, deepest_m);
-        const double turned_m = down ? std::min(at_m, deepest_m) : deepest_m;
-        contact = {.depth_m = std::max(0.0, at_m),
-                   .speed_mps = down ? speed_mps : std::min(speed_mps, 0.0),
-                   .max_depth_m = turned_m,
-                   .damping_mass_kg = 0.0,
-                   .deepest_N = known_m == turned_m ? known_N : kNotKnown_N};
-        reaction = bed.reaction(contact);
-        return reaction.at_acceleration(-read.accel_mps2(i));
+        const double speed_mps = read.speed_mps(i) - yields_m_per_N * (felt_N - before_N) / motion_.step_s;
+        met = meet(bed, asked_m - yields_m_per_N * felt_N, speed_mps, turning_m, pushed);
+        return met.reaction.at_acceleration(-read.accel_mps2(i));
       };
-      const double force_N = compliance_m_per_N > 0.0 ? balanced_N(at_force, before_N, slope) : at_force(0.0);
+      const double force_N = yields_m_per_N > 0.0 ? balanced_N(at_force, before_N, slope) : at_force(0.0);
       if (explain) {
+        const bool in_contact = pushed.touching && force_N > 0.0;
         run.input_sd_N.push_back(
-            touching && force_N > 0.0 ? input_sd_N(bed, contact, reaction, motion_.accel_sd_mps2[i]) : 0.0);
-        run.phase.push_back(!touching || force_N <= 0.0                                      ? kAbove
-                            : down                                                           ? kLoading
-                            : read.speed_mps(i) > -std::max(rest_speed_mps_, kHoldSpeed_mps) ? kHold
-                                                                                             : kUnloading);
+            in_contact ? input_sd_N(bed, met.contact, met.reaction, motion_.accel_sd_mps2[i]) : 0.0);
+        run.phase.push_back(phase_of(in_contact, met.down, read.speed_mps(i)));
       }
-      if (touching && !touched && i > 0 && read.speed_mps(i) > rest_speed_mps_)
-        run.force.values[i - 1] += met_between_N(bed, contact, force_N, asked_before_m, asked_m);
-      touched = touching;
+      if (pushed.touching && !pushed.touched && i > 0 && read.speed_mps(i) > rest_speed_mps_)
+        run.force.values[i - 1] += met_between_N(bed, met.contact, force_N, asked_before_m, asked_m);
+      pushed.touched = pushed.touching;
       asked_before_m = asked_m;
       // On the way down the newest depth counts, not the largest: the largest of many readings is too deep.
-      if (down) deepest_m = down_before ? depth_m : std::max(deepest_m, depth_m);
-      down_before = down;
+      if (met.down)
+        pushed.deepest_m = pushed.down_before ? met.depth_m : std::max(pushed.deepest_m, met.depth_m);
+      pushed.down_before = met.down;
       before_N = force_N;
-      run.force.values[i] = cell.empty() ? force_N : force_N + sum_of(cell, {.accel = -read.accel_mps2(i)});
+      run.force.values[i] =
+          cell.empty() ? force_N : force_N + sum_of(cell, CellState{.foot_accel_mps2 = -read.accel_mps2(i)});
     }
     return run;
   }

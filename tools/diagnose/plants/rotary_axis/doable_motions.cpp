@@ -19,14 +19,16 @@ struct Axis {
   double gain = 1.0;  // of the torque that acts over the reported one
   std::vector<const Law*> laws;
 
-  Axis(const Belief& belief, const Edits& edits) : is(belief, edits), laws(edits.at("axis")) {
+  Axis(const Belief& belief, const Edits& edits) : is(belief, edits), laws(edits.at(LawPort::axis)) {
     for (const auto& edit : edits.sensors)
       if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
   }
 
   // What acts on the axis besides the drive; `drive_Nm` is what the laws see of the drive.
   double passive_Nm(double t_s, double angle, double speed, double drive_Nm) const {
-    return sum_of(laws, {.time_s = t_s, .position = angle, .velocity = speed, .load = drive_Nm}) -
+    return sum_of(
+               laws,
+               AxisState{.time_s = t_s, .angle_rad = angle, .velocity_radps = speed, .torque_Nm = drive_Nm}) -
            is.gravity_torque_Nm * std::sin(angle - is.bottom_rad) - is.viscous_Nm_s * speed -
            is.coulomb_Nm * sign_smooth(speed, is.switch_speed_radps);
   }

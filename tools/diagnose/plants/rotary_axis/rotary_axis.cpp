@@ -49,7 +49,7 @@ std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const B
       if (balance.rest.size() < kLeastRows) continue;
       const auto rest = rest_without_known(balance);
       torques.insert(torques.end(), rest.begin(), rest.end());
-      for (const auto& state : balance.states) angles.push_back(state.position);
+      for (const auto& state : balance.states) angles.push_back(std::get<AxisState>(state).angle_rad);
     }
   if (torques.size() < 100) return {};
   return strongest_orders(angles, torques, kFirst, kLast);
@@ -77,7 +77,7 @@ class RotaryAxis final : public PlantModel {
   }
 
   void describe(const std::vector<Trial>& trials, Context& context) const override {
-    double speed = 0.0, angle = 0.0, duration = 0.0;
+    double speed = 0.0, angle = 0.0;
     for (const auto& trial : trials) {
       const auto positions = samples_of(trial, "position_rad");
       for (const double p : positions.value) angle = std::max(angle, std::abs(p));
@@ -85,12 +85,10 @@ class RotaryAxis final : public PlantModel {
       for (const double v : velocities.value) speed = std::max(speed, std::abs(v));
       if (velocities.empty() && positions.value.size() > 10)
         for (const double v : smooth(positions, 5).rate) speed = std::max(speed, std::abs(v));
-      if (!trial.time_s.empty()) duration = std::max(duration, trial.time_s.back());
     }
-    context.scales["torque_Nm"] = torque_that_acts_Nm(trials, context.belief);
-    context.scales["speed_radps"] = std::max(speed, 0.1);
-    context.scales["angle_rad"] = std::max(angle, 0.1);
-    context.scales["duration_s"] = duration;
+    context.facts.torque_Nm = torque_that_acts_Nm(trials, context.belief);
+    context.facts.speed_radps = std::max(speed, 0.1);
+    context.facts.angle_rad = std::max(angle, 0.1);
     // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
     constexpr double kMoves = 5.0;  // switch speeds of the friction
     constexpr double kMostOfTheTime = 0.95;
@@ -107,9 +105,8 @@ class RotaryAxis final : public PlantModel {
       std::nth_element(rates.begin(), high, rates.end());
       swift = std::max(swift, *high);
     }
-    context.scales["moves"] =
-        swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02) ? 1.0 : 0.0;
-    tell_ripple_orders(axis_ripple_orders(trials, context.belief), context);
+    context.facts.moves = swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02);
+    context.facts.ripple_orders = axis_ripple_orders(trials, context.belief);
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
@@ -122,7 +119,7 @@ class RotaryAxis final : public PlantModel {
   }
 
   std::vector<FreePort> free_ports(const Context& context) const override {
-    return {{"axis", false, 0.1 * context.scale("torque_Nm")}};
+    return {{"axis", false, 0.1 * context.facts.torque_Nm}};
   }
 };
 

@@ -65,11 +65,11 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
     const double needed = f.inertia_kg_m2 * accel[i] + f.gravity_torque_Nm * std::sin(angle - f.bottom_rad) +
                           f.viscous_Nm_s * speed + f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
     balance.rest.push_back(needed - tau);
-    balance.states.push_back({.time_s = position.time_s[i],
-                              .position = angle,
-                              .velocity = speed,
-                              .load = tau,
-                              .extreme = turned[i]});
+    balance.states.push_back(AxisState{.time_s = position.time_s[i],
+                                       .angle_rad = angle,
+                                       .velocity_radps = speed,
+                                       .torque_Nm = tau,
+                                       .turned_rad = turned[i]});
     // Dry friction, with the load and near standstill too, friction with the speed and its square, gravity
     // and where its bottom is, inertia, delay. The drive's constant scales all of these; the torque beside
     // them would leave nothing.

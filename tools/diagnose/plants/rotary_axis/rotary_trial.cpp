@@ -5,12 +5,11 @@
 #include <numbers>
 #include <optional>
 
-#include "tools/diagnose/model/sign_smooth.hpp"
 #include "tools/diagnose/model/virtual_channels.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
-#include "tools/diagnose/plants/rotary_axis/nearby_sine.hpp"
 #include "tools/diagnose/plants/rotary_axis/rotary_balance.hpp"
 #include "tools/diagnose/plants/rotary_axis/rotary_figures.hpp"
+#include "tools/diagnose/plants/rotary_axis/rotary_simulation.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -79,7 +78,7 @@ class RotaryTrial final : public TrialModel {
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
     const RotaryFigures f(belief_, edits);
-    const auto laws = edits.at("axis");
+    const auto laws = edits.at(LawPort::axis);
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
     if (q > 0)
@@ -87,7 +86,7 @@ class RotaryTrial final : public TrialModel {
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
     const std::array clocks{SensorClock(edits, "position_rad"), SensorClock(edits, "velocity_radps")};
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      Stretch stretch = begun_where_read(b, clocks);
+      AxisStretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
       stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
@@ -96,7 +95,7 @@ class RotaryTrial final : public TrialModel {
         stretch.torque_Nm = acting * own[kTorque];
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
-      simulate(f, laws, torque, stretch, position, velocity);
+      simulate_axis(f, laws, {torque, turned_at_}, stretch, lead_in_s_, position, velocity);
       read_by_angle(edits, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
@@ -115,7 +114,8 @@ class RotaryTrial final : public TrialModel {
     for (const auto& edit : edits.sensors)
       if (edit.channel == kVelocityOfAngle)
         for (std::size_t i = 0; i < velocity.values.size(); ++i)
-          velocity.values[i] += edit.law({.position = position.values[i], .velocity = velocity.values[i]});
+          velocity.values[i] +=
+              edit.law(AxisState{.angle_rad = position.values[i], .velocity_radps = velocity.values[i]});
   }
 
   // A stretch begins where the encoder says, less what it is believed to be off by.
@@ -139,19 +139,14 @@ class RotaryTrial final : public TrialModel {
     if (laws.empty()) return gain;
     const double torque_Nm = gain * drive_.at(time_s);
     const double apart_Nm = kApart * std::max(std::abs(torque_Nm), 0.1);
-    const auto acting = [&](double t) { return t + sum_of(laws, {.time_s = time_s, .position = t}); };
+    const auto acting = [&](double t) { return t + sum_of(laws, SensorState{.time_s = time_s, .value = t}); };
     return gain * (acting(torque_Nm + apart_Nm) - acting(torque_Nm - apart_Nm)) / (2.0 * apart_Nm);
   }
 
-  struct Stretch {
-    double from_s, to_s, position = 0.0, velocity = 0.0;
-    double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
-  };
-
   // A stretch reaches as far as its rows do by their clocks. It begins where the encoder was read then, not
   // where it was read with the same stamp; how fast is as unsure as before.
-  Stretch begun_where_read(std::uint32_t b, const std::array<SensorClock, 2>& clocks) const {
-    Stretch s = stretches_[b];
+  AxisStretch begun_where_read(std::uint32_t b, const std::array<SensorClock, 2>& clocks) const {
+    AxisStretch s = stretches_[b];
     double first_s = s.from_s;
     for (const std::uint32_t channel : {0u, 1u}) {
       if (spans_[b][channel].count == 0) continue;
@@ -256,7 +251,7 @@ class RotaryTrial final : public TrialModel {
     if (spans_.empty()) spans_.assign(blocks, {});
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       const double t = samples.time_s[i];
-      const auto after = std::ranges::upper_bound(stretches_, t, {}, &Stretch::from_s);
+      const auto after = std::ranges::upper_bound(stretches_, t, {}, &AxisStretch::from_s);
       if (after == stretches_.begin() || (after - 1)->to_s < t) continue;
       const auto block = static_cast<std::uint32_t>(after - stretches_.begin() - 1);
       auto& span = spans_[block][channel];
@@ -306,7 +301,7 @@ class RotaryTrial final : public TrialModel {
     lead_channel_ = positions.empty() ? 1 : 0;
     angle_ = on_grid(position, 0.0, step_s_, count, false);
     const Signal speed = on_grid(velocity, 0.0, step_s_, count, false);
-    for (Stretch& stretch : stretches_) {
+    for (AxisStretch& stretch : stretches_) {
       stretch.position = angle_.at(stretch.from_s);
       stretch.velocity = speed.at(stretch.from_s);
     }
@@ -337,83 +332,13 @@ class RotaryTrial final : public TrialModel {
       lead_in_s_ = std::max(kLeadIn_s, kTimeConstants / (2.0 * std::numbers::pi * bandwidth_Hz));
   }
 
-  void simulate(const RotaryFigures& f, const std::vector<const Law*>& laws, const Signal& torque,
-                const Stretch& s, Signal& position, Signal& velocity) const {
-    const auto lead_in = static_cast<std::size_t>(std::ceil(lead_in_s_ / step_s_));
-    const auto count = lead_in + static_cast<std::size_t>(std::ceil((s.to_s - s.from_s) / step_s_)) + 2;
-    position.start_s = velocity.start_s = s.from_s - step_s_ * static_cast<double>(lead_in);
-    position.values.resize(count);
-    velocity.values.resize(count);
-    double th = s.position, w = s.velocity;
-    // Friction near rest is stiff: its own rate limits the step.
-    const double stiffness_per_s = f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
-    const double slow_steps = std::ceil(step_s_ * stiffness_per_s / 1.5);
-    const auto accel = [&](const NearbySine& sine, double t, double torque_Nm, double angle, double speed) {
-      double sum = torque_Nm - f.gravity_torque_Nm * sine(angle - f.bottom_rad) - f.viscous_Nm_s * speed;
-      if (f.coulomb_Nm != 0.0) sum -= f.coulomb_Nm * sign_smooth(speed, f.switch_speed_radps);
-      if (!laws.empty())
-        sum += sum_of(
-            laws,
-            {.time_s = t, .position = angle, .velocity = speed, .load = torque_Nm, .extreme = turned_at(t)});
-      return sum / f.inertia_kg_m2;
-    };
-    const auto torque_at = [&](double t) {  // mean of the step that begins then
-      const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
-      return s.torque_Nm + at * s.torque_rise_Nm + torque.values[step_of(t, torque)];
-    };
-    const auto rise_at = [&](double t) {  // over that step
-      const std::size_t i = step_of(t, torque);
-      return i == 0 || i + 1 == torque.values.size() ? 0.0
-                                                     : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
-    };
-    // A reading that is late shows at first what was before: what a steady acceleration leads there from.
-    const double first = accel(NearbySine(th - f.bottom_rad), s.from_s, torque_at(s.from_s), th, w);
-    for (std::size_t i = 0; i < lead_in; ++i) {
-      const double t = -step_s_ * static_cast<double>(lead_in - i);
-      position.values[i] = th + t * (w + 0.5 * t * first);
-      velocity.values[i] = w + t * first;
-    }
-    for (std::size_t i = lead_in; i < count; ++i) {
-      position.values[i] = th;
-      velocity.values[i] = w;
-      const double t0 = s.from_s + step_s_ * static_cast<double>(i - lead_in);
-      const double tau = torque_at(t0), rise = rise_at(t0);
-      const bool near_rest = std::abs(w) < 8.0 * f.switch_speed_radps;
-      const int parts =
-          static_cast<int>(std::clamp(near_rest ? slow_steps : 1.0, !laws.empty() ? 2.0 : 1.0, 40.0));
-      const double dt = step_s_ / parts;
-      for (int k = 0; k < parts; ++k) {
-        const double t = t0 + dt * k, half = 0.5 / parts;
-        const double middle = tau + rise * ((k + 0.5) / parts - 0.5);
-        const NearbySine sine(th - f.bottom_rad);
-        const double a1 = accel(sine, t, middle - half * rise, th, w);
-        const double a2 = accel(sine, t, middle, th + 0.5 * dt * w, w + 0.5 * dt * a1);
-        const double a3 = accel(sine, t, middle, th + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2);
-        const double a4 = accel(sine, t, middle + half * rise, th + dt * (w + 0.5 * dt * a2), w + dt * a3);
-        th += dt * (w + dt * (a1 + a2 + a3) / 6.0);
-        w += dt * (a1 + 2.0 * (a2 + a3) + a4) / 6.0;
-        w = std::clamp(w, -1e4, 1e4);
-      }
-    }
-  }
-
-  std::size_t step_of(double t, const Signal& torque) const {
-    return std::min(torque.values.size() - 1,
-                    static_cast<std::size_t>(std::max(0.0, std::round(t / step_s_))));
-  }
-
-  double turned_at(double t) const {
-    return turned_at_
-        .values[std::min(turned_at_.values.size() - 1, static_cast<std::size_t>(std::max(0.0, t / step_s_)))];
-  }
-
   Belief belief_;
   Samples torque_;
   Signal drive_, turned_at_, angle_;  // the last as recorded, smoothed
   std::size_t lead_channel_ = 0;
   bool drive_acts_ = true;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
-  std::vector<Stretch> stretches_;
+  std::vector<AxisStretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
   std::array<SensorBelief, 2> sensors_{};
   std::vector<double> times_;

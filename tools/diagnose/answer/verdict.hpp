@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sandhopper::diagnose {
+
+enum class Verdict : std::uint8_t { insufficient_data, consistent, missing_physics, unknown_physics };
+
+// The kind of a verdict.
+enum class Detail : std::uint8_t {
+  none,
+  too_little_data,
+  known,
+  one_of_class,
+  known_and_rest,
+  data_fault,
+  unknown_at_port,
+  unknown_not_localised
+};
+
+// Their words in diagnosis.json, text and page, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> kVerdictNames{"insufficient_data", "consistent",
+                                                               "missing_physics", "unknown_physics"};
+inline constexpr std::array<std::string_view, 8> kDetailNames{
+    "null",           "too_little_data", "known",           "one_of_class",
+    "known_and_rest", "data_fault",      "unknown_at_port", "unknown_not_localised"};
+
+constexpr std::string_view name_of(Verdict verdict) {
+  return kVerdictNames[static_cast<std::size_t>(verdict)];
+}
+constexpr std::string_view name_of(Detail detail) { return kDetailNames[static_cast<std::size_t>(detail)]; }
+
+// "missing_physics, known", or the verdict alone.
+inline std::string name_of(Verdict verdict, Detail detail) {
+  std::string text(name_of(verdict));
+  if (detail != Detail::none) text.append(", ").append(name_of(detail));
+  return text;
+}
+
+}  // namespace sandhopper::diagnose

@@ -1,0 +1,52 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+namespace sandhopper::diagnose {
+
+inline constexpr double kBalanced_N = 1e-6;  // a force to itself where the rig has yielded
+
+// The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of
+// `f` is there.
+template <class Force>
+double bracketed_N(const Force& f) {
+  constexpr int kMost = 30;
+  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
+  double force_N = high;
+  int side = 0;
+  for (int i = 0; i < kMost && high - low > kBalanced_N; ++i) {
+    force_N = above > below ? (low * below - high * above) / (below - above) : 0.5 * (low + high);
+    const double off = f(force_N) - force_N;
+    if (std::abs(off) < kBalanced_N) break;
+    if (off > 0.0) {
+      low = force_N, above = off;
+      if (side > 0) below *= 0.5;
+      side = 1;
+    } else {
+      high = force_N, below = off;
+      if (side < 0) above *= 0.5;
+      side = -1;
+    }
+  }
+  return force_N;
+}
+
+// From the force of the step before by secants, the first along the `slope` of f there, which becomes the
+// present one. `f` is evaluated last where the answer is.
+template <class Force>
+double balanced_N(const Force& f, double guess_N, double& slope) {
+  constexpr int kSecants = 5;
+  double force_N = guess_N, off = f(force_N) - force_N;
+  for (int i = 0; i < kSecants && std::abs(off) >= kBalanced_N; ++i) {
+    const double next_N = std::max(0.0, force_N + off / (1.0 - slope));
+    const double next_off = f(next_N) - next_N;
+    const double steeper = 1.0 + (next_off - off) / (next_N - force_N);
+    if (!(steeper <= 0.0)) break;
+    slope = steeper;
+    force_N = next_N;
+    off = next_off;
+  }
+  return std::abs(off) < kBalanced_N ? force_N : bracketed_N(f);
+}
+
+}  // namespace sandhopper::diagnose
