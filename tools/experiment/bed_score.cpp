@@ -45,8 +45,10 @@ void score_event(const GroundEvent& event, GroundEventKind kind, double true_dep
   if (!happened) {
     score.absent += 1.0;
     score.false_alarms += reported;
-    if (event.threshold > 0.0)
+    if (event.threshold > 0.0) {
       score.largest_absent = std::max(score.largest_absent, event.statistic / event.threshold);
+      score.absent_statistics.push_back(event.statistic / event.threshold);
+    }
     return;
   }
   score.possible += 1.0;
