@@ -211,11 +211,14 @@ void absorb(NormalTest& test, std::span<const Point> points, const GroundEvent& 
     test.add_term(sd / greatest, [&](std::size_t i) { return shape[i]; });
     return;
   }
-  for (const double rise_m : kRises_m)
-    for (const double decay_m : kDecays_m)
-      test.add_term(sd, [&](std::size_t i) {
-        return Rupture{event.depth_m, rise_m, decay_m}(points[i].depth_m);
-      });
+  // Its place is known to about one step of the search: within it the shapes of both neighbours belong to the
+  // null.
+  for (const double beside_m : {-kPlaces_m, 0.0, kPlaces_m})
+    for (const double rise_m : kRises_m)
+      for (const double decay_m : kDecays_m)
+        test.add_term(sd, [&](std::size_t i) {
+          return Rupture{event.depth_m + beside_m, rise_m, decay_m}(points[i].depth_m);
+        });
 }
 
 GroundEvent find_rupture(const Stance& stance, const GroundEventConfig& config) {

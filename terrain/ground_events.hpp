@@ -26,7 +26,7 @@
 //   floor     h = max(0, z - c); A > 0
 //   suction   h = -(27/4) u (1 - u)^2 above the crater's floor, on the samples of the foot that leaves; A > 0
 // All templates compete: a rupture is reported where none of the others is likelier. What was found belongs
-// to the null of what is looked for next.
+// to the null of what is looked for next, a rupture with its place in doubt by one step of the search.
 //
 // A foot that stopped meets its reloading line first, and its estimated depth drifts meanwhile. After a
 // pause, new ground begins where the force is again what it was at the deepest point, which is then the

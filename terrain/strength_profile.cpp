@@ -17,6 +17,7 @@ constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
+constexpr double kUnknown_m = 1e3;
 constexpr double kDegrees = 1.0;  // of Student's distribution: Cauchy
 
 // Cell of the shallowest sample.
@@ -303,6 +304,10 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   if (sums.samples == 0 && stride > 1) {  // no new ground: what is known stays
     report(sums, stride);
     return;
+  }
+  if (stride == 0) {  // fresh ground: nothing is known of the surface's height
+    land(kUnknown_m);
+    kept_normal_.back() += 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
   }
   if (stride > 1) land(prior_.landing_depth_sd_m);
   noise_factor_.fill(1.0);

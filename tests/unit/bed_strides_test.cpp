@@ -62,6 +62,21 @@ TEST(BedTrial, EveryStrideOfACrustIsSearchedAndTheRuptureFoundOnce) {
   }
 }
 
+// The shape of a rupture whose place is a millimetre off is no boundary of layers.
+TEST(BedTrial, CrustsHaveFewBoundaries) {
+  int ruptures = 0, boundaries = 0;
+  constexpr std::uint64_t kTrials = 100;
+  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
+    const auto trial = run_bed_trial({}, {}, bed_named("crust"), seed, 2);
+    if (trial.strides.empty() || !trial.strides[0].events_complete) continue;
+    const auto found = find_ground_events(trial.strides[0].events, {});
+    ruptures += found.rupture.kind == GroundEventKind::crust_rupture;
+    boundaries += found.boundary.kind == GroundEventKind::layer_boundary;
+  }
+  EXPECT_GE(ruptures, 70);
+  EXPECT_LE(boundaries, ruptures / 8);
+}
+
 TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
   const auto trial = trial_on("line", 11);
   ProfileSolver solver{StiffnessConfig{}};

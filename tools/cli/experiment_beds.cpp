@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
@@ -17,6 +19,7 @@ struct Options {
   std::uint64_t seed = 1;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> beds;
+  bool null = false;
 };
 
 std::string share(double count, double of) {
@@ -88,6 +91,32 @@ void say_events(Session& session, const std::vector<BedScore>& scores, bool firs
   }
 }
 
+double quantile(std::vector<double> values, double probability) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::ceil(probability * last));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+// The threshold is right where T / u exceeds 1 in no more strides than the stated false-alarm probability.
+void say_null(Session& session, const std::vector<BedScore>& scores) {
+  session.say(
+      "\nstatistic over its threshold in first strides without the event: median, 99 and 99.8 %; above 1");
+  session.say("  {:<17} {:<10} {:>7} {:>7} {:>7} {:>7} {:>9}", "bed", "event", "strides", "50 %", "99 %",
+              "99.8 %", "above 1");
+  for (const auto& s : scores) {
+    const auto& e = s.first_events;
+    for (const auto& [name, event] :
+         {std::pair{"rupture", &e.rupture}, {"boundary", &e.boundary}, {"suction", &e.suction}}) {
+      const auto& values = event->absent_statistics;
+      session.say("  {:<17} {:<10} {:>7} {:>7.2f} {:>7.2f} {:>7.2f} {:>9}", s.bed, name, values.size(),
+                  quantile(values, 0.5), quantile(values, 0.99), quantile(values, 0.998),
+                  std::ranges::count_if(values, [](double t) { return t > 1.0; }));
+    }
+  }
+}
+
 ExitCode run(Session& session, const Options& options) {
   const auto robot = load_robot(session.config_directory());
   BedScoreSetup setup;
@@ -118,6 +147,7 @@ ExitCode run(Session& session, const Options& options) {
   say_later(session, scores);
   say_events(session, scores, true);
   say_events(session, scores, false);
+  if (options.null) say_null(session, scores);
   std::vector<double> solve_s, search_s;
   for (const auto& s : scores) {
     solve_s.insert(solve_s.end(), s.solve_s.begin(), s.solve_s.end());
@@ -138,6 +168,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--seed", o->seed, "of the first stride").show_default();
   arguments.add_option("--threads", o->threads, "default: one a core").in_range(1U, 1024U);
   arguments.add_option("--beds", o->beds, "only these families").type_name("NAMES");
+  arguments.add_flag("--null", o->null, "quantiles of the event statistics in strides without the event");
   return [o](Session& session) { return run(session, *o); };
 }
 

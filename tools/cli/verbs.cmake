@@ -40,7 +40,7 @@ sandhopper_verb(doctor "say whether this machine can run the robot, and what to 
           doctor_machine.cpp doctor_state.cpp
   LIBRARIES sandhopper_firmware)
 sandhopper_verb(experiment "many simulated trials and what they say together"
-  SOURCES experiment_beds.cpp experiment_paper.cpp experiment_strides.cpp LIBRARIES sandhopper_experiment)
+  SOURCES experiment_beds.cpp experiment_next.cpp experiment_paper.cpp experiment_strides.cpp LIBRARIES sandhopper_experiment)
 sandhopper_verb(explain "what a fault means and how to cure it, or what was measured around one"
   LIBRARIES sandhopper_explain)
 sandhopper_verb(export "write a log as CSV, one row per cycle" LIBRARIES sandhopper_firmware sandhopper_trial)

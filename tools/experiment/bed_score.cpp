@@ -45,8 +45,10 @@ void score_event(const GroundEvent& event, GroundEventKind kind, double true_dep
   if (!happened) {
     score.absent += 1.0;
     score.false_alarms += reported;
-    if (event.threshold > 0.0)
+    if (event.threshold > 0.0) {
       score.largest_absent = std::max(score.largest_absent, event.statistic / event.threshold);
+      score.absent_statistics.push_back(event.statistic / event.threshold);
+    }
     return;
   }
   score.possible += 1.0;
@@ -186,14 +188,7 @@ void NumberScore::add(double value, double low, double high, double truth) {
 }
 
 std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
-  std::vector<BedCase> cases;
-  for (const auto& bed : bed_cases()) {
-    const bool named = std::ranges::find(setup.beds, bed.name) != setup.beds.end();
-    if (named || (setup.beds.empty() && bed.standard)) cases.push_back(bed);
-  }
-  for (const auto& name : setup.beds)
-    if (std::ranges::find(cases, name, &BedCase::name) == cases.end())
-      throw std::invalid_argument("no bed '" + name + "'");
+  const auto cases = named_bed_cases(setup.beds);
   std::vector<BedScore> scores;
   long done_before = 0;
   for (const auto& bed : cases) {

@@ -62,6 +62,7 @@ struct EventScore {
   double absent = 0.0;                                       // strides in which it did not happen
   double false_alarms = 0.0;                                 // of these
   double largest_absent = 0.0;                               // statistic over threshold
+  std::vector<double> absent_statistics{};  // T / u of each stride without the event: the null's distribution
 };
 
 struct EventScores {

@@ -1,6 +1,7 @@
 #include "tools/experiment/bed_strides.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tools/experiment/hopped_cycles.hpp"
 #include "tools/plant/trial_draw.hpp"
@@ -47,6 +48,18 @@ std::vector<BedCase> make_cases() {
 
 const std::vector<BedCase>& bed_cases() {
   static const std::vector<BedCase> cases = make_cases();
+  return cases;
+}
+
+std::vector<BedCase> named_bed_cases(const std::vector<std::string>& names) {
+  std::vector<BedCase> cases;
+  for (const auto& bed : bed_cases()) {
+    const bool named = std::ranges::find(names, bed.name) != names.end();
+    if (named || (names.empty() && bed.standard)) cases.push_back(bed);
+  }
+  for (const auto& name : names)
+    if (std::ranges::find(cases, name, &BedCase::name) == cases.end())
+      throw std::invalid_argument("no bed '" + name + "'");
   return cases;
 }
 

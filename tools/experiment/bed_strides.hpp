@@ -23,6 +23,9 @@ struct BedCase {
 // The families of terrain/bed_family.hpp and the power law at exactly 1.4. By name alone: that law at other
 // exponents, a crust at the surface, and a box with a floor.
 const std::vector<BedCase>& bed_cases();
+// Those with these names; where there are none, the standard ones. Throws std::invalid_argument where a name
+// is none of bed_cases().
+std::vector<BedCase> named_bed_cases(const std::vector<std::string>& names);
 
 // One stride of a trial: what the cycle handed over, and what was true.
 struct BedStride {

@@ -1,0 +1,67 @@
+#include "terrain/next_stride.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tools/experiment/stride_sessions.hpp"
+
+namespace sandhopper {
+namespace {
+
+ProfileSolver after(const StrideSetup& setup) {
+  ProfileSolver solver{StiffnessConfig{}};
+  solver.add(predicted_stride(solver, hop_model_of({}), setup), 1);
+  return solver;
+}
+
+TEST(NextStride, PredictedStridesSinkDeeperFromHigherAndWithASofterLeg) {
+  const auto robot = hop_model_of({});
+  const ProfileSolver solver{StiffnessConfig{}};
+  const auto reach = [&](double height_m, double stiffness) {
+    return predicted_stride(solver, robot, {height_m, stiffness}).depth_max_m;
+  };
+  EXPECT_GT(reach(0.090, 375.0), reach(0.020, 375.0));
+  EXPECT_GT(reach(0.060, 250.0), reach(0.060, 500.0));
+  EXPECT_GT(reach(0.005, 500.0), 0.020);
+  EXPECT_LT(reach(0.090, 250.0), kProfileDepth_m + 0.001);
+}
+
+TEST(NextStride, GoesWhereTheBandIsWidest) {
+  const auto robot = hop_model_of({});
+  const auto solver = after({0.0303, 500.0});
+  ASSERT_LT(solver.profile().depth_max_m, 0.040);
+  const auto setups = stride_setups();
+  const auto next = next_stride(solver, robot, setups);
+  EXPECT_GT(next.range.to_m, solver.profile().depth_max_m);
+  EXPECT_GT(next.reach_m, solver.profile().depth_max_m + 0.005);
+  EXPECT_LT(next.widest_expected_N, 0.6 * next.widest_now_N);
+  // A set-up that stays above the present depth narrows nothing where the band is widest.
+  const StrideSetup shallow{0.0025, 500.0};
+  ProfileSolver shallower = solver;
+  shallower.add(predicted_stride(solver, robot, shallow), 0);
+  EXPECT_GT(widest_band_N(shallower, next.range), 0.7 * next.widest_now_N);
+}
+
+// Fresh ground has a surface of its own: its error averages out, which that of one surface does not.
+TEST(NextStride, FreshGroundAddsToWhatIsKnown) {
+  auto solver = after({0.0303, 375.0});
+  const double before = solver.force_N(0.005).sd;
+  const auto again = predicted_stride(solver, {}, {0.0303, 375.0});
+  for (int i = 0; i < 3; ++i) solver.add(again, 0);
+  EXPECT_LT(solver.force_N(0.005).sd, 0.75 * before);
+  EXPECT_GT(solver.force_N(0.005).sd, 0.4 * before);
+  EXPECT_EQ(solver.profile().stride, 4u);
+}
+
+TEST(StrideSessions, PlannedStridesHalveTheBandSooner) {
+  const auto scores = score_sessions({.beds = {"gradually_denser"}, .sessions = 4, .threads = 1});
+  ASSERT_EQ(scores.size(), 1u);
+  EXPECT_EQ(scores[0].sessions, 4.0);
+  EXPECT_LT(scores[0].mean(NextBy::plan), scores[0].mean(NextBy::chance));
+  EXPECT_GE(scores[0].mean(NextBy::plan), 1.0);
+  EXPECT_EQ(scores[0].unfinished[static_cast<std::size_t>(NextBy::plan)], 0.0);
+}
+
+}  // namespace
+}  // namespace sandhopper

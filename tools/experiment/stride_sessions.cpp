@@ -1,0 +1,176 @@
+#include "tools/experiment/stride_sessions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <random>
+
+#include "tools/experiment/hopped_cycles.hpp"
+#include "tools/experiment/parallel.hpp"
+#include "tools/plant/trial_draw.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::uint32_t kFreshGround = 0;  // for ProfileSolver::add
+constexpr std::size_t kFirstSetup = 7;     // 0.7 m/s and 375 N/m, of 15
+constexpr std::uint64_t kSeedsOfASession = 1000, kForecasts = 100, kStrides = 200, kSeedsOfAnArm = 50;
+
+struct Stride {
+  ProfileSums sums{};
+  double deepest_m = 0.0;
+};
+
+class Session {
+ public:
+  Session(const SessionSetup& setup, const BedCase& bed, std::uint64_t seed)
+      : setup_(setup),
+        world_(setup.world),
+        seed_(seed),
+        setups_(stride_setups()),
+        robot_(hop_model_of(setup.cycle)) {
+    world_.bed_family = bed.family;
+    const auto drawn = TrialDraw(world_, {.seed = seed, .noise = true, .start_ns = 0}).bed();
+    world_.bed_family = drawn.family();
+    world_.bed_family.strength_spread_relative = world_.bed_family.depth_spread_m = 0.0;
+    world_.bed_family.exponent_spread = 0.0;
+    world_.terrain.stiffness_N_per_m = drawn.parameters().stiffness_N_per_m;
+    world_.spread.bed_stiffness_relative = 0.0;
+    first_ = hop(setups_[kFirstSetup], seed_ + 1);
+    for (std::size_t i = 0; i < setups_.size(); ++i) {
+      forecasts_.push_back(hop(setups_[i], seed_ + kForecasts + i));
+      range_.to_m = i == 0 ? forecasts_[0].deepest_m : std::max(range_.to_m, forecasts_[i].deepest_m);
+    }
+    range_.to_m = std::clamp(range_.to_m, range_.from_m, DepthRange{}.to_m);
+  }
+
+  void run(NextBy by, SessionScore& score) const {
+    ProfileSolver solver(setup_.cycle.stiffness);
+    solver.add(first_.sums, 1);
+    const double enough_N = 0.5 * widest_band_N(solver, range_);
+    const auto arm = static_cast<std::size_t>(by);
+    std::mt19937_64 engine(seed_);
+    int strides = 0;
+    for (; strides < kMostStrides && widest_band_N(solver, range_) > enough_N; ++strides) {
+      const StrideSetup next = choose(by, solver, engine);
+      const auto stride =
+          hop(next, seed_ + kStrides + kSeedsOfAnArm * arm + static_cast<std::uint64_t>(strides));
+      if (by == NextBy::plan) {
+        const double error_m = predicted_stride(solver, robot_, next).depth_max_m - stride.deepest_m;
+        score.reach_squared_m2 += error_m * error_m;
+        score.planned += 1.0;
+      }
+      solver.add(stride.sums, kFreshGround);
+    }
+    score.strides[arm] += strides;
+    score.unfinished[arm] += widest_band_N(solver, range_) > enough_N;
+  }
+
+ private:
+  StrideSetup choose(NextBy by, const ProfileSolver& solver, std::mt19937_64& engine) const {
+    if (by == NextBy::plan) return next_stride(solver, robot_, setups_).setup;
+    if (by == NextBy::chance)
+      return setups_[std::uniform_int_distribution<std::size_t>(0, setups_.size() - 1)(engine)];
+    std::size_t best = 0;
+    double least_N = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < setups_.size(); ++i) {
+      ProfileSolver after = solver;
+      after.add(forecasts_[i].sums, kFreshGround);
+      const double widest_N = widest_band_N(after, range_);
+      if (widest_N >= least_N) continue;
+      least_N = widest_N;
+      best = i;
+    }
+    return setups_[best];
+  }
+
+  Stride hop(const StrideSetup& how, std::uint64_t seed) const {
+    CycleConfig cycle = setup_.cycle;
+    cycle.controller.compression_stiffness_N_per_m = how.leg_stiffness_N_per_m;
+    cycle.limits.strides = 1;
+    HoppedCycles trial(cycle, world_, {.release_height_m = how.drop_height_m, .seed = seed, .noise = true});
+    Stride stride;
+    while (trial.next()) {
+      stride.deepest_m = trial.truth().max_depth_m;
+      if (!trial.controller().stride_finished()) continue;
+      stride.sums = trial.controller().stride_sums().profile;
+      break;
+    }
+    return stride;
+  }
+
+  const SessionSetup& setup_;
+  WorldConfig world_;
+  std::uint64_t seed_;
+  std::vector<StrideSetup> setups_;
+  HopModel robot_;
+  Stride first_{};
+  std::vector<Stride> forecasts_{};
+  DepthRange range_{};
+};
+
+}  // namespace
+
+HopModel hop_model_of(const CycleConfig& cycle) {
+  const Leg leg(cycle.robot);
+  const double foot_kg =
+      leg.dynamics(leg.angle_at_length(cycle.controller.compression_length_m)).reduced_mass_kg;
+  const double torque_Nm = cycle.robot.motor_count * cycle.limits.motor_torque_Nm;
+  return {.body_mass_kg = leg.total_mass_kg() - foot_kg,
+          .foot_mass_kg = foot_kg,
+          .foot_radius_m = cycle.robot.foot_radius_m,
+          .compression_length_m = cycle.controller.compression_length_m,
+          .extension_length_m = cycle.controller.extension_length_m,
+          .extension_stiffness_N_per_m = cycle.controller.extension_stiffness_N_per_m,
+          .greatest_leg_force_N = [leg, torque_Nm](double length_m) {
+            const auto kinematics = leg.kinematics(leg.angle_at_length(length_m));
+            return torque_Nm / std::abs(kinematics.dlength_m_per_rad);
+          }};
+}
+
+std::vector<StrideSetup> stride_setups() {
+  std::vector<StrideSetup> setups;
+  for (const auto& cell : hop_cells())
+    setups.push_back({cell.release_height_m, cell.compression_stiffness_N_per_m});
+  return setups;
+}
+
+std::vector<SessionScore> score_sessions(const SessionSetup& setup) {
+  const auto cases = named_bed_cases(setup.beds);
+  std::vector<SessionScore> scores;
+  for (const auto& bed : cases) scores.push_back({.bed = bed.name});
+  std::mutex adding;
+  parallel_for(
+      setup.sessions, setup.threads,
+      [&](long i) {
+        const auto number = static_cast<std::size_t>(i) % cases.size();
+        const Session session(setup, cases[number],
+                              setup.first_seed + kSeedsOfASession * static_cast<std::uint64_t>(i));
+        SessionScore own{.bed = cases[number].name, .sessions = 1.0};
+        for (const auto by : {NextBy::chance, NextBy::plan, NextBy::oracle}) session.run(by, own);
+        const std::lock_guard lock(adding);
+        SessionScore& score = scores[number];
+        score.sessions += own.sessions;
+        score.reach_squared_m2 += own.reach_squared_m2;
+        score.planned += own.planned;
+        for (std::size_t arm = 0; arm < kNextBy; ++arm) {
+          score.strides[arm] += own.strides[arm];
+          score.unfinished[arm] += own.unfinished[arm];
+        }
+      },
+      setup.progress);
+  return scores;
+}
+
+void to_json(nlohmann::ordered_json& json, const SessionScore& s) {
+  json = {{"bed", s.bed},
+          {"sessions", s.sessions},
+          {"strides_by_chance", s.mean(NextBy::chance)},
+          {"strides_planned", s.mean(NextBy::plan)},
+          {"strides_of_oracle", s.mean(NextBy::oracle)},
+          {"unfinished", s.unfinished},
+          {"reach_rms_m", std::sqrt(s.reach_squared_m2 / std::max(1.0, s.planned))}};
+}
+
+}  // namespace sandhopper
