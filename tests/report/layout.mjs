@@ -160,7 +160,9 @@ function faultsOf(least) {
       fade *= outer instanceof SVGElement ? 1 : Number(style.opacity);
       const paper = colorOf(style.backgroundColor);
       if (paper[3] > 0) papers.push(paper);
-      for (const [shade] of style.backgroundImage.matchAll(/(?:rgba?|color)\([^()]*\)/g)) papers.push(colorOf(shade));
+      // A gradient's stops lie beside one another: the strongest counts.
+      const stops = [...style.backgroundImage.matchAll(/(?:rgba?|color)\([^()]*\)/g)].map(([shade]) => colorOf(shade));
+      if (stops.length) papers.push(stops.reduce((a, b) => (b[3] > a[3] ? b : a)));
     }
     return { paper: papers.reverse().reduce((under, over) => blend(over, under), [255, 255, 255, 1]), fade };
   };
