@@ -36,44 +36,58 @@ function watchCanvases() {
   };
 }
 
-// Runs in the page; returns a sentence for each fault.
-function faultsOf(least) {
-  const faults = [];
+// The functions below run in the page. Each of the checks returns a sentence for each fault.
+
+const short = (text) => text.trim().replace(/\s+/g, ' ').slice(0, 40);
+
+function nameOf(node) {
+  const classes = typeof node.className === 'string' && node.className.trim() ? `.${node.className.trim().replace(/\s+/g, '.')}` : '';
+  return `${node.tagName.toLowerCase()}${node.id ? `#${node.id}` : ''}${classes}`;
+}
+
+function widerThanTheWindow() {
   const top = document.documentElement;
-  const short = (text) => text.trim().replace(/\s+/g, ' ').slice(0, 40);
-  const nameOf = (node) => `${node.tagName.toLowerCase()}${node.id ? `#${node.id}` : ''}${node.className && typeof node.className === 'string' ? `.${node.className.trim().replace(/\s+/g, '.')}` : ''}`;
-  if (top.scrollWidth > top.clientWidth) {
-    const widest = [...document.body.querySelectorAll('*')].filter((node) => node.getBoundingClientRect().right > top.clientWidth + 0.5).map(nameOf);
-    faults.push(`the page is ${top.scrollWidth - top.clientWidth} pixels wider than the window: ${[...new Set(widest)].slice(0, 4).join(', ')}`);
-  }
+  if (top.scrollWidth <= top.clientWidth) return [];
+  const widest = [...document.body.querySelectorAll('*')].filter((node) => node.getBoundingClientRect().right > top.clientWidth + 0.5).map(nameOf);
+  return [`the page is ${top.scrollWidth - top.clientWidth} pixels wider than the window: ${[...new Set(widest)].slice(0, 4).join(', ')}`];
+}
 
-  // Columns and words that only a scroll bar of their own, or nothing at all, would show. Code may be scrolled.
-  for (const node of document.body.querySelectorAll('*')) {
-    if (node.closest('svg, pre, .highlight') || !node.clientWidth) continue;
-    const hides = getComputedStyle(node).overflowX !== 'visible';
-    if (hides && node.scrollWidth > node.clientWidth + 1) faults.push(`${nameOf(node)} hides ${node.scrollWidth - node.clientWidth} pixels of its width: ${short(node.textContent)}`);
-  }
+// Columns and words that only a scroll bar of their own, or nothing at all, would show. Code may be scrolled.
+function clipped() {
+  return [...document.body.querySelectorAll('*')].filter((node) => !node.closest('svg, pre, .highlight') && node.clientWidth)
+    .filter((node) => getComputedStyle(node).overflowX !== 'visible' && node.scrollWidth > node.clientWidth + 1)
+    .map((node) => `${nameOf(node)} hides ${node.scrollWidth - node.clientWidth} pixels of its width: ${short(node.textContent)}`);
+}
 
-  // Every text with the boxes of its lines.
+// The boxes of a text's lines, cut where a container that scrolls hides them.
+function boxesOf(node, holder) {
+  const range = document.createRange();
+  range.selectNodeContents(node);
+  let boxes = [...range.getClientRects()].filter((box) => box.width > 0.5 && box.height > 0.5);
+  for (let outer = holder; outer && outer !== document.body; outer = outer.parentElement) {
+    if (outer instanceof SVGElement || getComputedStyle(outer).overflowY === 'visible') continue;
+    const frame = outer.getBoundingClientRect();
+    boxes = boxes.map(({ left, right, width, top, bottom }) => ({ left, right, width, top: Math.max(top, frame.top), bottom: Math.min(bottom, frame.bottom) }))
+      .map((box) => ({ ...box, height: box.bottom - box.top })).filter((box) => box.height > 1);
+  }
+  return boxes;
+}
+
+function textsOfThePage() {
   const texts = [];
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const holder = node.parentElement;
     if (!node.data.trim() || holder.closest('script, style, noscript, option, title')) continue;
     if (!holder.checkVisibility({ opacityProperty: true, visibilityProperty: true })) continue;
-    const range = document.createRange();
-    range.selectNodeContents(node);
-    let boxes = [...range.getClientRects()].filter((box) => box.width > 0.5 && box.height > 0.5);
-    for (let outer = holder; outer && outer !== document.body; outer = outer.parentElement) {
-      if (getComputedStyle(outer).overflowY === 'visible' || outer instanceof SVGElement) continue;
-      const frame = outer.getBoundingClientRect();
-      boxes = boxes.map(({ left, right, width, top, bottom }) => ({ left, right, width, top: Math.max(top, frame.top), bottom: Math.min(bottom, frame.bottom) }))
-        .map((box) => ({ ...box, height: box.bottom - box.top })).filter((box) => box.height > 1);
-    }
+    const boxes = boxesOf(node, holder);
     if (boxes.length) texts.push({ node, holder, boxes, text: short(node.data) });
   }
+  return texts;
+}
 
-  // Line boxes are higher than letters: neighbours may share a few pixels.
+// Every line of every text, and what canvases hold. Line boxes are higher than letters: neighbours may share a few pixels.
+function piecesOf(texts) {
   const pieces = texts.flatMap((text) => text.boxes.map((box) => {
     const slack = text.holder instanceof SVGElement ? 0.12 : 0.18;
     return { text, left: box.left + 0.5, right: box.right - 0.5, top: box.top + slack * box.height, bottom: box.bottom - slack * box.height };
@@ -83,66 +97,87 @@ function faultsOf(least) {
     const frame = canvas.getBoundingClientRect();
     for (const drawn of window.textOfCanvas?.(canvas) ?? []) {
       if (!drawn.text.trim() || drawn.right < 0 || drawn.left > frame.width) continue;
-      pieces.push({ text: { node: drawn, holder: canvas, text: drawn.text }, left: frame.left + drawn.left, right: frame.left + drawn.right, top: frame.top + drawn.top, bottom: frame.top + drawn.bottom });
+      pieces.push({
+        text: { node: drawn, holder: canvas, text: drawn.text, ink: drawn.color },
+        left: frame.left + drawn.left, right: frame.left + drawn.right, top: frame.top + drawn.top, bottom: frame.top + drawn.bottom,
+      });
     }
   }
-  pieces.sort((a, b) => a.top - b.top);
-  const stays = (piece) => ['sticky', 'fixed'].some((kind) => {
-    for (let outer = piece.text.holder; outer; outer = outer.parentElement) if (getComputedStyle(outer).position === kind) return true;
+  return pieces.sort((a, b) => a.top - b.top);
+}
+
+function overlapping(pieces) {
+  const faults = [];
+  // What stays in the window lies over what is scrolled under it.
+  const stays = (piece) => {
+    for (let outer = piece.text.holder; outer; outer = outer.parentElement) if (/sticky|fixed/.test(getComputedStyle(outer).position)) return true;
     return false;
-  });
-  const told = new Set();
+  };
   pieces.forEach((a, i) => {
     for (let j = i + 1; j < pieces.length && pieces[j].top < a.bottom; ++j) {
       const b = pieces[j];
       if (a.text.node === b.text.node || a.right <= b.left || b.right <= a.left || stays(a) !== stays(b)) continue;
-      const sentence = `'${a.text.text}' and '${b.text.text}' overlap`;
-      if (!told.has(sentence)) faults.push(sentence);
-      told.add(sentence);
+      faults.push(`'${a.text.text}' and '${b.text.text}' overlap`);
     }
   });
+  return faults;
+}
 
-  // A legend stands beside what it explains.
+// A legend stands beside what it explains.
+function legendsOnFigures() {
+  const faults = [];
   for (const legend of document.querySelectorAll('.legend')) {
     const box = legend.getBoundingClientRect();
     for (const drawing of legend.closest('figure')?.querySelectorAll('svg, canvas') ?? []) {
       if (drawing.parentElement instanceof SVGElement) continue;
       const frame = drawing.getBoundingClientRect();
-      if (box.height && frame.height && box.bottom > frame.top + 2 && box.top < frame.bottom && box.right > frame.left && box.left < frame.right) faults.push(`a legend stands on its figure: ${short(legend.textContent)}`);
+      const apart = box.bottom <= frame.top + 2 || box.top >= frame.bottom || box.right <= frame.left || box.left >= frame.right;
+      if (box.height && frame.height && !apart) faults.push(`a legend stands on its figure: ${short(legend.textContent)}`);
     }
   }
+  return faults;
+}
 
-  // A label is inside its figure.
+function outsideOfFigureOrWindow(texts, pieces) {
+  const faults = [];
   for (const { holder, boxes, text } of texts) {
     const figure = holder instanceof SVGElement && holder.closest('svg');
     if (!figure) continue;
     const frame = figure.getBoundingClientRect();
-    for (const box of boxes)
-      if (box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 || box.bottom > frame.bottom + 1) faults.push(`'${text}' reaches out of its figure`);
+    const inside = (box) => box.left >= frame.left - 1 && box.right <= frame.right + 1 && box.top >= frame.top - 1 && box.bottom <= frame.bottom + 1;
+    if (!boxes.every(inside)) faults.push(`'${text}' reaches out of its figure`);
   }
-  for (const piece of pieces)
-    if (piece.right > 0 && !piece.text.holder.closest('pre') && (piece.left < -1 || piece.right > top.clientWidth + 1)) faults.push(`'${piece.text.text}' reaches out of the window`);
+  const width = document.documentElement.clientWidth;
+  for (const piece of pieces) {
+    if (piece.right <= 0 || piece.text.holder.closest('pre')) continue; // meant to be out of sight; code
+    if (piece.left < -1 || piece.right > width + 1) faults.push(`'${piece.text.text}' reaches out of the window`);
+  }
+  return faults;
+}
 
-  // Words of one line in two lines. Paths and identifiers longer than a phone's column may break.
+// Short words in two lines. Paths and identifiers longer than a phone's column may break.
+function brokenWords(texts) {
+  const faults = [];
   for (const { node, holder, text } of texts) {
     if (holder instanceof SVGElement || holder.closest('pre, code')) continue;
     for (const word of node.data.matchAll(/[A-Za-zÄÖÜäöüß0-9.]{2,14}/g)) {
-      const before = node.data[word.index - 1] ?? ' ';
-      const after = node.data[word.index + word[0].length] ?? ' ';
-      if (/[\w/\\]/.test(before + after)) continue;
+      const end = word.index + word[0].length;
+      if (/[\w/\\]/.test((node.data[word.index - 1] ?? ' ') + (node.data[end] ?? ' '))) continue;
       const range = document.createRange();
       range.setStart(node, word.index);
-      range.setEnd(node, word.index + word[0].length);
+      range.setEnd(node, end);
       const lines = new Set([...range.getClientRects()].filter((box) => box.width > 0.5).map((box) => Math.round(box.top / 4)));
       if (lines.size > 1) faults.push(`'${word[0]}' is broken over ${lines.size} lines in '${text}'`);
     }
   }
+  return faults;
+}
 
-  // Colours as the browser blends them.
-  const blend = (over, under) => over.slice(0, 3).map((v, i) => v * over[3] + under[i] * (1 - over[3])).concat(1);
+// A colour of the style sheet as red, green, blue and opacity.
+function colorReader() {
   const pen = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
   const known = new Map();
-  const colorOf = (text) => {
+  return (text) => {
     if (!known.has(text)) {
       pen.canvas.width = pen.canvas.height = 1;
       pen.fillStyle = text;
@@ -152,32 +187,54 @@ function faultsOf(least) {
     }
     return known.get(text);
   };
-  const paperOf = (node) => {
-    const papers = [];
-    let fade = 1;
-    for (let outer = node; outer; outer = outer.parentElement) {
-      const style = getComputedStyle(outer);
-      fade *= outer instanceof SVGElement ? 1 : Number(style.opacity);
-      const paper = colorOf(style.backgroundColor);
-      if (paper[3] > 0) papers.push(paper);
-      for (const [shade] of style.backgroundImage.matchAll(/(?:rgba?|color)\([^()]*\)/g)) papers.push(colorOf(shade));
-    }
-    return { paper: papers.reverse().reduce((under, over) => blend(over, under), [255, 255, 255, 1]), fade };
-  };
-  const light = (color) => color.slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
-    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
-  const dim = new Set();
-  const measured = [...texts.map(({ holder, text }) => ({ holder, text, ink: getComputedStyle(holder)[holder instanceof SVGElement ? 'fill' : 'color'] })),
-    ...pieces.filter((piece) => piece.text.holder.tagName === 'CANVAS').map((piece) => ({ holder: piece.text.holder, text: piece.text.text, ink: piece.text.node.color }))];
-  for (const { holder, text, ink } of measured) {
-    const { paper, fade } = paperOf(holder);
-    const [r, g, b, a] = colorOf(ink);
-    const ratio = contrast(blend([r, g, b, a * fade], paper), paper);
-    if (ratio < least) dim.add(`'${text}' has a contrast of ${ratio.toFixed(1)} (${nameOf(holder)})`);
-  }
-  return [...new Set([...faults, ...dim])];
 }
+
+const blend = (over, under) => over.slice(0, 3).map((v, i) => v * over[3] + under[i] * (1 - over[3])).concat(1);
+
+// What lies behind an element, and how much of its own ink is left.
+function paperOf(node, colorOf) {
+  const papers = [];
+  let fade = 1;
+  for (let outer = node; outer; outer = outer.parentElement) {
+    const style = getComputedStyle(outer);
+    fade *= outer instanceof SVGElement ? 1 : Number(style.opacity);
+    const paper = colorOf(style.backgroundColor);
+    if (paper[3] > 0) papers.push(paper);
+    // A gradient's stops lie beside one another: the strongest counts.
+    const stops = [...style.backgroundImage.matchAll(/(?:rgba?|color)\([^()]*\)/g)].map(([shade]) => colorOf(shade));
+    if (stops.length) papers.push(stops.reduce((a, b) => (b[3] > a[3] ? b : a)));
+  }
+  return { paper: papers.reverse().reduce((under, over) => blend(over, under), [255, 255, 255, 1]), fade };
+}
+
+function light(color) {
+  const linear = color.slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+  return linear.reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+}
+
+function tooPale(texts, pieces, least) {
+  const colorOf = colorReader();
+  const drawn = pieces.map((piece) => piece.text).filter((text) => text.ink);
+  return [...texts, ...drawn].flatMap(({ holder, text, ink }) => {
+    const { paper, fade } = paperOf(holder, colorOf);
+    const [r, g, b, a] = colorOf(ink ?? getComputedStyle(holder)[holder instanceof SVGElement ? 'fill' : 'color']);
+    const lights = [light(blend([r, g, b, a * fade], paper)), light(paper)];
+    const contrast = (Math.max(...lights) + 0.05) / (Math.min(...lights) + 0.05);
+    return contrast < least ? [`'${text}' has a contrast of ${contrast.toFixed(1)} (${nameOf(holder)})`] : [];
+  });
+}
+
+const kInThePage = `${[short, blend].map((made) => `const ${made.name} = ${made};`).join('\n')}
+${[nameOf, widerThanTheWindow, clipped, boxesOf, textsOfThePage, piecesOf, overlapping, legendsOnFigures, outsideOfFigureOrWindow, brokenWords,
+  colorReader, paperOf, light, tooPale].join('\n')}`;
+
+const kFaults = `(least) => {
+  ${kInThePage}
+  const texts = textsOfThePage();
+  const pieces = piecesOf(texts);
+  return [...new Set([...widerThanTheWindow(), ...clipped(), ...overlapping(pieces), ...legendsOnFigures(), ...outsideOfFigureOrWindow(texts, pieces),
+    ...brokenWords(texts), ...tooPale(texts, pieces, least)])];
+}`;
 
 // Opens a page at a width in a theme, everything unfolded, as high as it is; returns its faults.
 export class Layout {
@@ -208,7 +265,7 @@ export class Layout {
   }
 
   faults() {
-    return this.browser.run(faultsOf, kContrast);
+    return this.browser.run(kFaults, kContrast);
   }
 
   // Faults of a page at every width in both themes, each with the widths and themes where it shows.

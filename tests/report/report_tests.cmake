@@ -14,3 +14,5 @@ set_tests_properties(report.diagnosis_in_browser PROPERTIES LABELS report TIMEOU
 add_test(NAME report.explain_in_browser
          COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/explain_test.mjs ${CMAKE_BINARY_DIR})
 set_tests_properties(report.explain_in_browser PROPERTIES LABELS report TIMEOUT 300 SKIP_RETURN_CODE 77)
+add_test(NAME report.layout_in_browser COMMAND node ${PROJECT_SOURCE_DIR}/tests/report/layout_test.mjs)
+set_tests_properties(report.layout_in_browser PROPERTIES LABELS report TIMEOUT 300 SKIP_RETURN_CODE 77)

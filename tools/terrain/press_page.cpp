@@ -289,12 +289,12 @@ CampaignConclusions tell_presses(const IntrusionFit& fit, std::span<const PressT
   out.json = json_of(fit);
   StudySection section{.title = "Plates pressed into the bed"};
   section.items.emplace_back(
-      fmt::format("Fitted on {} trials, {} held out. Every law says how the force grows with depth and, by "
+      fmt::format("Fitted on {} {}, {} held out. Every law says how the force grows with depth and, by "
                   "that, with the "
                   "plate's size; one size alone cannot tell how force grows with area, so what is predicted "
                   "for another size "
                   "rests on the law.",
-                  fit.fit_trials, fit.held_out_trials));
+                  fit.fit_trials, fit.fit_trials == 1 ? "trial" : "trials", fit.held_out_trials));
   if (fit.chosen) section.items.emplace_back(force_figure(fit, trials));
   section.items.emplace_back(law_table(fit));
   if (fit.held_out_trials > 0) {

@@ -248,7 +248,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   const Candidate& candidate = problem.candidates[widest->candidate];
   if (!few && typicals < kNarrow) {
     next.why = fmt::format(
-        "None needed: everything this plant can have is excluded beyond {:.2g} times its typical size.",
+        "None needed: everything this plant can have is excluded beyond {:.3g} times its typical size.",
         typicals);
     return;
   }
@@ -278,15 +278,15 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   });
   if (!few && choice.worth < kWorthATrial) {
     next.why = fmt::format(
-        "None: no trial like these would exclude more. The widest bound is that of {}, {:.2g} times "
+        "None: no trial like these would exclude more. The widest bound is that of {}, {:.3g} times "
         "its typical size.",
         candidate.label(), typicals);
     return;
   }
   take(planned[choice.trial], "bound", next);
   next.why = fmt::format(
-      "{}The widest bound is that of {}, {:.2g} times its typical size; this trial narrows it to "
-      "{:.2g} times.",
+      "{}The widest bound is that of {}, {:.3g} times its typical size; this trial narrows it to "
+      "{:.3g} times.",
       few ? "At least five trials are needed to know how far they repeat. " : "", candidate.label(), typicals,
       typicals * std::exp2(-0.5 * choice.worth));
 }

@@ -1,3 +1,6 @@
+// Pixels of a row, about ten lines: a higher one is read more easily as a card.
+const kHighRow = 190;
+
 // A table in a place of limited width: in lines as they are; else with cells that may take several lines; else each row
 // as a card, a line for each cell with its column's name. No column is ever hidden behind a scroll bar.
 function fitTable(place) {
@@ -14,7 +17,8 @@ function fitTable(place) {
     width = now;
     for (const form of ['lines', 'tight', 'cards']) {
       table.dataset.form = form;
-      if (place.scrollWidth <= place.clientWidth) return;
+      const high = form === 'tight' && [...table.tBodies[0].rows].some(row => row.offsetHeight > kHighRow);
+      if (place.scrollWidth <= place.clientWidth && !high) return;
     }
   };
   new ResizeObserver(fit).observe(place.parentElement);

@@ -14,9 +14,9 @@ Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
                  {"verdict", in_words(name_of(d.verdict, d.detail))},
                  {"simulations", fmt::format("{} in {:.1f} s, {:.0f} a second", d.simulations, d.seconds,
                                              simulations_per_second(d))}};
-  if (!facts.findings.empty() || !d.notes.empty())
+  if (const auto remarks = facts.findings.size() + d.notes.size(); remarks > 0)
     study.facts.emplace_back("recordings",
-                             fmt::format("{} remarks, see below", facts.findings.size() + d.notes.size()));
+                             fmt::format("{} {}, see below", remarks, remarks == 1 ? "remark" : "remarks"));
   study.verdict = headline(d);
   study.verdict_mark = d.verdict == Verdict::consistent          ? "good"
                        : d.verdict == Verdict::insufficient_data ? "partly"

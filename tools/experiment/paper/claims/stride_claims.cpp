@@ -32,9 +32,9 @@ Claim event_times(const ProgrammeResults& r) {
                {"switch to liftoff", extension, "s", 4}};
   c.verdict =
       comes_out_if(std::abs(compression / 0.15 - 1.0) <= 0.2 && std::abs(extension / 0.19 - 1.0) <= 0.2);
-  c.why = fmt::format(
-      "1.0 m/s, 375 N/m, {} trials; extension is short by {:.0f} %: a stronger push shortens it",
-      trials.size(), 100.0 * (1.0 - extension / 0.19));
+  c.why =
+      fmt::format("1.0 m/s, 375 N/m, {} trials; extension is short by {:.0f} %: a stronger push shortens it",
+                  trials.size(), 100.0 * (1.0 - extension / 0.19));
   return c;
 }
 
