@@ -70,6 +70,11 @@ std::string absent_text(const std::vector<Bound>& absent) {
   return text + "\n";
 }
 
+// Half of the held-out error of the channel that shows most, or more, is left.
+bool explains_little(const Diagnosis& d) {
+  return !d.fits.empty() && d.fits.front().heldout.after >= 0.5 * d.fits.front().heldout.before;
+}
+
 }  // namespace
 
 bool FoundEffect::may_be_zero() const {
@@ -94,7 +99,12 @@ std::string headline(const Diagnosis& d) {
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
   if (d.verdict == Verdict::insufficient_data)
     return fmt::format("{} trials are too little to say.", d.trials);
-  if (d.verdict == Verdict::unknown_physics) return "Something is missing that is on no list.";
+  if (d.verdict == Verdict::unknown_physics)
+    return explains_little(d)
+               ? "Something is missing that is on no list, and nothing that was tried explains half of it: "
+                 "look at units, signs, columns, the part that is cut out and the belief's numbers first "
+                 "(hop campaign check)."
+               : "Something is missing that is on no list.";
   std::vector<std::string> names;
   bool all_suspected = true;
   for (const auto& e : d.effects)
