@@ -1,11 +1,14 @@
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <string>
+#include <thread>
 
 namespace sandhopper::cli {
 
-// A line on standard error that overwrites itself: label, bar, share done. Shown only on a terminal, and only
-// once the work has lasted two seconds; wiped when the object goes.
+// Tells on standard error how far a piece of work is, once it has lasted two seconds: on a terminal a line
+// that overwrites itself (label, bar, share done) and is wiped when the object goes; elsewhere, as in a log
+// or a pipe, a line every ten seconds, whether the work has advanced or not.
 class Progress {
  public:
   Progress(std::string label, double total);
@@ -13,17 +16,24 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void at(double done);
+  void at(double done);  // by one thread at a time
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  double share() const;
+  double elapsed_s() const;
+  void draw();
+  void tell(const std::stop_token& stop) const;
 
   std::string label_;
   double total_;
   bool on_terminal_;
   bool shown_ = false;
+  std::atomic<double> done_{0.0};
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
+  std::jthread teller_;  // last, so that it ends before what it reads
 };
 
 }  // namespace sandhopper::cli
