@@ -49,7 +49,7 @@ function answered(name, campaign, target) {
   rmSync(making, { recursive: true, force: true });
   mkdirSync(making, { recursive: true });
   const done = run('diagnose', campaign, '--output', making);
-  writeFileSync(join(making, 'said.txt'), `exit status ${done.status}\n${done.stdout}${done.stderr}`);
+  writeFileSync(join(making, 'said.txt'), `exit status ${done.status}\n${done.stdout}`);
   renameSync(making, place);
   return place;
 }
