@@ -14,7 +14,8 @@ using ::testing::Not;
 Diagnosis unknown(double heldout_before, double heldout_after) {
   Diagnosis d;
   d.verdict = Verdict::unknown_physics;
-  d.fits.push_back({.channel = "position_rad", .heldout = {heldout_before, heldout_after}, .floor = 1.0});
+  d.fits.push_back(
+      {.channel = "position_rad", .train = {}, .heldout = {heldout_before, heldout_after}, .floor = 1.0});
   return d;
 }
 
