@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "firmware/hop_model.hpp"
 #include "tools/experiment/stride_sessions.hpp"
 
 namespace sandhopper {

@@ -6,6 +6,7 @@
 #include "tools/report/log_report.hpp"
 #include "tools/report/trial_page.hpp"
 #include "tools/trial/series_campaign.hpp"
+#include "tools/trial/series_ground.hpp"
 #include "tools/trial/trial_text.hpp"
 
 namespace sandhopper::cli {
@@ -94,7 +95,9 @@ ExitCode trial(Session& session, TrialOptions options) {
   auto sheet = gather_sheet(session, options);
   TrialRunner runner(session, options);
   Tally tally;
+  SeriesGround ground(runner.robot());
   for (int number = 0; number < options.trials; ++number) {
+    if (const auto next = ground.next(); next && options.series > 0) session.say_line(to_text(*next));
     if (options.series > 0 && can_ask(session) && !prepare_next(session, number, options.trials, *sheet)) {
       session.say("\nThe series was ended before trial {}: {} of {} trials are recorded.", number + 1, number,
                   options.trials);
@@ -103,6 +106,7 @@ ExitCode trial(Session& session, TrialOptions options) {
     const Outcome outcome = runner.run(number, options.trials, sheet);
     take(session, options, outcome, tally);
     if (sheet) tally.series.back().sheet = *sheet;
+    if (options.series > 0 && !outcome.connection_lost) ground.add(outcome.log);
     if (options.series > 0) write_series_campaign(runner.folder(), runner.robot(), tally.series);
     if (outcome.connection_lost) break;
   }

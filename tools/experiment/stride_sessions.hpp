@@ -43,8 +43,7 @@ struct SessionSetup {
 
 std::vector<SessionScore> score_sessions(const SessionSetup& setup);
 
-// The robot as the planner takes it, and its set-ups: those of hop_cells().
-HopModel hop_model_of(const CycleConfig& cycle);
+// The planner's candidates: the set-ups of hop_cells().
 std::vector<StrideSetup> stride_setups();
 
 void to_json(nlohmann::ordered_json& json, const SessionScore& score);

@@ -113,13 +113,15 @@ class Comparison {
 
 class Replay {
  public:
-  Replay(const std::filesystem::path& file, const std::function<void(double)>& progress)
+  Replay(const std::filesystem::path& file, const std::function<void(double)>& progress,
+         const std::function<void(const StrideSums&)>& stride)
       : file_(file),
         log_(std::make_unique<mcap::Reader>(file)),
         robot_(robot_of(*log_, file)),
         controller_(config_of(*log_, robot_, file)),
         profile_(robot_.stiffness),
-        progress_(progress) {}
+        progress_(progress),
+        stride_(stride) {}
 
   ReplayResult run() {
     const auto start = std::chrono::steady_clock::now();
@@ -194,6 +196,7 @@ class Replay {
   }
 
   void expect_stride(const StrideSums& sums) {
+    if (stride_) stride_(sums);
     strides_.expect(solve_stride(sums, robot_.stiffness));
     profile_.add(sums.profile, sums.summary.stride);
     profiles_.expect(profile_.profile());
@@ -213,6 +216,7 @@ class Replay {
   Controller controller_;
   ProfileSolver profile_;
   std::function<void(double)> progress_;
+  std::function<void(const StrideSums&)> stride_;
   TopicOf<SensorFrame> frames_{topic::kFrame};
   TopicOf<LogGap> gaps_{topic::kGap};
   Comparison<StepOutput> outputs_{topic::kOutput};
@@ -230,8 +234,9 @@ class Replay {
 
 }  // namespace
 
-ReplayResult replay_log(const std::filesystem::path& log, const std::function<void(double)>& progress) {
-  return Replay(log, progress).run();
+ReplayResult replay_log(const std::filesystem::path& log, const std::function<void(double)>& progress,
+                        const std::function<void(const StrideSums&)>& stride) {
+  return Replay(log, progress, stride).run();
 }
 
 }  // namespace sandhopper

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "firmware/records.hpp"
+
 namespace sandhopper {
 
 struct ReplayMismatch {
@@ -28,8 +30,10 @@ struct ReplayResult {
 
 // Runs the cycle again on the frames of a log, with the configuration in the log, and compares every output,
 // event and stride result byte for byte with what was logged. Throws mcap::Error for a file that is no
-// trial's log. Of a log in several files, name the first: the others follow in their order.
+// trial's log. Of a log in several files, name the first: the others follow in their order. `stride` is told
+// what the cycle summed up of each stride.
 ReplayResult replay_log(const std::filesystem::path& log,
-                        const std::function<void(double share)>& progress = {});
+                        const std::function<void(double share)>& progress = {},
+                        const std::function<void(const StrideSums&)>& stride = {});
 
 }  // namespace sandhopper
