@@ -338,6 +338,24 @@ TEST(SampleTimes, CoarseStepsWithoutSharedTimesAreNoted) {
   EXPECT_EQ(find(read(clocked("{:.3f}", 1.0 / 60.0, 5.0), {.plant = "rotary_axis"}), coarse_time), nullptr);
 }
 
+// 2 ms from row to row; of each `of` rows the last is missing.
+std::string with_lost_rows(int of) {
+  std::string text = "t_s,position_rad,torque_Nm\n";
+  for (int i = 0; i < 400; ++i)
+    if (i % of != of - 1)
+      text +=
+          fmt::format("{:.3f},{:.5f},{:.4f}\n", 0.002 * i, 0.3 * std::cos(0.05 * i), 0.1 * std::sin(0.3 * i));
+  return text;
+}
+
+TEST(SampleTimes, LostRowsAreNoCoarseTimes) {
+  const Rig axis{.plant = "rotary_axis"};
+  // One row of 6 lost: four of five steps are the shortest. Coarse times with fewer of them are noted.
+  for (const int of : {6, 9, 17}) EXPECT_EQ(find(read(with_lost_rows(of), axis), coarse_time), nullptr) << of;
+  for (const double step_s : {0.0125, 0.0143, 0.0236})
+    EXPECT_NE(find(read(clocked("{:.2f}", step_s, 5.0), axis), coarse_time), nullptr) << step_s;
+}
+
 TEST(HeldSamples, HeldAndFilledValuesAreFound) {
   for (const int hold : {2, 4, 10}) {
     std::string text = "t_s,foot_z_m,force_N\n";
