@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <tuple>
+
 #include "campaign_folder.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
@@ -98,8 +101,55 @@ TEST(Campaign, RowsOfOneFileMayBeSeveralTrials) {
   ASSERT_TRUE(second.usable());
   EXPECT_EQ(second.t_s, (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(second.channel("height_m")[2], 6.0);
-  EXPECT_TRUE(second.findings.empty());
+  ASSERT_EQ(second.findings.size(), 1U) << "that the rows are few";
+  EXPECT_THAT(second.findings[0].what, HasSubstr("select leaves 3 rows: "));
   EXPECT_EQ(read_trial(campaign, campaign.trials.at(1)).t_s, (std::vector<double>{1}));
+}
+
+// Rows come every 2 ms; the time is written in ms, and may count from an epoch in another column or offset.
+TrialRecording selected(const std::string& time, const std::string& select, double per_s = 1e3,
+                        double start = 0.0) {
+  CampaignFolder folder;
+  std::string csv = "t,force_N\n";
+  for (int i = 0; i < 250; ++i)
+    csv += std::to_string(start + per_s * 0.002 * i) + "," + std::to_string(i) + "\n";
+  folder
+      .write("campaign.toml", "plant = \"intruder\"\n[columns]\nt_s = { column = \"t\", " + time +
+                                  " }\n[[trial]]\nfile = \"a.csv\"\nselect = { " + select + " }\n")
+      .write("a.csv", csv);
+  const auto campaign = load_campaign(folder.path());
+  return read_trial(campaign, campaign.trials.at(0));
+}
+
+TEST(Campaign, RowsAreSelectedBySecondsWhateverTheUnitOfTheColumn) {
+  const std::string tenth = "from_s = 0.099, to_s = 0.201";
+  for (const auto& [time, per_s, start] :
+       {std::tuple{"unit = \"ms\"", 1e3, 0.0}, std::tuple{"scale = 1e-6", 1e6, 0.0},
+        std::tuple{"unit = \"s\", scale = 1.0, offset = -1.7e9", 1.0, 1.7e9},
+        std::tuple{"unit = \"s\"", 1.0, 0.0}}) {
+    const auto recording = selected(time, tenth, per_s, start);
+    ASSERT_EQ(recording.rows(), 51U) << time;
+    EXPECT_NEAR(recording.t_s.front(), 0.1, 1e-5) << time;
+    EXPECT_EQ(recording.channel("force_N").front(), 50.0) << time;
+  }
+  EXPECT_EQ(selected("unit = \"ms\"", "from_s = 0.0, to_s = 5.0").rows(), 250U);
+}
+
+TEST(Campaign, ASelectionThatLeavesFewRowsIsSaid) {
+  const auto nine = selected("unit = \"ms\"", "from_s = 0.0, to_s = 0.017");
+  ASSERT_EQ(nine.rows(), 9U);
+  ASSERT_FALSE(nine.findings.empty());
+  EXPECT_EQ(nine.findings[0].severity, FindingSeverity::note);
+  EXPECT_THAT(nine.findings[0].what, HasSubstr("select leaves 9 rows: "));
+  EXPECT_THAT(nine.findings[0].what, HasSubstr("250 were read from "));
+  EXPECT_THAT(selected("unit = \"ms\"", "from_line = 2, to_line = 4").findings.at(0).what,
+              HasSubstr("select leaves 3 rows: "));
+  const auto none = selected("unit = \"ms\"", "from_s = 5.0");
+  EXPECT_FALSE(none.usable());
+  EXPECT_THAT(none.findings.at(0).what, HasSubstr("from 0 to 0.498 s"));
+  const auto ten = selected("unit = \"ms\"", "from_s = 0.0, to_s = 0.019");
+  ASSERT_EQ(ten.rows(), 10U);
+  for (const auto& finding : ten.findings) EXPECT_THAT(finding.what, ::testing::Not(HasSubstr("select")));
 }
 
 TEST(Campaign, AFolderMayStandForTheOneRecordingInIt) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -99,6 +100,74 @@ TEST(Units, ScaleAndUnitTogetherAreTheUsersWord) {
   EXPECT_NEAR(with("unit = \"m\", scale = -1.0", 1.0).channel("foot_z_m").back(), -3.3e-4 * 69, 1e-5);
   EXPECT_EQ(find(with("unit = \"mm\", scale = -1.0", 1e3), unit_disagrees)->severity,
             FindingSeverity::trial_unusable);
+}
+
+// An axis whose columns have these names and, where given, these units.
+TrialRecording turn(const std::string& names, const std::string& units, const std::string& columns) {
+  std::string text = names + "\n" + (units.empty() ? "" : units + "\n");
+  for (int i = 0; i < 40; ++i)
+    text +=
+        fmt::format("{:.3f},{:.4f},{:.4f}\n", 0.01 * i, 17.2 * std::cos(0.04 * i), 3.0 * std::sin(0.09 * i));
+  return read(text, {.plant = "rotary_axis", .columns = columns});
+}
+
+TEST(Units, AUnitAloneDoesNotOutweighTheFilesOwn) {
+  struct Case {
+    std::string names, units, mapping;
+    std::vector<std::string> what, cure;
+  };
+  const auto lines = [](const std::string& column, const std::string& unit) {
+    return std::vector<std::string>{
+        fmt::format("position_rad = {{ column = \"{}\", unit = \"{}\", scale = 0.0174532925 }}", column,
+                    unit),
+        fmt::format("position_rad = {{ column = \"{}\", unit = \"rad\", scale = 1 }}", column)};
+  };
+  for (const auto& [names, units, mapping, what, cure] :
+       {Case{"t,Angle (deg),M",
+             "",
+             "position_rad = { column = \"Angle (deg)\", unit = \"rad\" }",
+             {"its name says \"deg\"", "unit = \"rad\"", "17.2 deg are 0.3002 rad", "17.2 rad of them"},
+             lines("Angle (deg)", "deg")},
+        Case{"t,Winkel,M",
+             "s,°,Nm",
+             "position_rad = { column = \"Winkel\", unit = \"rad\" }",
+             {"the row of units says \"°\"", "17.2 ° are 0.3002 rad", "17.2 rad of them"},
+             lines("Winkel", "°")},
+        Case{"t,a,Torque (mNm)",
+             "",
+             "position_rad = { column = \"Torque (mNm)\", unit = \"rad\" }",
+             {"its name says \"mNm\", a torque", "unit = \"rad\""},
+             {"unit = \"mNm\", scale = …", "unit = \"rad\", scale = 1 }"}}}) {
+    const auto recording = turn(names, units, "t_s = { column = \"t\", unit = \"s\" }\n" + mapping);
+    EXPECT_FALSE(recording.usable()) << names;
+    const auto* finding = find(recording, unit_disagrees);
+    ASSERT_NE(finding, nullptr) << names;
+    for (const auto& text : what) EXPECT_THAT(finding->what, HasSubstr(text));
+    for (const auto& text : cure) EXPECT_THAT(finding->cure, HasSubstr(text));
+  }
+  const auto swapped = read(press("Sinkage (mm)", "Force (kN)", 1e3, 1e-3),
+                            {.columns = "t_s = \"t\"\nforce_N = { column = \"Sinkage (mm)\", unit = \"N\" }\n"
+                                        "foot_z_m = { column = \"Force (kN)\", unit = \"m\" }"});
+  EXPECT_EQ(std::ranges::count(swapped.findings, unit_disagrees, &Finding::kind), 2);
+}
+
+TEST(Units, AUnitThatAgreesOrComesWithItsScaleIsTaken) {
+  for (const auto* mapping : {"unit = \"deg\"", "unit = \"°\"", "unit = \"rad\", scale = 1.0"}) {
+    const auto recording =
+        turn("t,Angle (deg),M", "",
+             fmt::format("t_s = \"t\"\nposition_rad = {{ column = \"Angle (deg)\", {} }}", mapping));
+    EXPECT_EQ(find(recording, unit_disagrees), nullptr) << mapping;
+  }
+  EXPECT_EQ(find(turn("t,Angle (deg),M", "s,rad,Nm",
+                      "t_s = \"t\"\nposition_rad = { column = \"Angle (deg)\", unit = \"rad\" }"),
+                 unit_disagrees),
+            nullptr)
+      << "the row of units goes before the name";
+  EXPECT_EQ(
+      find(turn("t,Sensor A,M", "", "t_s = \"t\"\nposition_rad = { column = \"Sensor A\", unit = \"rad\" }"),
+           unit_disagrees),
+      nullptr)
+      << "A is the sensor's letter";
 }
 
 TEST(Units, ARowOfUnitsCountsForMappedAndForOwnNames) {
@@ -267,6 +336,24 @@ TEST(SampleTimes, CoarseStepsWithoutSharedTimesAreNoted) {
   ASSERT_NE(find(recording, coarse_time), nullptr);
   EXPECT_EQ(find(recording, coarse_time)->severity, FindingSeverity::note);
   EXPECT_EQ(find(read(clocked("{:.3f}", 1.0 / 60.0, 5.0), {.plant = "rotary_axis"}), coarse_time), nullptr);
+}
+
+// 2 ms from row to row; of each `of` rows the last is missing.
+std::string with_lost_rows(int of) {
+  std::string text = "t_s,position_rad,torque_Nm\n";
+  for (int i = 0; i < 400; ++i)
+    if (i % of != of - 1)
+      text +=
+          fmt::format("{:.3f},{:.5f},{:.4f}\n", 0.002 * i, 0.3 * std::cos(0.05 * i), 0.1 * std::sin(0.3 * i));
+  return text;
+}
+
+TEST(SampleTimes, LostRowsAreNoCoarseTimes) {
+  const Rig axis{.plant = "rotary_axis"};
+  // One row of 6 lost: four of five steps are the shortest. Coarse times with fewer of them are noted.
+  for (const int of : {6, 9, 17}) EXPECT_EQ(find(read(with_lost_rows(of), axis), coarse_time), nullptr) << of;
+  for (const double step_s : {0.0125, 0.0143, 0.0236})
+    EXPECT_NE(find(read(clocked("{:.2f}", step_s, 5.0), axis), coarse_time), nullptr) << step_s;
 }
 
 TEST(HeldSamples, HeldAndFilledValuesAreFound) {

@@ -36,7 +36,7 @@ struct ColumnMapping {
   bool is_stated() const { return !unit.empty() && has_scale; }  // its experimenter knows what it holds
 };
 
-// Rows that count: where `column` holds `value`, between two times of the file.
+// Rows that count: where `column` holds `value`, between two times in s, as t_s is after its mapping.
 struct RowSelection {
   std::string column{};  // empty: every row
   double value = 0.0;
@@ -44,6 +44,9 @@ struct RowSelection {
   double to_s = std::numeric_limits<double>::infinity();
   std::uint64_t from_line = 0;  // of the file, from 1
   std::uint64_t to_line = std::numeric_limits<std::uint64_t>::max();
+
+  bool selects() const { return *this != RowSelection{}; }
+  bool operator==(const RowSelection&) const = default;
 };
 
 // A second recording of the same trial on the same clock, e.g. of a force plate with its own rate.

@@ -329,20 +329,14 @@ class Reader {
                "correct select in this trial");
       return;
     }
-    std::vector<std::size_t> keep;
-    const auto* file_time_s = time_column(table_, trial_);
-    const auto time_s = file_time_s == nullptr ? out_.t_s : *file_time_s;
-    for (std::size_t row = 0; row < out_.t_s.size(); ++row)
-      if ((column == nullptr || (*column)[row] == rows.value) && time_s[row] >= rows.from_s &&
-          time_s[row] <= rows.to_s)
-        keep.push_back(row);
+    const auto keep = selected_rows(rows, out_.t_s, column);
     table_ = {};
-    if (keep.empty()) {
-      complain(FindingKind::empty_file, trial_unusable, fmt::format("select leaves no row of {}", file_),
-               "correct select in this trial");
-      return;
-    }
-    if (keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
+    if (rows.selects() && keep.size() < kFewSelectedRows)
+      complain(FindingKind::empty_file, keep.empty() ? trial_unusable : note,
+               fmt::format("select leaves {} rows: {}", keep.size(), shown_rows(file_, out_.t_s)),
+               "from_s and to_s are seconds, after unit, scale and offset of t_s: correct select in this "
+               "trial, or the unit of the time");
+    if (!keep.empty() && keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
   }
 
   std::uint64_t header_character(std::size_t i) const {

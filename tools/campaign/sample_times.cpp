@@ -71,6 +71,21 @@ void spread(std::vector<double>& t_s) {
     t_s[i] = first + sum / n + slope / square * (static_cast<double>(i) - middle);
 }
 
+bool nearly_all(std::size_t count, std::size_t of) { return 5 * count >= 4 * of; }
+
+// Every step is a multiple of the shortest, and nearly all are the shortest: rows are missing between others
+// that come evenly. Coarse times of even rows step by n or n + 1 resolutions, and by both often.
+bool are_lost_rows(const std::vector<double>& t_s, const std::vector<double>& distinct_steps) {
+  const double shortest = distinct_steps.front();
+  if (!(shortest > 0.0)) return false;
+  const bool multiples = std::ranges::all_of(distinct_steps, [&](double step) {
+    return std::abs(step / shortest - std::round(step / shortest)) < 0.01;
+  });
+  std::size_t alone = 0;
+  for (std::size_t i = 1; i < t_s.size(); ++i) alone += t_s[i] - t_s[i - 1] < 1.5 * shortest;
+  return multiples && nearly_all(alone, t_s.size() - 1);
+}
+
 // The common divisor of all steps where it is coarse; 0 otherwise.
 double coarse_resolution(const std::vector<double>& t_s) {
   std::vector<double> steps;
@@ -82,6 +97,7 @@ double coarse_resolution(const std::vector<double>& t_s) {
   }
   if (steps.size() < 2) return 0.0;
   std::sort(steps.begin(), steps.end());
+  if (are_lost_rows(t_s, steps)) return 0.0;
   const double resolution = steps[1] - steps[0],
                mean = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
   const bool multiples = std::all_of(steps.begin(), steps.end(), [&](double step) {
@@ -126,7 +142,7 @@ std::size_t usual_length(std::vector<std::size_t> lengths) {
   const std::size_t middle = lengths[lengths.size() / 2];
   const auto alike =
       std::count_if(lengths.begin(), lengths.end(), [&](std::size_t length) { return length == middle; });
-  return static_cast<std::size_t>(alike) * 5 >= lengths.size() * 4 ? middle : 0;
+  return nearly_all(static_cast<std::size_t>(alike), lengths.size()) ? middle : 0;
 }
 
 // v 0 0 0 v 0 0 0: every true sample alone, equally many zeros between.

@@ -18,6 +18,22 @@ void add_note(TrialRecording& recording, FindingKind kind, const RecordingPlaces
 
 }  // namespace
 
+std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,
+                                       const std::vector<double>* column) {
+  std::vector<std::size_t> keep;
+  for (std::size_t row = 0; row < t_s.size(); ++row)
+    if ((column == nullptr || (*column)[row] == rows.value) && t_s[row] >= rows.from_s &&
+        t_s[row] <= rows.to_s)
+      keep.push_back(row);
+  return keep;
+}
+
+std::string shown_rows(std::string_view file, const std::vector<double>& t_s) {
+  if (t_s.empty()) return fmt::format("none was read from {}", file);
+  const auto [first, last] = std::ranges::minmax(t_s);
+  return fmt::format("{} were read from {}, from {:.9g} to {:.9g} s", t_s.size(), file, first, last);
+}
+
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep) {
   const auto pick = [&](auto& values) {
     for (std::size_t k = 0; k < keep.size(); ++k) values[k] = values[keep[k]];

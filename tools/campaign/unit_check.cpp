@@ -22,14 +22,18 @@ std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const Writ
                      wanted.text);
 }
 
+// `other`: the unit that the numbers have if c.scale is right.
 UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
-                         double factor, std::string_view where) {
+                         double factor, std::string_view where, const std::string& other) {
   const double sign = c.scale < 0.0 ? -1.0 : 1.0;
+  const auto claim = c.has_scale || c.stated_unit.empty()
+                         ? fmt::format("scale = {:.6g} to {}", c.scale, wanted.text)
+                         : fmt::format("unit = \"{}\" alone", c.stated_unit);
   return {c.scale,
-          fmt::format("{} \"{}\", which does not fit scale = {:.6g} to {}: {}", where, unit.text, c.scale,
-                      wanted.text, arithmetic(c, unit, wanted, factor)),
+          fmt::format("{} \"{}\", which does not fit {}: {}", where, unit.text, claim,
+                      arithmetic(c, unit, wanted, factor)),
           fmt::format("say which in [columns]: {}, or, if the numbers are in {} after all, {}",
-                      mapping(c, unit.text, sign * factor), wanted.text, mapping(c, wanted.text, c.scale))};
+                      mapping(c, unit.text, sign * factor), other, mapping(c, other, c.scale))};
 }
 
 UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
@@ -44,6 +48,34 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
               wanted.text, unit.text, c.channel, c.column, unit.text)};
 }
 
+struct FilesUnit {
+  std::optional<WrittenUnit> unit;
+  std::string_view where;
+};
+
+// In the row of units, else in the column's name.
+FilesUnit unit_in_file(const ColumnUnits& c) {
+  if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
+    return {std::move(unit), "the row of units says"};
+  return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
+}
+
+// `unit` without `scale` is not enough to overrule the file: it may be the channel's, copied from an example.
+UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
+  c.scale = factor;
+  const auto [unit, where] = unit_in_file(c);
+  if (!unit || unit->dimension.empty()) return {factor, "", ""};  // a word not known here contradicts nothing
+  if (const auto files = factor_between(*unit, wanted))
+    return same(factor, *files) ? UnitVerdict{factor, "", ""}
+                                : disagreement(c, *unit, wanted, *files, where, c.stated_unit);
+  if (!unit->is_certain) return {factor, "", ""};
+  auto verdict = other_dimension(c, *unit, wanted, where);
+  verdict.problem += fmt::format(", and unit = \"{}\" alone does not settle it", c.stated_unit);
+  verdict.cure += fmt::format(", or, if the numbers are in {} after all, {}; or name another column",
+                              c.stated_unit, mapping(c, c.stated_unit, factor));
+  return verdict;
+}
+
 UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
   const auto unit = read_unit(c.stated_unit, true);
   const auto factor = unit ? factor_between(*unit, wanted) : std::nullopt;
@@ -52,9 +84,9 @@ UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
     const WrittenUnit none{c.stated_unit, unit ? unit->dimension : "", 0.0};
     return other_dimension(c, none, wanted, "is stated in");
   }
-  if (!c.has_scale) return {*factor, "", ""};
+  if (!c.has_scale) return stated_alone(c, *factor, wanted);
   const bool contradicts = !same(c.scale, *factor) && is_ratio_of_units(c.scale / *factor, wanted.dimension);
-  if (contradicts) return disagreement(c, *unit, wanted, *factor, "its mapping states the unit");
+  if (contradicts) return disagreement(c, *unit, wanted, *factor, "its mapping states the unit", wanted.text);
   return {c.scale, "", ""};
 }
 
@@ -69,10 +101,7 @@ UnitVerdict check_unit(const ColumnUnits& c) {
                 c.channel, c.column, wanted ? wanted->text : "…")};
   if (!wanted) return {c.scale, "", ""};
   if (!c.stated_unit.empty()) return stated(c, *wanted);
-  const bool has_row = !c.row_unit.empty();
-  auto unit = has_row ? read_unit(c.row_unit, true) : std::nullopt;
-  const std::string_view where = unit ? "the row of units says" : "its name says";
-  if (!unit && c.column != c.channel) unit = unit_in_name(c.column);
+  const auto [unit, where] = unit_in_file(c);
   if (!unit) return {c.scale, "", ""};
   const auto factor = factor_between(*unit, *wanted);
   if (!factor) {
@@ -80,7 +109,7 @@ UnitVerdict check_unit(const ColumnUnits& c) {
     return other_dimension(c, *unit, *wanted, where);
   }
   if (same(c.scale, *factor)) return {c.scale, "", ""};
-  return disagreement(c, *unit, *wanted, *factor, where);
+  return disagreement(c, *unit, *wanted, *factor, where, wanted->text);
 }
 
 }  // namespace sandhopper

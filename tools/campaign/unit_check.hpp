@@ -31,9 +31,10 @@ struct UnitVerdict {
 // Holds the unit in the column's name, in the row of units and in `unit` against the channel's unit and
 // `scale`:
 //   factor f from the written unit to the channel's unit;  right where |scale| / f = 1 within kSameScale.
-// `unit` alone gives the scale. `unit` and `scale` together are what the experimenter says: they must agree
-// with each other where their ratio is one of two units, and the file's own words no longer count. A scale
-// from another dimension (volts of a load cell) is taken where it is written down.
+// `unit` alone gives the scale; it must agree with the file's own words as a scale must. `unit` and `scale`
+// together are what the experimenter says: they must agree with each other where their ratio is one of two
+// units, and the file's own words no longer count. A scale from another dimension (volts of a load cell) is
+// taken where it is written down.
 UnitVerdict check_unit(const ColumnUnits& column);
 
 }  // namespace sandhopper
