@@ -126,7 +126,8 @@ TEST(Units, AUnitAloneDoesNotOutweighTheFilesOwn) {
        {Case{"t,Angle (deg),M",
              "",
              "position_rad = { column = \"Angle (deg)\", unit = \"rad\" }",
-             {"its name says \"deg\"", "unit = \"rad\"", "17.2 deg are 0.3002 rad", "17.2 rad of them"},
+             {"its name says \"deg\"", "unit = \"rad\"",
+              "17.2 deg are 0.3002 rad, and unit = \"rad\" makes 17.2 rad of them"},
              lines("Angle (deg)", "deg")},
         Case{"t,Winkel,M",
              "s,°,Nm",
@@ -149,6 +150,8 @@ TEST(Units, AUnitAloneDoesNotOutweighTheFilesOwn) {
                             {.columns = "t_s = \"t\"\nforce_N = { column = \"Sinkage (mm)\", unit = \"N\" }\n"
                                         "foot_z_m = { column = \"Force (kN)\", unit = \"m\" }"});
   EXPECT_EQ(std::ranges::count(swapped.findings, unit_disagrees, &Finding::kind), 2);
+  const auto angle = turn("t,Angle (deg),M", "", "t_s = \"t\"\ntorque_Nm = \"Angle (deg)\"");
+  EXPECT_THAT(find(angle, unit_disagrees)->what, HasSubstr("\"deg\", an angle"));
 }
 
 TEST(Units, AUnitThatAgreesOrComesWithItsScaleIsTaken) {

@@ -14,21 +14,23 @@ std::string mapping(const ColumnUnits& c, std::string_view unit, double scale) {
                      scale);
 }
 
+bool by_unit_alone(const ColumnUnits& c) { return !c.has_scale && !c.stated_unit.empty(); }
+
 // "23.59 mm are 0.02359 m, and scale = -1 makes 23.59 m of them"
 std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
                        double factor) {
-  return fmt::format("{:.4g} {} are {:.4g} {}, and scale = {:.6g} makes {:.4g} {} of them", c.largest,
-                     unit.text, c.largest * factor, wanted.text, c.scale, c.largest * std::abs(c.scale),
-                     wanted.text);
+  const auto claim =
+      by_unit_alone(c) ? fmt::format("unit = \"{}\"", c.stated_unit) : fmt::format("scale = {:.6g}", c.scale);
+  return fmt::format("{:.4g} {} are {:.4g} {}, and {} makes {:.4g} {} of them", c.largest, unit.text,
+                     c.largest * factor, wanted.text, claim, c.largest * std::abs(c.scale), wanted.text);
 }
 
 // `other`: the unit that the numbers have if c.scale is right.
 UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
                          double factor, std::string_view where, const std::string& other) {
   const double sign = c.scale < 0.0 ? -1.0 : 1.0;
-  const auto claim = c.has_scale || c.stated_unit.empty()
-                         ? fmt::format("scale = {:.6g} to {}", c.scale, wanted.text)
-                         : fmt::format("unit = \"{}\" alone", c.stated_unit);
+  const auto claim = by_unit_alone(c) ? fmt::format("unit = \"{}\" alone", c.stated_unit)
+                                      : fmt::format("scale = {:.6g} to {}", c.scale, wanted.text);
   return {c.scale,
           fmt::format("{} \"{}\", which does not fit {}: {}", where, unit.text, claim,
                       arithmetic(c, unit, wanted, factor)),
@@ -36,13 +38,17 @@ UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const Wr
                       mapping(c, unit.text, sign * factor), other, mapping(c, other, c.scale))};
 }
 
+// ", an angle"
+std::string dimension_of(const WrittenUnit& unit) {
+  if (unit.dimension.empty()) return ", which is no unit known here";
+  const bool vowel = std::string_view("aeiou").find(unit.dimension.front()) != std::string_view::npos;
+  return fmt::format(", {} {}", vowel ? "an" : "a", unit.dimension);
+}
+
 UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
                             std::string_view where) {
   return {c.scale,
-          fmt::format("{} \"{}\"{}, the channel is in {}", where, unit.text,
-                      unit.dimension.empty() ? ", which is no unit known here"
-                                             : fmt::format(", a {}", unit.dimension),
-                      wanted.text),
+          fmt::format("{} \"{}\"{}, the channel is in {}", where, unit.text, dimension_of(unit), wanted.text),
           fmt::format(
               "say how many {} one {} is: {} = {{ column = \"{}\", unit = \"{}\", scale = … }} in [columns]",
               wanted.text, unit.text, c.channel, c.column, unit.text)};
