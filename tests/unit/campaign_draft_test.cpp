@@ -86,6 +86,46 @@ TEST(CampaignDraft, ADroppedBodyAndADepthCountedDownward) {
               HasSubstr("foot_z_m = { column = \"Sinkage (mm)\", scale = -0.001 }"));
 }
 
+TEST(CampaignDraft, APlantThatTheColumnsDoNotTellIsAsked) {
+  for (const std::string header : {"t,y\n", "image;temps (ms);position y (mm)\n"}) {
+    CampaignFolder folder;
+    const bool two = header == "t,y\n";
+    const auto text = rows(header, two ? ',' : ';', two ? 2 : 3);
+    EXPECT_THROW(drafted(folder, text), PlantNotTold) << header;
+    EXPECT_EQ(drafted(folder, text, CampaignPlant::falling_body).draft.plant, CampaignPlant::falling_body);
+  }
+  CampaignFolder hops;
+  EXPECT_EQ(drafted(hops, rows("t_s,tof_height_m\n", ',', 2)).draft.plant, CampaignPlant::hopper);
+}
+
+// A fall of 0.8 m; `sign` -1 counts it downward.
+TrialRecording dropped(double sign, const std::string& how, const std::string& set_up,
+                       double speed_mps = 0.0) {
+  CampaignFolder folder;
+  std::string text = "t_s,h\n";
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.01 * i, h = 0.8 + speed_mps * t - 0.5 * 9.81 * t * t;
+    text += fmt::format("{:.3f},{:.5f}\n", t, 1000.0 * sign * h);
+  }
+  folder.write("a.csv", text)
+      .write("campaign.toml", "plant = \"falling_body\"\n[columns]\nheight_m = { column = \"h\", " + how +
+                                  " }\n[[trial]]\nfile = \"a.csv\"\nkind = \"drop\"\n" + set_up);
+  const auto campaign = load_campaign(folder.path());
+  return read_trial(campaign, campaign.trials.at(0));
+}
+
+TEST(CampaignDraft, AHeightThatRisesInADropCountsDownward) {
+  const std::string way = "height_m = { column = \"h\", unit = \"mm\", scale = -0.001 }";
+  EXPECT_TRUE(dropped(1.0, "unit = \"mm\"", "").usable());
+  const auto wrong = dropped(-1.0, "unit = \"mm\"", "");
+  ASSERT_FALSE(wrong.usable());
+  EXPECT_THAT(find(wrong, FindingKind::implausible)->cure, HasSubstr(way));
+  EXPECT_TRUE(dropped(-1.0, "unit = \"mm\", scale = -0.001", "").usable());
+  EXPECT_EQ(find(dropped(-1.0, "unit = \"mm\", scale = -0.001", ""), FindingKind::implausible), nullptr);
+  EXPECT_TRUE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 4.0\n", 4.0).usable());
+  EXPECT_FALSE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 0.0\n", 4.0).usable());
+}
+
 TEST(CampaignDraft, ASpreadsheetIsRefusedWithTheWayOut) {
   CampaignFolder folder;
   folder.write("rec.xlsx", "PK\x03\x04 and so on");

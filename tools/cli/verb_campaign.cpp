@@ -138,6 +138,8 @@ ExitCode import_files(Session& session, const Options& options) {
   CampaignDraft draft;
   try {
     draft = draft_campaign(files, plant_named(options.import_plant), folder, parts_of(options.import_names));
+  } catch (const PlantNotTold& error) {
+    throw Failure(ExitCode::usage, error.what(), "'hop campaign keys PLANT' lists the channels of a plant");
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::no, error.what(),
                   "name a table: rows of numbers under the names of their columns");
