@@ -185,5 +185,19 @@ TEST(BeliefSources, NoPhysicsThatNobodyStated) {
   }
 }
 
+// Without a `model` the reason "not assumed" stands beside no number that is assumed.
+TEST(BeliefSources, NoModelAssumesNothing) {
+  for (const std::string plant : {"intruder", "hopper"}) {
+    CampaignFolder folder;
+    folder.write("campaign.toml", "plant = \"" + plant + "\"\n[[trial]]\nfile = \"a.csv\"\n");
+    const auto campaign = load_campaign(folder.path());
+    auto numbers = numbers_of(campaign.belief);
+    EXPECT_EQ(numbers["terrain.added_mass_factor"], 0.0) << plant;
+    EXPECT_EQ(numbers["terrain.unloading_stiffness_ratio"], 1.0) << plant;
+    for (const auto& number : used_numbers(campaign).numbers)
+      EXPECT_THAT(to_string(number), Not(HasSubstr("default: 0: not assumed"))) << plant;
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper
