@@ -145,13 +145,47 @@ TEST(CampaignDraft, NominalHoldsEveryKeyAndStatesNoPhysics) {
     folder.write("nominal.toml", text);
     std::vector<Finding> notes;
     const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes);
-    EXPECT_TRUE(notes.empty());
+    for (const auto& note : notes) EXPECT_THAT(note.what, HasSubstr(" = \"?\" in line ")) << note.what;
     if (plant == CampaignPlant::intruder) {
       EXPECT_THAT(text, HasSubstr("# added_mass_factor = 0.0")) << "what is not stated";
     }
     for (const auto& [key, value] : numbers_of(belief))
       EXPECT_THAT(text, HasSubstr(key.substr(key.rfind('.') + 1) + " = ")) << name_of(plant);
   }
+}
+
+TEST(CampaignDraft, WhatOnlyTheOwnerKnowsIsAskedFor) {
+  CampaignFolder folder;
+  const auto got = drafted(folder, rows("t_s,Height (mm)\n", ',', 2), CampaignPlant::falling_body);
+  EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\nmass_kg = \"?\""));
+  EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\ngravity_mps2 = 9.8"));
+  std::string told;
+  for (const auto& finding : got.campaign.findings) told += to_string(finding) + "\n";
+  const auto before = got.draft.nominal_toml.substr(0, got.draft.nominal_toml.find("\nmass_kg") + 1);
+  EXPECT_THAT(told, HasSubstr(fmt::format("body.mass_kg = \"?\" in line {}: ",
+                                          1 + std::count(before.begin(), before.end(), '\n'))));
+  EXPECT_THAT(told, HasSubstr("write your own number"));
+  EXPECT_TRUE(has_unstated(got.campaign));
+  auto stated = got.draft.nominal_toml;
+  for (auto at = stated.find("= \"?\""); at != std::string::npos; at = stated.find("= \"?\""))
+    stated.replace(at, 5, "= 0.2");
+  folder.write("nominal.toml", stated);
+  const auto campaign = load_campaign(folder.path());
+  EXPECT_TRUE(campaign.findings.empty());
+  EXPECT_FALSE(has_unstated(campaign));
+  EXPECT_TRUE(missing_numbers(campaign).empty());
+  EXPECT_EQ(numbers_of(campaign.belief)["body.mass_kg"], 0.2);
+}
+
+TEST(CampaignDraft, ANeededKeyThatIsMissingIsAFinding) {
+  CampaignFolder folder;
+  const std::string trial = "plant = \"falling_body\"\n[[trial]]\nfile = \"a.csv\"\n";
+  folder.write("campaign.toml", trial);
+  const auto missing = missing_numbers(load_campaign(folder.path()));
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing.front().channel, "body.mass_kg");
+  folder.write("campaign.toml", trial + "mass_kg = 1.0\n");
+  EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stated by every trial";
 }
 
 TEST(BeliefSources, EveryNumberHasItsSource) {

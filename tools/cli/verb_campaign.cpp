@@ -53,6 +53,8 @@ ExitCode check(Session& session, const Options& options) {
     }
   };
   tell(campaign.findings);
+  const auto missing = missing_numbers(campaign);
+  tell(missing);
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
     const auto recording = read_trial(campaign, trial);
@@ -77,7 +79,8 @@ ExitCode check(Session& session, const Options& options) {
                     {"usable", usable},
                     {"findings", findings},
                     {"belief", numbers}};
-  return usable == campaign.trials.size() && campaign.findings.empty() ? ExitCode::ok : ExitCode::no;
+  return usable == campaign.trials.size() && campaign.findings.empty() && missing.empty() ? ExitCode::ok
+                                                                                          : ExitCode::no;
 }
 
 ExitCode make(Session& session, const Options& options) {
