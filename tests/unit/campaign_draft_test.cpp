@@ -86,6 +86,46 @@ TEST(CampaignDraft, ADroppedBodyAndADepthCountedDownward) {
               HasSubstr("foot_z_m = { column = \"Sinkage (mm)\", scale = -0.001 }"));
 }
 
+TEST(CampaignDraft, APlantThatTheColumnsDoNotTellIsAsked) {
+  for (const std::string header : {"t,y\n", "image;temps (ms);position y (mm)\n"}) {
+    CampaignFolder folder;
+    const bool two = header == "t,y\n";
+    const auto text = rows(header, two ? ',' : ';', two ? 2 : 3);
+    EXPECT_THROW(drafted(folder, text), PlantNotTold) << header;
+    EXPECT_EQ(drafted(folder, text, CampaignPlant::falling_body).draft.plant, CampaignPlant::falling_body);
+  }
+  CampaignFolder hops;
+  EXPECT_EQ(drafted(hops, rows("t_s,tof_height_m\n", ',', 2)).draft.plant, CampaignPlant::hopper);
+}
+
+// A fall of 0.8 m; `sign` -1 counts it downward.
+TrialRecording dropped(double sign, const std::string& how, const std::string& set_up,
+                       double speed_mps = 0.0) {
+  CampaignFolder folder;
+  std::string text = "t_s,h\n";
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.01 * i, h = 0.8 + speed_mps * t - 0.5 * 9.81 * t * t;
+    text += fmt::format("{:.3f},{:.5f}\n", t, 1000.0 * sign * h);
+  }
+  folder.write("a.csv", text)
+      .write("campaign.toml", "plant = \"falling_body\"\n[columns]\nheight_m = { column = \"h\", " + how +
+                                  " }\n[[trial]]\nfile = \"a.csv\"\nkind = \"drop\"\n" + set_up);
+  const auto campaign = load_campaign(folder.path());
+  return read_trial(campaign, campaign.trials.at(0));
+}
+
+TEST(CampaignDraft, AHeightThatRisesInADropCountsDownward) {
+  const std::string way = "height_m = { column = \"h\", unit = \"mm\", scale = -0.001 }";
+  EXPECT_TRUE(dropped(1.0, "unit = \"mm\"", "").usable());
+  const auto wrong = dropped(-1.0, "unit = \"mm\"", "");
+  ASSERT_FALSE(wrong.usable());
+  EXPECT_THAT(find(wrong, FindingKind::implausible)->cure, HasSubstr(way));
+  EXPECT_TRUE(dropped(-1.0, "unit = \"mm\", scale = -0.001", "").usable());
+  EXPECT_EQ(find(dropped(-1.0, "unit = \"mm\", scale = -0.001", ""), FindingKind::implausible), nullptr);
+  EXPECT_TRUE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 4.0\n", 4.0).usable());
+  EXPECT_FALSE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 0.0\n", 4.0).usable());
+}
+
 TEST(CampaignDraft, ASpreadsheetIsRefusedWithTheWayOut) {
   CampaignFolder folder;
   folder.write("rec.xlsx", "PK\x03\x04 and so on");
@@ -105,13 +145,47 @@ TEST(CampaignDraft, NominalHoldsEveryKeyAndStatesNoPhysics) {
     folder.write("nominal.toml", text);
     std::vector<Finding> notes;
     const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes);
-    EXPECT_TRUE(notes.empty());
+    for (const auto& note : notes) EXPECT_THAT(note.what, HasSubstr(" = \"?\" in line ")) << note.what;
     if (plant == CampaignPlant::intruder) {
       EXPECT_THAT(text, HasSubstr("# added_mass_factor = 0.0")) << "what is not stated";
     }
     for (const auto& [key, value] : numbers_of(belief))
       EXPECT_THAT(text, HasSubstr(key.substr(key.rfind('.') + 1) + " = ")) << name_of(plant);
   }
+}
+
+TEST(CampaignDraft, WhatOnlyTheOwnerKnowsIsAskedFor) {
+  CampaignFolder folder;
+  const auto got = drafted(folder, rows("t_s,Height (mm)\n", ',', 2), CampaignPlant::falling_body);
+  EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\nmass_kg = \"?\""));
+  EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\ngravity_mps2 = 9.8"));
+  std::string told;
+  for (const auto& finding : got.campaign.findings) told += to_string(finding) + "\n";
+  const auto before = got.draft.nominal_toml.substr(0, got.draft.nominal_toml.find("\nmass_kg") + 1);
+  EXPECT_THAT(told, HasSubstr(fmt::format("body.mass_kg = \"?\" in line {}: ",
+                                          1 + std::count(before.begin(), before.end(), '\n'))));
+  EXPECT_THAT(told, HasSubstr("write your own number"));
+  EXPECT_TRUE(has_unstated(got.campaign));
+  auto stated = got.draft.nominal_toml;
+  for (auto at = stated.find("= \"?\""); at != std::string::npos; at = stated.find("= \"?\""))
+    stated.replace(at, 5, "= 0.2");
+  folder.write("nominal.toml", stated);
+  const auto campaign = load_campaign(folder.path());
+  EXPECT_TRUE(campaign.findings.empty());
+  EXPECT_FALSE(has_unstated(campaign));
+  EXPECT_TRUE(missing_numbers(campaign).empty());
+  EXPECT_EQ(numbers_of(campaign.belief)["body.mass_kg"], 0.2);
+}
+
+TEST(CampaignDraft, ANeededKeyThatIsMissingIsAFinding) {
+  CampaignFolder folder;
+  const std::string trial = "plant = \"falling_body\"\n[[trial]]\nfile = \"a.csv\"\n";
+  folder.write("campaign.toml", trial);
+  const auto missing = missing_numbers(load_campaign(folder.path()));
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing.front().channel, "body.mass_kg");
+  folder.write("campaign.toml", trial + "mass_kg = 1.0\n");
+  EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stated by every trial";
 }
 
 TEST(BeliefSources, EveryNumberHasItsSource) {
@@ -142,6 +216,20 @@ TEST(BeliefSources, NoPhysicsThatNobodyStated) {
     EXPECT_EQ(numbers["terrain.unloading_damping_ratio"], 0.0);
     EXPECT_EQ(numbers["robot.rail_coulomb_N"], 0.0);
     EXPECT_EQ(numbers["robot.joint_coulomb_Nm"], 0.0);
+  }
+}
+
+// Without a `model` the reason "not assumed" stands beside no number that is assumed.
+TEST(BeliefSources, NoModelAssumesNothing) {
+  for (const std::string plant : {"intruder", "hopper"}) {
+    CampaignFolder folder;
+    folder.write("campaign.toml", "plant = \"" + plant + "\"\n[[trial]]\nfile = \"a.csv\"\n");
+    const auto campaign = load_campaign(folder.path());
+    auto numbers = numbers_of(campaign.belief);
+    EXPECT_EQ(numbers["terrain.added_mass_factor"], 0.0) << plant;
+    EXPECT_EQ(numbers["terrain.unloading_stiffness_ratio"], 1.0) << plant;
+    for (const auto& number : used_numbers(campaign).numbers)
+      EXPECT_THAT(to_string(number), Not(HasSubstr("default: 0: not assumed"))) << plant;
   }
 }
 

@@ -37,9 +37,30 @@ void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known,
   });
 }
 
+// Takes out of `table` every `key = "?"`, as a draft writes it, with a finding of each: nobody stated the
+// number.
+void leave_out_unstated(ConfigNode& table, const std::string& path, const std::string& file,
+                        std::vector<Finding>& notes) {
+  std::erase_if(table.children, [&](ConfigNode& child) {
+    const auto key = path.empty() ? child.key : path + "." + child.key;
+    if (child.kind == ConfigNode::Kind::table) leave_out_unstated(child, key, file, notes);
+    if (child.kind != ConfigNode::Kind::text || child.text != kUnknownNumber) return false;
+    notes.push_back({.kind = FindingKind::set_up,
+                     .severity = FindingSeverity::trial_unusable,
+                     .file = file,
+                     .line = child.key_position.line,
+                     .column = child.key_position.column,
+                     .what = fmt::format("{} = \"{}\" in line {}: write your own number", key, kUnknownNumber,
+                                         child.key_position.line),
+                     .cure = "or put a # before the line where every trial states it"});
+    return true;
+  });
+}
+
 template <class Plant>
 Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes) {
   auto document = parse_config_file(file.string());
+  leave_out_unstated(document.root, "", file.string(), notes);
   for (auto& table : document.root.children) {
     if (table.kind != ConfigNode::Kind::table) continue;
     if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), notes);

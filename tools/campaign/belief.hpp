@@ -190,6 +190,8 @@ Belief belief_of_silence(CampaignPlant plant);
 // Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
 // key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
 // their simulator has, and what is not known here limits no conclusion.
+// `key = "?"` is left out, too, with a finding that rules the trials out: its number is still to be written.
+inline constexpr std::string_view kUnknownNumber = "?";
 Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
 
 // A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say

@@ -65,4 +65,6 @@ std::string_view reason_of_default(std::string_view path) {
   return kRobot;
 }
 
+bool is_needed(std::string_view path) { return reason_of_default(path) == kNeeded; }
+
 }  // namespace sandhopper

@@ -54,6 +54,15 @@ bool is_without_effect(CampaignPlant plant, const std::string& key) {
   return simple && (table == "sensors" || table == "spread");
 }
 
+// The number, or what gives it on this plant.
+bool states(const CampaignTrial& trial, const std::string& path) {
+  const auto key = path.substr(path.rfind('.') + 1);
+  if (trial.number(key)) return true;
+  if (key == "radius_m")
+    return trial.number("diameter_m") || trial.number("foot_diameter_m") || trial.number("plate_diameter_m");
+  return key == "stiffness_N_per_m" && trial.number("stiffness_per_area_N_per_m");
+}
+
 }  // namespace
 
 std::map<std::string, double> numbers_of(const Belief& belief) {
@@ -92,6 +101,32 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     used.numbers.push_back(std::move(number));
   }
   return used;
+}
+
+std::vector<Finding> missing_numbers(const Campaign& campaign) {
+  std::vector<Finding> missing;
+  if (campaign.plant == CampaignPlant::hopper) return missing;
+  const auto lines = lines_of(campaign.model);
+  for (const auto& [key, value] : numbers_of(campaign.belief)) {
+    const bool is_elsewhere =
+        key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m");
+    const bool in_trials =
+        std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return states(trial, key); });
+    if (!is_needed(key) || lines.contains(key) || is_elsewhere || in_trials) continue;
+    missing.push_back({FindingKind::set_up, FindingSeverity::trial_unusable,
+                       (campaign.model.empty() ? campaign.file : campaign.model).string(), 1, 1, key,
+                       fmt::format("is stated nowhere, and plant \"{}\" needs it", name_of(campaign.plant)),
+                       campaign.model.empty() ? "write your own number into nominal.toml, and model = "
+                                                "\"nominal.toml\" into campaign.toml"
+                                              : "write your own number"});
+  }
+  return missing;
+}
+
+bool has_unstated(const Campaign& campaign) {
+  return std::ranges::any_of(campaign.findings, [&](const Finding& finding) {
+    return finding.severity == FindingSeverity::trial_unusable && finding.file == campaign.model.string();
+  });
 }
 
 double usual_error(const UsedNumber& n) {

@@ -37,4 +37,11 @@ double usual_error(const UsedNumber& number);
 
 std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 kg m^2 (nominal.toml, line 3)"
 
+// A finding for each number that the plant cannot do without (belief_notes.hpp) and that neither the model
+// file nor the set-up of every trial states. None for the hopper: its belief is this project's robot.
+std::vector<Finding> missing_numbers(const Campaign& campaign);
+
+// The model file holds a `key = "?"`: nothing can be told from its default.
+bool has_unstated(const Campaign& campaign);
+
 }  // namespace sandhopper

@@ -71,7 +71,7 @@ class Loader {
       refuse(campaign_.file, plant->position, "plant",
              fmt::format("key 'plant' has no such value: expected one of {}", names_of<CampaignPlant>()));
     campaign_.plant = *known;
-    campaign_.belief = default_belief(campaign_.plant);
+    campaign_.belief = belief_of_silence(campaign_.plant);
     find_recordings(root);
     if (const auto* model = root.find("model")) {
       if (model->kind != Kind::text)

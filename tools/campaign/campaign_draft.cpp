@@ -79,7 +79,13 @@ class Drafter {
                                                        has_word(lower, "height") +
                                                        has_word(lower, "altitude");
     }
-    return static_cast<CampaignPlant>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+    const auto most = std::max_element(votes.begin(), votes.end());
+    if (*most == 0)
+      throw PlantNotTold(
+          fmt::format("{}: could not tell the plant from these columns: import again with --plant "
+                      "rotary_axis|intruder|falling_body|hopper",
+                      files_.front().string()));
+    return static_cast<CampaignPlant>(most - votes.begin());
   }
 
   void guess_columns() {

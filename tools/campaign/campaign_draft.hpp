@@ -1,12 +1,18 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tools/campaign/campaign.hpp"
 
 namespace sandhopper {
+
+// Neither a column's name nor its unit belongs to one plant alone.
+struct PlantNotTold : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 // A campaign for files that another program wrote, to be corrected by their owner.
 struct CampaignDraft {

@@ -55,6 +55,7 @@ class NominalWriter {
       return;
     const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
                         std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
+    if (needed && key != "gravity_mps2") value = fmt::format("\"{}\"", kUnknownNumber);
     const auto meaning = meaning_of_key(table.empty() ? std::string(key) : fmt::format("{}.{}", table, key));
     std::string comment = belief_unit(key);
     if (!meaning.empty()) comment += (comment.empty() ? "" : "; ") + std::string(meaning);
@@ -71,9 +72,10 @@ std::string draft_nominal(CampaignPlant plant) {
   NominalWriter writer;
   std::visit([&](const auto& belief) { writer.write(belief, ""); }, belief_of_silence(plant));
   return fmt::format(
-             "# What the simulation believes of plant \"{}\". Lines without # are needed: correct them. Take "
-             "the # away\n"
-             "# from what you know besides; what stays a remark is not there, or has the value that stands "
+             "# What the simulation believes of plant \"{}\". Lines without # are needed: write your number "
+             "for each \"?\".\n"
+             "# Take the # away from what you know besides; what stays a remark is not there, or has the "
+             "value that stands "
              "here.\n",
              name_of(plant)) +
          writer.take();

@@ -65,6 +65,8 @@ class SignChecker {
     check_name();
     const bool pushes = campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped;
     if (pushes) check_push();
+    const bool drops = campaign_.plant == CampaignPlant::falling_body && trial_.kind == TrialKind::drop;
+    if (drops && recording_.has_time) check_drop();
   }
 
  private:
@@ -146,6 +148,26 @@ class SignChecker {
       add("foot_z_m",
           "is highest where the force is largest: it counts the depth downward, and the channel counts "
           "upward",
+          "m", -1.0);
+  }
+
+  // A body that is let go ends lower than it began. One that was thrown may end anywhere: its set-up says so
+  // with a speed.
+  void check_drop() {
+    const auto speed_mps = trial_.number("release_speed_mps");
+    const bool is_thrown = speed_mps && *speed_mps != 0.0;
+    if (is_thrown || !recording_.has("height_m")) return;
+    Range heights;
+    std::vector<double> fresh;
+    for (const double value : recording_.channel("height_m"))
+      if (!std::isnan(value)) heights.take(value), fresh.push_back(value);
+    constexpr std::size_t kFewest = 10;
+    if (fresh.size() < kFewest || !(heights.width() > 0.0)) return;
+    const auto place = [&](double height) { return (height - heights.low) / heights.width(); };
+    if (place(fresh.front()) < 0.2 && place(fresh.back()) > 0.8)
+      add("height_m",
+          "ends highest and begins lowest, where a body that is let go falls: it counts downward, and the "
+          "channel counts upward; a throw says release_speed_mps",
           "m", -1.0);
   }
 

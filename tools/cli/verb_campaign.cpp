@@ -53,6 +53,8 @@ ExitCode check(Session& session, const Options& options) {
     }
   };
   tell(campaign.findings);
+  const auto missing = missing_numbers(campaign);
+  tell(missing);
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
     const auto recording = read_trial(campaign, trial);
@@ -77,7 +79,8 @@ ExitCode check(Session& session, const Options& options) {
                     {"usable", usable},
                     {"findings", findings},
                     {"belief", numbers}};
-  return usable == campaign.trials.size() && campaign.findings.empty() ? ExitCode::ok : ExitCode::no;
+  return usable == campaign.trials.size() && campaign.findings.empty() && missing.empty() ? ExitCode::ok
+                                                                                          : ExitCode::no;
 }
 
 ExitCode make(Session& session, const Options& options) {
@@ -138,6 +141,8 @@ ExitCode import_files(Session& session, const Options& options) {
   CampaignDraft draft;
   try {
     draft = draft_campaign(files, plant_named(options.import_plant), folder, parts_of(options.import_names));
+  } catch (const PlantNotTold& error) {
+    throw Failure(ExitCode::usage, error.what(), "'hop campaign keys PLANT' lists the channels of a plant");
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::no, error.what(),
                   "name a table: rows of numbers under the names of their columns");
