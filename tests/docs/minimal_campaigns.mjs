@@ -60,7 +60,7 @@ const contract = fs.readFileSync(path.join(root, 'tools/docs/guide/recordings.md
 const example = contract.match(/```toml\n(name  = [^]*?)```/)[1];
 fs.mkdirSync(path.join(work, 'contract'));
 fs.writeFileSync(path.join(work, 'contract/campaign.toml'), example);
-fs.writeFileSync(path.join(work, 'contract/nominal.toml'), contract.match(/```toml\n(\[effects\][^]*?)```/)[1]);
+fs.writeFileSync(path.join(work, 'contract/nominal.toml'), contract.match(/```toml\n(\[terrain\][^]*?)```/)[1]);
 const { status, answer } = check(path.join(work, 'contract'));
 assert.equal(status, 1);
 assert.equal(answer.trials, 2);
