@@ -162,7 +162,11 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
     new_deepest_m_ = depth_m;
   }
   if (depth_m <= deepest_m_) return;
-  if (virgin) joint_.add(sample);
+  if (virgin) {
+    joint_.add(sample);
+    // Of samples that do not count, those at the accelerometer's range are still to be told.
+    if (!settled && on_new_ground(sample)) profile_.add(sample, e.quasi_static_force_N);
+  }
   deepest_m_ = depth_m;
   if (!through_stance) commit();
 }
