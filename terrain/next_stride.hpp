@@ -20,7 +20,7 @@ struct HopModel {
   double compression_length_m = 0.30;
   double extension_length_m = 0.34;
   double extension_stiffness_N_per_m = 500.0;
-  // What the motors can push at this length of the leg [m, N].
+  // The motors push no more than this at this length of the leg [m, N].
   std::function<double(double)> greatest_leg_force_N = [](double) { return 50.0; };
   double rail_friction_N = 4.0;
 };
@@ -47,7 +47,7 @@ struct NextStride {
 // Greatest width of the band of the force in this range.
 double widest_band_N(const ProfileSolver& solver, const DepthRange& range) noexcept;
 
-// What a stride with this set-up would measure on the profile's mean plus `deviations` of its band.
+// The sums that a stride with this set-up would give on the profile's mean plus `deviations` of its band.
 ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot, const StrideSetup& setup,
                              double deviations = 0.0);
 

@@ -305,7 +305,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     report(sums, stride);
     return;
   }
-  if (stride == 0) {  // fresh ground: nothing is known of the surface's height
+  if (stride == kFreshGround) {  // nothing is known of the surface's height
     land(kUnknown_m);
     kept_normal_.back() += 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
   }

@@ -111,6 +111,9 @@ class ProfileSolver {
   explicit ProfileSolver(const StiffnessConfig& config);
 
   void restart() noexcept;  // a new trial on other ground
+  // `stride`: its number in the trial, from 1, which starts anew; kFreshGround for a first stride of another
+  // trial on ground that was prepared alike.
+  static constexpr std::uint32_t kFreshGround = 0;
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
@@ -177,7 +180,8 @@ class ProfileSolver {
   std::array<Vector<kTerms>, kProfileCells> response_{};
   Matrix<kKept> kept_normal_{};  // with the prior of D
   Vector<kKept> kept_moment_{};
-  // What integrating out r, l and f takes from the kept moments, for each unit of theirs; and T.
+  // Change of the kept moments when r, l and f are integrated out, for one unit of the moment of each; T
+  // below.
   std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
   double last_s_ = 0.0;
   Matrix<kShared> shared_normal_{};

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// What the golden answers are compared by says of two answers that are the same, nearly so, and not.
+// Tests the comparison of golden answers on two that are the same, nearly the same, and different.
 import assert from 'node:assert/strict';
 
 import { json_differences, text_difference } from './differences.mjs';

@@ -1,4 +1,4 @@
-// What holds of every page at every width, light and dark: nothing wider than the window, no column or word clipped, no two
+// Checks of every page at every width, light and dark: nothing wider than the window, no column or word clipped, no two
 // texts on one another, no short word broken, text that can be read on its paper.
 import { setTimeout as sleep } from 'node:timers/promises';
 
@@ -108,7 +108,7 @@ function piecesOf(texts) {
 
 function overlapping(pieces) {
   const faults = [];
-  // What stays in the window lies over what is scrolled under it.
+  // A sticky element lies over the content that is scrolled under it.
   const stays = (piece) => {
     for (let outer = piece.text.holder; outer; outer = outer.parentElement) if (/sticky|fixed/.test(getComputedStyle(outer).position)) return true;
     return false;
@@ -191,7 +191,7 @@ function colorReader() {
 
 const blend = (over, under) => over.slice(0, 3).map((v, i) => v * over[3] + under[i] * (1 - over[3])).concat(1);
 
-// What lies behind an element, and how much of its own ink is left.
+// The colour behind an element, and how much of its own ink is left.
 function paperOf(node, colorOf) {
   const papers = [];
   let fade = 1;

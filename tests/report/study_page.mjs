@@ -1,4 +1,4 @@
-// What holds of every page that tools/report/study.hpp makes: figures drawn, axes with units, legends that hide, nothing
+// Checks of every page that tools/report/study.hpp makes: figures drawn, axes with units, legends that hide, nothing
 // wider than a laptop, no complaint, no request.
 import assert from 'node:assert/strict';
 

@@ -91,8 +91,7 @@ bool set_named(T& table, const ConfigNode& value, ConfigReader& reader) {
 }
 
 bool is_diameter(std::string_view key) {
-  constexpr std::array<std::string_view, 3> kNames{"diameter_m", "foot_diameter_m", "plate_diameter_m"};
-  return std::find(kNames.begin(), kNames.end(), key) != kNames.end();
+  return std::ranges::find(kDiameterKeys, key) != kDiameterKeys.end();
 }
 
 // What a diameter gives on this plant.

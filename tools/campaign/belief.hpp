@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -192,6 +193,9 @@ Belief belief_of_silence(CampaignPlant plant);
 // their simulator has, and what is not known here limits no conclusion.
 // `key = "?"` is left out, too, with a finding that rules the trials out: its number is still to be written.
 inline constexpr std::string_view kUnknownNumber = "?";
+// Set-up keys that give the radius or the area.
+inline constexpr std::array<std::string_view, 3> kDiameterKeys{"diameter_m", "foot_diameter_m",
+                                                               "plate_diameter_m"};
 Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
 
 // A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say

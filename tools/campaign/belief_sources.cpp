@@ -58,8 +58,7 @@ bool is_without_effect(CampaignPlant plant, const std::string& key) {
 bool states(const CampaignTrial& trial, const std::string& path) {
   const auto key = path.substr(path.rfind('.') + 1);
   if (trial.number(key)) return true;
-  if (key == "radius_m")
-    return trial.number("diameter_m") || trial.number("foot_diameter_m") || trial.number("plate_diameter_m");
+  if (key == "radius_m") return trial.states_diameter();
   return key == "stiffness_N_per_m" && trial.number("stiffness_per_area_N_per_m");
 }
 

@@ -318,6 +318,10 @@ class Loader {
 
 }  // namespace
 
+bool CampaignTrial::states_diameter() const {
+  return std::ranges::any_of(kDiameterKeys, [&](std::string_view key) { return number(key).has_value(); });
+}
+
 std::optional<double> CampaignTrial::number(std::string_view key) const {
   for (const auto& entry : setup)
     if (entry.key == key)

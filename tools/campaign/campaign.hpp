@@ -77,6 +77,7 @@ struct CampaignTrial {
   Belief belief{};
 
   std::optional<double> number(std::string_view key) const;  // a set-up value
+  bool states_diameter() const;                              // by one of kDiameterKeys
   std::optional<std::string> text(std::string_view key) const;
   std::optional<bool> flag(std::string_view key) const;
   // The same recording may be named by several trials that select different rows.

@@ -224,9 +224,7 @@ class PlausibilityChecker {
   // rho g z A is what the displaced material weighs: less cannot push a foot at rest in a bed.
   void check_overburden() {
     const auto* belief = belief_of<IntruderBelief>(trial_);
-    const bool has_foot = trial_.number("plate_diameter_m") || trial_.number("diameter_m") ||
-                          trial_.number("foot_diameter_m") || trial_.number("radius_m") ||
-                          !campaign_.model.empty();
+    const bool has_foot = trial_.states_diameter() || trial_.number("radius_m") || !campaign_.model.empty();
     if (belief == nullptr || !has_foot || !recording_.has("foot_z_m") || !recording_.has("force_N")) return;
     double deepest_m = 0.0;
     for (const double z : recording_.channel("foot_z_m"))

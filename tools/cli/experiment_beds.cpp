@@ -1,24 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <thread>
 
-#include "config/files.hpp"
+#include "tools/cli/bed_options.hpp"
 #include "tools/cli/experiment.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/experiment/bed_score.hpp"
 #include "tools/experiment/statistics.hpp"
-#include "tools/plant/load_world.hpp"
 
 namespace sandhopper::cli {
 namespace {
 
-struct Options {
+struct Options : BedOptions {
   long strides = 200;
-  std::uint64_t seed = 1;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::string> beds;
   bool null = false;
 };
 
@@ -118,14 +112,8 @@ void say_null(Session& session, const std::vector<BedScore>& scores) {
 }
 
 ExitCode run(Session& session, const Options& options) {
-  const auto robot = load_robot(session.config_directory());
-  BedScoreSetup setup;
-  setup.cycle = cycle_config(robot);
-  setup.world = load_world(session.config_directory(), robot);
-  setup.beds = options.beds;
+  auto setup = options.setup<BedScoreSetup>(session);
   setup.trials = options.strides;
-  setup.first_seed = options.seed;
-  setup.threads = options.threads;
   double total = 0.0;
   Progress progress("hopping", 1.0);
   setup.progress = [&](long done, long all) {
@@ -135,14 +123,7 @@ ExitCode run(Session& session, const Options& options) {
   setup.finished = [&](const BedScore& score) {
     fmt::print(stderr, "{}: {:.0f} trials\n", score.bed, score.trials);
   };
-  std::vector<BedScore> scores;
-  try {
-    scores = score_beds(setup);
-  } catch (const std::invalid_argument& error) {
-    std::string names;
-    for (const auto& bed : bed_cases()) names += (names.empty() ? "" : ", ") + bed.name;
-    throw Failure(ExitCode::usage, error.what(), "name some of " + names);
-  }
+  const auto scores = scored_beds(score_beds, setup);
   say_first(session, scores);
   say_later(session, scores);
   say_events(session, scores, true);
@@ -165,9 +146,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--strides", o->strides, "trials of three strides on fresh beds, of each family")
       .in_range(1L, 10'000'000L)
       .show_default();
-  arguments.add_option("--seed", o->seed, "of the first stride").show_default();
-  arguments.add_option("--threads", o->threads, "default: one a core").in_range(1U, 1024U);
-  arguments.add_option("--beds", o->beds, "only these families").type_name("NAMES");
+  o->add_to(arguments, "stride");
   arguments.add_flag("--null", o->null, "quantiles of the event statistics in strides without the event");
   return [o](Session& session) { return run(session, *o); };
 }

@@ -1,21 +1,15 @@
 #include <cmath>
-#include <stdexcept>
-#include <thread>
 
-#include "config/files.hpp"
+#include "tools/cli/bed_options.hpp"
 #include "tools/cli/experiment.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/experiment/stride_sessions.hpp"
-#include "tools/plant/load_world.hpp"
 
 namespace sandhopper::cli {
 namespace {
 
-struct Options {
+struct Options : BedOptions {
   long sessions = 200;
-  std::uint64_t seed = 1;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::string> beds;
 };
 
 void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
@@ -35,13 +29,7 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
   };
   for (const auto& s : scores) {
     line(s);
-    all.sessions += s.sessions;
-    all.reach_squared_m2 += s.reach_squared_m2;
-    all.planned += s.planned;
-    for (std::size_t arm = 0; arm < kNextBy; ++arm) {
-      all.strides[arm] += s.strides[arm];
-      all.unfinished[arm] += s.unfinished[arm];
-    }
+    all += s;
   }
   line(all);
   session.say("planned against by chance: {:.2f} times fewer; the oracle: {:.2f} times",
@@ -50,26 +38,13 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
 }
 
 ExitCode run(Session& session, const Options& options) {
-  const auto robot = load_robot(session.config_directory());
-  SessionSetup setup;
-  setup.cycle = cycle_config(robot);
-  setup.world = load_world(session.config_directory(), robot);
-  setup.beds = options.beds;
+  auto setup = options.setup<SessionSetup>(session);
   setup.sessions = options.sessions;
-  setup.first_seed = options.seed;
-  setup.threads = options.threads;
   Progress progress("sessions", 1.0);
   setup.progress = [&](long done, long total) {
     progress.at(static_cast<double>(done) / static_cast<double>(total));
   };
-  std::vector<SessionScore> scores;
-  try {
-    scores = score_sessions(setup);
-  } catch (const std::invalid_argument& error) {
-    std::string names;
-    for (const auto& bed : bed_cases()) names += (names.empty() ? "" : ", ") + bed.name;
-    throw Failure(ExitCode::usage, error.what(), "name some of " + names);
-  }
+  const auto scores = scored_beds(score_sessions, setup);
   say_sessions(session, scores);
   auto& json = session.result["sessions"] = nlohmann::ordered_json::array();
   for (const auto& score : scores) json.push_back(score);
@@ -81,9 +56,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--sessions", o->sessions, "altogether, evenly over the beds")
       .in_range(1L, 1'000'000L)
       .show_default();
-  arguments.add_option("--seed", o->seed, "of the first session").show_default();
-  arguments.add_option("--threads", o->threads, "default: one a core").in_range(1U, 1024U);
-  arguments.add_option("--beds", o->beds, "only these families").type_name("NAMES");
+  o->add_to(arguments, "session");
   return [o](Session& session) { return run(session, *o); };
 }
 

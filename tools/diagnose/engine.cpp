@@ -93,7 +93,8 @@ Settled settled_null(Problem& problem) {
   return {std::move(null), std::move(starts)};
 }
 
-// Of many trials whose simulation takes long some are searched: what came near there.
+// Where a campaign has many trials whose simulation takes long, some of them are searched: the points that
+// came near.
 std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, const Point& null,
                                  const SearchOptions& options) {
   Prepared some = prepare(spread_over(clean, kSearchedTrials));

@@ -14,8 +14,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::uint32_t kFreshGround = 0;  // for ProfileSolver::add
-constexpr std::size_t kFirstSetup = 7;     // 0.7 m/s and 375 N/m, of 15
+constexpr std::size_t kFirstSetup = 7;  // 0.7 m/s and 375 N/m, of 15
 constexpr std::uint64_t kSeedsOfASession = 1000, kForecasts = 100, kStrides = 200, kSeedsOfAnArm = 50;
 
 struct Stride {
@@ -62,7 +61,7 @@ class Session {
         score.reach_squared_m2 += error_m * error_m;
         score.planned += 1.0;
       }
-      solver.add(stride.sums, kFreshGround);
+      solver.add(stride.sums, ProfileSolver::kFreshGround);
     }
     score.strides[arm] += strides;
     score.unfinished[arm] += widest_band_N(solver, range_) > enough_N;
@@ -77,7 +76,7 @@ class Session {
     double least_N = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < setups_.size(); ++i) {
       ProfileSolver after = solver;
-      after.add(forecasts_[i].sums, kFreshGround);
+      after.add(forecasts_[i].sums, ProfileSolver::kFreshGround);
       const double widest_N = widest_band_N(after, range_);
       if (widest_N >= least_N) continue;
       least_N = widest_N;
@@ -113,6 +112,17 @@ class Session {
 
 }  // namespace
 
+SessionScore& SessionScore::operator+=(const SessionScore& other) {
+  sessions += other.sessions;
+  reach_squared_m2 += other.reach_squared_m2;
+  planned += other.planned;
+  for (std::size_t arm = 0; arm < kNextBy; ++arm) {
+    strides[arm] += other.strides[arm];
+    unfinished[arm] += other.unfinished[arm];
+  }
+  return *this;
+}
+
 std::vector<StrideSetup> stride_setups() {
   std::vector<StrideSetup> setups;
   for (const auto& cell : hop_cells())
@@ -134,14 +144,7 @@ std::vector<SessionScore> score_sessions(const SessionSetup& setup) {
         SessionScore own{.bed = cases[number].name, .sessions = 1.0};
         for (const auto by : {NextBy::chance, NextBy::plan, NextBy::oracle}) session.run(by, own);
         const std::lock_guard lock(adding);
-        SessionScore& score = scores[number];
-        score.sessions += own.sessions;
-        score.reach_squared_m2 += own.reach_squared_m2;
-        score.planned += own.planned;
-        for (std::size_t arm = 0; arm < kNextBy; ++arm) {
-          score.strides[arm] += own.strides[arm];
-          score.unfinished[arm] += own.unfinished[arm];
-        }
+        scores[number] += own;
       },
       setup.progress);
   return scores;

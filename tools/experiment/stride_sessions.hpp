@@ -28,6 +28,7 @@ struct SessionScore {
   std::array<double, kNextBy> unfinished{};      // sessions
   double reach_squared_m2 = 0.0, planned = 0.0;  // predicted depth less the true one, of planned strides
 
+  SessionScore& operator+=(const SessionScore& other);  // sessions of another part, or of another bed
   double mean(NextBy by) const { return strides[static_cast<std::size_t>(by)] / sessions; }
 };
 

@@ -13,7 +13,6 @@ namespace {
 
 // What an operator sets with a ruler, up to the greatest drop that the robot was designed for.
 constexpr std::array kDrops_m{0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090};
-constexpr std::uint32_t kFreshGround = 0;  // for ProfileSolver::add
 
 }  // namespace
 
@@ -25,7 +24,7 @@ SeriesGround::SeriesGround(const RobotConfig& robot)
 void SeriesGround::add(const std::filesystem::path& log) {
   replay_log(log, {}, [this](const StrideSums& sums) {
     const auto stride = sums.summary.stride;
-    solver_.add(sums.profile, stride == 1 && known_ ? kFreshGround : stride);
+    solver_.add(sums.profile, stride == 1 && known_ ? ProfileSolver::kFreshGround : stride);
     known_ = true;
   });
 }

@@ -93,14 +93,14 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
     }
     if (out.low > out.high) std::swap(out.low, out.high);
     found.push_back(out);
-    // What was added to the belief, where that held something already.
+    // The change of a number that the belief held already.
     if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
       found.push_back({change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
   }
   return found;
 }
 
-// What cannot be told apart from a candidate: by its law, and on these recordings.
+// Effects that cannot be told apart from a candidate, by its law or on these recordings.
 std::vector<std::string> class_of(const Problem& problem, std::size_t c, const Posterior& belief) {
   std::vector<std::string> list = problem.candidates[c].effect->same_as;
   if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())

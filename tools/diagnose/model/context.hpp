@@ -34,8 +34,8 @@ struct ChannelScale {
   double grid = 0.0;  // least step between values that differ
 };
 
-// What the recordings and the belief say of a plant's sizes: effects take their typical sizes from it. A fact
-// that a plant has not keeps its default.
+// A plant's sizes, from the recordings and the belief: effects take their typical sizes from them. A size
+// that a plant does not have keeps its default.
 struct PlantFacts {
   double weight_N = 1.0, force_N = 1.0, torque_Nm = 1.0;
   double speed_mps = 1.0, speed_radps = 1.0;

@@ -53,7 +53,7 @@ struct FootState {
   double radius_m = 0.0;
 };
 
-// What moves with a load cell.
+// The motion of a load cell.
 struct CellState {
   double foot_accel_mps2 = 0.0;
 };

@@ -41,7 +41,7 @@ void each_around(const std::vector<double>& v, std::size_t first, std::size_t la
   if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
 }
 
-// How often successive samples repeat around a stretch.
+// The share of successive samples that repeat, around a stretch.
 double repeats_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   double equal = 0.5, count = 1.0;
   each_around(v, first, last, 0, [&](std::size_t i) {
