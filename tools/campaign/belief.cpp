@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "config/load.hpp"
+#include "tools/campaign/belief_sources.hpp"
 
 namespace sandhopper {
 namespace {
@@ -61,12 +62,15 @@ template <class Plant>
 Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes) {
   auto document = parse_config_file(file.string());
   leave_out_unstated(document.root, "", file.string(), notes);
+  std::vector<ConfigProblem> problems;
   for (auto& table : document.root.children) {
     if (table.kind != ConfigNode::Kind::table) continue;
     if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), notes);
-    if (table.key == "spread") leave_out_unknown(table, keys_of(base.spread), file.string(), notes);
+    if (table.key != "spread") continue;
+    const auto known = keys_of(base.spread);
+    base.key_spreads = take_key_spreads(table, known, numbers_of(Belief(base)), file.string(), problems);
+    leave_out_unknown(table, known, file.string(), notes);
   }
-  std::vector<ConfigProblem> problems;
   auto effects = take_effects(document, problems);
   if (!problems.empty()) throw ConfigError(problems);
   auto belief = load_document<Plant>(document, MissingKeys::use_default, std::move(base));

@@ -12,6 +12,7 @@
 #include "tools/campaign/belief_effects.hpp"
 #include "tools/campaign/belief_sensors.hpp"
 #include "tools/campaign/finding.hpp"
+#include "tools/campaign/key_spread.hpp"
 #include "tools/campaign/plant_kind.hpp"
 #include "tools/plant/world_config.hpp"
 
@@ -28,6 +29,7 @@ struct HopperBelief {
   BeliefSensors sensors{};
   BeliefSpread spread{};
   BeliefEffects effects{};
+  std::vector<KeySpread> key_spreads{};
 
   // As tools/plant simulates it.
   WorldConfig world() const;
@@ -69,6 +71,7 @@ struct IntruderBelief {
   BeliefSensors sensors{};
   BeliefSpread spread{};
   BeliefEffects effects{};
+  std::vector<KeySpread> key_spreads{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -132,6 +135,7 @@ struct FallingBodyBelief {
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
   BeliefEffects effects{};
+  std::vector<KeySpread> key_spreads{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -169,6 +173,7 @@ struct RotaryAxisBelief {
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
   BeliefEffects effects{};
+  std::vector<KeySpread> key_spreads{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -190,7 +195,8 @@ Belief default_belief(CampaignPlant plant);
 Belief belief_of_silence(CampaignPlant plant);
 // Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
 // key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
-// their simulator has, and what is not known here limits no conclusion.
+// their simulator has, and what is not known here limits no conclusion. [spread] also takes the name of any
+// number of the plant (key_spread.hpp).
 // `key = "?"` is left out, too, with a finding that rules the trials out: its number is still to be written.
 inline constexpr std::string_view kUnknownNumber = "?";
 // Set-up keys that give the radius or the area.

@@ -66,7 +66,12 @@ bool states(const CampaignTrial& trial, const std::string& path) {
 
 std::map<std::string, double> numbers_of(const Belief& belief) {
   std::map<std::string, double> numbers;
-  std::visit([&](const auto& plant) { flatten(plant, "", numbers); }, belief);
+  std::visit(
+      [&](const auto& plant) {
+        flatten(plant, "", numbers);
+        for (const auto& spread : plant.key_spreads) numbers["spread." + spread.name] = spread.sd;
+      },
+      belief);
   return numbers;
 }
 

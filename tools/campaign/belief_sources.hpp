@@ -7,7 +7,7 @@
 
 namespace sandhopper {
 
-// Every number of a belief under "table.key"; absent options are absent, true is 1.
+// Every number of a belief under "table.key", [spread] included; absent options are absent, true is 1.
 std::map<std::string, double> numbers_of(const Belief& belief);
 
 // One number that an answer rests on, and who said it.

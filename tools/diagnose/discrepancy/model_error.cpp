@@ -47,11 +47,12 @@ ModelError at(const Problem& problem, const TrialModel& trial, const Edits& base
               const std::vector<double>& nuisances) {
   const ModelErrorScales& s = kModelErrorScales;
   const VectorXd centre = predicted(problem, trial, base, nuisances);
+  const Edits edits = trial.with_key_spreads(base, nuisances);
   std::vector<MatrixXd> parts;
   VectorXd rest = VectorXd::Zero(centre.size());
   VectorXd one(centre.size()), other(centre.size());
   const auto predict = [&](const Variant& variant, VectorXd& out) {
-    trial.predict_variant(variant, base, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
+    trial.predict_variant(variant, edits, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
     __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);
   };
   for (const auto& [sooner, later] : trial.variants()) {

@@ -179,7 +179,11 @@ MatrixXd in_order(const MatrixXd& m, const std::vector<Index>& order) {
 VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
                    const std::vector<double>& nuisances) {
   VectorXd out(static_cast<Index>(trial.rows.size()));
-  trial.predict(edits, nuisances, {out.data(), static_cast<std::size_t>(out.size())});
+  const std::span<double> rows(out.data(), static_cast<std::size_t>(out.size()));
+  if (trial.has_key_spreads())
+    trial.predict(trial.with_key_spreads(edits, nuisances), nuisances, rows);
+  else
+    trial.predict(edits, nuisances, rows);
   for (Index i = 0; i < out.size(); ++i)
     if (!std::isfinite(out[i])) out[i] = 1e6;
   __atomic_fetch_add(&problem.simulations, 1, __ATOMIC_RELAXED);

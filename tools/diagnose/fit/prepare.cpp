@@ -139,6 +139,7 @@ void take_trials(const Recordings& recordings, Prepared& prepared) {
       prepared.left_out.push_back(recordings.trials[i].name + ": " + why);
       continue;
     }
+    model->add_key_spreads(recordings.beliefs[i]);
     if (!can_be_simulated(*model)) {
       prepared.left_out.push_back(recordings.trials[i].name +
                                   ": what is believed cannot be simulated there (a mass of zero?)");

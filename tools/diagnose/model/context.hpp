@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/campaign/key_spread.hpp"
+
 namespace sandhopper::diagnose {
 
 enum class PlantKind : std::uint8_t { falling_body, rotary_axis, intruder, hopper };
@@ -22,6 +24,8 @@ class Belief {
   std::map<std::string, double> numbers;
   // Effects already in place, "port.effect" or "port.effect[channel]" with their parameters (tools/campaign).
   std::map<std::string, std::map<std::string, double>> effects{};
+  // Numbers that differ from trial to trial by more than a plant knows by itself.
+  std::vector<KeySpread> key_spreads{};
 };
 
 // What a recorded channel looks like over the whole campaign.

@@ -8,6 +8,32 @@
 #include "tools/diagnose/plants/rotary_axis/rotary_axis.hpp"
 
 namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kDerivativeStep = 0.1;  // of a standard deviation; the derivative hardly depends on it
+
+}  // namespace
+
+void TrialModel::add_key_spreads(const Belief& belief) {
+  first_key_spread_ = trial_nuisances.size();
+  for (const auto& spread : belief.key_spreads) {
+    const bool has_an_effect = spread.sd > 0.0 && (!spread.is_relative || belief.value(spread.key) != 0.0);
+    if (!has_an_effect) continue;
+    key_spreads_.push_back(spread);
+    trial_nuisances.push_back({spread.name, spread.sd, kDerivativeStep * spread.sd});
+  }
+}
+
+Edits TrialModel::with_key_spreads(Edits edits, std::span<const double> nuisances) const {
+  for (std::size_t i = 0; i < key_spreads_.size(); ++i) {
+    const double moved = nuisances[first_key_spread_ + i];
+    if (key_spreads_[i].is_relative)
+      edits.scale(key_spreads_[i].key, 1.0 + moved);
+    else
+      edits.add(key_spreads_[i].key, moved);
+  }
+  return edits;
+}
 
 std::unique_ptr<PlantModel> make_plant(PlantKind kind) {
   switch (kind) {

@@ -76,6 +76,12 @@ class TrialModel {
     predict(edits, nuisances, out);
   }
 
+  // A nuisance for each number that `belief` says differs from trial to trial, behind the plant's own.
+  void add_key_spreads(const Belief& belief);
+  // `edits`, then these numbers as `nuisances` put them.
+  Edits with_key_spreads(Edits edits, std::span<const double> nuisances) const;
+  bool has_key_spreads() const { return !key_spreads_.empty(); }
+
   std::size_t nuisance_count() const {
     return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
   }
@@ -94,6 +100,10 @@ class TrialModel {
   std::vector<Coordinate> coordinates;
   // By channel: how much noisier this trial is than the campaign; empty where all are alike.
   std::vector<double> noise_factor;
+
+ private:
+  std::vector<KeySpread> key_spreads_;
+  std::size_t first_key_spread_ = 0;  // its place among the trial's nuisances
 };
 
 // A free-form law at this port: what it is a function of is found out by trying.

@@ -12,6 +12,7 @@ PlannedTrials::PlannedTrials(Problem& problem, std::vector<DoableTrial> doable)
     std::string why;
     auto model = problem.plant->trial(one.trial, one.belief, why);
     if (!model) continue;
+    model->add_key_spreads(one.belief);
     for (auto& row : model->rows) row.measured = 0.0;
     problem.used.emplace_back(model->rows.size(), std::uint8_t{1});
     problem.trials.push_back(std::move(model));

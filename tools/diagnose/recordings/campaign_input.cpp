@@ -128,7 +128,12 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
 Belief flattened(const sandhopper::Belief& belief) {
   Belief flat;
   flat.numbers = numbers_of(belief);
-  std::visit([&](const auto& plant) { flat.effects = plant.effects; }, belief);
+  std::visit(
+      [&](const auto& plant) {
+        flat.effects = plant.effects;
+        flat.key_spreads = plant.key_spreads;
+      },
+      belief);
   return flat;
 }
 

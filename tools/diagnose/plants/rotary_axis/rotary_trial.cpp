@@ -66,7 +66,8 @@ class RotaryTrial final : public TrialModel {
     // Nobody knows the zero of a torque's sensor better than one of its readings, unless he says so.
     const double unsaid_Nm = belief.value("sensors.torque_noise_Nm");
     const double torque_sd = belief.value("spread.torque_offset_Nm", unsaid_Nm);
-    if (torque_sd > 0.0) {
+    has_torque_offset_ = torque_sd > 0.0;
+    if (has_torque_offset_) {
       trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
       trial_nuisances.back().may_lean = belief.numbers.contains("spread.torque_offset_Nm");
     }
@@ -81,7 +82,7 @@ class RotaryTrial final : public TrialModel {
     const auto laws = edits.at(LawPort::axis);
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
-    if (q > 0)
+    if (has_torque_offset_)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
     const std::array clocks{SensorClock(edits, "position_rad"), SensorClock(edits, "velocity_radps")};
@@ -96,6 +97,7 @@ class RotaryTrial final : public TrialModel {
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
       simulate_axis(f, laws, {torque, turned_at_}, stretch, lead_in_s_, position, velocity);
+      read_on_motor_side(edits, torque, position, velocity);
       read_by_angle(edits, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
         const auto& span = spans_[b][channel];
@@ -109,6 +111,20 @@ class RotaryTrial final : public TrialModel {
   }
 
  private:
+  // A shaft that twists: what an encoder on the motor reads of the load's motion.
+  static void read_on_motor_side(const Edits& edits, const Signal& torque, Signal& position,
+                                 Signal& velocity) {
+    const double compliance = edits.edited("axis.compliance_rad_per_Nm", 0.0);
+    if (compliance == 0.0) return;
+    const double of_velocity = compliance * edits.edited("axis.velocity_on_motor_side", 0.0);
+    const double half_s = 0.5 * position.step_s;
+    for (std::size_t i = 0; i < position.values.size(); ++i) {
+      const double t = position.start_s + position.step_s * static_cast<double>(i);
+      position.values[i] += compliance * torque.at(t);
+      velocity.values[i] += of_velocity * (torque.at(t + half_s) - torque.at(t - half_s)) / position.step_s;
+    }
+  }
+
   // What the velocity is read as where that hangs on the angle, too.
   static void read_by_angle(const Edits& edits, const Signal& position, Signal& velocity) {
     for (const auto& edit : edits.sensors)
@@ -336,7 +352,7 @@ class RotaryTrial final : public TrialModel {
   Samples torque_;
   Signal drive_, turned_at_, angle_;  // the last as recorded, smoothed
   std::size_t lead_channel_ = 0;
-  bool drive_acts_ = true;
+  bool drive_acts_ = true, has_torque_offset_ = false;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
   std::vector<AxisStretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;

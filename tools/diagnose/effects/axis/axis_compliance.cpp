@@ -1,0 +1,30 @@
+#include "tools/diagnose/effects/common.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kVisibleTwist_rad = 0.01;  // half a degree at the torque that usually acts
+
+std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  std::vector<EffectParameter> all{{.name = "compliance_rad_per_Nm",
+                                    .typical = kVisibleTwist_rad / c.facts.torque_Nm,
+                                    .low = 0.0,
+                                    .high = c.facts.angle_rad / c.facts.torque_Nm}};
+  if (c.has("velocity_radps")) all.push_back({.name = "velocity_on_motor_side", .shapes = {0.0}});
+  return all;
+}
+
+const EffectRegistration kEffect(
+    {.id = "rig.compliance",
+     .port = Port::geometry,
+     .statement = "The shaft twists under the torque: the motor, whose angle is recorded, leads the load.",
+     .equation = "position = th + c torque; velocity = th' + part c d(torque)/dt",
+     .plants = {PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
+       edits.add("axis.compliance_rad_per_Nm", v[0]);
+       if (v.size() > 1) edits.add("axis.velocity_on_motor_side", v[1]);
+     }});
+
+}  // namespace
+}  // namespace sandhopper::diagnose
