@@ -9,6 +9,7 @@
 
 namespace sandhopper::diagnose {
 
+// at_bound: converged with the first parameter of an effect at one of its bounds.
 enum class FitStatus : std::uint8_t { converged, at_bound, failed };
 
 // Joint fit of effects, tolerances and all nuisances (zeta) through the simulation. Levenberg-Marquardt

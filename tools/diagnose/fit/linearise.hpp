@@ -35,7 +35,7 @@ struct TrialLinear {
 struct FormOf {
   std::vector<std::pair<std::size_t, double>> directions;  // index of a direction, weight
 };
-inline constexpr Eigen::Index kFormKnots = 8;
+inline constexpr Eigen::Index kFormKnots = 8;  // hat functions of one form
 
 struct LineariseOptions {
   const std::vector<FormOf>* forms = nullptr;  // kFormKnots columns each, after the directions

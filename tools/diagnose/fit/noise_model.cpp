@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kOrder = 3;        // greatest order of an autoregression
 constexpr double kTooFewSamples = 30.0;  // a phase with fewer takes the standard deviation of its channel
-constexpr double kTooFewForCorrelation = 200.0;  // and with fewer the channel's autoregression
+constexpr double kTooFewForCorrelation = 200.0;  // a phase with fewer takes the autoregression of its channel
 constexpr double kOutlier = 6.0;  // in robust standard deviations: larger residuals do not count
 // In standard deviations: larger residuals are clipped for the correlation.
 constexpr double kMostOfOne = 4.0;

@@ -9,7 +9,7 @@ namespace sandhopper::diagnose {
 
 // Recorded minus simulated for every row of every trial, with the trial's own nuisances fitted.
 struct Residuals {
-  std::vector<Eigen::VectorXd> before;    // as believed
+  std::vector<Eigen::VectorXd> before;    // with the belief
   std::vector<Eigen::VectorXd> after;     // with the effects that were found
   std::vector<Eigen::VectorXd> held_out;  // the same, with sizes from the other trials only
   std::vector<std::vector<Eigen::VectorXd>>

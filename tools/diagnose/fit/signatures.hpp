@@ -14,7 +14,7 @@ struct Signatures {
   // One candidate with one choice of its shapes (`shape_choices`).
   struct Alternative {
     std::size_t candidate = 0;
-    std::vector<double> values;           // of all parameters; an amplitude is 0 or a listed size
+    std::vector<double> values;           // all parameters; an amplitude is 0 or a listed size
     std::vector<std::size_t> amplitudes;  // indices of parameters, one column each
     std::vector<double> steps;            // step of the derivative, in typical sizes
     Eigen::Index first = 0;               // index of its first column

@@ -21,8 +21,8 @@ struct TrialEvidence {
   double size() const;
   double t() const;  // size / standard error
   double degrees_of_freedom() const;
-  double p_value() const;           // of this candidate alone
-  double standard_error() const;    // of size()
+  double p_value() const;           // for this candidate alone, not corrected for the others
+  double standard_error() const;    // standard deviation of size()
   double effective_trials() const;  // (sum I)^2 / sum I^2
   // Drop of the deviance of held-out trials, each with the size from the other trials; at least 0:
   //   sum_t b_t (2 u_t - b_t I_t),   b_t = sum_{s != t} u_s / sum_{s != t} I_s

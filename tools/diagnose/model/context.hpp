@@ -48,7 +48,7 @@ struct PlantFacts {
   std::optional<double> floor_distance_m{};  // smallest distance of the foot from the floor of the container
   bool position_is_out_of_time = false;      // see intruder_motion.hpp
   double wetted_over_m = 0.0;                // length of a body that enters a liquid; 0: none does
-  double temperature_K = 0.0;                // of the hottest motor above 25 C
+  double temperature_K = 0.0;                // hottest motor above 25 C
   std::vector<double> ripple_orders{};       // candidates for periods per revolution of a torque ripple
 };
 

@@ -24,7 +24,7 @@ struct EffectParameter {
   double base = 0.0;
   double scale = 1.0;            // 0: the reported number is `base`, read off the data
   double resolution = 0.0;       // half-width of its reported interval where scale is 0
-  bool amplitude = false;        // of a later parameter: 0 switches off a part of the effect
+  bool amplitude = false;        // for a later parameter: 0 switches off a part of the effect
   double power = 1.0;            // reported as (base + scale * value)^power
   bool other_law_above = false;  // at its upper bound the law is another effect: such a fit is rejected
   // More values to screen. Shape: each is a separate start. Amplitude: sizes at which the derivative is taken

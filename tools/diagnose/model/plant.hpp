@@ -31,7 +31,7 @@ struct Row {
 struct Nuisance {
   std::string name;
   double sd = 1.0;
-  double step = 0.01;  // of the numerical derivative
+  double step = 0.01;  // step of the numerical derivative, in the nuisance's unit
   std::string port{};  // named in the answer if the nuisance is shifted alike in all trials; empty: no port
   // True if a common shift in all trials is evidence of missing physics. False for timing conventions of the
   // recording, and if the belief states no spread.
@@ -134,7 +134,7 @@ struct DoableTrial {
 struct BrokenRule {
   std::string id;
   Port port{};
-  std::string statement, equation;  // as in Effect
+  std::string statement, equation;  // same as in Effect
   std::string parameter;            // name with unit
   double value = 0.0, low = 0.0, high = 0.0;
 };
@@ -143,6 +143,8 @@ struct BrokenRule {
 class PlantModel {
  public:
   virtual ~PlantModel() = default;
+  // Names of the predicted channels, and of the phases of a trial. Row::channel and Row::phase are indices
+  // into them.
   virtual std::vector<std::string> channels() const = 0;
   virtual std::vector<std::string> phases() const = 0;
   // Share of the explained deviance that may remain because the true law has another form than the listed

@@ -12,7 +12,7 @@ struct BodyState {
   double time_s = 0.0;  // since the release
   double height_m = 0.0;
   double velocity_mps = 0.0;
-  double depth_m = 0.0;         // of its lowest point under the surface
+  double depth_m = 0.0;         // depth of its lowest point under the surface
   double start_height_m = 0.0;  // at the release
 };
 
@@ -29,7 +29,7 @@ struct AxisState {
   double time_s = 0.0;
   double angle_rad = 0.0;
   double velocity_radps = 0.0;
-  double torque_Nm = 0.0;   // of the drive; of a leg the sum of both motors
+  double torque_Nm = 0.0;   // drive torque; for a leg the sum of both motors
   double turned_rad = 0.0;  // angle at the last reversal of the motion
 };
 
@@ -70,7 +70,7 @@ struct SensorState {
   double time_s = 0.0;
   double value = 0.0;
   double rate = 0.0;
-  double temperature_C = 25.0;  // of the motors
+  double temperature_C = 25.0;  // temperature of the motors
 };
 
 using PortState =

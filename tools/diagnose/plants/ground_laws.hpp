@@ -28,7 +28,7 @@ class GroundLaws final : public BedExtension {
   // Time that the laws see from now on, s.
   void at_time(double time_s) { time_s_ = time_s; }
   void pushed() { history_.pushes += 1.0; }  // counts one more push
-  // Tells if the foot is below the surface now. The time since touch starts when it enters.
+  // Sets if the foot is below the surface now. The time since touch starts when it enters.
   void touching(bool now) {
     if (now && !touching_) touched_s_ = time_s_;
     touching_ = now;

@@ -14,7 +14,7 @@ Belief flattened(const sandhopper::Belief& belief);
 
 struct CampaignInput {
   Recordings recordings;
-  std::vector<Finding> findings;  // of campaign.toml and of every recording
+  std::vector<Finding> findings;  // from campaign.toml and from every recording
   std::size_t unusable = 0;       // number of trials that cannot be used
 };
 

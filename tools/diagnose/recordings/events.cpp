@@ -14,7 +14,7 @@ constexpr std::size_t kStretches = 40;           // stretches for each possible 
 // Least mean square over the noise; the event itself has raised the noise.
 constexpr double kFarFromEvent = 9.0;
 constexpr double kFartherThanAny = 25.0;  // least ratio to the mean square of the next stretch
-constexpr double kFewestRows = 10.0;      // of a stretch
+constexpr double kFewestRows = 10.0;      // rows of a stretch
 
 struct EventStretch {
   Event event;

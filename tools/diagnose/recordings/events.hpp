@@ -12,7 +12,7 @@ struct Event {
   std::size_t trial = 0;  // index in Problem::trials
   double from_s = 1e300, to_s = -1e300;
   std::string channel;        // with the largest residual relative to its noise
-  double furthest = 0.0;      // that residual, in the channel's unit
+  double furthest = 0.0;      // largest residual there, in the channel's unit
   double times_others = 0.0;  // rms residual over the noise, relative to that of the next stretch
 };
 

@@ -41,7 +41,7 @@ struct FallingMotion {
 // Start of one trial. A *_nuisance is the index of the trial's nuisance that shifts it; -1: none.
 struct Fall {
   Belief belief;
-  double payload_kg = 0.0;  // as the experimenter weighed it
+  double payload_kg = 0.0;  // set-up value payload_kg
   bool bed = false, held = false;
   double length_m = 0.0;    // length of a body that enters a liquid, else 0
   double surface_m = 0.0;   // height of that liquid's surface

@@ -41,7 +41,7 @@ AtTime local_fit(const Samples& samples, double time_s, double half_s) {
 
 struct BodyHeight {
   Samples samples;
-  double half_s = 0.02;
+  double half_s = 0.02;  // half-width of a local fit
 };
 BodyHeight body_height(const Trial& trial) {
   BodyHeight height{samples_of(trial, "mocap_body_z_m"), 0.02};

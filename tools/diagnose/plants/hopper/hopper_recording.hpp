@@ -12,6 +12,7 @@ namespace sandhopper::diagnose {
 
 inline constexpr double kTick_s = 1e-3;  // cycle of the hopper's controller
 
+// State of the plant at the start of a hop.
 struct HopStart {
   double from_s = 0.0;
   PlantState state{};

@@ -49,7 +49,7 @@ struct ChannelSource {
   const char* sensor;  // prefix of the sensor's keys in the belief
   const char* unit;
   std::size_t every;  // one sample in so many is used; the others of a fast channel add little
-  std::optional<TrialNuisance> offset{}, scale{}, age{};
+  std::optional<TrialNuisance> offset{}, scale{}, age{};  // nuisances of the reading, if it has them
 };
 inline constexpr std::array<ChannelSource, 14> kSources{
     {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
@@ -140,7 +140,7 @@ class HopperTrial final : public TrialModel {
   }
 
   mutable HopperRuns runs_;
-  mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // by a span's first row
+  mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // key: first row of a span
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;

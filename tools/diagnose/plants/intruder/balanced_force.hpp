@@ -11,7 +11,8 @@ inline constexpr double kBalanced_N = 1e-6;  // accuracy of the force's balance
 template <class Force>
 double bracketed_N(const Force& f) {
   constexpr int kMost = 30;
-  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
+  // `above`, `below`: f(F) - F at both ends.
+  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;
   double force_N = high;
   int side = 0;
   for (int i = 0; i < kMost && high - low > kBalanced_N; ++i) {

@@ -9,8 +9,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kFewSamples = 10;
-constexpr double kAccelError = 0.01;  // relative error of an acceleration: the sensor's scale
+constexpr std::size_t kFewSamples = 10;  // a channel with no more samples counts as not recorded
+constexpr double kAccelError = 0.01;     // relative error of an acceleration: the sensor's scale
 
 double largest(const std::vector<double>& values) {
   double most = 0.0;

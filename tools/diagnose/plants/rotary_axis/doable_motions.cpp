@@ -86,6 +86,7 @@ bool is_within(const std::vector<double>& values, double most) {
   return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= most; });
 }
 
+// A motion to be planned: a target to follow, or a release if there is no target.
 struct Wish {
   std::string profile;  // empty: hold
   std::map<std::string, double> setup;

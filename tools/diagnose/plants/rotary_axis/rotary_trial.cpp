@@ -33,13 +33,15 @@ bool speed_of_encoder(const Belief& belief) {
 namespace {
 
 constexpr double kBlock_s = 0.5;
-constexpr double kMostRows = 3000.0;    // per channel
-constexpr double kLong_s = 4.0;         // a recording this long is simulated in longer steps
-constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
-constexpr double kLeadIn_s = 0.008;     // simulated before a block, because late readings still show it
+constexpr double kMostRows = 3000.0;  // per channel
+constexpr double kLong_s = 4.0;       // a recording this long is simulated in longer steps
+// Least rows of a block; those of a slow recording are longer than kBlock_s.
+constexpr std::size_t kBlockRows = 60;
+constexpr double kLeadIn_s = 0.008;  // simulated before a block, because late readings still show it
 // A longer gap of the torque, in s and in rows, is not simulated.
 constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
-// Nor is a shorter gap (s, rows) that is this far from the next one: enough is left to simulate.
+// A shorter gap (s, rows) is not simulated either if the next one is this far away: enough is left to
+// simulate.
 constexpr double kGap_s = 5e-3, kGapRows = 2.5, kAlone_s = 0.3;
 constexpr double kShortest_s = 0.1;     // shortest stretch between two gaps
 constexpr double kTimeConstants = 4.0;  // lead-in of a low-pass, until it has forgotten its start
@@ -129,7 +131,7 @@ class RotaryTrial final : public TrialModel {
   // Acting torque per recorded torque, for the noise of the torque sensor: the gain, times the slope of the
   // drive's laws at this torque (saturation).
   double acting_per_recorded(const Edits& edits, double time_s) const {
-    constexpr double kApart = 1e-3;  // of the torque
+    constexpr double kApart = 1e-3;  // step as a share of the torque
     double gain = 1.0;
     std::vector<const Law*> laws;
     for (const auto& edit : edits.sensors) {
