@@ -14,21 +14,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Relative drop of the deviance: a fit without iterations left is settled below this.
 constexpr double kSettled = 0.01;
-constexpr int kNuisanceSteps = 3;       // of a trial at each point that is tried
-constexpr double kNuisanceGain = 0.03;  // of the deviance: less is not worth a simulation
-constexpr double kSpeedsUp = 2.0;       // an iteration may gain so many times what the last one did
-constexpr int kAttempts = 3;
-constexpr double kStale = 0.1;      // of a standard deviation: derivatives made further away are made anew
-constexpr double kGone = 0.5;       // of the deviance: less is not worth another round
-constexpr int kOwnRounds = 5;       // of one trial
-constexpr double kOwnGain = 0.1;    // of its deviance: less is not worth a step
-constexpr double kFar = 0.01;       // of what lies beyond the rows: as closely it is fitted
-constexpr double kHeld = 0.25;      // of what a step promised
-constexpr double kExhausted = 0.3;  // of what they brought so far: a smaller step ends their use
-constexpr double kWorse = 1.0;      // of a trial's deviance
+constexpr int kNuisanceSteps = 3;       // most steps of a trial's nuisances at each point that is tried
+constexpr double kNuisanceGain = 0.03;  // predicted drop of the deviance below which the nuisances stay
+constexpr double kSpeedsUp = 2.0;       // a later iteration may gain at most this many times the last gain
+constexpr int kAttempts = 3;            // most damping values in one step
+constexpr double kStale = 0.1;    // in standard deviations: derivatives from farther away are recomputed
+constexpr double kGone = 0.5;     // drop of the deviance in settle_each() below which the fit ends
+constexpr int kOwnRounds = 5;     // most steps of one trial in settle_each()
+constexpr double kOwnGain = 0.1;  // least predicted drop of a trial's deviance for a step of that trial
+// Accuracy where the deviance is far above the number of rows: share of the excess.
+constexpr double kFar = 0.01;
+constexpr double kHeld = 0.25;  // share of the predicted drop that an accepted step of a trial brings
+// Share of the total gain of these derivatives: after a smaller step they are recomputed.
+constexpr double kExhausted = 0.3;
+constexpr double kWorse = 1.0;  // rise of a trial's deviance after which its old nuisances are tried, too
 
-// Moves by `step` (typical sizes, then tolerances), inside the bounds. True when a bound was met.
+// Moves the parameters by `step`, in the order of parameter_directions(), and clamps them to their bounds.
+// Returns true if the first parameter of an effect met a bound.
 bool move(const Problem& problem, Point& point, const VectorXd& step) {
   bool bounded = false;
   Index at = 0;
@@ -47,7 +51,7 @@ bool move(const Problem& problem, Point& point, const VectorXd& step) {
   return bounded;
 }
 
-// One trial at a point: its nuisances, what they predict and how far off that is.
+// State of one trial at a point: nuisances, their prediction, and the deviance with the nuisances' prior.
 struct TrialState {
   std::vector<double> nuisances;
   VectorXd prediction;
@@ -64,7 +68,7 @@ void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialSt
     state.deviance += std::pow(state.nuisances[i] / trial.sd_of(i), 2);
 }
 
-// The nuisances of one trial follow by themselves (Levenberg-Marquardt): each trial at its own pace.
+// Fits the nuisances of one trial alone by Levenberg-Marquardt; effects and tolerances stay.
 void settle(const Problem& problem, std::size_t t, const Edits& edits,
             const std::vector<KeptColumns>& columns, double far_gain, TrialState& state) {
   double damping = 0.0;
@@ -84,7 +88,7 @@ void settle(const Problem& problem, std::size_t t, const Edits& edits,
   }
 }
 
-// Everything that a fit moves.
+// The present point of a fit, and its steps.
 class Fitter {
  public:
   Fitter(const Problem& problem, const Point& start, const FitOptions& options)
@@ -105,7 +109,8 @@ class Fitter {
     if (given_->empty()) refresh();
   }
 
-  // One step of all parameters; the drop of the deviance, 0 where none was found or promised.
+  // One Levenberg-Marquardt step of all parameters. Returns the drop of the deviance; 0 if no damping lowers
+  // it, or if the predicted drop is below `least_gain`.
   double step(double least_gain) {
     const auto directions = parameter_directions(problem_, at_.point);
     const Edits edits = edits_for(problem_, at_.point.hypothesis, at_.point.tolerances);
@@ -122,7 +127,7 @@ class Fitter {
       score += trial.gram.col(0).tail(k);
     }
     add_priors(problem_, at_.point, information, score);
-    // What the step promises; priors are quadratic and exact.
+    // Predicted drop of the deviance. The priors are quadratic, so their part is exact.
     promised = k > 0 ? score.dot(information.ldlt().solve(score)) : 0.0;
     for (std::size_t t = 0; t < linear.size(); ++t)
       promised += std::max(0.0, at_.trials[t].deviance - linear[t].gram(0, 0));
@@ -143,7 +148,7 @@ class Fitter {
         evaluate(problem_, t, moved, trial);
         settle(problem_, t, moved, columns(), far_gain_, trial);
         if (trial.deviance < at_.trials[t].deviance + kWorse) return;
-        // This one was led astray: from where it was.
+        // The predicted step made this trial worse: retry from its previous nuisance parameters.
         TrialState other{at_.trials[t].nuisances, {}, 0.0};
         evaluate(problem_, t, moved, other);
         settle(problem_, t, moved, columns(), far_gain_, other);
@@ -162,7 +167,7 @@ class Fitter {
     return 0.0;
   }
 
-  // Derivatives by nuisances and tolerances as they are here.
+  // Recomputes the derivatives by nuisances and tolerances at the present point.
   void refresh() {
     own_columns_ = columns_at(problem_, point());
     made_for_.assign(at_.trials.size(), {});
@@ -170,8 +175,8 @@ class Fitter {
     damping_ = 1e-3;
   }
 
-  // The nuisances of every trial by themselves, as far as they go, with derivatives made anew wherever they
-  // have moved. The drop of the deviance. `given_here`: the given derivatives were made at the start.
+  // Fits the nuisances of every trial separately, and recomputes its derivatives when they are stale. Returns
+  // the drop of the deviance. `given_here`: the given derivatives were computed at the start.
   double settle_each(bool given_here) {
     if (own_columns_.empty()) {
       own_columns_ = *given_;
@@ -211,12 +216,12 @@ class Fitter {
   }
 
   MatrixXd information;
-  double promised = 0.0;  // drop of the last step, had everything been linear
+  double promised = 0.0;  // predicted drop of the last step, in the linear model
   bool bounded = false;
 
  private:
   struct At {
-    Point point;  // but for the nuisances
+    Point point;  // the nuisances in it are not used; they are in `trials`
     std::vector<TrialState> trials;
     double deviance = 0.0;
   };
@@ -230,7 +235,8 @@ class Fitter {
     for (const auto& trial : at.trials) at.deviance += trial.deviance;
   }
 
-  // Values of what all trials share, in typical sizes, scales of ports and of tolerances.
+  // Parameters that all trials share: effects in typical sizes, law sizes in scales of the port, tolerances
+  // in their scales.
   std::vector<double> shared() const {
     std::vector<double> out;
     for (std::size_t e = 0; e < at_.point.hypothesis.candidates.size(); ++e) {
@@ -254,8 +260,9 @@ class Fitter {
     return false;
   }
 
-  // One step of a trial's nuisances, as long as it holds what its derivatives promise; where none does (an
-  // event that moves past a row), from where the whole step leads, with derivatives made there.
+  // One step of a trial's nuisances, shortened until it brings a quarter of the predicted drop. If no length
+  // does (an event moves past a row), the full step is taken, the derivatives are recomputed there, and the
+  // fit continues from there. Returns false if nothing is gained.
   bool moves(std::size_t t, const Edits& edits, TrialState& trial) {
     const auto linear = linearise(problem_, t, edits, trial.nuisances, {},
                                   {.columns = &own_columns_, .prediction = &trial.prediction});
@@ -298,7 +305,7 @@ class Fitter {
   double far_gain_;
   At at_;
   std::vector<KeptColumns> own_columns_;
-  std::vector<MadeFor> made_for_;  // where each trial's were made
+  std::vector<MadeFor> made_for_;  // point at which each trial's derivatives were computed
   std::vector<double> first_shared_;
   double damping_ = 1e-3;
 };
@@ -308,16 +315,16 @@ class Fitter {
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options) {
   Fitter fitter(problem, start, options);
   Fit fit;
-  const bool far = problem.kept_columns.empty();  // from where anything was known
+  const bool far = problem.kept_columns.empty();  // no derivatives are kept yet, so `start` may be far off
   bool done = false, given_up = false;
-  double last_drop = 0.0;  // of the deviance, relative
-  double gained = 0.0;     // with derivatives by the nuisances as they are
+  double last_drop = 0.0;  // relative drop of the deviance in the last step
+  double gained = 0.0;     // total drop with the present derivatives
   for (fit.iterations = 0; fit.iterations < options.max_iterations && !done && !given_up; ++fit.iterations) {
     const double drop = fitter.step(0.5 * options.tolerance);
     fit.promised = std::max(0.0, fitter.promised - drop);
     if (drop > 0.0) last_drop = drop / std::max(fitter.deviance(), 1e-300);
     gained += drop;
-    // A fit that leaves far more than its rows is no answer: it stops earlier.
+    // A fit whose deviance stays far above its number of rows is no answer, so it may stop earlier.
     const double near_enough = kFar * (fitter.deviance() - problem.rows());
     const bool settled = drop <= std::max(options.tolerance + 1e-7 * fitter.deviance(), near_enough);
     given_up =
@@ -329,7 +336,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
       continue;
     }
     if (!settled && drop > kExhausted * gained) continue;
-    // These derivatives have brought what they can.
+    // These derivatives gain too little now.
     const double freed = fitter.settle_each(options.columns_made_here);
     done = settled && freed < std::max(kGone, near_enough);
     gained = 0.0;
@@ -338,7 +345,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
   fit.deviance = fitter.deviance();
   fit.trial_deviance = fitter.trial_deviance();
   fit.information = fitter.information;
-  // Out of iterations is a failure only where the last one still gained much.
+  // Without iterations left the fit has failed only if the last one still gained 1 % of the deviance.
   const bool settled = done || (!given_up && last_drop < kSettled);
   fit.status = !settled ? FitStatus::failed : fitter.bounded ? FitStatus::at_bound : FitStatus::converged;
   if (!std::isfinite(fit.deviance)) fit.status = FitStatus::failed;

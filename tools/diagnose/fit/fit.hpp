@@ -9,49 +9,55 @@
 
 namespace sandhopper::diagnose {
 
+// at_bound: converged with the first parameter of an effect at one of its bounds.
 enum class FitStatus : std::uint8_t { converged, at_bound, failed };
 
-// A joint fit of effects, tolerances and all nuisances through the simulation:
-//   Phi = 1/2 sum_t |W (y - yhat)|^2 + 1/2 |(beta / (10 typical))|^2 + 1/2 |tolerance|^2 + 1/2 sum |zeta /
-//   sd|^2
-// by Levenberg-Marquardt; a step counts when simulating it again lowers Phi.
+// Joint fit of effects, tolerances and all nuisances (zeta) through the simulation. Levenberg-Marquardt
+// minimises
+//   Phi = 1/2 sum_t |W (y - yhat)|^2 + 1/2 |beta / (10 typical)|^2 + 1/2 |tolerance|^2
+//         + 1/2 sum |zeta / sd|^2
+// Shape parameters have the prior ((beta - typical) / typical)^2 instead, and a free law that of
+// free_law_information(). A step is accepted if the simulation at the new point lowers Phi.
 struct Fit {
   Point point;
   FitStatus status = FitStatus::failed;
   double deviance = 0.0;               // 2 Phi
   std::vector<double> trial_deviance;  // without the priors of effects and tolerances
-  // Of effects' parameters (scaled by typical), sizes of a free law's terms, tolerances.
+  // Information matrix of the parameters in the order of parameter_directions(), with their priors and with
+  // the nuisances eliminated.
   Eigen::MatrixXd information;
   int iterations = 0;
-  double promised = 0.0;  // drop of the deviance that the last step hoped for and did not bring
+  double promised = 0.0;  // predicted minus actual drop of the deviance in the last step
 };
 
 struct FitOptions {
   int max_iterations = 24;
-  double tolerance = 0.1;  // of the deviance: less gain than this ends the fit
-  bool refresh = true;     // once steps fall short, go on with derivatives by the nuisances made there
-  const std::vector<KeptColumns>* columns = nullptr;  // until then; the problem's own where not given
-  bool columns_made_here = false;                     // at `start`
-  // Of what a trial is off beyond its rows: nuisances that would follow for less stay.
+  double tolerance = 0.1;  // the fit ends when a step lowers the deviance by less than this
+  bool refresh = true;     // recompute the derivatives by nuisances when steps gain too little
+  // Derivatives by nuisances to begin with; null: Problem::kept_columns.
+  const std::vector<KeptColumns>* columns = nullptr;
+  bool columns_made_here = false;  // these derivatives were computed at `start`
+  // The nuisances of a trial move only if that is predicted to lower its deviance by this share of (deviance
+  // - number of rows).
   double far_gain = 0.0;
-  // Of the deviance: what could not come below it if each iteration left gained twice what the last one did
-  // is given up.
+  // The fit is given up if the deviance would stay above this even if each remaining iteration gained twice
+  // the last gain.
   double of_use_below = std::numeric_limits<double>::infinity();
 };
 
-// From `start`; its nuisances and tolerances are kept as starting values.
+// Fits from `start`, with its nuisances and tolerances as starting values.
 Fit fit_from(const Problem& problem, const Point& start, const FitOptions& options = {});
 
-// Directions of the free parameters of a point: effects', each scaled by its typical size, sizes of a free
-// law's terms, tolerances.
+// The free parameters of a point as directions for linearise(), in this order: parameters of the effects (in
+// typical sizes), sizes of the free law's terms, tolerances.
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);
-// What is believed of them beforehand, added to a fit's information and to its score.
+// Adds the priors of these parameters to an information matrix and a score.
 void add_priors(const Problem& problem, const Point& point, Eigen::MatrixXd& information,
                 Eigen::VectorXd& score);
-// 2 Phi of these priors.
+// Part of the deviance (2 Phi) that comes from these priors.
 double prior_deviance(const Problem& problem, const Point& point);
-// Their information beforehand, without a law. A tolerance that has gone as far as it may is none any more:
-// it is held.
+// Diagonal prior information of the effects' parameters and the tolerances, without a free law. A tolerance
+// at its bound gets 1e12, so that it stays fixed.
 Eigen::VectorXd prior_information(const Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -5,7 +5,7 @@
 #include "tools/diagnose/discrepancy/free_laws.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 
-// The free parameters of a point, and what is believed of them beforehand.
+// The free parameters of a point and their priors.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -13,9 +13,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPriorTypicals = 10.0;
-constexpr double kDerivativeStep = 0.02;  // of a parameter's typical size
-constexpr double kLawStep = 0.01;         // of a free law's scale
+constexpr double kPriorTypicals = 10.0;   // prior standard deviation of an amplitude, in typical sizes
+constexpr double kDerivativeStep = 0.02;  // in typical sizes of the parameter
+constexpr double kLawStep = 0.01;         // in scales of the free law's port
 
 Eigen::Map<const VectorXd> law_sizes(const Hypothesis& hypothesis) {
   return {hypothesis.law_sizes.data(), static_cast<Index>(hypothesis.law_sizes.size())};
@@ -30,7 +30,8 @@ double prior_deviance(const Problem& problem, const Point& point) {
   for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
     const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
-      // Only shapes need holding: an amplitude is what is asked for.
+      // A shape gets a narrow prior around its typical value, because the data may not determine it. An
+      // amplitude gets a wide prior around 0.
       const bool amplitude = is_amplitude(parameters, j);
       const double centre = amplitude ? 0.0 : parameters[j].typical;
       const double sd = amplitude ? kPriorTypicals * parameters[j].typical : parameters[j].typical;
@@ -89,7 +90,7 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
 }
 
 VectorXd prior_information(const Problem& problem, const Point& point) {
-  constexpr double kHeld = 1e12;
+  constexpr double kHeld = 1e12;  // prior information that fixes a tolerance at its bound
   const auto own = static_cast<Index>(point.hypothesis.parameters());
   const auto tolerances = static_cast<Index>(problem.tolerances.size());
   VectorXd prior = VectorXd::Constant(own + tolerances, 1.0 / (kPriorTypicals * kPriorTypicals));

@@ -13,10 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kToleranceStep = 0.1;  // of a tolerance's scale
-constexpr double kNuisanceStep = 0.5;   // at most, of a nuisance's standard deviation
+constexpr double kToleranceStep = 0.1;  // in scales of the tolerance
+constexpr double kNuisanceStep = 0.5;   // greatest step, in standard deviations of the nuisance
 
-// A derivative is taken over no more than the nuisance may plausibly move by.
+// Step of the derivative, limited to the plausible range of the nuisance.
 double step_of(const Nuisance& nuisance) { return std::min(nuisance.step, kNuisanceStep * nuisance.sd); }
 
 struct Centre {
@@ -81,7 +81,7 @@ KeptColumns columns_at(const Problem& problem, const Centre& at) {
   return kept;
 }
 
-// Products of whitened columns: those of `x`, then kept ones in the order of `columns`.
+// Inner products of whitened columns: those of `x`, then the kept ones in the order of `columns`.
 MatrixXd gram_of(const MatrixXd& x, const std::vector<Index>& columns, const KeptColumns& kept) {
   const Index own = x.cols(), more = static_cast<Index>(columns.size());
   const MatrixXd cross = x.transpose() * kept.white_shared;
@@ -99,7 +99,8 @@ MatrixXd gram_of(const MatrixXd& x, const std::vector<Index>& columns, const Kep
   return gram;
 }
 
-// Takes the nuisances of each block out of `gram`; what they become, block by block.
+// Eliminates the nuisances of each block from `gram` (Schur complement). Returns their solution for each
+// block.
 std::vector<MatrixXd> eliminate_blocks(const TrialModel& trial, const std::vector<double>& zeta,
                                        const MatrixXd& x, const std::vector<Index>& columns,
                                        const KeptColumns& kept, double damping, MatrixXd& gram) {
@@ -131,8 +132,8 @@ std::vector<MatrixXd> eliminate_blocks(const TrialModel& trial, const std::vecto
   return solution;
 }
 
-// Eliminates nuisances: blocks one by one, then those of the trial. `x` is whitened, residual first; after
-// its columns come the tolerances `wanted` of the kept ones.
+// Eliminates the nuisances: blocks one by one, then those of the trial. `x` is whitened and begins with the
+// residual; in the result the kept columns `wanted` (tolerances) follow it.
 void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const MatrixXd& x,
                const std::vector<Index>& wanted, const KeptColumns& kept, double damping, TrialLinear& out) {
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
@@ -199,7 +200,7 @@ VectorXd residual_of(const TrialModel& trial, const VectorXd& prediction) {
 
 namespace {
 
-// Columns of FormOf: `plain` holds the directions' derivatives from column 1 on.
+// The columns of `forms`. `derivatives`: one per direction; empty for a tolerance.
 MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
                       const std::vector<VectorXd>& derivatives) {
   const auto rows = static_cast<Index>(trial.rows.size());
@@ -226,14 +227,13 @@ MatrixXd form_columns(const TrialModel& trial, const std::vector<FormOf>& forms,
   return out;
 }
 
-// Columns of one trial while they are gathered. Simulated ones come first, then tolerances; `order` puts
-// them back as they were asked for.
+// Columns of one trial, simulated ones first, then tolerances. `order` restores the order of the directions.
 struct Gathered {
   MatrixXd x;                 // residual and simulated columns
-  std::vector<Index> wanted;  // tolerances, by their place among the kept columns
+  std::vector<Index> wanted;  // tolerances, as indices of kept columns
   std::vector<Index> order{0};
 
-  // Columns behind those asked for, in the result behind the tolerances, too.
+  // Appends columns. In the result they follow all directions, also the tolerances.
   void append(const MatrixXd& more) {
     const Index own = x.cols();
     x.conservativeResize(Eigen::NoChange, own + more.cols());
@@ -265,7 +265,7 @@ Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::v
   return columns;
 }
 
-// With the nuisances free to follow: each plain column minus what they take up.
+// Subtracts from each plain column the part that refitted nuisances take up.
 void let_nuisances_follow(const TrialModel& trial, const KeptColumns& kept, TrialLinear& out) {
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
   const Index nb = kept.block.cols();

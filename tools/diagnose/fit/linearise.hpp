@@ -9,44 +9,48 @@
 
 namespace sandhopper::diagnose {
 
-// A direction in which the simulation may change: prediction(edits) - prediction, divided by `step`.
+// A direction in which the simulation may change. Its derivative is (prediction(edits) - prediction) / step.
 struct Direction {
   Edits edits;
   double step = 1.0;
-  int tolerance = -1;  // where it is one of the problem's tolerances: its column may be a kept one
+  int tolerance = -1;  // >= 0: index of a tolerance; its derivative is a kept column
 };
 
-// One trial at one point: whitened residual in column 0 and one whitened derivative per direction after it,
-// with the trial's nuisances integrated out under their priors.
+// Linear model of one trial at one point. X holds the whitened residual r, then one whitened derivative per
+// direction. The trial's nuisances are eliminated under their priors:
 //   gram  = X'X - X'Z (Z'Z + S^-1)^-1 Z'X,   X = [r, directions], Z nuisances, S prior variances
-// so gram(0,0) is the trial's deviance, gram(0,i) the score of direction i, gram(i,j) its information.
+// gram(0,0) is the trial's deviance at the best nuisances, gram(0,i) the score of direction i, and gram(i,j)
+// the information.
 struct TrialLinear {
   Eigen::MatrixXd gram;
-  Eigen::VectorXd residual;  // plain, as recorded minus predicted
-  Eigen::MatrixXd solution;  // change of every nuisance per column of X: dz = s_0 - sum_i s_i b_i
-  Eigen::MatrixXd plain;  // derivatives as they are, and what the nuisances then do; empty unless asked for
+  Eigen::VectorXd residual;  // recorded minus predicted, not whitened
+  // Per column of X: change s of the nuisances; for sizes b_i it is s_0 - sum_i s_i b_i.
+  Eigen::MatrixXd solution;
+  // Columns of X, not whitened, less what the nuisances take up; empty unless asked for.
+  Eigen::MatrixXd plain;
 };
 
-// The signature of something that acts, cut into overlapping stretches of time: hat functions that sum to one
-// times sum_i weight_i direction_i. What its law has another form by, or its size in one trial, lies along
-// these.
+// A signature, sum_i weight_i direction_i, times hat functions of time that sum to one. These columns
+// describe an error in the form of an effect's law, or in its size in one trial.
 struct FormOf {
-  std::vector<std::pair<std::size_t, double>> directions;  // index into them, weight
+  std::vector<std::pair<std::size_t, double>> directions;  // index of a direction, weight
 };
-inline constexpr Eigen::Index kFormKnots = 8;
+inline constexpr Eigen::Index kFormKnots = 8;  // hat functions of one form
 
 struct LineariseOptions {
-  const std::vector<FormOf>* forms = nullptr;          // kFormKnots columns each, after the directions
-  const std::vector<Eigen::MatrixXd>* more = nullptr;  // of every trial: plain derivatives, after the forms
-  bool with_repeatable_error = false;                  // its columns last
-  bool keep_plain = false;
-  bool fresh_columns = false;                         // do not take the kept ones
-  const std::vector<KeptColumns>* columns = nullptr;  // take these, one for every trial
-  const Eigen::VectorXd* prediction = nullptr;        // known already
-  double damping = 0.0;   // of the nuisances: their diagonal grows by this share (Marquardt)
-  std::size_t every = 1;  // of linearise_all: which trials, from the first
+  const std::vector<FormOf>* forms = nullptr;  // kFormKnots columns each, after the directions
+  // Per trial: more derivatives, not whitened; their columns follow the forms.
+  const std::vector<Eigen::MatrixXd>* more = nullptr;
+  bool with_repeatable_error = false;                 // adds the columns of Problem::repeatable_error last
+  bool keep_plain = false;                            // fill TrialLinear::plain
+  bool fresh_columns = false;                         // recompute the derivatives by nuisances
+  const std::vector<KeptColumns>* columns = nullptr;  // derivatives by nuisances to use, one entry per trial
+  const Eigen::VectorXd* prediction = nullptr;        // the prediction at this point, if known
+  double damping = 0.0;   // Marquardt damping of the nuisances: their diagonal grows by this share
+  std::size_t every = 1;  // only for linearise_all: every nth trial, from the first
 };
 
+// Linearises one trial at the edits `base` and its nuisances.
 TrialLinear linearise(const Problem& problem, std::size_t trial, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options = {});
@@ -56,24 +60,24 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
                                        const std::vector<Direction>& directions,
                                        const LineariseOptions& options = {});
 
-// One trial's prediction; where it is not finite, a number that is far from everything.
+// Prediction of one trial; values that are not finite become 1e6. Counts as one simulation.
 Eigen::VectorXd predicted(const Problem& problem, const TrialModel& trial, const Edits& edits,
                           const std::vector<double>& nuisances);
 
-// As recorded minus a prediction.
+// Recorded minus predicted.
 Eigen::VectorXd residual_of(const TrialModel& trial, const Eigen::VectorXd& prediction);
 
-// What the rows of these channels have of the deviance at this point.
+// Part of the deviance that comes from the rows of these channels, without priors.
 double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels);
 
-// The derivatives by nuisances and tolerances at this point, whitened with the noise model as it is now.
+// Derivatives of all trials by tolerances and nuisances at this point, whitened with the present noise model.
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point);
 
-// The same of one trial.
+// The same for one trial.
 KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& base,
                        const std::vector<double>& nuisances);
 
-// Keeps them for what follows.
+// Stores columns_at(point) in Problem::kept_columns.
 void keep_columns(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

@@ -7,11 +7,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kOrder = 3;
-constexpr double kTooFewSamples = 30.0;
-constexpr double kTooFewForCorrelation = 200.0;
-constexpr double kOutlier = 6.0;    // robust standard deviations
-constexpr double kMostOfOne = 4.0;  // standard deviations that one sample counts for
+constexpr std::size_t kOrder = 3;        // greatest order of an autoregression
+constexpr double kTooFewSamples = 30.0;  // a phase with fewer takes the standard deviation of its channel
+constexpr double kTooFewForCorrelation = 200.0;  // a phase with fewer takes the autoregression of its channel
+constexpr double kOutlier = 6.0;  // in robust standard deviations: larger residuals do not count
+// In standard deviations: larger residuals are clipped for the correlation.
+constexpr double kMostOfOne = 4.0;
 
 double median_magnitude(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -21,7 +22,7 @@ double median_magnitude(std::vector<double> values) {
   return *middle;
 }
 
-// Autoregression of the best order up to kOrder by Akaike's criterion; a shorter one where data are few.
+// Autoregression by Levinson's recursion. Its order, at most kOrder, minimises Akaike's criterion.
 Autoregression levinson(const std::vector<double>& correlation, double samples) {
   std::vector<double> a, best;
   double error = 1.0, best_error = 1.0, best_score = 0.0;
@@ -81,7 +82,7 @@ double spread(const std::vector<double>& values, double floor_sd) {
   return std::max(count > 0.0 ? std::sqrt(sum / count) : 0.0, floor_sd);
 }
 
-// Standard deviations of one channel by phase; of the whole channel where a phase has few samples.
+// Standard deviations of one channel by phase. A phase with few samples takes that of the whole channel.
 ChannelNoise levels_of(const Sample& sample, std::size_t channel, std::size_t phases, double floor_sd) {
   ChannelNoise noise;
   std::vector<std::vector<double>> of_phase(phases);
@@ -105,7 +106,7 @@ ChannelNoise levels_of(const Sample& sample, std::size_t channel, std::size_t ph
   return noise;
 }
 
-// Autocorrelation of scaled residuals, outliers limited.
+// Estimates the autoregressions of one channel from its scaled residuals; outliers are clipped.
 void take_correlations(const Sample& sample, std::size_t channel, std::size_t phases, double floor_sd,
                        ChannelNoise& noise) {
   Products all_phases;
@@ -135,8 +136,8 @@ void take_correlations(const Sample& sample, std::size_t channel, std::size_t ph
   for (std::size_t p = 0; p < phases; ++p) {
     const bool enough = products[p].counts[0] >= kTooFewForCorrelation;
     auto correlation = (enough ? products[p] : all_phases).autoregression();
-    // The sensor's own noise is white: whatever else is in the residual, no past predicts it better than
-    // that.
+    // The sensor's own noise is white and cannot be predicted from the past, so it bounds the innovation from
+    // below.
     const double white = std::min(1.0, floor_sd / noise.sd_of_phase[p]);
     correlation.innovation_sd = std::max(correlation.innovation_sd, white);
     noise.correlation_of_phase.push_back(std::move(correlation));
@@ -175,7 +176,7 @@ double NoiseModel::sd(const TrialModel& trial, const Row& row) const {
 void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
                         Eigen::Ref<Eigen::MatrixXd> values) const {
   const std::size_t rows = trial.rows.size();
-  // How many scaled residuals a row has before it in its chain.
+  // Number of used rows directly before each row, in the same channel and block, at most kOrder.
   std::vector<std::uint8_t> before(rows, 0);
   for (std::size_t k = 1; k < rows; ++k)
     if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&

@@ -19,16 +19,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kClockTolerance = 0.15;  // of a sample's period
-constexpr double kRowTolerance =
-    0.5;  // of a row's: a slower sensor's sample stands in the first row after it
-// A low pass that runs once a row is early or late by up to half of one, as it is written.
+// Uncertainty of a sampling instant, as a share of the sample period.
+constexpr double kClockTolerance = 0.15;
+// Upper limit of that, as a share of the row period: a slow sensor's sample is written to the next row.
+constexpr double kRowTolerance = 0.5;
+// A low-pass that is updated once per row is early or late by up to half a row, depending on how it is
+// written. Share of a row: 1 / sqrt(12).
 constexpr double kFilterTolerance = 0.29;
-constexpr double kConversionTolerance = 0.29;  // of a conversion: its mean is half of it old
-constexpr double kPreparedOutlier = 8.0;       // standard deviations
-constexpr std::size_t kRowsPerFreeTerm = 10;
+// Share of a conversion time: a mean over it is half a conversion old.
+constexpr double kConversionTolerance = 0.29;
+constexpr double kPreparedOutlier = 8.0;      // in standard deviations: a larger lone residual is an outlier
+constexpr std::size_t kRowsPerFreeTerm = 10;  // with fewer, the noise is estimated without free laws
 
-// What a converter's grid is.
+// Smallest change between successive samples: the converter's resolution.
 double least_step(const std::vector<Trial>& trials, const std::string& channel) {
   double least = 1e300;
   for (const auto& trial : trials) {
@@ -66,7 +69,7 @@ ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& chann
   return scale;
 }
 
-// What the trials' simulations believe, set-ups included: the median of each number. Effects take their sizes
+// The belief with each number's median over the trials, set-ups included. Effects take their typical sizes
 // from it.
 Belief believed_of_trials(const Recordings& recordings) {
   Belief typical = recordings.belief;
@@ -93,7 +96,7 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
       const double sd =
           rows[k].relative_sd * problem.noise.channel(rows[k].channel).sd_of_phase[rows[k].phase];
       const auto far = [&](Index i) { return std::abs(residuals[t][i]) > kPreparedOutlier * sd; };
-      // A spike stands alone; a mismatch has neighbours.
+      // An outlier is a single row. A mismatch of the model spans several rows.
       const bool alone = far(at) && std::abs(residuals[t][at - 1]) < 0.3 * std::abs(residuals[t][at]) &&
                          std::abs(residuals[t][at + 1]) < 0.3 * std::abs(residuals[t][at]);
       if (alone) problem.used[t][k] = 0;
@@ -101,8 +104,9 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
   }
 }
 
-// A trial in which something rattles is noisier than the others, and must not set their level nor be weighed
-// like them. `residuals` become those of a trial like the others.
+// Finds trials that are much noisier than the others, e.g. because something rattles, and stores their
+// factor. They then neither raise the noise of the others nor count as much. `residuals` are divided by the
+// factor.
 void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
   constexpr double kNoisy = 2.0;
   const std::size_t channels = problem.channels.size();
@@ -169,7 +173,8 @@ void take_channels(const Recordings& recordings, Prepared& prepared) {
   }
 }
 
-// Facts that no recording states and all trials share: times of samples, means over a row, open numbers.
+// Facts that no recording states and all trials share: times of samples, means over a row, numbers that the
+// belief leaves open.
 std::vector<Tolerance> tolerances_of(const Problem& problem) {
   std::vector<Tolerance> tolerances;
   const double row_s = problem.row_s;
@@ -180,7 +185,7 @@ std::vector<Tolerance> tolerances_of(const Problem& problem) {
     const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
     tolerances.push_back(
         {"time of " + channel, std::hypot(sampling_s, filter_s, mean_s), channel, sampling_s});
-    // Nor whether what is written is the value at an instant or the mean over the row, or over the
+    // It is also unknown if a value is the one at an instant, or the mean over the row or over the
     // conversion.
     if (problem.plant->changes_within_rows())
       tolerances.push_back({"mean of " + channel, 1.0, channel, 0.0, "",
@@ -213,7 +218,7 @@ void update_noise(Problem& problem, const Point& point) {
   double terms = 0.0;
   for (const auto& law : signatures.laws)
     if (!takes_up_noise(law.family)) terms += static_cast<double>(law.family.terms.size());
-  // A short recording gives its noise away to so many columns.
+  // In a short recording so many columns would fit the noise.
   if (rows > kRowsPerFreeTerm * terms)
     for (const auto& law : signatures.laws)
       for (Index i = 0; i < static_cast<Index>(law.family.terms.size()) && !takes_up_noise(law.family); ++i)
@@ -249,7 +254,7 @@ void update_noise(Problem& problem, const Point& point) {
   NoiseModel noise = estimate_noise(problem.trial_pointers(), problem.used, residuals, problem.phases.size(),
                                     problem.floor_sd);
   noise.widen(std::sqrt(rows / std::max(0.25 * rows, rows - taken_up)));
-  // A condition is met as closely as it says, whatever the recordings scatter.
+  // A condition (PlantModel::least_sd) keeps its own standard deviation, whatever the residuals are.
   for (std::size_t c = 0; c < problem.channels.size(); ++c)
     if (const double sd = problem.plant->least_sd(problem.channels[c]); sd > 0.0) noise.fix(c, sd);
   take_noise(problem, std::move(noise));

@@ -9,28 +9,28 @@
 
 namespace sandhopper::diagnose {
 
-// What a campaign gives to the fit: its trials with what each is read against.
+// Input of a diagnosis: the trials of a campaign, each with its belief.
 struct Recordings {
   PlantKind plant{};
   Belief belief;
   std::vector<Trial> trials;
-  std::vector<Belief> beliefs;  // per trial: the campaign's with the set-up's own values
+  std::vector<Belief> beliefs;  // per trial: the campaign's belief with the values of the trial's set-up
   Available available{};        // set-ups of the next trial, as the campaign states them
-  std::map<std::string, std::set<std::string>> words{};  // of the recorded set-ups, by key
+  std::map<std::string, std::set<std::string>> words{};  // recorded set-up values that are words, by key
 };
 
 struct Prepared {
   Problem problem;
-  std::vector<std::string> left_out;  // "trial: why"
-  std::vector<std::string> missing_channels;
+  std::vector<std::string> left_out;          // "trial: why"
+  std::vector<std::string> missing_channels;  // never recorded, or constant
 };
 
-// Makes simulations of all trials, candidates, tolerances, and the noise model: fast fluctuation first, then
-// what a regression on every candidate and many free laws together leaves, so that what is missing does not
-// pass for noise.
+// Builds the problem: simulations of all trials, candidates, tolerances, and a first white noise model from
+// the fast fluctuation of the recordings and the believed noise.
 Prepared prepare(const Recordings& recordings);
 
-// Estimates the model error and the noise again at a better point.
+// Estimates the model error and the noise again at a better point. The noise is what a joint regression on
+// all candidates and many laws of free form leaves, so that missing physics does not count as noise.
 void update_noise(Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

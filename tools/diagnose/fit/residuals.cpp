@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What each effect does to the rows of a trial: its amplitudes times their derivatives.
+// Change of a trial's rows by each effect: its amplitudes times their derivatives.
 std::vector<VectorXd> changes(const Problem& problem, const Point& point, const MatrixXd& plain) {
   std::vector<VectorXd> out;
   Index column = 1;
@@ -64,7 +64,7 @@ Residuals residuals_of(const Problem& problem, const Point& null, const Point& p
     score += trial.gram.col(0).tail(k);
   }
   add_priors(problem, point, information, score);
-  // A tolerance that has gone as far as it may stays there; beside the 1 of any other.
+  // A tolerance at its bound stays fixed. add_priors() has already added an information of 1.
   const auto tolerances = static_cast<Index>(point.tolerances.size());
   information.diagonal().tail(tolerances) +=
       prior_information(problem, point).tail(tolerances) - VectorXd::Ones(tolerances);

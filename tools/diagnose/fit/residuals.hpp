@@ -7,22 +7,21 @@
 
 namespace sandhopper::diagnose {
 
-// Recorded minus simulated for every row of every trial, the trial's own nuisances fitted.
+// Recorded minus simulated for every row of every trial, with the trial's own nuisances fitted.
 struct Residuals {
-  std::vector<Eigen::VectorXd> before;    // as believed
-  std::vector<Eigen::VectorXd> after;     // with what was found
-  std::vector<Eigen::VectorXd> held_out;  // the same, its sizes from the other trials
+  std::vector<Eigen::VectorXd> before;    // with the belief
+  std::vector<Eigen::VectorXd> after;     // with the effects that were found
+  std::vector<Eigen::VectorXd> held_out;  // the same, with sizes from the other trials only
   std::vector<std::vector<Eigen::VectorXd>>
-      change;  // [trial][effect of the best set]: what it does to the rows
+      change;  // [trial][effect of the best set]: change of the rows by that effect
 };
 
-// `point`: the answer, perhaps with a law of free form.
+// Residuals at `null` (as believed) and at `point`: the answer, perhaps with a law of free form.
 Residuals residuals_of(const Problem& problem, const Point& null, const Point& point);
 
-// By how much the trials, each left out of what is fitted, are nearer to `residuals.held_out` than to what is
-// believed: sum over rows of squares, in standard deviations. Not whitened: that hides what drifts apart
-// slowly. And by how much less trials then differ in what they are believed to differ by: a bed that grows
-// stiffer from trial to trial shows in nothing else.
+// Drop of the squared residuals of held-out trials against the belief: sum over rows of (before^2 -
+// held_out^2) / sd^2. It is not whitened, because whitening hides slow drifts. The drop of the prior terms of
+// nuisances with `may_lean` is added: a bed that grows stiffer from trial to trial shows only there.
 double held_out_gain(const Problem& problem, const Residuals& residuals, const Point& null,
                      const Point& point);
 

@@ -7,17 +7,17 @@
 
 namespace sandhopper::diagnose {
 
-// How the simulation changes with a little of everything that may be missing at one point: the derivative of
-// every row by each amplitude of each candidate, and by each knot of the laws of free form. Made once there,
-// for the noise model, the screen, repeatable model error and unknown laws.
+// Derivatives of every row at one point by everything that may be missing: each amplitude of each candidate,
+// and each knot of the laws of free form. They are computed once for the noise model, the screen, the
+// repeatable model error and unknown laws.
 struct Signatures {
   // One candidate with one choice of its shapes (`shape_choices`).
   struct Alternative {
     std::size_t candidate = 0;
-    std::vector<double> values;           // shapes; amplitudes are zero
-    std::vector<std::size_t> amplitudes;  // parameters, one column each
-    std::vector<double> steps;            // in typical sizes, over which the derivative was taken
-    Eigen::Index first = 0;               // column
+    std::vector<double> values;           // all parameters; an amplitude is 0 or a listed size
+    std::vector<std::size_t> amplitudes;  // indices of parameters, one column each
+    std::vector<double> steps;            // step of the derivative, in typical sizes
+    Eigen::Index first = 0;               // index of its first column
   };
   struct LawOfFreeForm {
     FreeFamily family;
@@ -25,12 +25,12 @@ struct Signatures {
   };
   std::vector<Alternative> alternatives;
   std::vector<LawOfFreeForm> laws;
-  // Of every trial: rows in their units, per typical size of an amplitude or scale of a port.
+  // Per trial: derivatives in the rows' units, per typical size of an amplitude or per scale of a port.
   std::vector<Eigen::MatrixXd> columns;
 };
 
 struct SignatureOptions {
-  bool laws = true;  // of free form, too
+  bool laws = true;  // include laws of free form
 };
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options = {});
 

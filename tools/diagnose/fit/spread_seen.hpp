@@ -5,11 +5,12 @@
 
 namespace sandhopper::diagnose {
 
-// How far a torque constant or an accelerometer's scale may be off is believed as what trials differ by, but
-// trials of one robot mostly share it. Where a fit shows that they differ far less than that or than by what
-// they are off together, the nuisance's standard deviation becomes twice what is seen, at least a twentieth
-// of what was believed, and begins again at nothing: what all share is an effect's to explain. Returns where
-// a search may begin with these effects; empty where no nuisance changed.
+// Corrects the spread of nuisances that all trials share. The belief states how far a torque constant or an
+// accelerometer's scale differs between trials, but trials of one robot mostly share one value. If a fit
+// shows a spread far below the believed one, or far below the shared shift, the prior standard deviation
+// becomes twice the spread seen, and at least a twentieth of the believed one. The nuisance then restarts at
+// 0, because an effect should explain the shared value. Returns starting points for a search with these
+// effects; empty if no nuisance changed.
 std::vector<Point> take_spread_as_seen(Problem& problem, Point& point);
 
 }  // namespace sandhopper::diagnose

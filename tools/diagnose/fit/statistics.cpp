@@ -9,7 +9,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kModelTrials = 4.0;
+constexpr double kModelTrials = 4.0;  // nu0 of TrialEvidence
 
 using StudentT = boost::math::students_t;
 
@@ -22,7 +22,7 @@ double sum(const std::vector<double>& values) {
 }  // namespace
 
 double student_t_two_sided(double t, double nu) {
-  if (std::isnan(t)) return 1.0;  // says nothing
+  if (std::isnan(t)) return 1.0;  // no evidence
   return 2.0 * cdf(complement(StudentT(nu), std::abs(t)));
 }
 

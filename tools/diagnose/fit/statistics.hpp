@@ -5,40 +5,40 @@
 
 namespace sandhopper::diagnose {
 
-// Two-sided tail probability of Student's t; 1 where t is no number.
+// Two-sided tail probability of Student's t; 1 if t is NaN.
 double student_t_two_sided(double t, double degrees_of_freedom);
-// Value that a two-sided probability belongs to.
+// The value of t with this two-sided tail probability.
 double student_t_quantile(double two_sided, double degrees_of_freedom);
 
-// One number of evidence per trial: score u_t and information I_t of an effect's size b, whose best value is
-// sum u / sum I. Its variance is taken between trials, held up by what the noise alone would give as if that
-// came from `kModelTrials` trials more:
-//   var = (nu0 sum I + sum (u_t - b I_t)^2 T) / (nu0 + T - 1)
+// Evidence for the size b of an effect, trial by trial: score u_t and information I_t. The best b is sum u /
+// sum I. Its variance is the scatter between trials, regularised as if nu0 = 4 more trials had shown the
+// variance of the noise alone:
+//   standard error = sqrt(var) / sum I,   var = (nu0 sum I + T sum (u_t - b I_t)^2) / (nu0 + T - 1)
 struct TrialEvidence {
   std::vector<double> score;
   std::vector<double> information;
 
   double size() const;
-  double t() const;  // of size / its error
+  double t() const;  // size / standard error
   double degrees_of_freedom() const;
-  double p_value() const;           // one candidate alone
-  double standard_error() const;    // of size
+  double p_value() const;           // for this candidate alone, not corrected for the others
+  double standard_error() const;    // standard deviation of size()
   double effective_trials() const;  // (sum I)^2 / sum I^2
-  // Drop of the deviance of trials that the size was not fitted to, each taking it from the others:
+  // Drop of the deviance of held-out trials, each with the size from the other trials; at least 0:
   //   sum_t b_t (2 u_t - b_t I_t),   b_t = sum_{s != t} u_s / sum_{s != t} I_s
   double held_out_drop() const;
 };
 
-// Largest |sum s_t u_t| / sqrt(sum I_t) over candidates, for every choice of signs s_t (all of them up to
-// 2^11, else 2,000 drawn from `seed`): how often it reaches that of `chosen`. The family-wise probability
-// that trials agree by chance.
+// Sign-flip test. The statistic is the largest |sum s_t u_t| / sqrt(sum I_t) over the candidates. Returns the
+// probability that it reaches that of `chosen` for random signs s_t, which is family-wise. All 2^(T-1)
+// choices of signs up to T = 12 trials, else 2,000 drawn from `seed`.
 double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed);
 
-// Wilcoxon's signed-rank test, exact, one-sided: how often the ranks of positive values sum to as much if
-// every sign is as likely as the other. Ties share no rank: the earlier one has the lower.
+// Wilcoxon's signed-rank test, exact and one-sided: probability of a rank sum of the positive values that is
+// at least as large, if both signs are equally likely. Ties get no mean rank: the earlier one has the lower.
 double signed_rank_p_value(const std::vector<double>& values);
 
-// The upper of two in the middle; 0 of none.
+// Median; for an even number the upper of the two middle values. 0 if empty.
 double median(std::vector<double> values);
 
 }  // namespace sandhopper::diagnose

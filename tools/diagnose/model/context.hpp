@@ -11,8 +11,8 @@ namespace sandhopper::diagnose {
 
 enum class PlantKind : std::uint8_t { falling_body, rotary_axis, intruder, hopper };
 
-// What the simulation believes: every number of nominal.toml under "table.key"; a key that is absent is "no
-// such effect".
+// The believed model: every number of nominal.toml under "table.key". An absent key takes the caller's
+// default, which mostly means that the effect is not modelled.
 class Belief {
  public:
   double value(const std::string& key, double otherwise = 0.0) const {
@@ -28,39 +28,39 @@ class Belief {
   std::vector<KeySpread> key_spreads{};
 };
 
-// What a recorded channel looks like over the whole campaign.
+// Range, noise and resolution of one recorded channel over the whole campaign.
 struct ChannelScale {
   double low = 0.0, high = 0.0;
-  double noise_rms = 0.0;      // of one sample, from its own fast fluctuation
+  double noise_rms = 0.0;      // standard deviation of one sample, from fluctuation_rms (plants/inputs.hpp)
   double step_s = 1e-3;        // median time between samples
-  double share_at_high = 0.0;  // samples that sit exactly on the largest and smallest value
-  double share_at_low = 0.0;
-  double grid = 0.0;  // least step between values that differ
+  double share_at_high = 0.0;  // share of the samples that equal `high`
+  double share_at_low = 0.0;   // share of the samples that equal `low`
+  double grid = 0.0;           // smallest change between successive samples: the sensor's resolution
 };
 
-// A plant's sizes, from the recordings and the belief: effects take their typical sizes from them. A size
-// that a plant does not have keeps its default.
+// Characteristic sizes of the plant in this campaign, from the recordings and the belief. Effects scale the
+// typical values of their parameters by them. A size that does not apply to a plant keeps its default.
 struct PlantFacts {
   double weight_N = 1.0, force_N = 1.0, torque_Nm = 1.0;
   double speed_mps = 1.0, speed_radps = 1.0;
-  double angle_rad = 1.0;  // range of the motion
-  bool moves = true;       // false: an axis that is held still, which shows no friction
+  double angle_rad = 1.0;  // largest |angle| of a rotary axis; range of a leg's angle
+  bool moves = true;       // false: the axis is held still, so its friction is not observable
   bool masses_differ = false;
-  double depth_m = 0.04, foot_radius_m = 0.04;  // of a foot in the bed
-  double foot_radius_ratio = 1.0;               // largest to smallest
-  double range_of_pushes = 0.0, range_of_wait_s = 0.0;
-  std::optional<double> floor_distance_m{};  // least that was left under the foot
-  bool position_is_out_of_time = false;
-  double wetted_over_m = 0.0;  // length of a body that meets a liquid
-  double temperature_K = 0.0;  // of the hottest motor over that of a room
-  std::vector<double> ripple_orders{};
+  double depth_m = 0.04, foot_radius_m = 0.04;          // depth in the bed; radius of the foot
+  double foot_radius_ratio = 1.0;                       // largest to smallest radius over the trials
+  double range_of_pushes = 0.0, range_of_wait_s = 0.0;  // largest minus smallest value of the set-up
+  std::optional<double> floor_distance_m{};  // smallest distance of the foot from the floor of the container
+  bool position_is_out_of_time = false;      // see intruder_motion.hpp
+  double wetted_over_m = 0.0;                // length of a body that enters a liquid; 0: none does
+  double temperature_K = 0.0;                // hottest motor above 25 C
+  std::vector<double> ripple_orders{};       // candidates for periods per revolution of a torque ripple
 };
 
-// What an effect may know when it says what it would look like in this campaign.
+// Input of an effect: from it the effect derives its parameters and their typical sizes.
 struct Context {
   PlantKind plant{};
   Belief belief;
-  std::map<std::string, ChannelScale> channels;  // those that are predicted
+  std::map<std::string, ChannelScale> channels;  // predicted channels whose recordings vary
   PlantFacts facts{};
 
   bool has(const std::string& channel) const { return channels.contains(channel); }

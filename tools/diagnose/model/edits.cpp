@@ -1,6 +1,6 @@
 #include "tools/diagnose/model/edits.hpp"
 
-// Compiled once instead of in every effect.
+// Not inline, because every effect includes edits.hpp.
 namespace sandhopper::diagnose {
 
 void Edits::scale(std::string key, double factor) { belief.push_back({std::move(key), factor, 0.0}); }

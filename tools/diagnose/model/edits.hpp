@@ -10,9 +10,11 @@
 
 namespace sandhopper::diagnose {
 
-// One change of the way from a true quantity to a recorded one. Torque and current that drive the plant pass
-// the same way from "recorded" to "acting": they are the channel "actuator".
+// One change of a measurement, from the true quantity to the recorded one. The recorded torque or current
+// that drives a plant passes the same edits from recorded to acting, under the channel name "actuator".
 struct SensorEdit {
+  // Meaning of `value`: a factor (gain, time_scale), a number in the channel's unit (offset, clip_*), a time
+  // in s (lag_s, delay_s) or a share (mean_share).
   enum class Kind : std::uint8_t {
     gain,
     offset,
@@ -27,28 +29,31 @@ struct SensorEdit {
   std::string channel;
   Kind kind{};
   double value = 0.0;
-  double window_s = 0.0;      // of mean_share: what is recorded is by this share the mean over it, centred
-  Law law{};                  // added to the value
-  std::uint64_t law_key = 0;  // tells laws apart, which cannot be compared; 0: not known
+  // Only for mean_share: the reading is (1 - value) x + value times the mean of x over this centred window
+  double window_s = 0.0;
+  Law law{};  // only for kind law: added to the reading
+  // Identifies `law` for caching, because functions cannot be compared; 0: unknown
+  std::uint64_t law_key = 0;
 };
 
+// A number of the belief becomes value * factor + addend.
 struct BeliefEdit {
   std::string key;
   double factor = 1.0;
   double addend = 0.0;
 };
 
-// Everything a set of effects changes in a simulation; empty is the belief as it stands.
+// All changes that a set of effects makes to a simulation. Empty: the model as believed.
 struct Edits {
   std::vector<BeliefEdit> belief;
   std::vector<std::pair<LawPort, Law>> laws;
   std::vector<SensorEdit> sensors;
-  // Edits with the same key hold the same laws at ports. 0: not known.
+  // Identifies `laws` for caching: equal keys mean equal laws. 0: unknown.
   std::uint64_t laws_key = 0;
 
   void scale(std::string key, double factor);
   void add(std::string key, double addend);
-  // `law`: a function of the port's state, or of any.
+  // Adds `law` at the port: a function of the port's state (states.hpp) or of any PortState.
   template <class F>
   void law(LawPort port, F law) {
     laws.emplace_back(port, law_of(std::move(law)));
@@ -59,6 +64,7 @@ struct Edits {
     add_sensor_law(std::move(channel), law_of(std::move(law)));
   }
 
+  // `value` of the key after all edits of that key, in their order.
   double edited(std::string_view key, double value) const {
     for (const auto& edit : belief)
       if (edit.key == key) value = value * edit.factor + edit.addend;
@@ -75,13 +81,14 @@ struct Edits {
   void add_sensor_law(std::string channel, Law law);
 };
 
+// Sum of the laws at one state, in the port's unit (ports.hpp).
 inline double sum_of(const std::vector<const Law*>& laws, const PortState& state) {
   double sum = 0.0;
   for (const auto* law : laws) sum += (*law)(state);
   return sum;
 }
 
-// When a sensor's reading with a given stamp was taken: taken = rate stamp - late.
+// Clock of a sensor: a reading with stamp t was taken at rate * t - late_s.
 struct SensorClock {
   SensorClock(const Edits& edits, std::string_view channel, double latency_s = 0.0) : late_s(latency_s) {
     for (const auto& edit : edits.sensors) {

@@ -12,91 +12,93 @@
 
 namespace sandhopper::diagnose {
 
-// A number of an effect. `value = 0` for the first parameter switches the effect off; others only shape it,
-// unless they are amplitudes, too. What is reported is base + scale * value, so that a parameter that bears
-// the name of a nominal.toml key reads like that key.
+// One parameter of an effect. The first one is an amplitude: 0 switches the effect off. Others are shapes
+// unless `amplitude` is set. The report shows (base + scale * value)^power, so that a parameter with the name
+// of a nominal.toml key reads like that key.
 struct EffectParameter {
-  std::string name{};  // with unit
-  double typical = 1.0;
+  std::string name{};    // with unit
+  double typical = 1.0;  // a size that matters; fits work in units of it
   double low = 0.0;
   double high = 1.0;
-  bool either_sign = false;  // starts are tried on both sides
+  bool either_sign = false;  // fits start with both signs
   double base = 0.0;
-  double scale = 1.0;            // 0: read off the data and not fitted, to within
-  double resolution = 0.0;       //   this
-  bool amplitude = false;        // besides the first: zero switches this part off, too
+  double scale = 1.0;            // 0: the reported number is `base`, read off the data
+  double resolution = 0.0;       // half-width of its reported interval where scale is 0
+  bool amplitude = false;        // for a later parameter: 0 switches off a part of the effect
   double power = 1.0;            // reported as (base + scale * value)^power
-  bool other_law_above = false;  // at its upper bound this is not the effect any more
-  // Of a shape: values worth a start of their own. Of what switches it off: sizes at which its signature is
-  // taken, too, where another size acts elsewhere.
+  bool other_law_above = false;  // at its upper bound the law is another effect: such a fit is rejected
+  // More values to screen. Shape: each is a separate start. Amplitude: sizes at which the derivative is taken
+  // as well, because another size acts on other rows.
   std::vector<double> shapes{};
 
   double reported(double value) const {
     const double plain = base + scale * value;
     return power == 1.0 ? plain : std::pow(plain, power);
   }
-  // The other way; a limit that is read off the data is in place or not.
+  // Inverse of reported(). A limit that is read off the data (scale 0) becomes fully active.
   double value_of(double reported) const {
     if (scale == 0.0) return typical;
     return ((power == 1.0 ? reported : std::pow(reported, 1.0 / power)) - base) / scale;
   }
-  // How many typical sizes a value is.
+  // Size of a value relative to the typical one, on the reported scale if power > 0.
   double typicals(double value) const {
     const double plain = std::abs(value) / typical;
     return power > 0.0 && power != 1.0 ? std::pow(plain, power) : plain;
   }
 };
 
-// Where an effect of `port` acts on this plant: a rotary axis' only joint is the axis.
+// Port at which an effect acts on this plant. On a rotary axis the joint is the axis itself.
 Port port_on(PlantKind plant, Port port);
 
-// Whether zero switches it, or its part of the effect, off; the others are shapes.
+// True if the value 0 switches off the effect or a part of it. The other parameters are shapes.
 inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::size_t index) {
   return index == 0 || parameters[index].amplitude;
 }
 
-// A piece of physics, or a fault of a sensor, that a simulation may lack.
-//
-// One file in effects/ each, which registers it; its test says that it acts and is found when alone.
+// A piece of physics, or a sensor fault, that a simulation may lack. Each has one file in effects/, which
+// registers it, and a test that hides it in a small campaign and finds it.
 struct Effect {
-  std::string id{};  // port.effect, as the design's list has it
+  std::string id{};  // "port.effect", e.g. "axis.stribeck"
   Port port{};
   std::string statement{};  // one sentence; {channel} stands for the channel of a sensor's fault
   std::string equation{};
-  std::vector<std::string> same_as{};  // other names of what does just this to the recordings
+  std::vector<std::string> same_as{};  // ids of effects that change the recordings in the same way
   std::vector<PlantKind> plants{};
-  // Channels whose sensor may have it, each a candidate of its own; null for physics.
+  // For a sensor fault: channels whose sensor may have it, each a separate candidate. Null for physics.
   std::function<std::vector<std::string>(const Context&)> channels{};
-  // Empty where this campaign cannot have it.
+  // Parameters in this campaign, for this channel. Empty if the effect cannot occur in it.
   std::function<std::vector<EffectParameter>(const Context&, const std::string& channel)> parameters{};
+  // Adds the effect with these parameter values to `edits`.
   std::function<void(const Context&, const std::string& channel, std::span<const double> values,
                      Edits& edits)>
       apply{};
-  std::string belief_key{};  // of nominal.toml, when the effect is a change of one number there
-  // Puts the effect into the numbers of nominal.toml ("table.key") where it takes several of them; false
-  // where they cannot say it. Null: `belief_key`, or [effects].
+  std::string belief_key{};  // key of nominal.toml, if the effect changes that one number
+  // Writes the effect into the numbers of nominal.toml ("table.key") if it changes several of them. Returns
+  // false if they cannot express it. Null: the corrected model uses `belief_key`, else the table [effects].
   std::function<bool(const Context&, std::span<const double> values, std::map<std::string, double>& numbers)>
       as_keys{};
 };
 
+// Adds an effect to known_effects(). Each effect's file defines one at namespace scope.
 class EffectRegistration {
  public:
   explicit EffectRegistration(Effect effect);
 };
 
-// In alphabetical order of their ids.
+// All registered effects, sorted by id.
 std::vector<Effect> known_effects();
 
-// An effect as it may be in one campaign.
+// An effect that may occur in this campaign; for a sensor fault, in one channel.
 struct Candidate {
   const Effect* effect = nullptr;
   std::string channel;
   std::vector<EffectParameter> parameters;
-  Port port{};  // where the effect acts on this plant
+  Port port{};  // port at which the effect acts on this plant
 
-  // The part of a typical size at which its signature is taken: a law where it acts in earnest, but a change
-  // of time, reading, torque or inertia by its tangent, or the steep edges of a signal, or friction that
-  // gives way, hide it behind its own curvature.
+  // Step for the derivative of the predictions with respect to the amplitude, in typical sizes. A law at a
+  // port gets a large step, because it may act at a finite size only. A change of time, reading, torque or
+  // inertia gets a small one: curvature at steep edges of a signal, or where friction gives way, would
+  // distort a large one.
   double probe() const {
     const Port port = effect->port;
     return port == Port::sensor || port == Port::clock || port == Port::actuator || port == Port::inertia
@@ -107,9 +109,10 @@ struct Candidate {
   std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }
 };
 
-// Where it acts, for the reader: the effect's port, or the channel whose sensor has it.
+// Place of the effect in an answer: the channel with the fault, else the port, else the first part of the id.
 std::string port_of(const Candidate& candidate);
 
+// All effects that may occur in this campaign, with one candidate per channel of a sensor fault.
 std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const Context& context);
 
 }  // namespace sandhopper::diagnose

@@ -16,60 +16,63 @@ namespace sandhopper::diagnose {
 // One recorded sample that the simulation predicts.
 struct Row {
   std::uint32_t channel = 0;  // index into the plant's channels
-  std::uint32_t block = 0;    // stretch that starts from an initial state of its own
+  std::uint32_t block = 0;    // index of the stretch; each starts from its own initial state
   std::uint32_t phase = 0;    // index into the plant's phases
   double time_s = 0.0;
   double measured = 0.0;
-  // Against one sample's: less for a mean of several, more where what the prediction is made from is itself
-  // uncertain.
+  // Standard deviation relative to that of one sample. Below 1 for a mean of several samples, above 1 if the
+  // inputs of the prediction are uncertain.
   double relative_sd = 1.0;
-  double numerical_sd = 0.0;  // that two honest simulations differ by here, in the channel's unit
+  double numerical_sd = 0.0;  // standard deviation between two correct simulations, in the channel's unit
 };
 
-// Something that differs from trial to trial and is fitted along, with the spread that is believed.
+// Nuisance parameter: a quantity that differs from trial to trial. It is fitted in each trial, with a normal
+// prior of mean 0 and standard deviation `sd`.
 struct Nuisance {
   std::string name;
   double sd = 1.0;
-  double step = 0.01;  // of numerical derivatives
-  std::string port{};  // where it acts, if what moves it in all trials alike can be placed by that
-  // Whether it says something where it is off by as much in all trials: not of how readings were written
-  // down, nor where nobody said how far trials differ.
+  double step = 0.01;  // step of the numerical derivative, in the nuisance's unit
+  std::string port{};  // named in the answer if the nuisance is shifted alike in all trials; empty: no port
+  // True if a common shift in all trials is evidence of missing physics. False for timing conventions of the
+  // recording, and if the belief states no spread.
   bool may_lean = true;
-  // A number of the robot, which trials may share as well as differ in (`spread_seen`): the label of the
-  // effect that this is then.
+  // Label of the effect that is the same quantity, if the trials may also share one value of it
+  // (fit/spread_seen.hpp). Empty: none.
   std::string shared_as{};
 };
 
-// What can be told about a row besides its value: the axes on which a mismatch is placed.
+// A quantity that is known for every row, e.g. depth or speed. The answer shows the mismatch over it.
 struct Coordinate {
-  std::string name;            // of a channel or a plant's own, with unit
+  std::string name;            // a channel or a quantity of the plant, with unit
   std::vector<double> values;  // one per row
 };
 
-// Another honest simulation of the same physics: which number of the program is changed, and by how much.
+// Numerical variant of the simulation: the same physics with another step size, or with one recorded event at
+// another time.
 struct Variant {
   enum class Kind : std::uint8_t { none, step, event };
   Kind kind = Kind::none;
-  std::size_t event = 0;  // which of the recorded instants
-  double amount = 0.0;    // factor of the step; rows by which an instant is later
+  std::size_t event = 0;  // index of the recorded event
+  double amount = 0.0;    // step: factor of the step size; event: delay in rows
 
   bool empty() const { return kind == Kind::none; }
 };
-// Two that differ from the simulation in opposite ways, or one alone.
+// Two variants with opposite changes. If there is only one, the other is empty.
 struct VariantPair {
   Variant sooner{}, later{};
 };
 
-// One trial as a simulation: recorded inputs and set-up inside, effects and nuisances as arguments.
+// Simulation of one trial. It holds the recorded inputs and the set-up; effects and nuisances are arguments.
 class TrialModel {
  public:
   virtual ~TrialModel() = default;
 
-  // Predictions for all rows. `nuisances`: those of the trial, then those of each block in turn.
+  // Predictions of all rows, in the units of their channels. `nuisances`: those of the trial, then those of
+  // each block in turn.
   virtual void predict(const Edits& edits, std::span<const double> nuisances,
                        std::span<double> out) const = 0;
 
-  // Simulations that no recording can tell from this one, and what they predict.
+  // Numerical variants that are as correct as this simulation, and their predictions.
   virtual std::vector<VariantPair> variants() const { return {}; }
   virtual void predict_variant(const Variant& /*variant*/, const Edits& edits,
                                std::span<const double> nuisances, std::span<double> out) const {
@@ -86,6 +89,7 @@ class TrialModel {
     return trial_nuisances.size() + static_cast<std::size_t>(blocks) * block_nuisances.size();
   }
 
+  // Prior standard deviation of a nuisance, indexed as in predict().
   double sd_of(std::size_t nuisance) const {
     const std::size_t q = trial_nuisances.size();
     return nuisance < q ? trial_nuisances[nuisance].sd
@@ -93,12 +97,12 @@ class TrialModel {
   }
 
   std::string name;
-  std::vector<Row> rows;  // channel by channel, in time within each channel
+  std::vector<Row> rows;  // sorted by channel, then by time
   std::uint32_t blocks = 1;
   std::vector<Nuisance> trial_nuisances;
   std::vector<Nuisance> block_nuisances;
   std::vector<Coordinate> coordinates;
-  // By channel: how much noisier this trial is than the campaign; empty where all are alike.
+  // Per channel: noise level of this trial relative to the campaign. Empty: 1.
   std::vector<double> noise_factor;
 
  private:
@@ -106,101 +110,109 @@ class TrialModel {
   std::size_t first_key_spread_ = 0;  // its place among the trial's nuisances
 };
 
-// A free-form law at this port: what it is a function of is found out by trying.
+// Port at which a law of free form may be fitted. The variables of the port's state are tried one by one.
 struct FreePort {
-  std::string port;  // of Edits::laws, or a channel for a sensor
+  std::string port;  // name of a LawPort; a channel if `sensor`
   bool sensor = false;
-  double scale = 1.0;  // of the force, torque or reading
-  // So much can be done here that noise itself would pass for it: no part of how large the noise is.
+  double scale = 1.0;  // typical size of the law: force, torque or reading
+  // A law at this port can fit noise, so the noise estimate (update_noise) leaves it out.
   bool takes_up_noise = false;
 };
 
-// What the recorded motion and the belief leave over of one force or torque of one trial, instant by instant,
-// without a simulation: accelerations come from accelerometers, nothing is integrated along the trial. A
-// simulation that was led astray says nothing of where; this still does.
+// Residual of one equation of motion in one trial: at each instant, the force or torque that the recorded
+// motion needs and the belief does not explain. Accelerations are measured or differentiated, and no
+// simulation is needed. A balance therefore still locates missing physics when the simulation of a trial
+// diverges.
 struct Balance {
   std::string port;
-  std::vector<double> rest;  // recorded less believed: N or N m
+  std::vector<double> rest;  // needed minus believed, N or N m
   std::vector<PortState> states;
-  // What effects on the list would leave there, each a shape of free size: sign and size of a speed, an
-  // acceleration, the change of a reading that lags.
+  // Regressors of the listed effects, one value per instant, each with a free size: sign and size of a speed,
+  // an acceleration, the rate of a lagging signal.
   std::vector<std::vector<double>> known;
 };
 
-// A trial that could be done next, as it would be recorded, without noise, if the edits it was planned with
-// are true.
+// A possible next trial: its recording without noise, if the edits given to doable() are true.
 struct DoableTrial {
   Trial trial;
   Belief belief;                             // the campaign's with this set-up's own values
-  std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
-  double cost = 0.0;  // trouble: 1 for something unusual, or twice what was done so far
+  std::map<std::string, std::string> words;  // set-up values that are words, e.g. the profile
+  double cost = 0.0;  // effort: 1 for an unusual set-up, or for twice the largest value so far
 };
 
-// What the recordings contradict by themselves, whatever a simulation may say.
+// A rule of the belief that the recordings themselves contradict; no simulation is needed.
 struct BrokenRule {
   std::string id;
   Port port{};
-  std::string statement, equation;  // as of an effect
-  std::string parameter;
+  std::string statement, equation;  // same as in Effect
+  std::string parameter;            // name with unit
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-// A plant is one file in plants/ that makes one of these.
+// Interface of a plant. Each plant has one folder in plants/; make_plant() makes it.
 class PlantModel {
  public:
   virtual ~PlantModel() = default;
+  // Names of the predicted channels, and of the phases of a trial. Row::channel and Row::phase are indices
+  // into them.
   virtual std::vector<std::string> channels() const = 0;
   virtual std::vector<std::string> phases() const = 0;
-  // The share of what is explained that laws of a true form other than the candidates' may leave.
+  // Share of the explained deviance that may remain because the true law has another form than the listed
+  // one.
   virtual double form_error() const { return 0.05; }
-  // What two programs that simulate this plant by the same equations may differ by, of the noise's power, as
-  // if something acted at that port, or changed "readings" alone: integrators, current loops and instants of
-  // sampling are nobody's physics.
+  // Deviance per row by which two programs with the same equations may differ, as if something acted at this
+  // port. Port "readings": as if only readings changed. Causes are integrators, current loops and sampling
+  // instants.
   virtual double simulations_differ(const std::string& /*port*/) const { return 0.0; }
-  // Standard deviation of a force or torque at each port that differs from trial to trial though nothing is
-  // missing, in the port's scale. 0: not learned for this plant.
+  // Model error: standard deviation of a force or torque at each port that differs from trial to trial
+  // although no physics is missing, in FreePort::scale. 0: not known for this plant.
   virtual double port_error() const { return 0.0; }
   // True for a plant whose forces change within a row: then a channel may record the mean over the row.
   virtual bool changes_within_rows() const { return false; }
-  // Of a channel that is no sensor's but a condition the simulation must meet; 0: a sensor's.
+  // Standard deviation of a channel that is a condition which the simulation must meet, in the channel's
+  // unit. 0: the channel is a sensor.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
-  // Whether a channel is low-passed by what records it, perhaps no more often than it is recorded.
+  // True if the recorder low-passes the channel, perhaps with only one filter step per row.
   virtual bool filtered_in_rows(const std::string& /*channel*/, const Belief& /*belief*/) const {
     return false;
   }
-  // A phase in which nothing acts on what is recorded, if there is one.
+  // Phase in which no force acts on the recorded channel, if there is one.
   virtual std::optional<std::size_t> quiet_phase() const { return std::nullopt; }
-  // Null where the trial has nothing that can be predicted; `why` then says what is missing.
+  // Model of one trial. Null if nothing in the trial can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;
-  // Scales and whatever else the effects ask for.
+  // Fills `context.facts`; `context.belief` and `context.channels` are already set.
   virtual void describe(const std::vector<Trial>& trials, Context& context) const = 0;
+  // Ports at which laws of free form may be fitted.
   virtual std::vector<FreePort> free_ports(const Context& context) const = 0;
-  // Whether a simulation takes long: what a screen puts first is tried, not all, and laws with few knots.
+  // True if one simulation is slow. The search then fits only the best of the screen, and no laws with many
+  // knots.
   virtual bool is_costly() const { return false; }
-  // Whether trials can be simulated with their nuisances as they are believed, before anything is fitted.
+  // True if the trials can be simulated with all nuisances at their prior means, before any fit.
   virtual bool starts_as_believed() const { return false; }
-  // Whether this belief says how far its nuisances differ from trial to trial, and not only that nobody knows
-  // them: then what is off by the same in all trials is something.
+  // True if the belief states how far its nuisances differ from trial to trial. A common shift of a nuisance
+  // in all trials is then evidence of missing physics.
   virtual bool says_how_trials_differ(const Belief&) const { return false; }
-  // By how much the drive may act late or early, as it is written down, s. 0: its torque is a recorded input,
-  // whose time is as unsure as that of what is recorded.
+  // Standard deviation of the drive's recorded timing, s. 0: the torque is a recorded input, as uncertain in
+  // time as the channels are.
   virtual double drive_unsure_s() const { return 0.0; }
-  // Numbers that a belief leaves open, and how far at most.
+  // A number that the belief leaves open; it may be off by +-`most`.
   struct UnsureKey {
     std::string name, belief_key;
     double most = 1.0;
   };
   virtual std::vector<UnsureKey> unsure_keys() const { return {}; }
-  // Motion is recorded, not simulated: no trial's simulation can go astray.
+  // True if the motion is a recorded input, so that no trial's simulation can diverge.
   virtual bool motion_is_prescribed() const { return false; }
-  // Of one trial; none where this plant's recordings do not say enough.
+  // Balances of one trial. None if the plant's recordings do not suffice.
   virtual std::vector<Balance> balances(const Trial& /*trial*/, const Belief& /*belief*/) const { return {}; }
+  // Rules that the trials break; `beliefs`: one for each trial.
   virtual std::vector<BrokenRule> broken_rules(const std::vector<Trial>& /*trials*/,
                                                const std::vector<Belief>& /*beliefs*/) const {
     return {};
   }
-  // Trials like the recorded ones, with set-ups within `reach`; none where planning is not known.
+  // Possible next trials with set-ups within `reach`, simulated with `edits`. None if the plant cannot plan
+  // trials.
   virtual std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
                                           const Edits& edits, const Reach& reach) const {
     (void)recorded, (void)belief, (void)edits, (void)reach;
@@ -210,8 +222,8 @@ class PlantModel {
 
 std::unique_ptr<PlantModel> make_plant(PlantKind kind);
 
-// How long the converter of a channel takes over one sample, s: it may give the mean of that time or its end.
-// 0: not known.
+// Conversion time of one sample of a channel, s. A sample may be the mean over that time or the value at its
+// end. 0: not known.
 double conversion_s(const Belief& belief, const std::string& channel);
 
 }  // namespace sandhopper::diagnose

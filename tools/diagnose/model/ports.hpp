@@ -29,21 +29,21 @@ constexpr std::string_view name_of(Port port) { return kPortNames[static_cast<st
 
 // A place in a simulation at which a law is added. Each shows one kind of state (model/states.hpp).
 enum class LawPort : std::uint8_t {
-  body,              // BodyState; force
-  body_added_mass,   // BodyState; mass that is carried along
-  rail,              // RailState; force
-  axis,              // AxisState; torque
-  joint,             // AxisState; torque on the links, both sides
+  body,              // BodyState; force, N
+  body_added_mass,   // BodyState; added mass of the medium, kg
+  rail,              // RailState; force, N
+  axis,              // AxisState; torque, N m
+  joint,             // AxisState; torque on the links, both sides together, N m
   ground_factor,     // GroundState; the depth law is multiplied by 1 + law
-  ground_static,     // GroundState; added to the depth law, and to the force where unloading begins
+  ground_static,     // GroundState; added to the depth law, also where unloading begins, N
   ground_unloading,  // GroundState; the unloading line's stiffness is multiplied by 1 + law
-  ground_force,      // GroundState; added to the force, everywhere below the surface
-  ground_mass,       // GroundState; an added mass
-  ground_tension,    // GroundState; how far below zero the force may go
-  ground_surface,    // GroundState; added to the depth
+  ground_force,      // GroundState; added to the force everywhere below the surface, N
+  ground_mass,       // GroundState; added mass, kg
+  ground_tension,    // GroundState; largest pull (negative force) of the bed, N
+  ground_surface,    // GroundState; added to the depth, m
   foot_size,         // FootState; logarithm of a factor on the depth law
-  load_cell,         // CellState; force on the cell
-  actuator_limit     // DriveState; largest torque of both motors
+  load_cell,         // CellState; added to the force on the cell, N
+  actuator_limit     // DriveState; largest torque of both motors together, N m
 };
 inline constexpr std::array<std::string_view, 15> kLawPortNames{
     "body",          "body.added_mass",  "rail",          "axis",        "joint",          "ground.factor",

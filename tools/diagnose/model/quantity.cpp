@@ -10,7 +10,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Longer ones first, for one is the end of another.
+// Longer suffixes first, because "_N" also ends "_m_per_N".
 constexpr std::array<std::pair<const char*, const char*>, 27> kUnits{{{"_N_s2_per_m2", "N s²/m²"},
                                                                       {"_kg_per_m3", "kg/m³"},
                                                                       {"_N_s_per_m", "N s/m"},

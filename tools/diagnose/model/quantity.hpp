@@ -4,7 +4,7 @@
 
 namespace sandhopper::diagnose {
 
-// "drag_coefficient" or "viscous_friction_Nm_s" for a reader.
+// A key such as "viscous_friction_Nm_s", split into words and unit for the reader of an answer.
 struct Quantity {
   std::string words;  // "viscous friction"
   std::string unit;   // "N m s"; empty: none
@@ -13,15 +13,17 @@ struct Quantity {
 };
 Quantity quantity_of(const std::string& key);
 
-// A trial for a reader: "drop, release height 2 m, payload 0.1 kg"; the session says nothing about what was
-// done.
+// A trial as text: "drop, release height 2 m, payload 0.1 kg". The key `session` is left out, because it does
+// not describe what was done.
 std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,
                            const std::map<std::string, double>& setup);
 
-// Four digits, no zeros at the end, no exponent between 0.001 and 100,000.
+// Four significant digits; three below 0.001 and from 100,000 on. No trailing zeros, and no exponent between
+// 0.001 and 10,000.
 std::string number(double value);
 
-// A value with its interval, both to two digits of the interval's half width: "0.532 (0.525 to 0.540) N".
+// A value with its interval, both to two digits of the interval's half-width: "0.5320 N (95 %: 0.5250 to
+// 0.5400)".
 std::string with_interval(double value, double low, double high, const std::string& unit);
 
 }  // namespace sandhopper::diagnose

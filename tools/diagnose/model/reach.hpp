@@ -14,17 +14,17 @@ class Reach {
  public:
   // Every set-up that a plant can plan, without regard to what the lab has.
   static Reach anything();
-  // `words`: the recorded set-ups that are no numbers, by key.
+  // `words`: recorded set-up values that are words, by key.
   Reach(const std::vector<Trial>& recorded, Available available,
         std::map<std::string, std::set<std::string>> words);
 
   bool is_anything() const { return anything_; }
-  // Values of a key that can be set to any number: of `grid` those in reach, and the ends of what is in
-  // reach. Empty where the key is neither listed nor recorded.
+  // Values of a continuous key: those of `grid` within the reachable range, and the ends of that range. If
+  // the campaign lists single values, exactly these. Empty if the key is neither listed nor recorded.
   std::vector<double> settings(const std::string& key, const std::vector<double>& grid) const;
-  // Values of a key that stands for a part one has or has not: a plate, a weight.
+  // Values of a key that stands for a physical part, e.g. a plate or a weight: only listed or recorded ones.
   std::vector<double> parts(const std::string& key, const std::vector<double>& grid) const;
-  // True also where no trial says anything under this key.
+  // True if the set-up value `word` is reachable, or if the key is neither listed nor recorded.
   bool allows(const std::string& key, const std::string& word) const;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace sandhopper::diagnose {
 
-// tanh(velocity / switch_speed), good to 3e-8; a library's keeps the digits of small ones as well, which no
-// friction needs, and takes three times as long.
+// tanh(velocity / switch_speed) with an absolute error below 3e-8. std::tanh takes three times as long,
+// because it keeps the relative precision of small values; friction does not need that.
 inline double sign_smooth(double velocity, double switch_speed) {
   const double x = velocity / switch_speed;
   if (std::abs(x) > 9.0) return std::copysign(1.0, x);

@@ -68,7 +68,7 @@ void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std
         break;
       case SensorEdit::Kind::delay_s:
       case SensorEdit::Kind::time_scale:
-        break;  // its clock's
+        break;  // SensorClock applies these
       case SensorEdit::Kind::clip_high:
         high = std::min(high, edit.value);
         break;

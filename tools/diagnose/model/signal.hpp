@@ -14,22 +14,22 @@ struct Signal {
   double step_s = 1e-3;
   std::vector<double> values;
 
-  // Cubic (Catmull-Rom) between grid points, so that a delay of a fraction of a step is a delay; the end
-  // values hold outside.
+  // Value at a time. Cubic (Catmull-Rom) between grid points, so that a delay of a fraction of a step is
+  // represented. Outside the grid the end values hold.
   double at(double time_s) const;
   void low_pass(double time_constant_s);  // first-order, starts settled
 };
 
-// What the belief says about a sensor.
+// Sensor model of the belief; range in the channel's unit.
 struct SensorBelief {
-  double bandwidth_Hz = 0.0;  // 0: none
+  double bandwidth_Hz = 0.0;  // 0: no low-pass
   double latency_s = 0.0;
   double range_low = -1e300;
   double range_high = 1e300;
 };
 
-// Turns a true signal into what a sensor would record at `times_s`: low-pass, lag, delay, gain, offset, added
-// law, range. `signal` is used up.
+// Simulates a sensor: writes the readings of `signal` at `times_s` to `out`. Order: low-pass, lag, delay,
+// mean over a window, gain, offset, law, range. Overwrites `signal`.
 void observe(Signal& signal, const SensorBelief& sensor, const Edits& edits, std::string_view channel,
              std::span<const double> times_s, std::span<double> out);
 

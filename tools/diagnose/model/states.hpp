@@ -9,10 +9,10 @@ namespace sandhopper::diagnose {
 
 // A body in a medium; up is positive.
 struct BodyState {
-  double time_s = 0.0;  // since it was let go
+  double time_s = 0.0;  // since the release
   double height_m = 0.0;
   double velocity_mps = 0.0;
-  double depth_m = 0.0;         // of its lowest point under the surface
+  double depth_m = 0.0;         // depth of its lowest point under the surface
   double start_height_m = 0.0;  // at the release
 };
 
@@ -29,8 +29,8 @@ struct AxisState {
   double time_s = 0.0;
   double angle_rad = 0.0;
   double velocity_radps = 0.0;
-  double torque_Nm = 0.0;   // of the drive; of a leg's both motors
-  double turned_rad = 0.0;  // angle of the last turn
+  double torque_Nm = 0.0;   // drive torque; for a leg the sum of both motors
+  double turned_rad = 0.0;  // angle at the last reversal of the motion
 };
 
 // A foot in the bed; down is positive.
@@ -39,13 +39,14 @@ struct GroundState {
   double depth_m = 0.0;
   double speed_mps = 0.0;
   double virgin = 0.0;          // 1 on the virgin curve (new depth, going down), else 0
-  double quasi_static_N = 0.0;  // at this depth
-  double bearing_N = 0.0;       // the same without any law
-  double deepest_m = 0.0;
-  double pushes = 0.0;  // since the bed was prepared
+  double quasi_static_N = 0.0;  // at this depth, with the laws of ground_factor and ground_static
+  // Force of the bed here before the ground_force laws, at zero foot acceleration
+  double bearing_N = 0.0;
+  double deepest_m = 0.0;  // deepest point so far
+  double pushes = 0.0;     // since the bed was prepared
   double wait_s = 0.0;
-  double bed_depth_m = 0.0;  // 0: not told
-  double since_touch_s = 0.0;
+  double bed_depth_m = 0.0;    // depth of the container; 0: unknown
+  double since_touch_s = 0.0;  // since the foot last went below the surface
 };
 
 // The plate or foot that a bed meets.
@@ -64,18 +65,18 @@ struct DriveState {
   double command_Nm = 0.0;
 };
 
-// The true quantity that a sensor reads; of the channel "actuator" the torque of the current.
+// Quantity that a sensor reads; for the channel "actuator" the torque of the motor current.
 struct SensorState {
   double time_s = 0.0;
   double value = 0.0;
   double rate = 0.0;
-  double temperature_C = 25.0;  // of the motors
+  double temperature_C = 25.0;  // temperature of the motors
 };
 
 using PortState =
     std::variant<BodyState, RailState, AxisState, GroundState, FootState, CellState, DriveState, SensorState>;
 
-// Time of any state; 0 of one that has none.
+// `time_s` of a state; 0 if the state has none.
 inline double time_of(const PortState& state) {
   return std::visit(
       [](const auto& s) {
@@ -87,6 +88,7 @@ inline double time_of(const PortState& state) {
       state);
 }
 
+// Value that an effect adds at a port, in the port's unit (ports.hpp).
 using Law = std::function<double(const PortState&)>;
 
 namespace detail {
@@ -94,8 +96,8 @@ template <class F, class State>
 State state_of(double (F::*)(const State&) const);
 }  // namespace detail
 
-// A function of one kind of state as a law; it throws std::bad_variant_access at a port of another kind. A
-// function of any state stays as it is.
+// Wraps a function of one state type as a Law. Calling it at a port with another state type throws
+// std::bad_variant_access. A function of PortState stays as it is.
 template <class F>
 Law law_of(F f) {
   if constexpr (std::is_invocable_r_v<double, F, const PortState&>) {

@@ -6,8 +6,8 @@
 
 namespace sandhopper::diagnose {
 
-// One recorded trial: rows in time, channels named as recordings name them. NaN: no sample in that row.
-// Times start at the first row; nothing else about the file is known here.
+// One recorded trial: rows in time, channels under the names of the recording. NaN: no sample in that row.
+// Times count from the first row, or for falling bodies from the common start of all trials.
 struct Trial {
   std::string name;  // for the reader of the answer only
   std::string kind;

@@ -1,9 +1,9 @@
 #pragma once
 
-// What effects change in readings and is no recorded channel of its own.
+// Channel names that only sensor edits use; no recording has them.
 namespace sandhopper::diagnose {
 
-// Of a rotary axis, the velocity where what it is read as hangs on the angle; a law of both (AxisState).
+// Rotary axis: error of the velocity reading that depends on the angle. The law takes an AxisState with both.
 inline constexpr const char* kVelocityOfAngle = "velocity_radps of position_rad";
 
 }  // namespace sandhopper::diagnose

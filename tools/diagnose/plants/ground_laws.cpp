@@ -19,7 +19,7 @@ double GroundLaws::deeper_m() const {
   return sum_of(surface_, GroundState{.pushes = history_.pushes, .wait_s = history_.wait_s});
 }
 
-// How deep under the surface, as it is by now.
+// Depth of the container's floor below the present surface; 0: unknown.
 double GroundLaws::floor_m() const {
   return history_.bed_depth_m > 0.0 ? history_.bed_depth_m + deeper_m() : 0.0;
 }

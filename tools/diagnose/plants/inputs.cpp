@@ -36,7 +36,7 @@ double fluctuation_rms(const Samples& s) {
 std::vector<double> last_turns(std::span<const double> position, double least) {
   std::vector<double> turns(position.size());
   std::size_t turn = 0, furthest = 0, done = 0;
-  double sign = 0.0;  // of the motion; 0: none yet
+  double sign = 0.0;  // direction of the motion; 0: unknown yet
   for (std::size_t i = 0; i < position.size(); ++i) {
     const double moved = position[i] - position[furthest];
     if (sign == 0.0) {
@@ -92,7 +92,8 @@ Samples without_repeats(const Samples& s) {
     repeats += run > 0;
     longest = std::max(longest, run);
   }
-  // A held log repeats nearly every value a few times; a resting or stuck sensor repeats one many times.
+  // A log that holds values repeats nearly every value a few times. A resting or stuck sensor repeats one
+  // value many times.
   if (s.value.size() < 20 || static_cast<double>(repeats) < 0.4 * static_cast<double>(s.value.size()) ||
       longest > 60)
     return s;
@@ -106,7 +107,7 @@ Samples without_repeats(const Samples& s) {
 }
 
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz) {
-  constexpr int kPhases = 100, kRates = 15;  // rates to either side
+  constexpr int kPhases = 100, kRates = 15;  // kRates on each side
   constexpr double kAgree = 0.97, kRowsPerTick = 1.02, kRateUnknown = 0.12;
   const auto* values = trial.find(channel);
   if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0) return {};
@@ -140,12 +141,12 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
   try_rate(rate_Hz);
   if (most < enough)
     for (int r = -kRates; r <= kRates; ++r) {
-      // Ticks counted between the first row with a sample and the last are one too many or too few at most.
+      // The number of periods between the first and the last sample is known to within about one.
       const double rate = (periods + 1.2 * r / kRates) / span_s;
       if (std::abs(rate / rate_Hz - 1.0) < kRateUnknown) try_rate(rate);
     }
   if (most < enough) return {};
-  // Of those that suit as well as the best, the mean age.
+  // Mean age over all rates and phases that match as well as the best.
   std::vector<double> ages(fresh.size(), 0.0);
   double count = 0.0;
   for (const auto& ticks : tried) {
@@ -154,7 +155,8 @@ std::vector<double> ages_s(const Trial& trial, const std::string& channel, doubl
       const double at_s = t[fresh[i]];
       const double age_s =
           at_s - (std::floor(at_s * ticks.rate_Hz - ticks.phase) + ticks.phase) / ticks.rate_Hz;
-      // None is older than a row: its tick came just after the row before, or just before this one.
+      // No sample is older than a row. If it seems to be, it was taken just after the previous row or just
+      // before this one, whichever is nearer.
       ages[i] += age_s <= row_s ? age_s : age_s - row_s < 1.0 / ticks.rate_Hz - age_s ? row_s : 0.0;
     }
     ++count;
@@ -221,7 +223,7 @@ Samples means(const Samples& samples, const std::vector<Group>& groups) {
 Signal on_grid(const Samples& s, double start_s, double step_s, std::size_t count, bool hold) {
   Signal signal{start_s, step_s, std::vector<double>(count, 0.0)};
   if (s.empty()) return signal;
-  constexpr double kLost = 3.5;  // samples: over so long a gap no value was held
+  constexpr double kLost = 3.5;  // in median steps: across a longer gap no value holds
   const double usual_s = median_step_s(s.time_s);
   std::size_t k = 0;
   for (std::size_t i = 0; i < count; ++i) {

@@ -6,7 +6,7 @@
 #include "tools/diagnose/model/plant.hpp"
 #include "tools/diagnose/model/signal.hpp"
 
-// What the plants share: recorded channels made into rows and inputs.
+// Functions that all plants share: they turn recorded channels into rows and inputs.
 namespace sandhopper::diagnose {
 
 // Samples of a channel, empty cells left out.
@@ -17,7 +17,8 @@ struct Samples {
 };
 Samples samples_of(const Trial& trial, const std::string& channel);
 
-// Root mean square of a channel's own fast fluctuation: third differences of successive samples, robust.
+// Robust standard deviation of a channel's white noise, from third differences of successive samples. 0 with
+// fewer than 8 samples.
 double fluctuation_rms(const Samples& samples);
 
 // Local fit of a polynomial (degree 2) over `half_width` samples to each side: value, first and second
@@ -27,44 +28,52 @@ struct Smoothed {
 };
 Smoothed smooth(const Samples& samples, std::size_t half_width);
 
-// Where the motion last turned, at each sample: the last extreme from which it came back by more than
-// `least`; before the first one, where it began.
+// Per sample, the position of the last reversal: the last extreme from which the motion came back by more
+// than `least`. Before the first reversal it is the first position.
 std::vector<double> last_turns(std::span<const double> position, double least);
 
+// Median time step, at least 1e-6 s; 1e-3 s for fewer than two samples.
 double median_step_s(std::span<const double> time_s);
 
-// Held values of a slow sensor logged again and again count once; the rest is returned.
+// Removes the repeats of a slow sensor whose values a faster log holds. Other channels are returned
+// unchanged.
 Samples without_repeats(const Samples& samples);
 
-// How long each sample of a sensor with a clock of its own, slower than the rows, had waited for its row.
-// Rows with and without a fresh sample tell rate r (within 12 % of what is believed: converters' clocks are
-// 10 % off) and phase p of ticks at (k + p) / r: those that suit most rows. Empty where the rate is not known
-// or not slower, or the pattern is another one.
+// Age of each sample, s: the time from its sampling to its row, for a sensor whose own clock is slower than
+// the rows. Rows with and without a fresh sample give the rate r (within 12 % of the believed `rate_Hz`,
+// because clocks of converters are 10 % off) and the phase p of the sampling instants (k + p) / r. All r and
+// p that match most rows are averaged. Empty if the rate is unknown or not slower than the rows, or if no r
+// and p match.
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz);
-// The share of that age by which a row's value is older than its row: all of it, or half; believed so.
+// Prior of the share of that age by which a row's value is older than its row: mean, standard deviation. The
+// share may be 1 or one half.
 inline constexpr double kAgeShare = 0.75, kAgeShareUnknown = 0.5;
 
-inline constexpr double kGapSteps = 2.5;  // over a longer one no mean is taken, nothing known between
+// In median steps: a longer interval is a gap, over which nothing is averaged.
+inline constexpr double kGapSteps = 2.5;
 
-// Means over successive samples, so that no two are closer than `least_step_s`: what a slow motion shows is
-// kept, the number of rows is not.
+// Means of groups of successive samples, about `least_step_s` apart. It reduces the rows of a slow motion.
+// Groups that a gap cuts short are left out.
 Samples averaged(const Samples& samples, double least_step_s);
 
-// Successive samples, up to `most` together, fewer where the signal moves by more than `step` within them and
-// none across a gap.
+// Groups of up to `most` successive samples. A group ends earlier if the signal moves by more than `step`
+// within it, or at a gap.
 struct Group {
   std::size_t first, count;
 };
 std::vector<Group> slow_groups(const Samples& samples, std::size_t most, double step);
+// Mean time and mean value of each group.
 Samples means(const Samples& samples, const std::vector<Group>& groups);
 
-// Samples on a uniform grid; before the first and after the last the end values hold.
+// Samples on a uniform grid of `count` points. `hold`: a value holds until the next sample, but not across a
+// gap of 3.5 steps. Otherwise, linear interpolation. Outside the samples the end values hold.
 Signal on_grid(const Samples& samples, double start_s, double step_s, std::size_t count, bool hold);
 
-// What the belief says about the sensor of a channel, from keys like `height_bandwidth_Hz`.
+// Sensor model of the belief, from keys like `sensors.height_bandwidth_Hz` with the prefix "height". `unit`
+// is that of the range.
 SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit);
 
-// Largest less smallest value of a set-up's key over the trials; where it is not written down it is 0.
+// Largest minus smallest value of a set-up key over the trials; a trial without the key counts as 0.
 double range_of_setup(const std::vector<Trial>& trials, const std::string& key);
 
 }  // namespace sandhopper::diagnose

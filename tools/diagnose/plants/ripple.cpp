@@ -6,7 +6,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kOrders = 3;
+constexpr std::size_t kOrders = 3;  // most orders that are returned
 
 }  // namespace
 

@@ -31,8 +31,8 @@ PlantKind kind_of(CampaignPlant plant) {
   return PlantKind::hopper;
 }
 
-// A channel at the end of its range, or at one value, in all trials: what it does show counts, and what ails
-// it is a finding.
+// Takes back channels that read_trial() left out because they stay at one value or at the end of their range,
+// if they do so in all trials. The diagnosis then finds and reports the fault.
 void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
                                std::vector<Trial>& trials) {
   std::map<std::string, std::size_t> count;
@@ -44,7 +44,7 @@ void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Cha
         trials[t].channels[channel.name] = channel.values;
 }
 
-// Set-ups under the names that plants know, where the experimenter gave them others.
+// Adds set-up values under the names that plants use, if the experimenter used other names.
 void translate_setups(const Campaign& campaign, CampaignInput& input) {
   auto& trials = input.recordings.trials;
   std::map<std::string, SetupMeaning> meanings;
@@ -73,9 +73,10 @@ void translate_setups(const Campaign& campaign, CampaignInput& input) {
   }
 }
 
-// A trial's time begins with its first row. A body falls from the start of its trial, which lies up to a row
-// of its camera before that: where the first rows of all trials are within a row of each other, one time is
-// the start of all: 0, or the earliest of them where the clock began elsewhere.
+// Shifts the times so that a trial begins at 0 with its first row. A body falls from the start of its trial,
+// which may be up to one camera row before the first row. If the first rows of all falling-body trials are
+// within 1.5 rows of each other, one start holds for all: 0, or the earliest first row if the clock began
+// elsewhere.
 void begin_at_zero(Recordings& recordings) {
   constexpr double kRows = 1.5;
   auto& trials = recordings.trials;
@@ -95,7 +96,7 @@ void begin_at_zero(Recordings& recordings) {
   }
 }
 
-// An axis without inertia cannot be simulated as it moves.
+// True for an axis without inertia that is not clamped: its motion cannot be simulated.
 bool is_locked_only(const CampaignTrial& trial) {
   const auto* axis = std::get_if<RotaryAxisBelief>(&trial.belief);
   return axis != nullptr && axis->axis.inertia_kg_m2 == 0.0 && trial.kind != TrialKind::clamped;
@@ -147,7 +148,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
   std::vector<std::optional<bool>> motor_on;
   for (const auto& described : campaign.trials) {
     const TrialRecording recording = read_trial(campaign, described);
-    for (const auto& finding : recording.findings)  // a file that several trials share has each once
+    for (const auto& finding : recording.findings)  // trials that share a file repeat its findings
       if (std::ranges::find(input.findings, finding) == input.findings.end())
         input.findings.push_back(finding);
     if (!recording.has_time)

@@ -8,16 +8,17 @@
 
 namespace sandhopper::diagnose {
 
-// Every number of a belief under "table.key"; absent options are absent, true is 1.
+// A campaign's belief as numbers under "table.key". Optional numbers that are not set are left out; true
+// becomes 1.
 Belief flattened(const sandhopper::Belief& belief);
 
 struct CampaignInput {
   Recordings recordings;
-  std::vector<Finding> findings;  // of campaign.toml and of every recording
-  std::size_t unusable = 0;       // trials that gave nothing
+  std::vector<Finding> findings;  // from campaign.toml and from every recording
+  std::size_t unusable = 0;       // number of trials that cannot be used
 };
 
-// Reads every trial; what is wrong with one never stops another.
+// Reads every trial. An error in one trial becomes a finding and does not stop the others.
 CampaignInput read_campaign(const Campaign& campaign);
 
 }  // namespace sandhopper::diagnose

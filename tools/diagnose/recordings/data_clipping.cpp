@@ -8,21 +8,24 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kPileUp = 0.01;        // of all samples, exactly on the end value
-constexpr std::size_t kLeast = 6;       // samples there
-constexpr std::size_t kFewest = 10;     // that tell a trial's noise
-constexpr std::size_t kInARow = 4;      // of them whose forerunner is there, too: a blow is short
-constexpr double kGridSteps = 3.0;      // noise must move the sensor by this many
-constexpr double kLifted = 3.0;         // standard deviations that noise may take a sample off the limit
-constexpr std::ptrdiff_t kAround = 12;  // samples on each side, whose median says where the quantity is
-constexpr std::ptrdiff_t kBeside = 2;   // samples on each side that a blow may lift off the limit
+constexpr double kPileUp = 0.01;     // least share of all samples that equal the end value
+constexpr std::size_t kLeast = 6;    // least number of samples there
+constexpr std::size_t kFewest = 10;  // least number of samples for the noise of a trial
+// Least number of successive pairs there, if the share is smaller: an impact is short.
+constexpr std::size_t kInARow = 4;
+// Least noise in grid steps; with less noise, equal samples prove nothing.
+constexpr double kGridSteps = 3.0;
+// In standard deviations: noise may move a clipped sample off the limit by this.
+constexpr double kLifted = 3.0;
+constexpr std::ptrdiff_t kAround = 12;  // samples on each side, whose median estimates the quantity
+constexpr std::ptrdiff_t kBeside = 2;   // samples on each side of a clipped one that may be clipped, too
 
 // An accelerometer clips; the other sensors saturate.
 std::string range_fault(const std::string& channel) {
   return channel.starts_with("imu_") ? "imu.clipping" : "sensor.saturation";
 }
 
-// Of the samples off the ends: on them there is no noise.
+// Noise of the samples that are not at the ends of the range; clipped samples show none.
 double noise_off(const std::vector<SampledChannel>& samples, double low, double high) {
   auto inside = samples;
   for (auto& s : inside) {
@@ -39,9 +42,9 @@ double noise_off(const std::vector<SampledChannel>& samples, double low, double 
   return own_noise(inside);
 }
 
-// Which samples may have been cut. Where the quantity changes slowly, its neighbours say so and not its own
-// value: of samples near the limit those that noise took down would be left, and pass for what the quantity
-// was.
+// Indices of samples that may be clipped. `beyond`: sample minus limit, at most 0. For a slow quantity the
+// median of the neighbours decides, not the sample itself. Otherwise samples that noise moved down from the
+// limit would stay, and would bias the quantity.
 std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double noise) {
   const auto n = static_cast<std::ptrdiff_t>(beyond.size());
   const auto at = [&](std::ptrdiff_t i) { return beyond[static_cast<std::size_t>(i)]; };
@@ -59,7 +62,8 @@ std::vector<std::size_t> near_limit(const std::vector<double>& beyond, double no
   return near;
 }
 
-// The same value in all trials is no sensor that fell asleep: it rests at its end all the time.
+// Fault of a channel that shows one value in all trials: it is at the end of its range all the time, not
+// stuck. Its samples are emptied.
 DataFault always_at_its_end(const std::vector<SampledChannel>& samples, const std::string& channel,
                             double value) {
   DataFault always{.channel = channel,
@@ -76,7 +80,8 @@ DataFault always_at_its_end(const std::vector<SampledChannel>& samples, const st
   return always;
 }
 
-// Of the two values that bound what the channel shows, the larger one at which samples pile up; 0: none.
+// The largest or smallest value of the channel, if samples pile up there; the one of larger magnitude if they
+// do at both. 0: no limit.
 double limit_of(const std::vector<SampledChannel>& samples, double low, double high, double total,
                 double grid) {
   double limit = 0.0;
@@ -90,7 +95,7 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
         in_a_row += i > 0 && v == end && s.value[i - 1] == end;
         next += v != end && std::abs(v - end) < 4.5 * grid ? 1.0 : 0.0;
       }
-    // Without a limit the end value is met about as often as the four steps below it.
+    // Without a limit the end value is not more frequent than the four grid steps next to it.
     if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;
     if (limit != 0.0 && std::abs(end) < std::abs(limit)) continue;
@@ -99,7 +104,7 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
   return limit;
 }
 
-// Empties what lies at the limit, at both ends of a range that is symmetric.
+// Empties the samples at the limit; at both ends if the range is symmetric.
 void empty_at_limit(const std::vector<SampledChannel>& samples, double low, double high, double noise,
                     DataFault& fault) {
   const bool both = high == -low;

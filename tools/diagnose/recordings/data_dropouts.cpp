@@ -7,21 +7,23 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kOutlying = 8.0;  // of the neighbours' own changes
-constexpr double kAlike = 0.5;     // of the fall: what lies between the two neighbours
-constexpr std::size_t kDropoutNeighbours = 6;
-constexpr double kIsolated = 0.3;  // of the range of all other values
-constexpr double kOften = 2.0;     // gaps in a trial that has any: more than one now and then
-constexpr double kManyTrials = 0.5;
-// Files may lack rows. A fault are many of them, or several gaps of many rows each.
+constexpr double kOutlying = 8.0;  // least jump to the code, in rms changes of the neighbours
+// Largest difference of the samples before and after, as a share of the jump.
+constexpr double kAlike = 0.5;
+constexpr std::size_t kDropoutNeighbours = 6;  // samples on each side
+constexpr double kIsolated = 0.3;  // a value farther from all others, as a share of their range, is isolated
+constexpr double kOften = 2.0;     // least mean number of gaps in trials that have any
+constexpr double kManyTrials = 0.5;  // least share of the trials that have gaps
+// Lost rows are a fault only if many are lost (share of all rows), or fewer in long gaps (rows).
 constexpr double kShareLost = 0.12, kShareInLongGaps = 0.01, kLongGap = 6.0;
-constexpr std::size_t kEnough = 3;
-constexpr double kGauss = 2.5;               // greatest density of a normal distribution: 1 / (2.5 sd)
-constexpr double kDropoutsByChance = 0.001;  // stretches in a whole campaign
-constexpr double kSeldomCode =
-    0.3;  // of the neighbours: a channel that shows the code more often rests there
+constexpr std::size_t kEnough = 3;  // least number of proven dropouts
+constexpr double kGauss = 2.5;      // greatest density of a normal distribution: 1 / (2.5 sd)
+// Expected number of chance stretches in the campaign, below which one is a dropout.
+constexpr double kDropoutsByChance = 0.001;
+// Share of the neighbours at the code, above which the channel rests there.
+constexpr double kSeldomCode = 0.3;
 
-// Zero, and an end of the range that stands apart from all other values.
+// Values that may mark a lost sample: zero, and an end of the range that is isolated from all other values.
 std::vector<double> codes(const std::vector<SampledChannel>& channel) {
   std::vector<double> all;
   for (const auto& s : channel) all.insert(all.end(), s.value.begin(), s.value.end());
@@ -50,6 +52,7 @@ double changes_beside(const std::vector<double>& v, std::size_t first, std::size
   return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
 }
 
+// True if the channel jumps to the code and then back to about its former value.
 bool falls_out(const std::vector<double>& v, std::size_t first, std::size_t last, double code, double noise) {
   if (first == 0 || last + 1 >= v.size()) return false;
   const double before = v[first - 1] - code, after = v[last + 1] - code;
@@ -77,7 +80,8 @@ std::vector<Dropout> stretches_at(const std::vector<double>& v, double code) {
   return found;
 }
 
-// Where the quantity went far off the code and back, that is another stretch.
+// True if many neighbours of the stretch are at the code, so that the channel rests there. Neighbours beyond
+// an excursion far off the code belong to another stretch and do not count.
 bool rests_there(const std::vector<double>& v, const Dropout& s, double code, double noise) {
   double at_code = 0.0, count = 0.0;
   const auto look = [&](std::ptrdiff_t from, std::ptrdiff_t by) {
@@ -96,19 +100,18 @@ bool rests_there(const std::vector<double>& v, const Dropout& s, double code, do
   return count == 0.0 || at_code > kSeldomCode * count;
 }
 
-// The stretches of one channel that fall out. Those where the quantity is far from the code, or that last
-// longer than chance makes them, prove the fault and show how long one lasts; stretches as long are lost,
-// too, where the quantity is near the code or changes.
+// Dropouts of one channel. Stretches that are far from their neighbours, or longer than chance explains,
+// prove the fault and show how long it lasts. If it is proven, stretches of similar length count as well if
+// the quantity is near the code or changes.
 std::vector<std::vector<Dropout>> lost_stretches(const std::vector<SampledChannel>& channel, double code,
                                                  bool always_noisy) {
   const double noise = own_noise(channel), grid = value_grid(channel);
-  const double still = std::max(noise, 0.5 * grid);  // a reading that turns round at the code does not fall
+  const double still = std::max(noise, 0.5 * grid);  // a reading that reverses near the code is no dropout
   double samples = 0.0;
   for (const auto& s : channel) samples += static_cast<double>(s.value.size());
-  // A quantity near the code meets it by chance, but not again and again: noise spreads over many steps of
-  // the grid.
+  // Probability that a sample equals the code by chance: noise spreads over several grid steps.
   const double by_chance = noise > 0.0 ? std::min(1.0, grid / (kGauss * noise)) : 1.0;
-  // At an edge nothing shows that it comes back: a sensor may rest at its limit there.
+  // At the first or last sample no return is visible; the sensor may rest at its limit.
   const auto at_edge = [](const std::vector<double>& v, const Dropout& s) {
     return s.first == 0 || s.last + 1 == v.size();
   };
@@ -139,8 +142,8 @@ std::vector<std::vector<Dropout>> lost_stretches(const std::vector<SampledChanne
   return lost;
 }
 
-// An encoder at rest reads the same again and again, and what was commanded is what it is; what an
-// accelerometer or a load cell reads is never without noise.
+// True for accelerometers and load cells, which always show noise. An encoder at rest, or a command, may
+// repeat one value.
 bool always_noisy(const std::string& channel) {
   return channel.find("accel") != std::string::npos || channel.find("force") != std::string::npos;
 }
@@ -197,7 +200,7 @@ void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& fa
     auto sorted = steps;
     std::sort(sorted.begin(), sorted.end());
     const double step_s = sorted[sorted.size() / 2];
-    // Rows at uneven times are no rows lost.
+    // Unevenly timed rows are not lost rows.
     if (sorted[sorted.size() * 9 / 10] > 1.2 * step_s || sorted[sorted.size() / 10] < 0.8 * step_s) return;
     bool hit = false;
     for (const double step : steps)

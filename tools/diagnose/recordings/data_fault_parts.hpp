@@ -4,7 +4,7 @@
 
 #include "tools/diagnose/recordings/data_faults.hpp"
 
-// The kinds of data fault, each found and taken out on its own.
+// Detectors of data faults, one for each kind. They empty the samples that are no measurements.
 namespace sandhopper::diagnose {
 
 // Finite samples of one channel in one trial.
@@ -15,22 +15,22 @@ struct SampledChannel {
 };
 std::vector<SampledChannel> sampled(std::vector<Trial>& trials, const std::string& channel);
 
-// Least step between values that differ.
+// Smallest change between successive samples: the resolution.
 double value_grid(const std::vector<SampledChannel>& channel);
-// Robust root mean square of a sample's own fluctuation, over all trials.
+// Standard deviation of a sample's noise: fluctuation_rms, median over the trials.
 double own_noise(const std::vector<SampledChannel>& channel);
 
-// Stretches where a channel falls to a value of its own (zero, or one far off all others) and comes back to
-// where it was; or where only this channel's cells are empty, or whole rows, again and again in most trials.
+// Stretches in which a channel jumps to a fixed value (zero, or one isolated from all others) and back.
 void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
+// Whole rows that are missing again and again in most trials.
 void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& faults);
 
-// Stretches of equal values where the quantity went on: a channel that held a value. Their samples after the
-// first are emptied.
+// Stretches in which a channel holds one value although the quantity changes. Their samples after the first
+// are emptied.
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
 
-// Samples that pile up exactly on the end of what the channel ever shows although noise would spread them.
-// Those at the limit, and those that noise may have lifted off it, are emptied.
+// Samples that pile up exactly at the largest or smallest value of a channel, although noise would spread
+// them. They and the samples that noise may have moved off the limit are emptied.
 void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
 
 }  // namespace sandhopper::diagnose

@@ -5,7 +5,7 @@
 #include "tools/diagnose/discrepancy/misfit.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 
-// Faults that are told as notes and decide nothing.
+// Faults that become notes of the answer and do not change the verdict.
 namespace sandhopper::diagnose {
 namespace {
 

@@ -12,25 +12,29 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kNeighbours = 10;     // samples on each side
-constexpr double kByChance = 1e-6;          // probability of a stretch, given how often neighbours repeat
-constexpr double kByChanceOfFast = 1e-5;    // given how small the steps are; it goes on besides
-constexpr double kMostRepeats = 0.6;        // of the neighbourhood: above, the sensor rests
+constexpr std::size_t kNeighbours = 10;  // samples on each side
+// Largest probability of a stretch by chance, from the share of repeats nearby.
+constexpr double kByChance = 1e-6;
+constexpr double kByChanceOfFast = 1e-5;    // the same for a fast quantity, from the size of its steps
+constexpr double kMostRepeats = 0.6;        // share of repeats nearby, above which the sensor rests
 constexpr double kCertainStretch_s = 0.06;  // a shorter stretch may also be lost samples
-constexpr std::size_t kShortest = 4;
-constexpr std::size_t kShortestOfFast = 3;  // of what changes by many steps from sample to sample
-constexpr double kFast = 50.0;              // steps
-constexpr double kSeldom = 0.02;            // pairs among all runs: so often what is fast may repeat
-// A drive's speed is made of an encoder's counts: at an even speed the same count comes several times.
+constexpr std::size_t kShortest = 4;        // samples
+// The same for a quantity that changes by many grid steps per sample.
+constexpr std::size_t kShortestOfFast = 3;
+constexpr double kFast = 50.0;  // grid steps per sample
+// Share of pairs among all runs: a fast quantity repeats less often.
+constexpr double kSeldom = 0.02;
+// A drive computes its speed from encoder counts, so at constant speed the same value repeats.
 constexpr std::size_t kShortestOfSpeed = 10;
 constexpr std::string_view kPosition = "position_rad", kSpeed = "velocity_radps";
 
 struct Stretch {
-  std::size_t first, last;  // of `rows`
+  std::size_t first, last;  // indices of samples
   double duration_s;
 };
 
-// visit(i) for the samples around a stretch that have one before them there, and `ahead` after.
+// Calls visit(i) for the samples within kNeighbours on each side of a stretch that have a predecessor, and
+// `ahead` successors, on that side.
 template <class Visit>
 void each_around(const std::vector<double>& v, std::size_t first, std::size_t last, std::size_t ahead,
                  Visit visit) {
@@ -41,7 +45,7 @@ void each_around(const std::vector<double>& v, std::size_t first, std::size_t la
   if (last + 1 < v.size()) look(last + 1, last + kNeighbours);
 }
 
-// The share of successive samples that repeat, around a stretch.
+// Share of repeats among the successive samples around a stretch.
 double repeats_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   double equal = 0.5, count = 1.0;
   each_around(v, first, last, 0, [&](std::size_t i) {
@@ -67,21 +71,22 @@ double changes_around(const std::vector<double>& v, std::size_t first, std::size
   return rms_around(v, first, last, 0, [&](std::size_t i) { return v[i] - v[i - 1]; });
 }
 
-// Where single jumps do not count.
+// Robust standard deviation of the changes around a stretch; single jumps do not count.
 double usual_change_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   std::vector<double> changes;
   each_around(v, first, last, 0, [&](std::size_t i) { changes.push_back(std::abs(v[i] - v[i - 1])); });
   return changes.empty() ? 0.0 : 1.4826 * median(std::move(changes));
 }
 
-// Of white noise alone, whatever the quantity does meanwhile.
+// Standard deviation of the white noise around a stretch. Second differences suppress the motion of the
+// quantity.
 double noise_around(const std::vector<double>& v, std::size_t first, std::size_t last) {
   return rms_around(v, first, last, 1,
                     [&](std::size_t i) { return (v[i + 1] - 2.0 * v[i] + v[i - 1]) / std::sqrt(6.0); });
 }
 
-// Where the sensor moves by several steps of its grid, a repeat is no chance, nor are many where its noise
-// alone does; else the quantity must have gone on in the meantime.
+// True if the quantity changed during the stretch: its neighbours change by several grid steps, or a long
+// stretch lies in noise of more than 1.5 steps, or the value jumps at the end of the stretch.
 bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size_t last, double grid) {
   constexpr std::size_t kMany = 10;
   const double change = changes_around(v, first, last);
@@ -90,13 +95,14 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
   return std::abs(v[last + 1] - v[last]) >= std::max(4.0 * grid, 3.0 * change);
 }
 
-// A quiet sensor that was held jumps to where the quantity went meanwhile; one that shows a pause goes on no
-// faster at first than afterwards.
+// True if the first change after the stretch is at least twice the next one. A stuck sensor jumps to the
+// present value; after a real pause the motion starts slowly.
 bool jumps_after(const std::vector<double>& v, std::size_t last) {
   return last + 2 >= v.size() || std::abs(v[last + 1] - v[last]) >= 2.0 * std::abs(v[last + 2] - v[last + 1]);
 }
 
-// How often this value is followed by itself elsewhere; what is known of all values counts as two more.
+// Share of repeats of this value elsewhere in the trial. The share of all values, `of_any`, counts like two
+// more samples.
 double repeats_of_value(const std::vector<double>& v, std::size_t first, std::size_t last, double of_any) {
   double pairs = 2.0 * of_any, count = 2.0;
   for (std::size_t i = 0; i + 1 < v.size(); ++i)
@@ -107,11 +113,11 @@ double repeats_of_value(const std::vector<double>& v, std::size_t first, std::si
   return pairs / count;
 }
 
-// What is known of the whole channel.
+// Properties of the whole channel.
 struct HeldIn {
-  std::size_t shortest, shortest_by_number;
-  double chance_anywhere, resolution;
-  bool quiet;  // its noise is less than its steps
+  std::size_t shortest, shortest_by_number;  // samples
+  double chance_anywhere, resolution;        // probability of a repeat; smallest difference of values
+  bool quiet;                                // noise below one grid step
 };
 
 std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vector<double>& t,
@@ -130,13 +136,13 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
       i = j + 1;
       continue;
     }
-    // What changes by many steps of its resolution meets the same one again as seldom as the steps are small.
+    // Steps of many times the resolution meet the same value again with this probability.
     const double steps = usual_change_around(v, i, j) / resolution;
     const bool fast = steps > kFast && chance_anywhere < kSeldom && shortest == kShortest;
     double chance = std::max(repeats_around(v, i, j), chance_anywhere);
     chance = fast ? 1.0 / (std::sqrt(2.0 * std::numbers::pi) * steps)
                   : std::max(chance, repeats_of_value(v, i, j, chance));
-    // A drive that reports exactly nothing rests.
+    // A value of exactly 0 is a drive at rest.
     if (v[i] != 0.0 && length >= (fast ? kShortestOfFast : shortest) && chance < kMostRepeats &&
         (std::pow(chance, static_cast<double>(length - 1)) < (fast ? kByChanceOfFast : kByChance) ||
          length >= shortest_by_number) &&
@@ -147,8 +153,8 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
   return found;
 }
 
-// Where a recording begins or ends in a stretch there is no other side to judge it by: it is one where others
-// of at least half its length were found.
+// Stretches at the first or last sample. They have neighbours on one side only, so they count if they have at
+// least `shortest` samples: half of the shortest other stretch.
 std::vector<Stretch> stretches_at_the_ends(const std::vector<double>& v, const std::vector<double>& t,
                                            std::size_t shortest) {
   std::vector<Stretch> found;
@@ -162,10 +168,10 @@ std::vector<Stretch> stretches_at_the_ends(const std::vector<double>& v, const s
   return found;
 }
 
-// Runs of equal values in all trials of a channel, and the ends of what it shows.
+// Runs of equal values in all trials of a channel, and its range.
 struct Runs {
-  std::map<std::size_t, double> by_length;  // of two samples and more
-  double all = 0.0, repeated = 0.0, samples = 0.0;
+  std::map<std::size_t, double> by_length;          // number of runs by their length, from two samples on
+  double all = 0.0, repeated = 0.0, samples = 0.0;  // runs, repeated samples, samples
   double low = 1e300, high = -1e300;
 
   double count(std::size_t length) const {
@@ -192,7 +198,8 @@ Runs runs_of(const std::vector<SampledChannel>& samples) {
   return runs;
 }
 
-// Stretches whose number grows again with length did not come from a geometric law of chance repeats.
+// Length from which runs are too frequent for chance: chance repeats follow a geometric law and become rarer
+// with length.
 std::size_t shortest_by_number(const Runs& runs) {
   const double ratio = std::clamp((runs.count(3) + 1.0) / (runs.count(2) + 2.0), 0.02, 0.6);
   for (std::size_t length = kShortest + 1; length < 200; ++length) {
@@ -203,7 +210,7 @@ std::size_t shortest_by_number(const Runs& runs) {
   return std::numeric_limits<std::size_t>::max();
 }
 
-// A speed may stay the same: then the position went on by as much as it says.
+// True if a constant speed is real: the position moved by speed times duration, within 2 %.
 bool position_went_along(const SampledChannel& speed, const std::string& channel, const Stretch& stretch) {
   constexpr double kAgree = 0.02;
   if (!channel.ends_with(kSpeed)) return false;
@@ -215,19 +222,19 @@ bool position_went_along(const SampledChannel& speed, const std::string& channel
   return std::abs(moved - said) < kAgree * std::abs(said);
 }
 
-// Of the same encoder; null where this is no position.
+// Speed channel of the same encoder; null if `channel` is no position.
 const std::vector<double>* speed_of(const SampledChannel& position, const std::string& channel) {
   if (!channel.ends_with(kPosition)) return nullptr;
   return position.trial->find(channel.substr(0, channel.size() - kPosition.size()).append(kSpeed));
 }
 
-// A position may stay the same, too: then its speed is nothing but noise about zero.
+// True if a constant position is real: its speed is only noise around zero.
 bool speed_was_none(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   constexpr double kEnough = 8.0, kWhite = 2.0, kSigma = 4.0;
   const auto* speed = speed_of(position, channel);
   if (speed == nullptr) return false;
   double n = 0.0, mean = 0.0, squares = 0.0, changes = 0.0, last = 0.0;
-  double step = std::numeric_limits<double>::infinity();  // rounding may be off by as much
+  double step = std::numeric_limits<double>::infinity();  // smallest change of the speed: its rounding
   for (std::size_t k = stretch.first; k <= stretch.last; ++k) {
     const double v = (*speed)[position.rows[k]];
     if (!std::isfinite(v)) continue;
@@ -240,13 +247,13 @@ bool speed_was_none(const SampledChannel& position, const std::string& channel, 
   }
   if (n < kEnough) return false;
   mean /= n;
-  // White noise changes from sample to sample by twice its variance.
+  // The mean square of successive differences of white noise is twice its variance.
   const double noise = changes / (2.0 * (n - 1.0)), scatter = squares / n - mean * mean;
   const bool none = std::abs(mean) < step || n * mean * mean < kSigma * kSigma * noise;
   return changes > 0.0 && none && scatter < kWhite * noise;
 }
 
-constexpr double kCounts = 2.5;  // of an encoder, that it may have gone on within its noise
+constexpr double kCounts = 2.5;  // in encoder counts: a motion below this may be noise
 
 double count_of(const SampledChannel& position) {
   double count = std::numeric_limits<double>::infinity();
@@ -256,7 +263,7 @@ double count_of(const SampledChannel& position) {
   return count;
 }
 
-// At a turning point an encoder shows the same count for a while: its speed says that it went no further.
+// True if the integrated speed is below kCounts: near a reversal an encoder shows one count for a while.
 bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   const auto* speed = speed_of(position, channel);
   if (speed == nullptr) return false;
@@ -269,7 +276,7 @@ bool within_a_count(const SampledChannel& position, const std::string& channel, 
   return std::abs(moved) < kCounts * count_of(position);
 }
 
-// Two motors move one leg: while it stood still for one encoder it did for the other.
+// True if the encoder of the other motor stood still, too: both motors move the same leg.
 bool other_motor_stood(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   if (!channel.ends_with(kPosition)) return false;
   std::string other = channel;
@@ -289,7 +296,7 @@ bool other_motor_stood(const SampledChannel& position, const std::string& channe
   return high - low < kCounts * count_of(position);
 }
 
-// Smallest difference of any two values: successive ones may all be far apart.
+// Smallest difference of any two values of a channel. Successive samples may all be far apart.
 double resolution_of(const std::vector<SampledChannel>& channel) {
   std::vector<double> values;
   for (const auto& s : channel) values.insert(values.end(), s.value.begin(), s.value.end());
@@ -300,7 +307,7 @@ double resolution_of(const std::vector<SampledChannel>& channel) {
       resolution = std::min(resolution, step);
   return resolution;
 }
-// A stretch in one trial.
+// A stuck stretch in one trial.
 struct Held {
   const SampledChannel* samples;
   Stretch stretch;
@@ -308,17 +315,17 @@ struct Held {
   std::size_t length() const { return stretch.last - stretch.first + 1; }
 };
 
-// Stretches that were held in any trial, and that neither the range's ends nor other channels explain.
+// Stuck stretches of all trials that neither the ends of the range nor other channels explain.
 std::vector<Held> held_in_all(const std::vector<SampledChannel>& samples, const std::string& channel,
                               const Runs& runs) {
-  // Of coarse steps two in a row are often the same, wherever few neighbours happen to be: a stretch that is
-  // held adds to the long runs, not to these.
+  // The probability of a repeat comes from runs of two. With coarse steps they are frequent by chance, also
+  // where a neighbourhood shows none; a stuck stretch adds to the long runs only.
   const HeldIn in{channel.ends_with(kSpeed) ? kShortestOfSpeed : kShortest, shortest_by_number(runs),
                   runs.count(2) / runs.all, resolution_of(samples), own_noise(samples) < value_grid(samples)};
   std::vector<Held> held;
   for (const auto& s : samples)
     for (const auto& stretch : held_stretches(s.value, s.time_s, in)) {
-      // At the end of its range a sensor rests on the limit: that is another fault.
+      // A stretch at an end of the range is clipping, another fault.
       if (s.value[stretch.first] >= runs.high || s.value[stretch.first] <= runs.low) continue;
       if (position_went_along(s, channel, stretch) || speed_was_none(s, channel, stretch) ||
           within_a_count(s, channel, stretch) || other_motor_stood(s, channel, stretch))
@@ -328,12 +335,13 @@ std::vector<Held> held_in_all(const std::vector<SampledChannel>& samples, const 
   return held;
 }
 
+// True if the stretches are too few or too short to prove a fault.
 bool come_by_chance(const std::vector<Held>& held, const std::string& channel, double samples) {
   std::size_t longest = 0;
   for (const auto& one : held) longest = std::max(longest, one.length());
-  // One stretch may be a pause of what moves the foot.
+  // A single stretch may be a pause of the drive that moves the foot.
   if (held.size() < 2 && (longest < 8 || channel == "foot_z_m")) return true;
-  // As short as these a long recording has some by chance.
+  // A long recording contains some of the shortest stretches by chance.
   const double by_chance = kByChanceOfFast * samples;
   return longest == kShortestOfFast &&
          static_cast<double>(held.size()) < by_chance + 3.0 * std::sqrt(by_chance) + 1.0;
@@ -367,7 +375,8 @@ void empty_stretches(const std::vector<SampledChannel>& samples, const std::vect
 void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults) {
   const auto samples = sampled(trials, channel);
   const Runs runs = runs_of(samples);
-  if (runs.samples < 20.0 || runs.repeated > 0.5 * runs.samples) return;  // a slow sensor, held in the log
+  // A slow sensor whose values the log repeats.
+  if (runs.samples < 20.0 || runs.repeated > 0.5 * runs.samples) return;
   const auto held = held_in_all(samples, channel, runs);
   if (come_by_chance(held, channel, runs.samples)) return;
   DataFault fault{.channel = channel, .id = "data.stuck", .trials = {}};
@@ -381,7 +390,7 @@ void find_stuck(std::vector<Trial>& trials, const std::string& channel, std::vec
   for (const auto& one : held) durations.push_back(one.stretch.duration_s);
   std::sort(durations.begin(), durations.end());
   fault.duration_s = durations[durations.size() / 2];
-  // While it is held no other stretch begins.
+  // No stretch begins while another lasts, so the rate refers to the remaining time.
   const double free_s = fault.recorded_s - static_cast<double>(fault.stretches) * fault.duration_s;
   fault.rate_Hz = free_s > 0.0 ? static_cast<double>(fault.stretches) / free_s : 0.0;
   fault.borderline = fault.stretches < 2 || fault.duration_s < kCertainStretch_s;

@@ -9,11 +9,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::uint32_t kStretchesOfATrial = 4;  // of a trial with fewer one says little of the others
-constexpr std::size_t kStretches = 40;           // for each that may be an event
-constexpr double kFarFromEvent = 9.0;  // mean square over the noise, which the event itself has made larger
-constexpr double kFartherThanAny = 25.0;  // times the next stretch's
-constexpr double kFewestRows = 10.0;
+constexpr std::uint32_t kStretchesOfATrial = 4;  // least number of stretches of a trial
+constexpr std::size_t kStretches = 40;           // stretches for each possible event
+// Least mean square over the noise; the event itself has raised the noise.
+constexpr double kFarFromEvent = 9.0;
+constexpr double kFartherThanAny = 25.0;  // least ratio to the mean square of the next stretch
+constexpr double kFewestRows = 10.0;      // rows of a stretch
 
 struct EventStretch {
   Event event;

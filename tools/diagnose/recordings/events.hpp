@@ -6,21 +6,22 @@
 
 namespace sandhopper::diagnose {
 
-// A stretch of one trial that no other stretch is like: a hand that pushes, a stop that is run into. What
-// happens once is no law, and one such stretch outweighs all others in a fit.
+// A stretch of one trial that is unlike all others, e.g. a hand pushes or an end stop is hit. It happens
+// once, so it is no law, but it would dominate a fit.
 struct Event {
-  std::size_t trial = 0;  // of the problem's
+  std::size_t trial = 0;  // index in Problem::trials
   double from_s = 1e300, to_s = -1e300;
-  std::string channel;  // that it moves furthest beyond its noise
-  double furthest = 0.0;
-  double times_others = 0.0;  // root mean square over its noise, against the next stretch's
+  std::string channel;        // with the largest residual relative to its noise
+  double furthest = 0.0;      // largest residual there, in the channel's unit
+  double times_others = 0.0;  // rms residual over the noise, relative to that of the next stretch
 };
 
-// Of trials that are simulated in many stretches, each begun where it is recorded: those few whose mean
-// square over the noise is 25 times that of any other, with everything in place that was found.
+// Finds events in trials that are simulated in at least four stretches: at most one in 40 stretches, each
+// with a mean squared residual over the noise that is 25 times that of any other. `point`: the fit with all
+// effects that were found.
 std::vector<Event> find_events(const Problem& problem, const Point& point);
 
-// Empties their cells.
+// Empties the cells of these stretches in `recordings`.
 void leave_out(const std::vector<Event>& events, const Problem& problem, Recordings& recordings);
 
 }  // namespace sandhopper::diagnose

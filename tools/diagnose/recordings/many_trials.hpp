@@ -6,12 +6,12 @@
 
 namespace sandhopper::diagnose {
 
-// At most `count` of the trials, spread evenly over their set-ups and, within one, over how long and how
-// large they are: the same ones in whatever order they are given.
+// Selects at most `count` trials, spread evenly over kind, set-up, length and signal energy. The selection
+// does not depend on the order of the trials.
 Recordings spread_over(const Recordings& recordings, std::size_t count);
 
-// The effects found in one problem as a start in another, of the same plant: there each trial's nuisances are
-// those of `null`. Points with an effect that the other problem cannot have are left out.
+// Makes starting points of problem `to` from points of problem `from`, for the same plant. Nuisances and
+// tolerances are those of `null`. Points with an effect that `to` does not have are left out.
 std::vector<Point> carried_over(const Problem& from, const std::vector<Point>& points, const Problem& to,
                                 const Point& null);
 

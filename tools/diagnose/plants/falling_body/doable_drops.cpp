@@ -6,22 +6,23 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kHighest_m = 30.0;
-constexpr double kLongest_s = 10.0;
+constexpr double kHighest_m = 30.0;  // highest planned release, unless a higher one was recorded
+constexpr double kLongest_s = 10.0;  // longest planned recording
 
 struct Drop {
   double height_m, speed_mps, payload_kg;
 };
 
-// A first guess falls freely; the simulation then says how it falls and when it is over.
+// Plans one drop. A free fall gives a first guess of the heights; the simulation then gives the motion and
+// its end.
 Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief, const Edits& edits,
               const Drop& drop) {
   const double g = belief.value("gravity_mps2", 9.81);
   const double duration_s = std::min(kLongest_s, 4.0 * std::sqrt(2.0 * drop.height_m / g));
   const double ground_m = belief.value("bed.surface_height_m");
   const bool bed = belief.value("bed.stiffness_N_per_m") > 0.0;
-  // Where no bed stops the body the guess stays aloft, sinking: a recording counts only until it lands or
-  // stands still, and what slows the fall brings it down later than a free fall.
+  // Without a bed the guess stays above the ground and sinks slowly: rows after a landing or a standstill
+  // would be left out, and a medium lets the body land later than a free fall.
   const auto guess_m = [&](double t) {
     const double free_m = drop.height_m - drop.speed_mps * t - 0.5 * g * t * t;
     return bed ? free_m
@@ -33,7 +34,7 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   trial.setup = {{"release_height_m", drop.height_m}, {"release_speed_mps", drop.speed_mps}};
   if (drop.payload_kg > 0.0) trial.setup["payload_kg"] = drop.payload_kg;
   std::string why;
-  // A height is always simulated, for it says when the fall ends.
+  // The heights are always simulated, because they show when the fall ends.
   Trial with_height = trial;
   auto& heights = with_height.channels["height_m"];
   heights.resize(trial.time_s.size());

@@ -13,9 +13,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kTouchdownAgrees_s =
-    1e-4;                       // instant at which the fall ends and that at which the bed begins
-constexpr double kSinks = 0.5;  // of the speed of a free fall
+// Standard deviation of the condition that the simulated fall ends at the fitted touchdown.
+constexpr double kTouchdownAgrees_s = 1e-4;
+constexpr double kSinks = 0.5;  // share of the free-fall speed, below which the body sinks slowly
 
 class FallingBody final : public PlantModel {
  public:
@@ -48,7 +48,7 @@ class FallingBody final : public PlantModel {
     if (const auto it = context.channels.find("height_m"); it != context.channels.end())
       drop_m = it->second.high - it->second.low;
     double speed = drop_m > 0.0 ? std::sqrt(2.0 * g * drop_m) : g * longest_s;
-    // What sinks slowly is never as fast as a fall from there.
+    // A body that sinks slowly never reaches the free-fall speed.
     if (seen_mps > 0.0 && seen_mps < kSinks * speed) speed = seen_mps;
     if (std::ranges::any_of(trials, [&](const Trial& trial) { return meets_a_liquid(trial, b); }))
       context.facts.wetted_over_m = body_length_m(b);

@@ -5,7 +5,8 @@
 
 namespace sandhopper::diagnose {
 
-// A body that falls through a medium, perhaps onto a bed. Channels height_m, accel_mps2.
+// A body that falls through a medium, perhaps onto a bed. Channels height_m and accel_mps2, and the condition
+// touchdown_s.
 std::unique_ptr<PlantModel> make_falling_body();
 
 }  // namespace sandhopper::diagnose

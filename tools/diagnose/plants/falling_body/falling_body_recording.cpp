@@ -6,7 +6,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Sum of squares that the best line through the samples leaves.
+// Sum of squared residuals of the best straight line through the samples.
 double misfit_of_line(const Samples& s) {
   const auto n = static_cast<double>(s.value.size());
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
@@ -65,8 +65,8 @@ std::optional<double> end_of_rest_s(const Samples& heights, double believed_nois
 }
 
 std::optional<double> landed_after_s(const Samples& heights, double believed_noise_m) {
-  constexpr double kStill = 4.0, kShort = 6.0;  // standard deviations: off their mean, of what it would fall
-  constexpr std::size_t kBefore = 5;            // samples that tell how fast
+  constexpr double kStill = 4.0, kShort = 6.0;  // in standard deviations: still heights; fall that is missing
+  constexpr std::size_t kBefore = 5;            // samples for the speed before
   const auto& [t, h] = heights;
   const double noise = std::max({fluctuation_rms(heights), believed_noise_m, 1e-6});
   std::size_t first = h.size();
@@ -117,7 +117,7 @@ double jitter_s(const std::vector<double>& sampled_s, double row_s) {
   constexpr double kOften = 0.02;
   if (sampled_s.size() < 10) return 0.0;
   const double usual_s = median_step_s(sampled_s);
-  double other = 0.0;  // a row more or less; more than that is a gap
+  double other = 0.0;  // intervals that are a row longer or shorter; larger differences are gaps
   for (std::size_t i = 1; i < sampled_s.size(); ++i) {
     const double rows = std::abs(sampled_s[i] - sampled_s[i - 1] - usual_s) / row_s;
     other += rows > 0.5 && rows < 1.5;
@@ -146,7 +146,7 @@ std::optional<double> hardest_deceleration_s(const Samples& accels, double g) {
 
 std::optional<double> liquid_entry_s(const Samples& accels, double g) {
   constexpr std::size_t kBefore = 20, kAfter = 5;  // samples
-  constexpr double kFree = 0.25, kBlow = 0.1;      // of g
+  constexpr double kFree = 0.25, kBlow = 0.1;      // in g
   const auto& a = accels.value;
   const double blow = std::max(8.0 * fluctuation_rms(accels), kBlow * g);
   double before = 0.0;  // sum of the last kBefore

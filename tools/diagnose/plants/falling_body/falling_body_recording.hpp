@@ -3,48 +3,50 @@
 
 #include "tools/diagnose/plants/inputs.hpp"
 
-// What the recording of a fall shows before anything is simulated: when the body was let go, how fast
-// it fell and when it stopped. Times in s, heights in m over any zero, accelerations in m/s^2 as an
-// accelerometer reads them.
+// Features of a recorded fall that need no simulation: release, speed and stop. Times in s, heights in m over
+// any zero, accelerations in m/s^2 as an accelerometer reads them.
 namespace sandhopper::diagnose {
 
-// Held, then let go, within some tenths of a second where a rope is paid out: the last loss of weight before
-// the hardest shock. A body at its terminal speed feels its whole weight, too, but does not lose it again.
+// Release of a held body: the last loss of weight before the hardest shock. It may take some tenths of a
+// second if a rope is paid out. A body at its terminal speed feels its whole weight, too, but does not lose
+// it again.
 std::optional<double> release_before_shock_s(const Samples& accels, double gravity_mps2);
 
-// Heights that stand still, within 4 standard deviations of their noise, and then fall: for longer than a
-// body let go at their first would seem to, which speeds up by `fall_mps2`.
+// End of an initial rest, counted from the first height: the heights stay within 4 standard deviations of
+// their noise and then fall. Empty if the rest is no longer than a body that is released at the first height,
+// with the acceleration `fall_mps2`, would seem to rest.
 std::optional<double> end_of_rest_s(const Samples& heights, double believed_noise_m, double fall_mps2);
 
-// The last sample before heights that stand still at the end although the body fell until then: it lies on
-// the ground, whatever the sensor calls its height.
+// Time of the last sample before the heights stand still at the end although the body was falling. It then
+// lies on the ground, whatever height the sensor reads.
 std::optional<double> landed_after_s(const Samples& heights, double believed_noise_m);
 
-// A slow recording of a body let go by hand: the release at rest that suits its first second best, with any
-// acceleration. What comes before is the hand's motion.
+// Release of a body by hand in a slow recording: the release from rest that fits the first second best, with
+// any constant acceleration. Earlier heights show the motion of the hand.
 std::optional<double> release_by_hand_s(const Samples& heights);
 
-// The last sample before a gap near `about_s`, where an accelerometer went to its limit and was not used:
-// then the bed began.
+// Time of the last sample before a gap near `about_s`. Clipped samples at the impact on the bed leave such a
+// gap.
 std::optional<double> gap_around_s(const Samples& accels, double about_s);
 
-// Root mean square of how long before its row a sample was taken, against the mean of that: a sensor with a
-// clock of its own, whose samples come after now three rows, now two, is up to a row old. 0: always as many.
+// Standard deviation of the age of a sample at its row, s. A sensor with its own clock, whose samples come
+// sometimes after two rows and sometimes after three, is up to one row old. 0 if the number of rows is always
+// the same.
 double jitter_s(const std::vector<double>& sampled_s, double row_s);
 
-// Mean speed over a tenth of a trial, where that is fastest; 0 without heights.
+// Greatest mean speed over a tenth of the samples; 0 without heights.
 double fastest_mps(const Samples& heights);
 
-// Shortly before the peak of a deceleration of more than 3 g.
+// Time at which the reading first exceeds 85 % of its peak. Empty if the peak is below 3 g.
 std::optional<double> hardest_deceleration_s(const Samples& accels, double gravity_mps2);
 
-// The last sample before the first blow after an accelerometer has read next to nothing: a falling body meets
-// a liquid. None where it was not seen to fall freely.
+// Entry of a falling body into a liquid: the last sample before the first sharp rise after an accelerometer
+// has read nearly 0. Empty if no free fall was recorded.
 std::optional<double> liquid_entry_s(const Samples& accels, double gravity_mps2);
 
-// Neither height nor release written down: how far the body fell is not known well enough to say when it
-// meets the bed. The stop starts where the recorded deceleration begins, with the speed that the
-// accelerometer has summed up; the fall starts with a state of its own once the release is over.
+// Impact of a body whose height and release are unknown, so that a simulated fall cannot predict its time.
+// The stop starts at the onset of the recorded deceleration, with the speed that the accelerometer integrates
+// to. The fall starts from its own state after the release.
 struct Impact {
   double time_s;
   double speed_mps;  // upward, as h'

@@ -11,7 +11,8 @@ namespace {
 
 std::size_t index(int nuisance) { return static_cast<std::size_t>(nuisance); }
 
-// Going down the body is always where the bed is untouched; added mass is not modelled here.
+// Force of the bed on a body that goes down: it is always at a new depth. The bed's added mass is not
+// modelled.
 double bed_force_N(const FallingFigures& f, const GroundLaws& ground, double depth_m, double speed_mps) {
   if (depth_m <= 0.0) return 0.0;
   const double quasi_static_N = f.bed_stiffness_N_per_m * depth_m;
@@ -174,7 +175,8 @@ class Falling {
       s_.t = std::max(let_go_s_, grid_s - step_s);
     }
     if (falling_ && told_ && !on_bed_ && grid_s > told_s_) {
-      // The fall goes on to the surface, be it too late or too early; the bed begins there when it is told.
+      // The fall is simulated to the surface, even if it arrives too late or too early. The bed phase begins
+      // at the fitted touchdown.
       if (s_.t < told_s_) advance_to(told_s_, 1);
       for (int more = 0; !reached_ && more < 4000; ++more) advance(step_s);
       if (!reached_) touchdown_s_ = s_.t;
@@ -182,7 +184,7 @@ class Falling {
       s_ = {std::max(told_s_, grid_s - step_s), f_.surface_height_m, reached_ ? speed_at_surface_mps_ : s_.v};
     }
     if (falling_ && !resting_ && grid_s > s_.t) {
-      // The bed begins with a kink: short steps near and in it.
+      // The bed's force has a kink at the surface, so steps near and in the bed are short.
       const bool near_bed =
           fall_.bed &&
           (on_bed_ || (!told_ && s_.h + 2.0 * (grid_s - s_.t) * std::min(s_.v, 0.0) < f_.surface_height_m));
@@ -197,7 +199,7 @@ class Falling {
   GroundLaws ground_;
   double displaced_kg_ = 0.0, weight_N_ = 0.0, buoyancy_N_ = 0.0, quadratic_ = 0.0;
   double let_go_s_ = 0.0;
-  bool told_ = false;  // when the bed begins
+  bool told_ = false;  // the touchdown is fitted
   double told_s_ = 1e300;
   FallState s_{};
   bool on_bed_, falling_ = false, resting_ = false, reached_ = false;

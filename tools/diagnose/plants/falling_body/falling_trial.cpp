@@ -12,30 +12,35 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kSpeedOfAThrow_mps = 3.0;  // release speed where nothing is known of it
-constexpr double kKnownHeight_m = 0.01;     // release height as an experimenter reads it off
-constexpr double kKnownSpeed_mps = 0.02;
-constexpr double kToldSpeed = 0.01;      // of a speed at impact that was written down
-constexpr double kReleaseTime_s = 0.03;  // of a release seen in the recording
-constexpr double kTouchdownTime_s = 0.1;
-constexpr double kKink_s = 4e-3;        // around touchdown, where no sampled signal follows the force's kink
-constexpr double kUnknownScale = 0.04;  // of a height recorded nobody says how, its own in each trial
-constexpr double kUnknownImpact_m = 0.05;  // of a stop that is simulated apart from its fall
+constexpr double kSpeedOfAThrow_mps = 3.0;  // standard deviation of a release speed that nothing states
+constexpr double kKnownHeight_m = 0.01;     // standard deviation of a release height in the set-up
+constexpr double kKnownSpeed_mps = 0.02;  // standard deviation of the release speed, if the height is stated
+constexpr double kToldSpeed = 0.01;       // relative standard deviation of an impact speed in the set-up
+constexpr double kReleaseTime_s = 0.03;   // standard deviation of a release that the recording shows
+constexpr double kTouchdownTime_s = 0.1;  // standard deviation of a touchdown that the recording shows
+// Nearer to the touchdown, accelerations are left out: no sampled signal follows the kink.
+constexpr double kKink_s = 4e-3;
+// Relative standard deviation, in each trial, of the scale of an undescribed height sensor.
+constexpr double kUnknownScale = 0.04;
+// Standard deviations of a stop that is simulated separately from its fall.
+constexpr double kUnknownImpact_m = 0.05;
 constexpr double kUnknownImpact_mps = 0.3;
-constexpr double kUnknownBias_mps2 = 0.08;
-constexpr double kLongestRow_s = 4e-3;
-constexpr double kUnknownBed = 0.3;  // of its stiffness from place to place
-constexpr double kLanded = 4.0;      // standard deviations of the height's noise
-constexpr double kLetGo_s = 0.05;    // after a release that only the fall's growth shows
+constexpr double kUnknownBias_mps2 = 0.08;  // standard deviation of the zero of an undescribed accelerometer
+constexpr double kLongestRow_s = 4e-3;      // accelerations without a height are averaged to this
+constexpr double kUnknownBed = 0.3;  // relative standard deviation of the bed's stiffness from place to place
+// In standard deviations of the height's noise: nearer to the ground the body may lie there.
+constexpr double kLanded = 4.0;
+constexpr double kLetGo_s = 0.05;  // rows are used from this time after release_by_hand_s() on
 
 constexpr double kLiquid_kg_per_m3 = 100.0;  // gases are lighter, liquids heavier
 
-// Height of the liquid's surface in the belief; none if the medium is all around.
+// Height of the liquid's surface in the belief; empty if the medium is everywhere.
 std::optional<double> believed_surface_m(const Belief& belief) {
   const double surface_m = belief.value("medium.surface_height_m", FallingBodyBelief::kEverywhere_m);
   return surface_m < FallingBodyBelief::kEverywhere_m ? std::optional(surface_m) : std::nullopt;
 }
 
+// Time at which the body enters a liquid, from the accelerometer.
 std::optional<double> entry_of(const Trial& trial, const Belief& belief) {
   if (belief.value("medium.density_kg_per_m3") < kLiquid_kg_per_m3 ||
       belief.value("bed.stiffness_N_per_m") > 0.0)
@@ -50,7 +55,8 @@ class FallingTrial final : public TrialModel {
     name = trial.name;
     fall_.payload_kg = trial.setup_or("payload_kg", 0.0);
     const auto heights = without_repeats(samples_of(trial, "height_m"));
-    // Fast rows say the same thing many times; a stop of some tenths of a second needs no more than this.
+    // If neither a height nor the entry is known, fast accelerations are averaged: a stop of some tenths of a
+    // second needs no faster rows.
     height_told_ = trial.setup.contains("release_height_m");
     const bool height_known = !heights.empty() || height_told_;
     const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
@@ -109,9 +115,9 @@ class FallingTrial final : public TrialModel {
             out.subspan(height_times_.size() + first));
   }
 
-  // How fast it is believed to speed up when it is let go: slowly in a liquid.
+  // Believed acceleration after the release; it is small in a liquid.
   double released_mps2() const {
-    constexpr double kSlowest = 0.05;  // of free fall
+    constexpr double kSlowest = 0.05;  // share of free fall
     const FallingFigures f(fall_.belief, {});
     const double mass_kg = f.mass_kg + fall_.payload_kg, fluid_kg = f.density_kg_per_m3 * f.volume_m3;
     const double share =
@@ -119,7 +125,7 @@ class FallingTrial final : public TrialModel {
     return f.gravity_mps2 * std::clamp(share, kSlowest, 1.0);
   }
 
-  // The recording may begin while the body is still held.
+  // Finds the release. The recording may begin while the body is still held.
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = fall_.belief.value("gravity_mps2", 9.81);
     auto found_s = release_before_shock_s(accels, g);
@@ -148,8 +154,8 @@ class FallingTrial final : public TrialModel {
     from_release_ = true;
   }
 
-  // The first steep rise of the force on the body, or the first height below the surface. On the bed the body
-  // stops with a jump that a fit cannot follow smoothly: rows end shortly before.
+  // Finds the touchdown: the first steep rise of the acceleration, else the first height below the surface.
+  // On the bed the body stops with a jump that a fit cannot follow, so rows end shortly before.
   void find_touchdown(const Samples& heights, const Samples& accels) {
     constexpr double kShareOfRise = 0.3, kWindow_s = 2e-3, kLastPhase_rad = 1.15;
     const FallingFigures f(fall_.belief, {});
@@ -183,7 +189,8 @@ class FallingTrial final : public TrialModel {
     trial_nuisances.push_back({"touchdown_time_s", kTouchdownTime_s, 2e-5});
   }
 
-  // Without heights the blow tells where the body was, and the speed that was written down how fast there.
+  // Start of a fall without recorded heights: at the entry the body is at the surface, with the speed that
+  // the set-up states.
   void begin_before_entry(double told_mps, double& height_sd, double& speed_sd) {
     const double g = fall_.belief.value("gravity_mps2", 9.81);
     const double fall_s = *entry_s_ - (fall_.held ? fall_.release_s : 0.0);
@@ -209,8 +216,8 @@ class FallingTrial final : public TrialModel {
       for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
     }
     fall_.start_height_m = told ? trial.setup_or("release_height_m", 0.0) : seen;
-    // Downward, as one writes it down for a drop, unless the heights rise (or the air says so:
-    // choose_direction).
+    // A drop has a positive speed downward in the set-up. It is upward if the heights rise, or if
+    // choose_direction() finds so.
     const double told_mps =
         std::abs(trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0)));
     const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
@@ -218,7 +225,7 @@ class FallingTrial final : public TrialModel {
     if (fall_.impact_s >= 0.0) fall_.start_speed_mps = fall_speed_mps_;
     const double noise = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
     double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
-    // Take the height from the recording if none was written down, or one over another zero.
+    // Takes the height from the recording if the set-up has none, or one over another zero.
     if (!told || (!heights.empty() && std::abs(seen - fall_.start_height_m) > 0.2 + 8.0 * height_sd)) {
       if (!heights.empty()) fall_.start_height_m = seen;
       height_sd = 1.0;
@@ -237,7 +244,7 @@ class FallingTrial final : public TrialModel {
     accel_sensor_ = sensor_belief(fall_.belief, "accel", "mps2");
   }
 
-  // Those of the release, of the sensors, and of the bed.
+  // Adds the nuisances of the release, the sensors and the bed.
   void add_nuisances(const Trial& trial, const Samples& heights, double height_sd, double speed_sd) {
     trial_nuisances.push_back({"release_height_m", height_sd, 1e-4});
     trial_nuisances.push_back({"release_speed_mps", speed_sd, 1e-4});
@@ -249,7 +256,7 @@ class FallingTrial final : public TrialModel {
       height_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"height_bias_m", sd, 1e-3});
     }
-    // A camera's scale hangs on where it stands and where the body falls.
+    // A camera's scale depends on where it stands and where the body falls.
     const double scale_sd = fall_.belief.value(
         "spread.height_scale_relative",
         fall_.belief.value("sensors.height_noise_m") > 0.0 || trial.find("accel_mps2") ? 0.0 : kUnknownScale);
@@ -257,7 +264,8 @@ class FallingTrial final : public TrialModel {
       height_scale_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"height_scale_relative", scale_sd, 1e-3});
     }
-    // Nothing is told of a sensor that stands alone: its zero may be off as those of such sensors are.
+    // The zero of an accelerometer that is the only sensor, and that the belief does not describe, may be
+    // off.
     const bool told_of_accel = fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
     const double bias_sd =
         std::max(fall_.belief.value("spread.accel_bias_mps2"), told_of_accel ? 0.0 : kUnknownBias_mps2);
@@ -296,10 +304,10 @@ class FallingTrial final : public TrialModel {
     }
   }
 
-  // Without heights only what the air does tells a throw upwards from one downwards: the simulation that
-  // comes clearly nearer.
+  // Chooses between a throw upwards and one downwards. Without heights only the drag shows it: the direction
+  // is reversed if the simulation then fits clearly better.
   void choose_direction() {
-    constexpr double kClearly = 0.7;  // of the squares
+    constexpr double kClearly = 0.7;  // ratio of the sums of squares
     const std::vector<double> nothing(nuisance_count(), 0.0);
     std::vector<double> predicted(rows.size());
     const auto squares = [&] {
@@ -313,13 +321,15 @@ class FallingTrial final : public TrialModel {
     if (!(squares() < kClearly * down)) fall_.start_speed_mps = -fall_.start_speed_mps;
   }
 
-  // Heights are over the ground where a release's is: within their noise of it the body may lie there.
+  // With a stated release height, heights count from the ground. Within their noise of the ground the body
+  // may lie there.
   bool may_have_landed(double time_s, double height_m) const {
     if (time_s > landed_after_s_) return true;
     return height_told_ && !fall_.bed && height_m < kLanded * fall_.belief.value("sensors.height_noise_m");
   }
 
-  // A blow that is simulated a row sooner than it was recorded belongs to it, too.
+  // True in the liquid, and up to three rows before the recorded entry, because the simulated one may come
+  // earlier.
   bool in_liquid(double time_s, double height_m) const {
     constexpr double kRows = 3.0;
     if (fall_.length_m <= 0.0) return false;
@@ -360,12 +370,12 @@ class FallingTrial final : public TrialModel {
   }
 
   Fall fall_;
-  bool height_told_ = false;   // in the set-up
-  bool from_release_ = false;  // rows before it are left out
+  bool height_told_ = false;   // the set-up states release_height_m
+  bool from_release_ = false;  // rows before the release are left out
   double height_jitter_s_ = 0.0, stop_s_ = 1e300, landed_after_s_ = 1e300;
   int height_bias_ = -1, height_scale_ = -1, accel_bias_ = -1;
-  double fall_speed_mps_ = 0.0;    // after the release, where fall and stop are simulated apart
-  std::optional<double> entry_s_;  // into a liquid, as the accelerometer shows it
+  double fall_speed_mps_ = 0.0;    // speed after the release, if fall and stop are simulated separately
+  std::optional<double> entry_s_;  // entry into a liquid, as the accelerometer shows it
   SensorBelief height_sensor_, accel_sensor_;
   std::vector<double> height_times_, accel_times_;
 };

@@ -10,15 +10,15 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kDuration_s = 0.8;  // longer than a first stride
-constexpr double kSoft_N_per_m = 300.0;
+constexpr double kDuration_s = 0.8;         // longer than a first stride
+constexpr double kSoft_N_per_m = 300.0;     // a leg softer than this is released from low heights only
 constexpr double kHighestForSoft_m = 0.04;  // from higher up a soft leg runs into its stop
 
 struct Hop {
   double height_m, stiffness_N_per_m;
 };
 
-// Phases as the believed controller passes through them along a simulated motion.
+// Phase of the believed controller at each of its cycles, along a simulated motion.
 std::vector<double> phases_of(const WorldConfig& world, const Hop& hop, const HopperTraces& traces) {
   NominalController controller(world.controller, hop.stiffness_N_per_m);
   const Leg leg(world.robot.leg);

@@ -18,8 +18,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// By how much a change from compression to extension may miss its rule: the recorded one, and the middle one
-// of all trials.
+// Tolerated delay of the change from compression to extension against its rule: for one change, and for the
+// median of all.
 constexpr double kSwitchFar_s = 6e-3, kSwitchOff_s = 2.5e-3;
 
 double largest_of(const Trial& trial, const std::string& channel) {
@@ -28,7 +28,8 @@ double largest_of(const Trial& trial, const std::string& channel) {
   return largest;
 }
 
-// Orders of the ripple over the angle that the joint's balance shows, friction and drive taken out.
+// Orders of the torque ripple over the angle in the joint's balance, after a regression on friction and
+// drive.
 std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr int kFirst = 12, kLast = 300;
   std::vector<double> angles, torques;
@@ -61,7 +62,7 @@ class Hopper final : public PlantModel {
   // Learned from 13 campaigns of another program with nothing missing (README, model error).
   double port_error() const override { return 0.035; }
   bool changes_within_rows() const override { return true; }
-  // A current loop at 1 kHz, 10 kHz or 40 kHz, or a continuous one.
+  // The current loop may run at 1 kHz, 10 kHz or 40 kHz, or continuously.
   double drive_unsure_s() const override { return 5e-5; }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
@@ -108,7 +109,7 @@ class Hopper final : public PlantModel {
     s.torque_Nm = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
     s.angle_rad = high > low ? high - low : 1.0;
     auto orders = ripple_orders(trials, context.belief);
-    // What is believed to ripple may ripple more.
+    // The believed cogging may be too small, so its order is a candidate, too.
     const double believed = context.belief.value("robot.cogging_periods_per_rev");
     if (believed > 0.0) orders.insert(orders.begin(), believed);
     s.ripple_orders = std::move(orders);
@@ -120,7 +121,8 @@ class Hopper final : public PlantModel {
     return balances_of(trial, with_payload(belief, trial));
   }
 
-  // A phase is imposed on the simulation, so that no fit can tell when it should have begun.
+  // The recorded phases are imposed on the simulation, so no fit can show that one began too late or too
+  // early.
   std::vector<BrokenRule> broken_rules(const std::vector<Trial>& trials,
                                        const std::vector<Belief>& beliefs) const override {
     std::vector<double> late_s;

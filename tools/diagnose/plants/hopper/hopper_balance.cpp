@@ -14,13 +14,14 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kSmoothing = 5;                  // samples to each side, of the leg's angle
-constexpr double kSettled_s = 0.02;                    // after a liftoff: the load cell has come to rest
-constexpr double kAloft_m = 1.0;                       // out of the bed's reach
-constexpr double kSlow_mps = 0.01, kSlow_radps = 0.2;  // dry friction turns round within that
+constexpr std::size_t kSmoothing = 5;  // samples to each side, of the leg's angle
+// Margin after a liftoff, until the load cell is at rest, and before a touchdown.
+constexpr double kSettled_s = 0.02;
+constexpr double kAloft_m = 1.0;                       // foot height without contact
+constexpr double kSlow_mps = 0.01, kSlow_radps = 0.2;  // dry friction changes its sign within these speeds
 constexpr double kStribeck_mps = 0.1;
-constexpr double kLost = 3.5;                 // usual steps between samples: between them nothing is known
-constexpr double kSteepest_m_per_rad = 0.03;  // a straight leg says nothing of its joint
+constexpr double kLost = 3.5;                 // in median steps: a longer interval is a gap
+constexpr double kSteepest_m_per_rad = 0.03;  // least |dL/dphi|: a straight leg shows nothing of its joint
 
 struct Grid {
   double start_s = 0.0;
@@ -32,8 +33,7 @@ Signal on(const Grid& grid, const Samples& samples) {
   return on_grid(samples, grid.start_s, kTick_s, grid.count, false);
 }
 
-// Whether a sample was recorded no farther off than a few usual steps: what fell out or was clipped left
-// none.
+// Per grid point, 1 if it lies between samples without a gap. Dropouts and clipped samples leave gaps.
 std::vector<char> recorded_on(const Grid& grid, const Samples& samples) {
   std::vector<char> out(grid.count, 0);
   const double far_s = kLost * median_step_s(samples.time_s);
@@ -48,8 +48,8 @@ struct Height {
   std::vector<double> z_m, v_mps;
 };
 
-// The body's height: its acceleration twice integrated, with start, speed and a constant error of the
-// accelerometer from the height sensor.
+// Height of the body: its acceleration, integrated twice. The height sensor gives the start, the initial
+// speed and a constant error of the accelerometer.
 std::optional<Height> height_of(const Trial& trial, const Grid& grid, const Signal& accel_mps2) {
   auto samples = samples_of(trial, "mocap_body_z_m");
   if (samples.value.size() < 10) samples = without_repeats(samples_of(trial, "tof_height_m"));
@@ -78,7 +78,8 @@ std::optional<Height> height_of(const Trial& trial, const Grid& grid, const Sign
   return height;
 }
 
-// Aloft as the controller saw it, but for the moments after a liftoff; without phases nowhere.
+// Per grid point, 1 in the recorded flights, except close to liftoff and touchdown. All 0 without recorded
+// phases.
 std::vector<char> flights(const Grid& grid, const std::vector<PhaseChange>& phases) {
   std::vector<char> aloft(grid.count, 0);
   for (std::size_t i = 0; i < grid.count && !phases.empty(); ++i) {
@@ -91,7 +92,7 @@ std::vector<char> flights(const Grid& grid, const std::vector<PhaseChange>& phas
   return aloft;
 }
 
-// Everything recorded of one trial on one grid of time, and what is believed of friction and cogging.
+// The recorded channels of one trial on one time grid, and the believed friction and cogging.
 struct Recorded {
   Signal body_mps2, foot_mps2, angle_rad, rate_radps;
   std::vector<char> body_recorded, foot_recorded, aloft;
@@ -130,7 +131,8 @@ Recorded recorded_of(const Trial& trial, const Grid& grid, const WorldConfig& wo
   return r;
 }
 
-// Friction and cogging as believed, seen through the accelerometers' filter like everything else.
+// Computes the believed friction and cogging. They and the motor torque get the low-pass of the
+// accelerometers, so that all terms are filtered alike.
 void believe_friction(const Belief& belief, const WorldConfig& world, const Leg& leg, const Grid& grid,
                       Recorded& r) {
   const Bed bed(world.terrain, world.robot.leg.foot_radius_m);
@@ -152,7 +154,7 @@ void believe_friction(const Belief& belief, const WorldConfig& world, const Leg&
       if (!signal->values.empty()) signal->low_pass(1.0 / (2.0 * std::numbers::pi * bandwidth_Hz));
 }
 
-// By differences over two steps; 0 at the ends.
+// Central differences; 0 at the ends.
 std::vector<double> rates_of(const Grid& grid, const Signal& signal) {
   std::vector<double> rate(grid.count, 0.0);
   for (std::size_t i = 1; i + 1 < grid.count && i + 1 < signal.values.size(); ++i)
@@ -160,13 +162,14 @@ std::vector<double> rates_of(const Grid& grid, const Signal& signal) {
   return rate;
 }
 
+// Appends one value to each regressor in `balance.known`.
 void know(Balance& balance, std::initializer_list<double> shapes) {
   balance.known.resize(shapes.size());
   auto column = balance.known.begin();
   for (const double shape : shapes) (column++)->push_back(shape);
 }
 
-// One instant of both balances.
+// Both balances at one instant.
 class Instant {
  public:
   Instant(const Recorded& r, const Leg& leg, const Grid& grid, std::size_t i)
@@ -184,9 +187,9 @@ class Instant {
     return r_.body_recorded[i_] != 0 && r_.foot_recorded[i_] != 0;
   }
 
-  // Friction (dry, viscous, greater near standstill, with the load), cable. Aloft accelerations hold the
-  // force that is asked for; on the ground what masses, accelerometers and load cell show otherwise than
-  // believed goes with them.
+  // Regressors: friction (dry, viscous, Stribeck, proportional to the load), cable, and on the ground the
+  // accelerations. Errors of masses, accelerometers and load cell are proportional to these. In flight they
+  // are left out, because the accelerations contain the rail's force itself.
   void add_rail(Balance& rail) const {
     if (!r_.height) return;
     const double z = r_.height->z_m[i_], v = r_.height->v_mps[i_], sign = std::tanh(v / kSlow_mps);
@@ -198,7 +201,7 @@ class Instant {
                 on_ground * r_.body_mps2.values[i_], on_ground * r_.foot_mps2.values[i_]});
   }
 
-  // Friction, the motors' constant, saturation and delay, cogging.
+  // Regressors: friction (dry, viscous), torque constant, saturation, delay, cogging.
   void add_joint(double motor_rate, double cogging_periods_per_rev, Balance& joint) const {
     if (!r_.driven()) return;
     const double phi = r_.angle_rad.values[i_], w = r_.rate_radps.values[i_], tau = r_.motor_Nm.values[i_];

@@ -15,7 +15,7 @@ void fill(Table& table, const std::string& prefix, const Belief& belief, const E
     } else if constexpr (std::is_same_v<Member, double>) {
       const double believed = belief.value(name, member);
       const double edited = edits.edited(name, believed);
-      // What an effect asks for stays physical; what is believed is taken as it is.
+      // An edited number is clamped to its range; a believed one is used as it is.
       member = edited == believed ? believed : std::clamp(edited, range.low, range.high);
     } else if constexpr (std::is_same_v<Member, int>) {
       member = static_cast<int>(belief.value(name, member));

@@ -6,10 +6,10 @@
 
 namespace sandhopper::diagnose {
 
-// The belief with what effects change in it: robot, motor, controller, terrain, sensors, spread.
+// The belief after the edits: robot, motor, controller, terrain, sensors, spread.
 WorldConfig world_of(const Belief& belief, const Edits& edits);
 
-// What the experimenter weighed and put on the body is part of it.
+// The belief with the set-up's payload_kg added to the mass of the body.
 Belief with_payload(Belief belief, const Trial& trial);
 
 }  // namespace sandhopper::diagnose

@@ -7,7 +7,7 @@
 namespace sandhopper::diagnose::hopper {
 namespace {
 
-constexpr double kAtRest = 0.01;  // share of a later hop's uncertainty that a release at rest has
+constexpr double kAtRest = 0.01;  // start of a release at rest: share of the uncertainty of a later hop
 
 }  // namespace
 

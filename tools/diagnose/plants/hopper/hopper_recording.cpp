@@ -6,9 +6,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kFreeFall_mps2 = 5.0;  // the body feels less than this once it is released
-constexpr double kBegins_s = 0.005;
-constexpr double kAboutAtSurface_m = 0.008;
+constexpr double kFreeFall_mps2 = 5.0;  // after the release the body's accelerometer reads less than this
+constexpr double kBegins_s = 0.005;     // a held leg that was just released falls this long
+constexpr double kAboutAtSurface_m = 0.008;  // a foot nearer to the surface stands on it
 
 double release_time_s(const Trial& trial) {
   const auto body = samples_of(trial, "imu_body_accel_z_mps2");
@@ -41,7 +41,7 @@ AtTime local_fit(const Samples& samples, double time_s, double half_s) {
 
 struct BodyHeight {
   Samples samples;
-  double half_s = 0.02;
+  double half_s = 0.02;  // half-width of a local fit
 };
 BodyHeight body_height(const Trial& trial) {
   BodyHeight height{samples_of(trial, "mocap_body_z_m"), 0.02};
@@ -73,16 +73,16 @@ HopStart start_from_data(const Trial& trial, const Leg& leg, double time_s) {
   return start;
 }
 
-// As the encoder reads it where a leg is let go: the controller's own, unless the record says otherwise.
+// Leg angle at the release: the encoder's reading if it differs from the believed angle by more than 1 mrad.
 double angle_held(const Trial& trial, double time_s, double believed_rad) {
   constexpr double kApart_rad = 1e-3;
   const auto read = local_fit(mean_of_motors(trial, "position_rad"), time_s, 0.008);
   return read.known && std::abs(read.value - believed_rad) > kApart_rad ? read.value : believed_rad;
 }
 
-// A leg that is to be held and falls as its record begins was let go there, where the ground carried it not
-// yet: it is at rest, and a foot that is about at the surface is on it. Heights alone tell that only to
-// within millimetres and decimetres per second.
+// A leg of a hold trial that falls freely in the first rows was released there, before the ground carried it.
+// It is at rest, and a foot close to the surface is on it. Heights alone show this only to within millimetres
+// and decimetres per second.
 void let_go_where_it_begins(const Trial& trial, HopStart& start) {
   if (trial.kind != "hold") return;
   const auto body = samples_of(trial, "imu_body_accel_z_mps2");
@@ -162,8 +162,8 @@ HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_
     course.hops.push_back(start_from_data(trial, leg, trial.time_s.front()));
     let_go_where_it_begins(trial, course.hops.back());
   }
-  // A later landing meets the crater's unloading line: an impact whose height depends on tenths of a
-  // millimetre.
+  // The course ends before the second landing: the foot meets the crater's unloading line there, and the
+  // impact depends on tenths of a millimetre.
   for (std::size_t i = 1; i + 1 < course.phases.size(); ++i)
     if (course.phases[i].phase == HopperPhase::flight) {
       course.end_s = 0.5 * (course.phases[i].time_s + course.phases[i + 1].time_s);

@@ -7,17 +7,17 @@
 #include "tools/diagnose/plants/hopper/hopper_simulation.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
-// What a recorded hop trial says of its own course: when it was released, when phases changed, where each hop
-// starts.
+// Course of a recorded hop trial: its release, its phase changes and the start of each hop.
 namespace sandhopper::diagnose {
 
-inline constexpr double kTick_s = 1e-3;  // of the hopper's controller
+inline constexpr double kTick_s = 1e-3;  // cycle of the hopper's controller
 
+// State of the plant at the start of a hop.
 struct HopStart {
   double from_s = 0.0;
   PlantState state{};
-  double crater_m = 0.0;
-  bool at_rest = false;  // released from the catch: known by the set-up
+  double crater_m = 0.0;  // deepest point of earlier strides
+  bool at_rest = false;   // released from the catch: the set-up gives the state
 };
 
 struct HopperCourse {
@@ -26,20 +26,23 @@ struct HopperCourse {
   double end_s = 0.0;
 };
 
+// Recorded phase changes; the first is the phase at the start.
 std::vector<PhaseChange> phase_changes(const Trial& trial);
 
-// Both motors' commands together; empty where they were not recorded.
+// Sum of both motors' torque commands. Empty if they were not recorded.
 Samples commands_of(const Trial& trial);
 
-// The leg as the controller measured it.
+// Leg angle and rate as the controller measured them: mean of both motors.
 struct MeasuredLeg {
   std::vector<double> time_s, angle_rad, rate_radps;
 };
 MeasuredLeg measured_leg(const Trial& trial);
 
+// The course ends in the middle of the flight after the first stance. `flight_length_m`: leg length at the
+// release.
 HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_m);
 
-// Mean of both motors, or the one there is.
+// Mean of both motors, or the value of the one that was recorded.
 Samples mean_of_motors(const Trial& trial, const std::string& quantity);
 
 }  // namespace sandhopper::diagnose

@@ -8,18 +8,18 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::uint64_t kStay = 200;  // askings that a run stays longer which was asked for again
+constexpr std::uint64_t kStay = 200;  // a run that was used again stays for this many more requests
 
 bool acts_on_plant(const std::string& channel) {
   return channel == "actuator" || channel.ends_with("position_rad");
 }
 
-// Bit by bit: a nuisance that is not a number is equal to itself.
+// Bitwise, so that a NaN equals itself.
 bool same(const HopperRuns::Key& a, const HopperRuns::Key& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-// False where nothing tells its law apart from others.
+// Appends an edit to a key. False if its law has no key of its own.
 bool append(const SensorEdit& edit, HopperRuns::Key& key) {
   key.push_back(static_cast<double>(edit.kind));
   key.push_back(edit.value);

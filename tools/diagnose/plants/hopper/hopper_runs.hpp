@@ -9,22 +9,22 @@
 
 namespace sandhopper::diagnose {
 
-// Runs of a hopper that were made already, and what was read of them: what only a sensor reads otherwise
-// needs no new run, and other sensors none of their readings. Of one trial, and so of one thread at a time.
+// Cache of the runs of one trial and of the readings taken from them. An edit of a sensor alone needs no new
+// run, and no new readings of the other sensors. Not thread-safe: each trial has its own.
 class HopperRuns {
  public:
-  // Of everything that changes the run itself, or what a sensor reads of it; empty: not known.
+  // Holds everything that changes a run, or a reading of it. Empty: unknown, so nothing is cached.
   using Key = std::vector<double>;
-  // `plant_nuisances`: those that change the run, not only what a sensor reads of it.
+  // `plant_nuisances`: those that change the run, not only its readings.
   static Key key(const Edits& edits, std::span<const double> plant_nuisances);
-  // `own_nuisances`: those that change what this sensor reads of one run.
+  // `own_nuisances`: those that change the readings of this sensor.
   static Key reading_key(const Edits& edits, std::string_view channel, std::span<const double> own_nuisances);
 
   class Run {
    public:
     HopperTraces traces{};
 
-    // Fills `out` with what `make` would.
+    // Writes the readings of a channel to `out`: the cached ones, or those that `make` computes.
     template <class Make>
     void read(std::size_t channel, const Key& key, std::span<double> out, Make&& make) {
       if (channel >= readings_.size()) readings_.resize(channel + 1);

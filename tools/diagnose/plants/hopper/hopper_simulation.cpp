@@ -37,7 +37,7 @@ class PortLaws final : public PlantExtension {
   double time_s_ = 0.0;
 };
 
-// From the commanded torque to the current, and from the current to the torque on the links.
+// Drive: from the commanded torque to the current, and from the current to the torque on the links.
 class Actuator {
  public:
   Actuator(const Edits& edits, const HopperRun& run)
@@ -69,15 +69,16 @@ class Actuator {
       }
     }
     loop_decay_ = decay(time_constant_s);
-    // A loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one, and recordings
-    // may be of either: between the two. Which, a tolerance finds out (plants/hopper).
+    // A current loop that acts at the start of 0.1 ms steps is half a step ahead of a continuous one.
+    // Recordings may come from either, so this takes the middle. A tolerance covers the difference
+    // (drive_unsure_s).
     const double ahead = time_constant_s > 0.0 ? std::exp(-0.25 * Plant::kStep_s / time_constant_s) : 0.0;
     loop_mean_ = ahead * (1.0 - loop_decay_) * time_constant_s / step_s_;
     history_.fill(0.0);
   }
 
-  // One grid step with `command` in force; returns the current (as torque of the nominal constant), mean over
-  // the step.
+  // One grid step with the command held. Returns the mean current over the step, as torque with the nominal
+  // constant.
   double step(double command_Nm, double rate_radps) {
     if (!limits_.empty()) {
       const double limit_Nm =
@@ -86,7 +87,7 @@ class Actuator {
     }
     newest_ = (newest_ + 1) % history_.size();
     history_[newest_] = command_Nm;
-    // A little early is an overshoot of the next step that holds the same impulse.
+    // A negative delay becomes an overshoot of the next step with the same impulse.
     const double steps = std::clamp(delay_s_ / step_s_, -1.0, static_cast<double>(history_.size() - 2));
     const auto whole = static_cast<std::size_t>(std::max(0.0, steps));
     const double part = steps - static_cast<double>(whole);
@@ -123,7 +124,7 @@ class Actuator {
   std::size_t newest_ = 0;
 };
 
-// The angle as the controller reads it: the mean of both motors'.
+// The angle as the controller reads it: mean of both motors.
 class MeasuredAngle {
  public:
   explicit MeasuredAngle(const Edits& edits) {
@@ -136,7 +137,7 @@ class MeasuredAngle {
   }
   double operator()(const PlantState& s) const { return read(s.rotor_rad(), s.rotor_radps()); }
 
-  // The angle of a leg at rest that is read as this one.
+  // True angle of a leg at rest whose reading is `read_rad`, by fixed-point iteration.
   double behind(double read_rad) const {
     double angle_rad = read_rad;
     for (int i = 0; i < 4; ++i) angle_rad += read_rad - read(angle_rad, 0.0);
@@ -154,8 +155,8 @@ class MeasuredAngle {
   std::vector<const Law*> laws_;
 };
 
-// The motors' speed as the controller reads it, through the encoder's low-pass. Exactly the filter that
-// RecordedController takes: how the recorded one differs is part of the residual command.
+// Speed of the motors as the controller reads it, through the encoder's low-pass. RecordedController uses the
+// same filter. A recorded filter that differs becomes part of the residual command.
 class MeasuredRate {
  public:
   explicit MeasuredRate(const HopperRun& run) : rate_radps_(run.start.angular_velocity_radps) {
@@ -218,8 +219,8 @@ HopperTraces empty_traces(double from_s, double step_s, std::size_t count) {
   return traces;
 }
 
-// The start on the plant's zero, the surface. Recorded is the rotors' angle; they lie at the side of the play
-// to which the motors push.
+// Start in the plant's coordinates, with height 0 at the surface. The recorded angle is that of the rotors.
+// They rest at the side of the play to which the motors push.
 PlantState start_of(const HopperRun& run, const MeasuredAngle& measured, double surface_m,
                     SpringLeg& spring) {
   PlantState start = run.start;
@@ -233,11 +234,10 @@ PlantState start_of(const HopperRun& run, const MeasuredAngle& measured, double 
   return start;
 }
 
-// Writes what the plant does in each step.
-//
-// Force and accelerations jump where the bed begins to yield again: their means over a step do not jump from
-// one grid point to the next when that instant moves. A foot on rigid ground stops by an impulse, which is no
-// acceleration: there they are values at the instant.
+// Writes the plant's motion in each step to the traces. Force and accelerations are means over a step on a
+// bed: they jump when the bed begins to yield again, and a mean changes smoothly when that instant moves. On
+// rigid ground they are values at the instant, because the foot stops by an impulse, which is no
+// acceleration.
 class Writer {
  public:
   Writer(HopperTraces& traces, const Plant& plant, double surface_m, bool means)

@@ -13,13 +13,14 @@ namespace sandhopper::diagnose {
 
 enum class HopperPhase : std::uint8_t { flight, compression, extension };
 
-// When the recorded controller changed its phase: [0] is the phase at the start. Imposed on the simulation,
-// for a switch that moves by a cycle would look like missing physics; empty: the simulated controller
-// decides.
+// Phase change of the recorded controller; [0] is the phase at the start. The changes are imposed on the
+// simulation, because a change that moves by one cycle would look like missing physics. If there are none,
+// the simulated controller decides.
 struct PhaseChange {
   double time_s;
   HopperPhase phase;
 };
+// Phase at a time; before the first change it is the first phase.
 HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s);
 
 // Virtual spring, F = K (L0 - L) - B dL/dt, torque of both motors = F L', within the drives' limit.
@@ -32,6 +33,7 @@ double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N
 
 inline constexpr double kHopperStep_s = 2.5e-4;
 
+// Input of simulate_hopper().
 struct HopperRun {
   WorldConfig world{};
   double compression_stiffness_N_per_m = 375.0;
@@ -40,36 +42,39 @@ struct HopperRun {
   double cable_force_N = 0.0;
   double torque_constant_factor = 1.0;
   double motor_temperature_C = 25.0;
-  PlantState start{};     // its angle as the encoder reads it
+  PlantState start{};     // the angle is as the encoder reads it
   double crater_m = 0.0;  // deepest point of earlier strides
   BedHistory bed_history{};
   double from_s = 0.0, to_s = 1.0;
   double step_s = kHopperStep_s;
-  bool switch_between_cycles = false;  // a phase changes at its instant, not with the next cycle
+  // True: the command follows a phase change at once, not with the next cycle.
+  bool switch_between_cycles = false;
   const std::vector<PhaseChange>* phases = nullptr;
-  // Both motors: what was commanded, less what the believed controller makes of the recorded leg. Added to
-  // what it makes of the simulated leg: the noise that the controller really fed back acts here, too, and the
-  // leg cannot run away as it does when torque is replayed.
+  // Recorded command minus the command that the believed controller computes from the recorded leg, sum of
+  // both motors. It is added to what the controller computes from the simulated leg. So the noise that the
+  // real controller fed back acts here, too, and the leg remains stable, which it does not if a torque is
+  // replayed.
   const Signal* command_residual_Nm = nullptr;
   const Signal* recorded_command_Nm = nullptr;  // drives the leg instead of the controller
 };
 
-// What a run leaves: quantities on one grid of time, heights over the undisturbed surface.
+// Result of a run: quantities on one time grid, heights over the undisturbed surface.
 struct HopperTraces {
   Signal angle_rad, rate_radps, current_torque_Nm,
       command_torque_Nm;  // torques: both motors, nominal constant
   Signal body_accel_mps2, foot_accel_mps2, body_z_m, foot_z_m, foot_velocity_mps, force_N;
 };
 
-// Closed loop at the controller's rate on a 0.25 ms grid (RK4): the virtual spring on the simulated leg,
-// whose rate the controller sees through the encoder's low-pass, command through delay and current loop to
-// torque, the plant with the laws of `edits` at its ports
+// Simulates the closed loop on a 0.25 ms grid (Plant::advance, midpoint rule). At the controller's rate the
+// virtual spring acts on the simulated leg, whose rate it sees through the encoder's low-pass. Its command
+// becomes a torque through delay and current loop. The laws of `edits` act at the plant's ports
 //   rail    force on the body, up
 //   joint   torque on the links, both sides
 //   actuator_limit  largest torque of both motors
 //   ground_*  as in ground_laws.hpp
-// and the sensor edits of the channel "actuator": delay and lag act on the current, gain, offset and law on
-// the torque it makes. Edits of the motors' position (offset, gain, law) are what the controller sees, too.
+// Sensor edits of the channel "actuator": delay and lag act on the current; gain, offset and law act on the
+// torque that it makes. Edits of the motors' position (offset, gain, law) also change what the controller
+// sees.
 HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits);
 
 }  // namespace sandhopper::diagnose

@@ -7,21 +7,23 @@
 namespace sandhopper::diagnose::hopper {
 namespace {
 
-constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr std::size_t kRunsKept = 6;    // of each hop
-constexpr double kDeepest_m = 0.048;    // that the knots cover
-constexpr double kMargin = 1.5;         // of the depth that the belief says the foot reaches
+constexpr std::size_t kMostKnots = 16;  // most knots of the bed's fluctuation along depth
+constexpr std::size_t kRunsKept = 6;    // runs of each hop in the cache
+constexpr double kDeepest_m = 0.048;    // greatest depth that the knots cover
+constexpr double kMargin = 1.5;         // the knots cover this many times the depth of the believed run
+// Least standard deviations of the surface and of the release.
 constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
 constexpr double kReleaseAngleUnknown_rad = 2e-4;
 constexpr double kNearEndStop_rad = 0.04;
-constexpr double kAloft_s = 0.02;  // a liftoff is over by then
-// Of derivatives: what events jump by is small against what such a step brings, and is not at a quarter of
-// it.
+constexpr double kAloft_s = 0.02;  // a contact later than this after liftoff is the next landing
+// Factor on the steps of derivatives. The jumps at events are small against the change over such a step;
+// against a quarter of it they are not.
 constexpr double kWideStep = 4.0;
 
-// Standard deviation against that of a sample whose time is known.
+// Standard deviation of each sample relative to one whose time is known. `age_sd_s`: standard deviation of
+// its age.
 std::vector<double> unsure_of_time(const Samples& samples, double age_sd_s) {
   const auto& [t, v] = samples;
   std::vector<double> relative(v.size(), 1.0);
@@ -72,7 +74,7 @@ void HopperTrial::take_commands(const Trial& trial) {
 
 void HopperTrial::add_nuisances() {
   const auto& s = world_.spread;
-  // `least`: what nobody knows it better than.
+  // `least`: lower bound of the standard deviation.
   const auto add = [&](const std::string& what, double believed_sd, double least, double step,
                        const char* port = "") {
     trial_nuisances.push_back(
@@ -140,9 +142,9 @@ double HopperTrial::period_within_rows_s(std::size_t c, double step_s) const {
 void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
   sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
   spans_[c].assign(blocks, {});
-  // The believed controller is that of a hop: what holds a leg still is not written down.
-  // Nor is a command held against a speed that was not recorded: exact to its digits, it would show every
-  // hundredth of a radian per second by which a simulation is off.
+  // The commands of a hold are not predicted, because the believed controller is that of a hop. They are not
+  // predicted without a recorded speed either: a command is exact to its digits, so it would show the
+  // smallest error of the simulated speed.
   if (is_command(c) && (trial.kind == "hold" || !controller_.measured())) return;
   const auto samples = samples_of(trial, kSources[c].channel);
   if (samples.value.size() < 10) return;
@@ -228,8 +230,8 @@ void HopperTrial::label_rows() {
     phi.values.push_back(run.angle_rad.at(row.time_s));
     time.values.push_back(row.time_s);
     row.phase = window_at(row.time_s);
-    // Aloft the controller damps what it measures of the speed, noise and all, on the ground it does not:
-    // the commands change at the instants themselves, not around them.
+    // Only in flight does the controller damp the measured speed, with its noise. The noise of the commands
+    // therefore changes exactly at touchdown and liftoff, not some milliseconds around them.
     if (is_command(row.channel)) {
       const bool aloft = phase_at(course_.phases, row.time_s) == HopperPhase::flight;
       if (row.phase == kTouchdown && aloft) row.phase = kFlight;

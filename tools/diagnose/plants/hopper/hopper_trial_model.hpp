@@ -14,7 +14,7 @@
 #include "tools/diagnose/plants/hopper/recorded_controller.hpp"
 #include "tools/diagnose/plants/intruder/bed_grains.hpp"
 
-// The parts of one recorded hop: its rows, what differs from trial to trial, and its readings.
+// Model of one recorded hop: rows, nuisances and readings.
 namespace sandhopper::diagnose::hopper {
 
 enum Phase : std::uint32_t { kFlight, kTouchdown, kCompression, kSwitch, kExtension, kLiftoff };
@@ -42,14 +42,14 @@ enum TrialNuisance : std::size_t {
 };
 enum HopNuisance : std::size_t { kFootZ, kFootV, kAngle, kRate, kCrater, kHopNuisances };
 
-// The way from a run to a recorded channel: trace, sensor, nuisances.
+// From a run to a recorded channel: trace, sensor, nuisances.
 struct ChannelSource {
   const char* channel;
   Signal HopperTraces::*trace;
-  const char* sensor;  // of the belief's keys
+  const char* sensor;  // prefix of the sensor's keys in the belief
   const char* unit;
-  std::size_t every;  // sample that is kept: fast channels say the same thing many times
-  std::optional<TrialNuisance> offset{}, scale{}, age{};
+  std::size_t every;  // one sample in so many is used; the others of a fast channel add little
+  std::optional<TrialNuisance> offset{}, scale{}, age{};  // nuisances of the reading, if it has them
 };
 inline constexpr std::array<ChannelSource, 14> kSources{
     {{"motor_left_position_rad", &HopperTraces::angle_rad, "", "", 4},
@@ -98,30 +98,33 @@ class HopperTrial final : public TrialModel {
   double deepest_believed_m() const;
   // Sampling rate of a sensor with a clock of its own; 0: it is sampled with the rows.
   double rate_Hz(std::size_t c) const;
-  // A sensor that samples more often than rows are written, with a clock of its own, leaves no empty cells
-  // that would tell when: a row holds the latest sample, half a period old in the middle.
+  // Sampling period of a sensor that samples faster than the rows, with its own clock; 0 for others. It
+  // leaves no empty cells: a row holds the latest sample, on average half a period old.
   double period_within_rows_s(std::size_t c, double step_s) const;
   void add_rows(const Trial& trial, std::size_t c);
   std::uint32_t block_at(double t) const;
   Phase window_at(double t) const;
-  // A leg that is thrown against its end stop bounces: when, depends on hundredths of a millisecond.
+  // Ends the course before the leg hits its end stop: the time of the bounce depends on hundredths of a
+  // millisecond.
   void end_before_end_stop(const Trial& trial);
-  // A controller that never sees the next landing records no end of its flight: the simulation knows it.
+  // Ends the course before the next landing if the recorded phases do not show it; the simulation gives its
+  // time.
   void end_before_next_landing();
   void label_rows();
 
-  // The run with another controller than is believed: what was commanded is held against that one.
+  // Simulates one block. If `edits` change the controller, the residual command is computed against the
+  // changed one.
   HopperTraces simulated(const WorldConfig& world, const Edits& edits, std::uint32_t block,
                          std::span<const double> n) const;
   HopperRun run_of(const WorldConfig& world, std::uint32_t block, std::span<const double> n) const;
   void read_channel(const WorldConfig& world, const HopperTraces& traces, const Edits& edits,
                     std::span<const double> n, std::size_t c, const Span& span, std::span<double> at) const;
-  // What was commanded follows from what was measured, not from the run; mostly by the controller as
-  // believed.
+  // Commands follow from the recorded measurements, not from the run. Those of the believed controller are
+  // cached.
   void read_command(const WorldConfig& world, const Edits& edits, const Span& span,
                     std::span<double> at) const;
-  // Instants of a slow sensor's samples. No recording tells whether a row holds the value at the sample's
-  // instant or at the row's: `age_share` is between.
+  // Sampling instants of a slow sensor. No recording tells if a row holds the value at the sampling instant
+  // (`age_share` 1) or at the row's time (0).
   std::vector<double> sampled(const Span& span, double age_share) const;
   double compression_stiffness_of(const Edits& edits) const {
     return edits.edited("controller.compression_stiffness_N_per_m", compression_stiffness_);
@@ -137,7 +140,7 @@ class HopperTrial final : public TrialModel {
   }
 
   mutable HopperRuns runs_;
-  mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // by a span's first row
+  mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // key: first row of a span
   Belief belief_;
   WorldConfig world_;
   double compression_stiffness_ = 375.0;

@@ -8,14 +8,15 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kSmoothingSamples = 6;  // samples to each side
-constexpr double kLengthUnsure_m = 5e-4;      // of the leg, as the controller measured it
-constexpr double kMostLate_s = 0.02;          // a switch that is never made is later than this
+constexpr double kLengthUnsure_m = 5e-4;      // uncertainty of the measured length of the leg
+constexpr double kMostLate_s = 0.02;          // greatest delay that is reported
 
-// Where a quantity that is below zero at the first of two instants and not at the second comes to zero.
+// Zero crossing between two instants, as a share of the interval, for a quantity that is negative at the
+// first one only; else 0.
 double crossing(double before, double after) { return before < 0.0 ? before / (before - after) : 0.0; }
 
-// Parabolas flatten what bends more, as a leg does that lets go of the ground: what they leave is smoothed
-// again.
+// Smooths, and adds the smoothed residual. One pass by parabolas flattens a strong curvature, e.g. of a leg
+// at liftoff.
 Smoothed smoothed_twice(const Samples& samples) {
   Smoothed once = smooth(samples, kSmoothingSamples);
   Samples left = samples;
@@ -118,7 +119,7 @@ std::vector<double> RecordedController::late_switches_s(const WorldConfig& world
     if (phases[i].phase != HopperPhase::compression) continue;
     const bool last = i + 1 == phases.size();
     const double to_s = last ? end_s_ : phases[i + 1].time_s;
-    // A switch that came early is due after it.
+    // If the change came early, its due time is after it.
     const bool made = !last && phases[i + 1].phase == HopperPhase::extension;
     const double until_s = made ? end_s_ : to_s, least_m = world.controller.compression_end_min_deflection_m;
     const auto first = due_s(world, phases[i].time_s, until_s, least_m - kLengthUnsure_m);

@@ -7,38 +7,38 @@
 
 namespace sandhopper::diagnose {
 
-// The controller as it was recorded, held against the believed one. A command is what a controller makes of
-// what it measured: nothing of the plant is in between, so that no physics can explain a difference.
+// Compares the recorded controller with the believed one. A command depends only on the controller and on
+// what it measured, not on the plant. No physics can therefore explain a difference.
 class RecordedController {
  public:
   RecordedController() = default;
   RecordedController(const Trial& trial, const Leg& leg, const WorldConfig& believed, double end_s);
 
-  // The leg was recorded well enough to say what should have been commanded.
+  // True if the leg was recorded well enough to compute the expected commands.
   bool measured() const { return measured_.time_s.size() >= kLeastSamples; }
 
-  // A command goes with the leg of its own row, or of a row before: a controller that acts on what it
-  // received in the cycle before. By which the recorded commands are nearest to the believed controller's,
-  // if by less than half.
+  // Finds by how many rows, 0 to 2, a command is later than the measurement it uses: a controller may act on
+  // what it received in an earlier cycle. A larger age must halve the difference from the believed
+  // controller's commands.
   void find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
                 const std::vector<PhaseChange>& phases);
 
-  // Of both motors, on a grid of 1 ms from zero: what was commanded less what this controller makes of the
-  // recorded leg, smoothed. What is left is the encoder's noise on its way through the controller. Empty
-  // where the leg or the commands were not recorded.
+  // Recorded command minus what this controller computes from the smoothed recorded leg; both motors, on a 1
+  // ms grid from 0. The rest is the encoder's noise that passed the controller. Empty if the leg or the
+  // commands were not recorded.
   Signal residual_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,
                      const std::vector<PhaseChange>& phases) const;
 
-  // Of one motor, at these times, from the leg exactly as it was measured.
+  // Commands of one motor at these times, computed from the leg as it was measured.
   void commands_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,
                    const std::vector<PhaseChange>& phases, std::span<const double> times_s,
                    std::span<double> out) const;
 
-  // Of every change from compression to extension, by how much it came later than its rule says, as the next
-  // row shows it: it is due once the leg lengthens again and is shorter than in flight by more than
-  // `compression_end_min_deflection_m`; where that is a matter of the encoder's noise, anything from the
-  // first such instant to the first that is sure is in time. One that was never made was due before the
-  // compression ended. 20 ms at most.
+  // Delay of every change from compression to extension against its rule, as the next row shows it, s; at
+  // most +-20 ms. The change is due once the leg lengthens again and is shorter than in flight by more than
+  // `compression_end_min_deflection_m`. If the encoder's noise makes that uncertain, any time from the first
+  // possible to the first certain instant is in time. A change that never came was due before the compression
+  // ended.
   std::vector<double> late_switches_s(const WorldConfig& world, const std::vector<PhaseChange>& phases) const;
 
  private:
@@ -52,6 +52,7 @@ class RecordedController {
   double end_s_ = 0.0;
 };
 
+// The same for a recorded trial.
 std::vector<double> late_switches_s(const Trial& trial, const WorldConfig& world);
 
 }  // namespace sandhopper::diagnose

@@ -10,12 +10,12 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kGrid_s = 1e-3;
-constexpr double kRow_s = 2.5e-3;       // of the force: the plate's own ringing is averaged
-constexpr double kSmoothing_s = 0.010;  // of the angle, to each side
-constexpr double kSettling_s = 0.015;   // of a landing, unless contact_settling_s is written down
-constexpr double kOffset_N = 0.5;       // of the force's zero, where [spread] says nothing
-constexpr double kInTheAir_N = 5.0;
-constexpr double kFlightBegins_s = 0.03;  // after the controller believes in it
+constexpr double kRow_s = 2.5e-3;         // rows of the force: the ringing of the force plate is averaged
+constexpr double kSmoothing_s = 0.010;    // smoothing of the angle, to each side
+constexpr double kSettling_s = 0.015;     // after a landing, unless the set-up states contact_settling_s
+constexpr double kOffset_N = 0.5;         // least standard deviation of the force's zero
+constexpr double kInTheAir_N = 5.0;       // below this force the foot is in the air
+constexpr double kFlightBegins_s = 0.03;  // the foot is in the air this long after the controller's liftoff
 constexpr double kFrictionSwitch_radps = 0.2;
 constexpr const char* kForce = "load_cell_force_N";
 enum Phase : std::uint32_t { kCompression = 2, kExtension = 4 };
@@ -79,7 +79,8 @@ class StandingLeg final : public TrialModel {
     command_ = on_grid(command, 0.0, kGrid_s, count, false);
   }
 
-  // From settled after landing to where the force goes or the controller believes in flight.
+  // Start and end of the stance: settled after the landing, until the force vanishes or the controller
+  // changes to flight.
   static std::pair<double, double> stance(const Trial& trial, const Samples& phase, const Samples& force) {
     std::size_t first = 0;
     while (first < phase.value.size() && phase.value[first] == 0.0) ++first;
@@ -87,7 +88,7 @@ class StandingLeg final : public TrialModel {
     while (last + 1 < phase.value.size() && phase.value[last + 1] != 0.0) ++last;
     if (first >= phase.value.size()) return {1.0, 0.0};
     double to_s = phase.time_s[last];
-    // A plate may not read zero with nothing on it: in flight it says what it reads then.
+    // A force plate may have an offset; its readings in flight show it.
     std::vector<double> in_flight;
     for (std::size_t i = 0; i < force.value.size(); ++i)
       if (force.time_s[i] > to_s + kFlightBegins_s) in_flight.push_back(force.value[i]);
@@ -97,7 +98,7 @@ class StandingLeg final : public TrialModel {
       std::nth_element(in_flight.begin(), middle, in_flight.end());
       zero_N = *middle;
     }
-    // The controller believes in stance before the foot has landed.
+    // The controller may change to stance before the foot has landed.
     double landed_s = phase.time_s[first];
     for (std::size_t i = 0; i < force.value.size() && force.time_s[i] < to_s; ++i) {
       if (force.time_s[i] < landed_s) continue;

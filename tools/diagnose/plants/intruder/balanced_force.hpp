@@ -4,14 +4,15 @@
 
 namespace sandhopper::diagnose {
 
-inline constexpr double kBalanced_N = 1e-6;  // a force to itself where the rig has yielded
+inline constexpr double kBalanced_N = 1e-6;  // accuracy of the force's balance
 
-// The force F = f(F), f falling; found between 0 and f(0) by false position (Illinois). The last call of
-// `f` is there.
+// Solves F = f(F) for a decreasing f, between 0 and f(0), by regula falsi (Illinois). The last call of `f` is
+// at the solution.
 template <class Force>
 double bracketed_N(const Force& f) {
   constexpr int kMost = 30;
-  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;  // of f(F) - F
+  // `above`, `below`: f(F) - F at both ends.
+  double low = 0.0, above = f(0.0), high = above, below = f(high) - high;
   double force_N = high;
   int side = 0;
   for (int i = 0; i < kMost && high - low > kBalanced_N; ++i) {
@@ -31,8 +32,8 @@ double bracketed_N(const Force& f) {
   return force_N;
 }
 
-// From the force of the step before by secants, the first along the `slope` of f there, which becomes the
-// present one. `f` is evaluated last where the answer is.
+// Solves F = f(F) by secants from `guess_N`, the force of the previous step. `slope` is df/dF there; it is
+// updated. If the secants fail, bracketed_N() solves it. The last call of `f` is at the solution.
 template <class Force>
 double balanced_N(const Force& f, double guess_N, double& slope) {
   constexpr int kSecants = 5;

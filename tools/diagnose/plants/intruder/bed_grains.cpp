@@ -11,8 +11,8 @@ BedGrains::BedGrains(double relative, double length_m, double deepest_m, double 
   relative_ = relative;
   length_m_ = length_m;
   spacing_m_ = std::max(length_m, closest_m);
-  // A knot's part of the interpolation of unit variance, integrated over depth, in spacings: twice the
-  // integral of u / sqrt(u^2 + (1 - u)^2) from 0 to 1, sqrt(2) asinh(1).
+  // Integral over depth of one knot's weight in the interpolation of unit variance, in spacings: twice the
+  // integral of u / sqrt(u^2 + (1 - u)^2) from 0 to 1, which is sqrt(2) asinh(1).
   constexpr double kPart = 1.2465;
   const double wanted = 2.0 * length_m_ / (kPart * kPart * spacing_m_);
   keep_ = (wanted - 1.0) / (wanted + 1.0);

@@ -6,21 +6,21 @@
 
 namespace sandhopper::diagnose {
 
-// The bed's fluctuation along depth, exponentially correlated over `length_m`, as independent nuisances of
-// one standard deviation, the relative one, through a first-order recursion over knots:
+// Fluctuation of the bed along depth with an exponential correlation over `length_m`. Its knots k_i come from
+// independent nuisances e_i, each with the relative standard deviation, by a first-order recursion:
 //   k_0 = e_0,  k_i = rho k_(i-1) + sqrt(1 - rho^2) e_i
-// rho is such that the mean over a depth D has the variance it ought to have, 2 length / D of the
-// fluctuation's own (twice the integral of exp(-s / length)); with less of it chance would pass for what
-// trials differ in.
+// rho is chosen so that the mean over a depth D has the right variance: 2 length / D times that of the
+// fluctuation (twice the integral of exp(-s / length)). With a smaller one, chance would look like a
+// difference between trials.
 class BedGrains {
  public:
   BedGrains() = default;
-  // From the surface to `deepest_m`, over knots no closer than `closest_m`; none where nothing fluctuates.
+  // Knots from the surface to `deepest_m`, no closer than `closest_m`. None if `relative` is 0.
   BedGrains(double relative, double length_m, double deepest_m, double closest_m, std::size_t most_knots);
 
   std::size_t count() const { return count_; }
   double sd() const { return relative_; }
-  double between_knots() const;  // relative; what lines between knots leave
+  double between_knots() const;  // relative standard deviation that interpolation between knots misses
   BedFluctuation fluctuation(std::span<const double> nuisances) const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStep_s = 5e-4;
 constexpr double kStart_m = -0.01;  // above the surface
-constexpr double kRamp_m = 0.006;   // to get going and to stop
+constexpr double kRamp_m = 0.006;   // distance to accelerate and to stop
 constexpr double kWithdrawal_mps = 0.1;
 
 struct PlannedIntrusion {
@@ -22,7 +22,7 @@ struct PlannedIntrusion {
     accel_mps2.push_back((speed - before) / kStep_s);
     speed_mps.push_back(speed);
   }
-  // To another speed along half a cosine.
+  // Changes to another speed along half a cosine.
   void change(double to, double duration_s) {
     const double from = speed_mps.empty() ? 0.0 : speed_mps.back();
     const int steps = std::max(2, static_cast<int>(std::lround(duration_s / kStep_s)));
@@ -59,8 +59,8 @@ PlannedIntrusion motion_of(const std::string& profile, double speed, double dept
   return m;
 }
 
-// The deepest recorded point, and the median over trials of the mean speed from the surface to the trial's
-// deepest point: what the rig did, where no set-up says it.
+// Motion of the rig as recorded, if no set-up states it: the deepest point, and the median over trials of the
+// mean speed from the surface to the deepest point of a trial.
 struct Stroke {
   double depth_m = 0.04, speed_mps = 0.3;
 };

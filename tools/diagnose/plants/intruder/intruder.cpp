@@ -40,7 +40,7 @@ class Intruder final : public PlantModel {
     context.facts.depth_m = std::max(deepest, 1e-3);
     context.facts.speed_mps = std::max(fastest, 1e-3);
     context.facts.force_N = std::max(strongest, 0.1);
-    // What the set-ups differ in, and how near the foot came to the floor of the bed.
+    // Differences between the set-ups, and the smallest distance of the foot from the floor of the container.
     context.facts.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
     context.facts.range_of_wait_s = range_of_setup(trials, "wait_s");
     for (const auto& trial : trials) {
@@ -56,7 +56,7 @@ class Intruder final : public PlantModel {
     for (const auto& trial : trials) pushes = std::max(pushes, pushes_of(samples_of(trial, "foot_z_m")));
     double& range = context.facts.range_of_pushes;
     range = std::max(range, pushes - 1.0);
-    // The foot's position is an input, no prediction; its faults are candidates, too.
+    // The foot's position is an input and is not predicted. Its faults are candidates, too.
     context.facts.position_is_out_of_time = position_is_out_of_time(trials);
   }
 

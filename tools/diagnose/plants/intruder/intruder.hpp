@@ -5,7 +5,7 @@
 
 namespace sandhopper::diagnose {
 
-// A foot moved by an actuator as recorded, into a bed. Channel force_N.
+// A foot that an actuator moves into a bed. Its recorded motion is an input. Channel force_N.
 std::unique_ptr<PlantModel> make_intruder();
 
 }  // namespace sandhopper::diagnose

@@ -9,8 +9,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kFewSamples = 10;
-constexpr double kAccelError = 0.01;  // of an acceleration: the sensor's scale
+constexpr std::size_t kFewSamples = 10;  // a channel with no more samples counts as not recorded
+constexpr double kAccelError = 0.01;     // relative error of an acceleration: the sensor's scale
 
 double largest(const std::vector<double>& values) {
   double most = 0.0;
@@ -18,7 +18,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-// Where on the grid a quantity was sampled: not inside a gap.
+// Per grid point, true if the quantity was sampled there; false inside a gap.
 std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
   std::vector<bool> known(m.depth_m.size(), false);
   std::size_t next = 0;
@@ -33,8 +33,7 @@ std::vector<bool> sampled(const Samples& samples, const IntruderMotion& m) {
   return known;
 }
 
-// The sample that stands nearest to each step of the grid: its value, down positive, and how much later it
-// is.
+// Nearest sample to each step of the grid: its value, down positive, and its time after the step.
 struct AtStep {
   std::vector<double> value, late_s;
   std::vector<bool> known;
@@ -55,8 +54,8 @@ AtStep at_steps(const Samples& samples, const IntruderMotion& m) {
   return at;
 }
 
-// Kalman filter forward, Rauch, Tung and Striebel's smoother back, of
-//   x = (depth, speed, offset b of the accelerometer, its lateness l).
+// Kalman filter forward and Rauch-Tung-Striebel smoother backward, with the state
+//   x = (depth, speed, offset b of the accelerometer, its delay l).
 class JointSmoother {
  public:
   JointSmoother(const IntruderMotion& m, const Samples& z, const Samples& v, const Samples& a)
@@ -67,7 +66,7 @@ class JointSmoother {
         hardest_mps2_(largest(m.accel_mps2)),
         accel_step_s_(median_step_s(a.time_s)) {}
 
-  // Puts the joined motion and its standard deviations in place of the recorded one.
+  // Replaces the recorded motion by the smoothed one, and sets its standard deviations.
   void smooth(IntruderMotion& out) {
     forward();
     back();
@@ -86,9 +85,10 @@ class JointSmoother {
   using Vector = Eigen::Vector4d;
   using Matrix = Eigen::Matrix4d;
 
+  // Change of the state by an acceleration of 1 over one step.
   Vector push() const { return {0.5 * m_.step_s * m_.step_s, m_.step_s, 0.0, 0.0}; }
   double change(std::size_t i) const { return m_.accel_mps2[i] - m_.accel_mps2[i - 1]; }
-  // From step i - 1 to i.
+  // State transition from step i - 1 to i.
   Matrix advance(std::size_t i) const {
     Matrix f = Matrix::Identity();
     f(0, 1) = m_.step_s;
@@ -96,13 +96,13 @@ class JointSmoother {
     f.col(3) += push() * change(i) / m_.step_s;
     return f;
   }
-  // Error of the mean acceleration from step i - 1 to i; unknown inside a gap. Where it changes it may have
-  // jumped at any instant between: its mean lies evenly between both values.
+  // Standard deviation of the mean acceleration from step i - 1 to i; large inside a gap. The acceleration
+  // may jump at any time between the steps, so its mean is uniform between both values.
   double accel_sd(std::size_t i) const {
     if (!accel_known_[i]) return hardest_mps2_;
     return std::hypot(m_.accel_sd_mps2[i], kAccelError * m_.accel_mps2[i], change(i) / std::sqrt(12.0));
   }
-  // A reading of depth or speed, which is linear in the state.
+  // Kalman update by a reading `seen` of depth or speed, which is `of` times the state.
   static void take(Vector& x, Matrix& p, const Eigen::RowVector4d& of, double seen, double variance) {
     const Vector gain = p * of.transpose() / (of.dot(p * of.transpose()) + variance);
     x += gain * (seen - of.dot(x));
@@ -144,7 +144,7 @@ class JointSmoother {
     }
   }
 
-  // a - b + l a'
+  // The acceleration without the accelerometer's errors, a - b + l a'.
   std::vector<double> corrected_accel() const {
     const std::size_t n = after_.size();
     std::vector<double> accel(n);
@@ -165,8 +165,7 @@ class JointSmoother {
   std::vector<Matrix> before_cov_, after_cov_;
 };
 
-// A foot that is fast meets the bed between two rows: the grid is made finer, values and rates joined by
-// cubics (Hermite).
+// Refines the grid for a fast foot, which meets the bed between two rows. Interpolation by cubics (Hermite).
 void refine(IntruderMotion& m) {
   constexpr double kFarthest_m = 1.5e-4;
   constexpr std::size_t kMostParts = 8;
@@ -197,8 +196,8 @@ void refine(IntruderMotion& m) {
   m.step_s /= static_cast<double>(parts);
 }
 
-constexpr double kClear = 4.0;                             // standard errors
-constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // less moves no force by what a cell can see
+constexpr double kClear = 4.0;                             // least significance, in standard errors
+constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // a smaller error changes no force visibly
 
 std::vector<double> at_times(const std::vector<double>& time_s, const std::vector<double>& values,
                              const std::vector<double>& wanted_s) {
@@ -210,7 +209,7 @@ std::vector<double> at_times(const std::vector<double>& time_s, const std::vecto
   return out;
 }
 
-// By how much a position is late and its clock fast, with standard errors.
+// Delay of a position and drift of its clock, with standard errors.
 struct OutOfTime {
   double late_s, drift, late_se_s, drift_se;
 };
@@ -221,7 +220,7 @@ std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const S
   const Samples& recorded = by_speed ? v : a;
   if (z.time_s.size() < kLeastRows || recorded.time_s.size() < kLeastRows) return std::nullopt;
   const std::size_t half_other = by_speed ? kOfRate : kOfCurvature;
-  // As long a time on both sides, also where the position comes more slowly.
+  // Both are smoothed over the same time, also if the position has fewer samples.
   const double slower = median_step_s(z.time_s) / median_step_s(recorded.time_s);
   const auto half = std::max(
       kLeastHalf,
@@ -247,7 +246,7 @@ std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const S
   const Eigen::Matrix2d inverse = information.inverse();
   const Eigen::Vector2d found = inverse * score;
   if (!found.allFinite()) return std::nullopt;
-  // As many rows as one local parabola takes in are one observation.
+  // The rows of one local parabola count as one observation, because they are correlated.
   const double variance = std::max(0.0, squares - found.dot(score)) * static_cast<double>(2 * half + 1) /
                           static_cast<double>(z.time_s.size());
   const Eigen::Vector2d se = (inverse.diagonal() * variance).cwiseMax(0.0).cwiseSqrt();
@@ -260,7 +259,7 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   constexpr double kSmoothing_s = 0.004, kQuantum_m = 2e-6;
   IntruderMotion m;
   m.start_s = z.time_s.front();
-  // What is late does not belong to the same motion.
+  // A late position does not belong to the same motion, so the sensors are not joined.
   const auto apart = out_of_time(z, v, a);
   const bool late = apart && (std::abs(apart->late_s) > std::max(kLeastLate_s, kClear * apart->late_se_s) ||
                               std::abs(apart->drift) > std::max(kLeastDrift, kClear * apart->drift_se));

@@ -24,12 +24,13 @@ double pushes_of(const Samples& z) {
 
 namespace {
 
-constexpr double kSurfaceUnknown_m = 2e-4;  // where the belief gives no spread
-constexpr double kForceZeroUnknown_N = 0.02;
-constexpr double kNotKnown_N = -1.0;    // of BedContact::deepest_N
-constexpr std::size_t kMostKnots = 16;  // of the bed's fluctuation along depth
-constexpr double kHoldSpeed_mps = 1e-3;
-constexpr double kNoiseBand = 4.0;  // standard deviations within which depth or speed stand still
+constexpr double kSurfaceUnknown_m = 2e-4;    // least standard deviation
+constexpr double kForceZeroUnknown_N = 0.02;  // least standard deviation
+constexpr double kNotKnown_N = -1.0;          // BedContact::deepest_N is not known
+constexpr std::size_t kMostKnots = 16;        // most knots of the bed's fluctuation along depth
+constexpr double kHoldSpeed_mps = 1e-3;       // a slower foot holds
+// In standard deviations: within it depth or speed count as standing still.
+constexpr double kNoiseBand = 4.0;
 enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kTurning, kFirstKnot };
 
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force
@@ -38,7 +39,7 @@ class IntruderTrial final : public TrialModel {
  public:
   IntruderTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
     name = trial.name;
-    // A slow press has no need of the recorder's rate.
+    // A slow press is recorded faster than needed: limit the steps of its motion and its rows.
     constexpr double kMostSteps = 4000.0, kRows = 600.0, kSlow = 8.0;
     const double least_s = trial.time_s.empty() ? 0.0 : trial.time_s.back() / kMostSteps;
     history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),
@@ -62,8 +63,8 @@ class IntruderTrial final : public TrialModel {
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
-    // Error of the deepest point, from which the steep line back is counted: it was deeper than its one
-    // reading says, by as much in all rows after it.
+    // Error of the deepest point, at which the steep unloading line starts. Its noise shifts all rows of the
+    // unloading by the same depth.
     add_nuisance("turning_depth_m", motion_.depth_sd_m, motion_.depth_sd_m);
     trial_nuisances.back().may_lean = false;
     add_knots();
@@ -139,8 +140,8 @@ class IntruderTrial final : public TrialModel {
     return at_s;
   }
 
-  // Force on the cell and the share of its standard deviation that the recorded motion's noise makes;
-  // whether the bed yields, stands or is left.
+  // Force on the cell; and for each step, the standard deviation that the noise of the recorded motion gives
+  // it, and the phase.
   struct Run {
     Signal force;
     std::vector<double> input_sd_N;
@@ -179,8 +180,9 @@ class IntruderTrial final : public TrialModel {
     BedReaction reaction{};
   };
 
-  // Noise of the depth must not read as unloading while the foot goes down, nor as new depth while it stands.
-  // A foot that goes down does so until its speed is none: there the steep line begins.
+  // Contact and reaction of the bed at one instant. Noise of the depth must not look like unloading while the
+  // foot goes down, nor like new depth while it stands. A foot that goes down does so until its speed is 0;
+  // there the steep unloading line begins.
   Met meet(const Bed& bed, double depth_m, double speed_mps, double turning_m, Pushed& pushed) const {
     const double depth_band_m = kNoiseBand * motion_.depth_sd_m;
     const double deepest_m = pushed.deepest_m;
@@ -239,7 +241,7 @@ class IntruderTrial final : public TrialModel {
       pushed.touching = asked_m > 0.0;
       laws.touching(pushed.touching);
       Met met;
-      // The bed's force where the rig has yielded by what `felt_N` asks for; it falls as that grows.
+      // Force of the bed if the rig yields under the force `felt_N`; it decreases with `felt_N`.
       const auto at_force = [&](double felt_N) {
         const double speed_mps = read.speed_mps(i) - yields_m_per_N * (felt_N - before_N) / motion_.step_s;
         met = meet(bed, asked_m - yields_m_per_N * felt_N, speed_mps, turning_m, pushed);
@@ -256,7 +258,8 @@ class IntruderTrial final : public TrialModel {
         run.force.values[i - 1] += met_between_N(bed, met.contact, force_N, asked_before_m, asked_m);
       pushed.touched = pushed.touching;
       asked_before_m = asked_m;
-      // On the way down the newest depth counts, not the largest: the largest of many readings is too deep.
+      // While the foot goes down, the newest depth counts, not the largest: the maximum of many noisy
+      // readings is too deep.
       if (met.down)
         pushed.deepest_m = pushed.down_before ? met.depth_m : std::max(pushed.deepest_m, met.depth_m);
       pushed.down_before = met.down;
@@ -267,9 +270,9 @@ class IntruderTrial final : public TrialModel {
     return run;
   }
 
-  // The bed is met a share u after one step and before the next: there the force jumps to that of no depth,
-  // J, and rises to F. What the step before has to show for it so that straight lines have the same
-  // integral:
+  // Correction of the force at the step before first contact, which comes a share u of a step after it. The
+  // force jumps there to J, its value at depth 0, and rises to F. With the correction, linear interpolation
+  // has the same integral:
   //   (1 - 2 u) J - u (F - J)
   static double met_between_N(const Bed& bed, const BedContact& contact, double force_N, double before_m,
                               double after_m) {
@@ -283,7 +286,8 @@ class IntruderTrial final : public TrialModel {
     return (1.0 - 2.0 * u) * jump_N - u * (force_N - jump_N);
   }
 
-  // By differences of the bed's law; the grains between the knots add theirs.
+  // Standard deviation of the force from the noise of the recorded motion, by finite differences of the bed's
+  // law, and from the fluctuation between the knots.
   double input_sd_N(const Bed& bed, const BedContact& at, const BedReaction& reaction,
                     double accel_sd_mps2) const {
     constexpr double kShift_m = 1e-5, kShift_mps = 1e-3;
@@ -299,8 +303,8 @@ class IntruderTrial final : public TrialModel {
                       std::hypot(reaction.added_mass_kg * accel_sd_mps2, grains_N));
   }
 
-  // Standard deviation of the force by which two simulations differ at an edge: the change of force within a
-  // twentieth of a row, by which their sampling instants may be apart.
+  // Standard deviation between two simulations at an edge of the force: their sampling instants may differ by
+  // a twentieth of a row.
   double edge_sd_N(const std::vector<double>& force_N, std::size_t i) const {
     constexpr double kPartOfARow = 0.05;
     const auto to_side = static_cast<std::size_t>(std::ceil(row_s_ / motion_.step_s));

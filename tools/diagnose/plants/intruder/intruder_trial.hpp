@@ -12,7 +12,8 @@ enum IntrusionPhase : std::uint32_t { kAbove, kLoading, kHold, kUnloading };
 // Belief key: share of a trial's extra bed stiffness that its unloading line takes up, too (0: none, 1: all).
 inline constexpr const char* kLineFollows = "spread.unloading_follows";
 
-// How often the foot goes below the surface, from above by a tenth of how deep it gets.
+// Number of times the foot goes below a tenth of its greatest depth, after it was above the surface by as
+// much.
 double pushes_of(const Samples& z);
 
 // One intrusion: the foot moves as recorded, the force is predicted.

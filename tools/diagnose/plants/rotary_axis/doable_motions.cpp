@@ -11,12 +11,12 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kMotionStep_s = 1e-3;
-constexpr double kSmoothing_Hz = 4.0;  // no drive follows a corner
+constexpr double kSmoothing_Hz = 4.0;  // bandwidth of the planned motion: no drive follows a corner
 constexpr double kPi = std::numbers::pi;
 
 struct Axis {
   RotaryFigures is;
-  double gain = 1.0;  // of the torque that acts over the reported one
+  double gain = 1.0;  // acting torque over reported torque
   std::vector<const Law*> laws;
 
   Axis(const Belief& belief, const Edits& edits) : is(belief, edits), laws(edits.at(LawPort::axis)) {
@@ -24,7 +24,7 @@ struct Axis {
       if (edit.channel == "actuator" && edit.kind == SensorEdit::Kind::gain) gain *= edit.value;
   }
 
-  // What acts on the axis besides the drive; `drive_Nm` is what the laws see of the drive.
+  // Torque on the axis without the drive; `drive_Nm` is the drive's torque that the laws see.
   double passive_Nm(double t_s, double angle, double speed, double drive_Nm) const {
     return sum_of(
                laws,
@@ -38,6 +38,7 @@ struct PlannedMotion {
   std::vector<double> angle_rad, speed_radps, torque_Nm;  // reported
 };
 
+// Motion that follows a target through a second-order low-pass, with the torque that it needs.
 PlannedMotion followed(const Axis& axis, double duration_s, const std::function<double(double)>& target_rad) {
   PlannedMotion m;
   constexpr double kPole = 2.0 * kPi * kSmoothing_Hz;
@@ -54,6 +55,7 @@ PlannedMotion followed(const Axis& axis, double duration_s, const std::function<
   return m;
 }
 
+// Motion of the free axis, released from rest.
 PlannedMotion released(const Axis& axis, double duration_s, double from_rad) {
   PlannedMotion m;
   double angle = from_rad, speed = 0.0;
@@ -84,18 +86,19 @@ bool is_within(const std::vector<double>& values, double most) {
   return std::ranges::all_of(values, [&](double value) { return std::abs(value) <= most; });
 }
 
+// A motion to be planned: a target to follow, or a release if there is no target.
 struct Wish {
   std::string profile;  // empty: hold
   std::map<std::string, double> setup;
   std::function<double(double)> target_rad;
 };
 
-double triangle(double turns) {  // -1 to 1, from 0 upwards
+double triangle(double turns) {  // triangle wave from -1 to 1 with period 1, rising from 0
   return 2.0 / kPi * std::asin(std::sin(2.0 * kPi * turns));
 }
 
 std::vector<Wish> wishes(double duration_s, const Reach& reach) {
-  // The grid itself where nothing is known of the key: such motions are then held against those recorded.
+  // The grid itself if nothing is known of the key. Such motions are then compared with the recorded ones.
   const auto of = [&](const char* key, const std::vector<double>& grid) {
     const auto values = reach.settings(key, grid);
     return values.empty() ? grid : values;

@@ -24,7 +24,7 @@ std::optional<double> let_go_s(const Trial& trial) {
   for (const double v : angle.value) farthest = std::max(farthest, std::abs(v - start));
   const double first = std::max(kFirst * farthest, kNoise * fluctuation_rms(angle)),
                second = kSecond * farthest;
-  if (second < kApart * first) return std::nullopt;  // the noise hides how it begins
+  if (second < kApart * first) return std::nullopt;  // noise hides the start of the motion
   const auto moved_s = [&](double least) {
     const auto there =
         std::ranges::find_if(angle.value, [&](double v) { return std::abs(v - start) > least; });
@@ -32,7 +32,7 @@ std::optional<double> let_go_s(const Trial& trial) {
   };
   const double begun_s = angle.time_s.front(), first_s = moved_s(first), second_s = moved_s(second);
   const double held_s = first_s - (second_s - first_s) / (std::sqrt(second / first) - 1.0) - begun_s;
-  // Longer than half of the time until it moved.
+  // A hold counts if it lasts longer than half of the time until the first motion.
   if (held_s < 0.5 * (first_s - begun_s)) return std::nullopt;
   return first_s;
 }

@@ -15,8 +15,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Root mean square of the torque on the axis: of the drive; where that is silent, of gravity; where nobody
-// believes in that either, of what accelerates the inertia.
+// Root mean square of the torque on the axis: of the drive; if that is silent, of gravity; if the belief has
+// none, of inertia times acceleration.
 double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr double kLeast_Nm = 1e-6;
   const RotaryFigures f(belief, {});
@@ -39,10 +39,10 @@ double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belie
   return rows > 0.0 ? kLeast_Nm : 1.0;
 }
 
-// Orders of the ripple over the angle that the balance of torques shows, friction and drive taken out.
+// Orders of the torque ripple over the angle in the axis' balance, after a regression on friction and drive.
 std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
   constexpr int kFirst = 3, kLast = 250;
-  constexpr std::size_t kLeastRows = 30;  // of a trial
+  constexpr std::size_t kLeastRows = 30;  // per trial
   std::vector<double> angles, torques;
   for (const auto& trial : trials)
     for (const auto& balance : balances_of_axis(trial, belief)) {
@@ -89,13 +89,14 @@ class RotaryAxis final : public PlantModel {
     context.facts.torque_Nm = torque_that_acts_Nm(trials, context.belief);
     context.facts.speed_radps = std::max(speed, 0.1);
     context.facts.angle_rad = std::max(angle, 0.1);
-    // An axis that is held still shows no friction: what noise of the torque would do to it is all there is.
-    constexpr double kMoves = 5.0;  // switch speeds of the friction
+    // An axis that is held still shows no friction: only the noise of the torque would seem to move it.
+    constexpr double kMoves = 5.0;  // in switch speeds of the friction
     constexpr double kMostOfTheTime = 0.95;
     double swift = 0.0;
     for (const auto& trial : trials) {
       const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
-      // Steps of a coarse encoder look swift now and then; so does a noisy speed, before it is averaged.
+      // Steps of a coarse encoder look fast now and then, and so does a noisy speed, so both are averaged
+      // first.
       auto rates = positions.value.size() < 20 ? averaged(samples_of(trial, "velocity_radps"), 0.1).value
                                                : smooth(positions, 8).rate;
       if (rates.empty()) continue;

@@ -11,11 +11,12 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kLeastSamples = 50;
-constexpr std::size_t kMostSamples = 800;     // of a trial
+constexpr std::size_t kMostSamples = 800;     // per trial
 constexpr double kBalanceSmoothing_s = 0.02;  // to each side
-constexpr double kMoves = 2.0;                // switch speeds; below, dry friction is what it must be
+// In switch speeds of the friction: below, dry friction may take any value.
+constexpr double kMoves = 2.0;
 
-// At the times of another channel, smoothed.
+// Samples interpolated to the times of another channel, and smoothed.
 Smoothed smoothed_at(const std::vector<double>& time_s, const Samples& samples, double step_s,
                      std::size_t half_width) {
   const Signal signal = on_grid(samples, time_s.front(), step_s, time_s.size() + 1, false);
@@ -24,9 +25,9 @@ Smoothed smoothed_at(const std::vector<double>& time_s, const Samples& samples, 
   return smooth(there, half_width);
 }
 
-// Acceleration from the encoder's angle, or from its speed where that scatters less: the standard deviation
-// of a second derivative over n samples is sqrt(720/n^5), of a first sqrt(12/n^3) of that of a sample (fits
-// of a parabola).
+// Acceleration from the encoder's angle, or from its speed if that is less noisy. A parabola through n
+// samples with noise s gives a second derivative with the standard deviation s sqrt(720/n^5)/dt^2, and a
+// first derivative with s sqrt(12/n^3)/dt.
 std::vector<double> accelerations(const Smoothed& position, double position_noise, const Samples& speed,
                                   const std::vector<double>& time_s, double step_s, std::size_t half_width) {
   if (speed.value.size() < kLeastSamples) return position.curvature;
@@ -70,9 +71,9 @@ std::vector<Balance> balances_of_axis(const Trial& trial, const Belief& belief) 
                                        .velocity_radps = speed,
                                        .torque_Nm = tau,
                                        .turned_rad = turned[i]});
-    // Dry friction, with the load and near standstill too, friction with the speed and its square, gravity
-    // and where its bottom is, inertia, delay. The drive's constant scales all of these; the torque beside
-    // them would leave nothing.
+    // Regressors: friction (dry, with the load, near standstill, with the speed and its square), gravity and
+    // its bottom angle, inertia, delay. An error of the drive's constant scales all of these. The torque
+    // itself is no regressor: together with these it would leave nothing.
     const double sign = std::copysign(1.0, speed);
     const auto near_rest = [&](double within_radps) {
       return sign * std::exp(-std::pow(speed / within_radps, 2));

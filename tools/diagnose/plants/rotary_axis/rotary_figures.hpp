@@ -6,7 +6,7 @@
 
 namespace sandhopper::diagnose {
 
-// What is believed of the axis.
+// Parameters of the axis: numbers of the belief after the edits.
 struct RotaryFigures {
   double inertia_kg_m2, gravity_torque_Nm, viscous_Nm_s, coulomb_Nm, switch_speed_radps, bottom_rad;
 

@@ -19,7 +19,7 @@ std::size_t step_of(double t, const Signal& torque) {
                   static_cast<std::size_t>(std::max(0.0, std::round(t / torque.step_s))));
 }
 
-// Over the step that begins at `t`.
+// Rise of the torque over the step that begins at `t`.
 double rise_at(double t, const Signal& torque) {
   const std::size_t i = step_of(t, torque);
   return i == 0 || i + 1 == torque.values.size() ? 0.0 : 0.5 * (torque.values[i + 1] - torque.values[i - 1]);
@@ -54,7 +54,7 @@ void simulate_axis(const RotaryFigures& f, const std::vector<const Law*>& laws, 
     const double at = (2.0 * t - s.from_s - s.to_s) / (s.to_s - s.from_s);
     return s.torque_Nm + at * s.torque_rise_Nm + inputs.torque.values[step_of(t, inputs.torque)];
   };
-  // A reading that is late shows at first what was before: what a steady acceleration leads there from.
+  // A late reading shows the motion before the stretch: extrapolate it with a constant acceleration.
   const double first = accel(NearbySine(th - f.bottom_rad), s.from_s, torque_at(s.from_s), th, w);
   for (std::size_t i = 0; i < lead_in; ++i) {
     const double t = -step_s * static_cast<double>(lead_in - i);

@@ -9,7 +9,8 @@ namespace sandhopper::diagnose {
 // A stretch of a motion, and the state in which it begins.
 struct AxisStretch {
   double from_s, to_s, position = 0.0, velocity = 0.0;
-  double torque_Nm = 0.0, torque_rise_Nm = 0.0;  // beside the recorded: mean, and from there to the end
+  // Added to the recorded torque: mean, and rise from the mean to the end.
+  double torque_Nm = 0.0, torque_rise_Nm = 0.0;
 };
 
 // Torque of the drive and the angle at which the axis last turned, both on one grid of times from zero on.
@@ -18,10 +19,10 @@ struct AxisInputs {
   const Signal& turned_at;
 };
 
-// Angle and speed over a stretch, from `lead_in_s` before it on, on the grid of the torque:
+// Simulates angle and speed over a stretch, from `lead_in_s` before it on, on the grid of the torque:
 //   J th'' = torque - G sin(th - bottom) - c tanh(th'/v_s) - b th' + laws
 // Classical Runge-Kutta steps of fourth order; shorter ones near rest, where friction is stiff. `position`
-// and `velocity` keep the memory that they have.
+// and `velocity` are overwritten; their memory is reused.
 void simulate_axis(const RotaryFigures& figures, const std::vector<const Law*>& laws,
                    const AxisInputs& inputs, const AxisStretch& stretch, double lead_in_s, Signal& position,
                    Signal& velocity);

@@ -14,7 +14,7 @@
 namespace sandhopper::diagnose {
 
 bool without_noise_alone(Samples& torque) {
-  constexpr double kNoiseAlone = 1.15;  // of its standard deviation
+  constexpr double kNoiseAlone = 1.15;  // greatest scatter, in standard deviations of the white noise
   if (torque.value.size() < 100) return false;
   const double n = static_cast<double>(torque.value.size());
   double mean = 0.0, squares = 0.0;
@@ -33,17 +33,19 @@ bool speed_of_encoder(const Belief& belief) {
 namespace {
 
 constexpr double kBlock_s = 0.5;
-constexpr double kMostRows = 3000.0;    // of a channel
-constexpr double kLong_s = 4.0;         // a recording this long is simulated in longer steps
-constexpr std::size_t kBlockRows = 60;  // at least, where the recording is slow
-constexpr double kLeadIn_s = 0.008;     // before a block: what late readings still show
-// Seconds and rows without torque: nothing is simulated over them.
+constexpr double kMostRows = 3000.0;  // per channel
+constexpr double kLong_s = 4.0;       // a recording this long is simulated in longer steps
+// Least rows of a block; those of a slow recording are longer than kBlock_s.
+constexpr std::size_t kBlockRows = 60;
+constexpr double kLeadIn_s = 0.008;  // simulated before a block, because late readings still show it
+// A longer gap of the torque, in s and in rows, is not simulated.
 constexpr double kUnknown_s = 0.03, kUnknownRows = 5.0;
-// Nor over shorter gaps that are far enough apart to leave something to simulate.
+// A shorter gap (s, rows) is not simulated either if the next one is this far away: enough is left to
+// simulate.
 constexpr double kGap_s = 5e-3, kGapRows = 2.5, kAlone_s = 0.3;
-constexpr double kShortest_s = 0.1;     // of what is simulated between two such times
-constexpr double kTimeConstants = 4.0;  //   or a low pass, before it has forgotten how it began
-constexpr double kStart_rad = 0.05;     // a start is unsure by at least that
+constexpr double kShortest_s = 0.1;     // shortest stretch between two gaps
+constexpr double kTimeConstants = 4.0;  // lead-in of a low-pass, until it has forgotten its start
+constexpr double kStart_rad = 0.05;     // least standard deviation of a start angle
 enum Phase : std::uint32_t { kRest, kSlow, kFast };
 enum BlockNuisance : std::size_t { kPosition, kVelocity, kTorque, kTorqueRise };
 
@@ -51,7 +53,7 @@ class RotaryTrial final : public TrialModel {
  public:
   RotaryTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
     name = trial.name;
-    // Faster rows are averaged, over more the longer the recording is.
+    // Fast rows are averaged, and more so in a long recording.
     const double least_step_s =
         std::max(5e-3, (trial.time_s.empty() ? 0.0 : trial.time_s.back()) / kMostRows);
     const auto positions = averaged(samples_of(trial, "position_rad"), least_step_s);
@@ -63,7 +65,7 @@ class RotaryTrial final : public TrialModel {
     const double row_s = median_step_s(lead.time_s);
     take_torque();
     cut(trial.time_s.back(), std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
-    // Nobody knows the zero of a torque's sensor better than one of its readings, unless he says so.
+    // Default prior of the torque offset: the noise of one reading, unless [spread] states it.
     const double unsaid_Nm = belief.value("sensors.torque_noise_Nm");
     const double torque_sd = belief.value("spread.torque_offset_Nm", unsaid_Nm);
     has_torque_offset_ = torque_sd > 0.0;
@@ -111,7 +113,7 @@ class RotaryTrial final : public TrialModel {
   }
 
  private:
-  // A shaft that twists: what an encoder on the motor reads of the load's motion.
+  // Adds the twist of the shaft to what an encoder on the motor reads.
   static void read_on_motor_side(const Edits& edits, const Signal& torque, Signal& position,
                                  Signal& velocity) {
     const double compliance = edits.edited("axis.compliance_rad_per_Nm", 0.0);
@@ -125,7 +127,7 @@ class RotaryTrial final : public TrialModel {
     }
   }
 
-  // What the velocity is read as where that hangs on the angle, too.
+  // Adds the error of the velocity reading that depends on the angle.
   static void read_by_angle(const Edits& edits, const Signal& position, Signal& velocity) {
     for (const auto& edit : edits.sensors)
       if (edit.channel == kVelocityOfAngle)
@@ -134,7 +136,7 @@ class RotaryTrial final : public TrialModel {
               edit.law(AxisState{.angle_rad = position.values[i], .velocity_radps = velocity.values[i]});
   }
 
-  // A stretch begins where the encoder says, less what it is believed to be off by.
+  // Offset of the encoder in `edits`. A stretch starts at the reading minus this offset.
   static double read_too_far_rad(const Edits& edits) {
     double sum = 0.0;
     for (const auto& edit : edits.sensors)
@@ -142,9 +144,10 @@ class RotaryTrial final : public TrialModel {
     return sum;
   }
 
-  // The noise of the torque's sensor is scaled as what it reads; where a drive saturates, by the slope there.
+  // Acting torque per recorded torque, for the noise of the torque sensor: the gain, times the slope of the
+  // drive's laws at this torque (saturation).
   double acting_per_recorded(const Edits& edits, double time_s) const {
-    constexpr double kApart = 1e-3;  // of the torque
+    constexpr double kApart = 1e-3;  // step as a share of the torque
     double gain = 1.0;
     std::vector<const Law*> laws;
     for (const auto& edit : edits.sensors) {
@@ -159,8 +162,8 @@ class RotaryTrial final : public TrialModel {
     return gain * (acting(torque_Nm + apart_Nm) - acting(torque_Nm - apart_Nm)) / (2.0 * apart_Nm);
   }
 
-  // A stretch reaches as far as its rows do by their clocks. It begins where the encoder was read then, not
-  // where it was read with the same stamp; how fast is as unsure as before.
+  // Stretch corrected for clocks that `edits` change. It covers the times at which its rows were taken, and
+  // it starts at the angle that was read at its start. The start speed is not corrected.
   AxisStretch begun_where_read(std::uint32_t b, const std::array<SensorClock, 2>& clocks) const {
     AxisStretch s = stretches_[b];
     double first_s = s.from_s;
@@ -180,8 +183,8 @@ class RotaryTrial final : public TrialModel {
     std::size_t first = 0, count = 0;
   };
 
-  // Nothing is known of rows taken before or after the torque was recorded: they are as far off as those that
-  // mirror them at its end, which neither costs nor gains anything.
+  // Rows taken before or after the recorded torque cannot be simulated. Each gets the residual of the row
+  // that mirrors it at the end of the known range, which neither costs nor gains anything.
   void mirror_unknown(const Span& span, const SensorClock& clock, const SensorClock& drive,
                       std::span<double> out) const {
     const double from_s = drive.stamp_s(torque_.time_s.front()) - lead_in_s_;
@@ -198,9 +201,9 @@ class RotaryTrial final : public TrialModel {
       mirror(i, end - 1 - std::min(i - end, end - 1 - known));
   }
 
-  // From row to row the torque goes over smoothly; a step of the simulation takes its mean, that of straight
-  // lines less what a cubic bends from them, h^2 f'' / 12. A drive that holds the torque acts half a row
-  // later, which the tolerance of the channels' times allows for.
+  // Puts the torque on the simulation's grid, as the mean over each step. Between rows it is interpolated
+  // linearly, with the curvature of a cubic taken off: h^2 f'' / 12. A drive that holds its torque acts half
+  // a row later; the tolerance of the channels' times covers that.
   void take_torque() {
     const double row_s = torque_row_s_ = median_step_s(torque_.time_s);
     const auto rows_per_step = static_cast<std::size_t>(
@@ -218,13 +221,13 @@ class RotaryTrial final : public TrialModel {
       drive_.values[i] -= share * (straight[i - 1] - 2.0 * straight[i] + straight[i + 1]);
   }
 
-  // Stretches of about `block_s`, none of which holds a time over which the torque is not known. Each begins
-  // on a step of the torque's grid.
+  // Cuts the trial into stretches of about `block_s` in which the torque is known, up to short gaps that are
+  // close to each other. Each begins on a step of the torque's grid.
   void cut(double end_s, double block_s) {
     const double row_s = median_step_s(torque_.time_s);
     const double unknown_s = std::max(kUnknown_s, kUnknownRows * row_s);
     const double gap_s = std::max(kGap_s, kGapRows * row_s);
-    std::vector<std::pair<double, double>> gaps;  // first and last time
+    std::vector<std::pair<double, double>> gaps;  // first and last time of each
     for (std::size_t i = 1; i < torque_.time_s.size(); ++i)
       if (torque_.time_s[i] - torque_.time_s[i - 1] > gap_s)
         gaps.emplace_back(torque_.time_s[i - 1], torque_.time_s[i]);
@@ -277,23 +280,23 @@ class RotaryTrial final : public TrialModel {
     }
   }
 
-  // Standard deviation over stretches of the noise of the torque's sensor, which the simulated axis follows
-  // and the recorded one did not: white, s / sqrt(n).
+  // Standard deviation of the mean torque of a stretch from the white noise s of the torque sensor over n
+  // rows, s / sqrt(n). The simulated axis follows this noise; the recorded one did not.
   double torque_unknown_Nm() const {
     if (!drive_acts_) return 0.0;
     const double rows = static_cast<double>(torque_.time_s.size()) / static_cast<double>(blocks);
     return belief_.value("sensors.torque_noise_Nm") / std::sqrt(std::max(1.0, rows));
   }
 
-  // By the set-up.
+  // Start angle in the set-up, if it states one.
   static std::optional<double> where_it_began(const Trial& trial) {
     for (const auto* key : {"position_rad", "release_position_rad"})
       if (const auto it = trial.setup.find(key); it != trial.setup.end()) return it->second;
     return std::nullopt;
   }
 
-  // State at the beginning of each block, from the recording smoothed; the fit moves it from there. Without a
-  // position it starts from `began_rad`.
+  // Start state of each block, from the smoothed recording; the fit moves it. Without a position it comes
+  // from the integrated speed, starting at `began_rad`.
   void find_starts(const Samples& positions, const Samples& velocities, std::optional<double> began_rad) {
     const auto& lead = positions.empty() ? velocities : positions;
     const double row_s = median_step_s(lead.time_s);
@@ -350,7 +353,7 @@ class RotaryTrial final : public TrialModel {
 
   Belief belief_;
   Samples torque_;
-  Signal drive_, turned_at_, angle_;  // the last as recorded, smoothed
+  Signal drive_, turned_at_, angle_;  // angle_: as recorded, smoothed
   std::size_t lead_channel_ = 0;
   bool drive_acts_ = true, has_torque_offset_ = false;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
