@@ -3,7 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// About the height of the body at rest, so that the spring is no constant force in disguise.
+// The rest height is fitted near the height of the resting body, so that the spring differs from a constant
+// force.
 const EffectRegistration kEffect(
     {.id = "rail.cable",
      .port = Port::rail,
