@@ -9,7 +9,7 @@
 #include "tools/diagnose/recordings/data_faults.hpp"
 #include "tools/diagnose/recordings/events.hpp"
 
-// Parts of the answer, each made from the finished search.
+// Parts of the answer. Each function adds one part to `diagnosis`, from the finished search.
 namespace sandhopper::diagnose {
 
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
@@ -17,15 +17,15 @@ void report_events(const Problem& problem, const std::vector<Event>& events, Dia
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis);
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
-// Adds an unknown without a law of free form, at the port of the effect that explains most; the effects
-// together close `gap_closed` of the gap. Call it after report_effects.
+// Adds an unknown effect without a law of free form, at the port of the effect that explains most.
+// `gap_closed`: fraction of the gap that the effects close together. Call it after report_effects.
 void report_unknown_near(double gap_closed, Diagnosis& diagnosis);
-// Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of
-// that.
+// For a diagnosis without effects: adds an unknown effect at the port of the noisy channel, or of the common
+// nuisance offset.
 void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
-// Where nothing says more, and the plant has one port only: there, unless sensors are loud where nothing
-// acts.
+// For a plant with a single port: adds an unknown effect there, unless a sensor is noisy in a phase without
+// forces.
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis);
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);

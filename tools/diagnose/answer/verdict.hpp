@@ -9,7 +9,7 @@ namespace sandhopper::diagnose {
 
 enum class Verdict : std::uint8_t { insufficient_data, consistent, missing_physics, unknown_physics };
 
-// The kind of a verdict.
+// Kind of a verdict.
 enum class Detail : std::uint8_t {
   none,
   too_little_data,
@@ -21,7 +21,7 @@ enum class Detail : std::uint8_t {
   unknown_not_localised
 };
 
-// Their words in diagnosis.json, text and page, in the order of the enumerators.
+// Their names in diagnosis.json, text and page, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 4> kVerdictNames{"insufficient_data", "consistent",
                                                                "missing_physics", "unknown_physics"};
 inline constexpr std::array<std::string_view, 8> kDetailNames{
@@ -33,7 +33,7 @@ constexpr std::string_view name_of(Verdict verdict) {
 }
 constexpr std::string_view name_of(Detail detail) { return kDetailNames[static_cast<std::size_t>(detail)]; }
 
-// "missing_physics, known", or the verdict alone.
+// "missing_physics, known"; without a detail only the verdict.
 inline std::string name_of(Verdict verdict, Detail detail) {
   std::string text(name_of(verdict));
   if (detail != Detail::none) text.append(", ").append(name_of(detail));
