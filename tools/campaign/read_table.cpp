@@ -80,8 +80,7 @@ class TableReader {
     return std::nullopt;
   }
 
-  // In double quotes TOML reads the backslashes of a Windows path as control characters ("\\r", "\\t", "\
-  // ").
+  // In double quotes TOML reads the backslashes of a Windows path as control characters ("\r", "\t", "\n").
   std::string cure_for_missing() const {
     constexpr std::array<std::pair<char, std::string_view>, 7> kEscapes{
         {{'\r', "/r"}, {'\n', "/n"}, {'\t', "/t"}, {'\b', "/b"}, {'\f', "/f"}, {'\x1B', "/e"}, {'\\', "/"}}};

@@ -6,7 +6,7 @@
 
 namespace sandhopper::conceal {
 
-// One effect of a plant: how it changes the world.
+// One effect of a plant, as a change of its world.
 template <class World>
 struct Recipe {
   EffectInfo info;
@@ -29,10 +29,10 @@ struct PlantSpec {
   std::vector<Recipe<World>> listed;
   std::vector<Recipe<World>> unlisted;
   std::vector<Restriction<World>> restrictions;
-  std::vector<std::string> expendable;  // channels whose sensor may be dead
+  std::vector<std::string> expendable;  // Channels that may be recorded dead.
 };
 
-// A plant from the functions of its folder.
+// A plant made from the functions of its folder.
 template <class World>
 class PlantOf final : public Plant {
  public:

@@ -5,8 +5,8 @@
 
 namespace sandhopper::conceal::hopper {
 
-// foot height, leg angle, compression of the foot's spring, rotor angle; their rates; stretch of the cable's
-// and of the joint's hysteretic spring.
+// State: foot height, leg angle, compression of the foot's spring, rotor angle; their rates; stretch of the
+// hysteretic springs of the cable and of the joint.
 using State = std::array<double, 10>;
 enum : std::size_t {
   kFoot,
@@ -23,14 +23,14 @@ enum : std::size_t {
 
 enum class Contact { none, virgin, rebound };
 
-// What is the same throughout a trial.
+// Constants of one trial.
 struct Scene {
   const World& world;
-  Robot robot;  // with its hidden masses and lengths
+  Robot robot;  // with hidden masses and lengths
   double payload_kg = 0.0;
   BedState bed;
-  double cable_rest_m = 0.0;  // body height at which the cable does not pull
-  bool clamped = false;       // the body keeps its speed
+  double cable_rest_m = 0.0;  // Body height at which the cable has no force.
+  bool clamped = false;       // The body keeps its speed.
 };
 
 struct Accelerations {
@@ -39,7 +39,7 @@ struct Accelerations {
   double contact_N = 0.0;
 };
 
-// Motion under the motors' torque (both together); contact law and bed memory as given.
+// Accelerations for a torque (sum of both motors), with the given contact law and bed state.
 Accelerations accelerations(const Scene& scene, Contact contact, double t_s, const State& x,
                             double torque_Nm);
 

@@ -6,7 +6,8 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// The hopper: believed parameters of robot, controller and sensors, then what may be hidden, off by default.
+// Parameters of the hopper: believed ones of robot, controller and sensors, then the hidden effects (off by
+// default).
 namespace sandhopper::conceal::hopper {
 
 struct Robot {
@@ -31,7 +32,7 @@ struct Gains {
 };
 
 struct Sensors {
-  bool ideal = false;  // no noise, no quantisation, no spread: for comparing with a reference
+  bool ideal = false;  // No noise, no quantisation, no scatter, for comparison with a reference.
   double imu_rate_Hz = 1667.0, imu_noise_mps2 = 0.012, imu_bandwidth_Hz = 400.0,
          imu_structure_noise_mps2 = 0.3;
   double tof_rate_Hz = 500.0, tof_noise_m = 5e-3, tof_latency_s = 2e-3;
@@ -51,7 +52,7 @@ struct Hidden {
   double rail_coulomb_N = 0.0, rail_viscous_N_s_per_m = 0.0, stribeck_N = 0.0, stribeck_mps = 0.03;
   double rail_per_load = 0.0, rail_tilt_rad = 0.0;
   double cable_N_per_m = 0.0, cable_N = 0.0,
-         cable_slack_m = 0.01;                                // spring about the release, and its hysteresis
+         cable_slack_m = 0.01;  // Spring with its zero at the release, and its hysteresis.
   double bump_N = 0.0, bump_at_m = 0.4, bump_width_m = 0.01;  // friction at one height of the rail
   double joint_coulomb_Nm = 0.0, joint_viscous_Nm_s = 0.0;
   double cogging_Nm = 0.0, cogging_per_rev = 42.0, cogging_phase_rad = 0.0;
@@ -67,7 +68,7 @@ struct Hidden {
   double load_cell_kg = 0.0;
 };
 
-inline constexpr double kCycle_s = 1e-3;  // of the controller and of the recording
+inline constexpr double kCycle_s = 1e-3;  // Cycle of the controller and of the recording.
 
 struct World {
   double gravity_mps2 = 9.81;
@@ -78,7 +79,7 @@ struct World {
   Sensors sensors;
   Spread spread;
   Hidden hidden;
-  bool same_drops = false;  // a limit of an ambiguous campaign: one release height, one stiffness
+  bool same_drops = false;  // For an ambiguous campaign: one release height, one stiffness.
   std::map<std::string, ChannelFaults> faults;
 
   ChannelFaults faults_of(const std::string& channel) const {
