@@ -18,12 +18,14 @@ struct Figure {
   bool met() const { return of > 0 && (less_is_better ? value() <= must : value() >= must); }
 };
 
+// Claims with a stated probability between `from` and `to`, and how many of them are right.
 struct Bin {
   double from, to;
   std::size_t count = 0, right = 0;
   double probability_sum = 0.0;
 };
 
+// Results of the single-effect cases with sizes between `from` and `to`.
 struct LadderStep {
   double from, to;  // size relative to typical
   std::size_t cases = 0, noticed = 0, right = 0, confident_wrong = 0;
@@ -36,9 +38,10 @@ struct Fate {
   std::map<std::string, std::size_t> other_names;
 };
 
+// All results over one set of cases.
 struct Score {
   std::vector<Figure> figures;
-  double mean_class_size = 0.0;  // of the right answers at typical size
+  double mean_class_size = 0.0;  // class size of the right answers at typical size
   std::vector<Bin> reliability;
   double expected_calibration_error = 0.0;
   std::size_t names_claimed = 0;
@@ -52,6 +55,7 @@ struct Score {
 // Sizes counted as typical: within a factor of two.
 constexpr double kTypicalFrom = 0.5, kTypicalTo = 2.0;
 
+// Counts all figures over the judged cases.
 Score score(std::vector<Judged> cases);
 nlohmann::ordered_json to_json(const Figure& figure);
 nlohmann::ordered_json to_json(const Score& score);

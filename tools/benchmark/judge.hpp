@@ -7,7 +7,7 @@ namespace sandhopper::benchmark {
 struct Judged {
   const Truth* truth = nullptr;
   bool answered = false;
-  bool alarm = false;  // The answer says that physics is missing or unknown.
+  bool alarm = false;  // The verdict is missing or unknown physics.
   bool insufficient = false;
   bool right = false;  // The most probable name, or its class, is hidden.
   // The set of names is the set of hidden effects; a class counts if it contains the effect.
@@ -30,12 +30,14 @@ struct Judged {
   std::size_t bounded = 0, bounds_hold = 0;
 };
 
+// Probability from which a claim counts as confident.
 constexpr double kConfident = 0.8;
 
 // True if the answer is right for its kind of campaign: nothing missing, unknown at the right port, the exact
 // set, or the name or class of the single effect.
 bool passed(const Judged& judged);
 
+// Compares one diagnosis with the truth. nullopt: the tool gave no answer.
 Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis);
 
 // The parameter of the claim that is the same quantity as the hidden `key`: the same name, else the only one

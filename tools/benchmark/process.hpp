@@ -5,6 +5,7 @@
 
 namespace sandhopper::benchmark {
 
+// Result of a finished program.
 struct Outcome {
   int exit = -1;  // 128 + signal if killed
   bool timed_out = false;

@@ -8,6 +8,7 @@
 // Input of the scorer: the answers of `hop conceal` and the diagnosis.json files of `hop diagnose`.
 namespace sandhopper::benchmark {
 
+// An answer of `hop conceal`: the hidden effects.
 struct Truth {
   std::string name;  // name of the campaign, "001"
   std::string plant, kind;
@@ -25,6 +26,7 @@ struct Truth {
   bool holds(const std::string& id) const;
 };
 
+// One entry of `effects` in diagnosis.json.
 struct Claim {
   std::string id;
   double probability = 0.0;
@@ -45,6 +47,7 @@ struct UpperBound {
   double value = 0.0;
 };
 
+// A diagnosis.json as read; claims sorted by probability, most probable first.
 struct Diagnosis {
   std::string verdict, detail;
   std::vector<Claim> claims;

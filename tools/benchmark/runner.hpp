@@ -16,6 +16,8 @@
 //   FOLDER/random/…                the same with a random set-up, as control
 namespace sandhopper::benchmark {
 
+// `limit_s`: time limit of the tool per campaign. `jobs`: campaigns in parallel. `follow_up`: also record the
+// recommended and a random trial.
 struct RunOptions {
   std::filesystem::path folder;
   conceal::Request request;

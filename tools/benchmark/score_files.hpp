@@ -3,6 +3,7 @@
 
 namespace sandhopper::benchmark {
 
+// Results of one tool: a column of the report.
 struct Column {
   std::string name;  // "hop diagnose", "null only", …
   Score score;

@@ -10,6 +10,7 @@
 // (rate), no low-pass (bandwidth), unlimited (range).
 namespace sandhopper {
 
+// Keys of [sensors] besides those of the simulated robot (SensorConfig).
 struct OtherSensors {
   double tof_range_m = 0.0;
   double encoder_latency_s = 0.0;
@@ -106,6 +107,7 @@ struct OtherSensors {
   }
 };
 
+// Keys of [spread] besides those of the simulated robot (SpreadConfig): standard deviations between trials.
 struct OtherSpread {
   double initial_position_rad = 0.0;
   double accel_bias_mps2 = 0.0;

@@ -14,7 +14,7 @@ std::map<std::string, double> numbers_of(const Belief& belief);
 struct UsedNumber {
   enum class Source : std::uint8_t { model_file, trial_setup, plant_default };
   std::string key;               // "terrain.stiffness_N_per_m"
-  double value = 0.0;            // of the campaign; trials may have other values
+  double value = 0.0;            // value of the campaign; trials may have their own
   double low = 0.0, high = 0.0;  // smallest and largest value over the trials
   std::string unit{};
   Source source = Source::plant_default;

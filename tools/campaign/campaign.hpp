@@ -66,6 +66,7 @@ struct SetupEntry {
   ConfigNode node;  // for its position in campaign.toml
 };
 
+// One [[trial]] of campaign.toml.
 struct CampaignTrial {
   std::string name;  // the file name as written
   std::filesystem::path file;

@@ -10,6 +10,7 @@
 // Guesses the channel of a foreign column from the words in its name and from its unit.
 namespace sandhopper {
 
+// A column of the table and the channel it may be. channel = scale x column.
 struct ColumnGuess {
   std::size_t column = 0;  // index in the table
   std::string channel{};
@@ -23,6 +24,7 @@ struct ColumnGuess {
 std::optional<ColumnGuess> guess_column(const std::string& name, const std::optional<WrittenUnit>& unit,
                                         CampaignPlant plant, const std::vector<ColumnGuess>& taken);
 
+// Only the letters A to Z are changed.
 std::string in_lower_case(std::string_view text);
 // True if `lower` (lower-case text) contains the word. A single letter must be the whole quantity: "z (mm)",
 // not the z in "size".

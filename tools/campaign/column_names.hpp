@@ -14,6 +14,7 @@ struct MisnamedUnit {
   std::optional<double> scale{};  // Factor to the channel's unit; empty if the unit is unknown.
 };
 
+// Empty if the column is no channel's name with another unit.
 std::optional<MisnamedUnit> misnamed_unit(std::string_view column, CampaignPlant plant);
 
 }  // namespace sandhopper

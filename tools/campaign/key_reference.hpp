@@ -42,6 +42,7 @@ struct ChannelEntry {
 // The first entry is `t_s`.
 std::vector<ChannelEntry> channel_entries(CampaignPlant plant);
 
+// Meaning of a kind of trial or of a plant, as a short text.
 std::string_view meaning_of(TrialKind kind);
 std::string_view meaning_of(CampaignPlant plant);
 

@@ -33,6 +33,7 @@ enum class MayRest : std::uint8_t {
   always    // phase, temperature, command, the firmware's own estimates
 };
 
+// A channel of a plant, and how it may behave without being reported.
 struct ChannelTraits {
   std::string_view name;
   CampaignPlant plant;

@@ -13,6 +13,7 @@
 //   peak force >= rho g z_max A / 5                     weight of the displaced material
 namespace sandhopper {
 
+// Largest plausible magnitude of one channel.
 struct PlausibleBound {
   CampaignPlant plant;
   std::string_view channel;

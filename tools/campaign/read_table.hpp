@@ -23,6 +23,8 @@ struct TrialTable {
 std::optional<TrialTable> read_table(const Campaign& campaign, const CampaignTrial& trial,
                                      std::vector<Finding>& findings);
 
+// The trial's mapping for a channel; null if there is none. A mapping of the trial precedes that of the
+// campaign.
 const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view channel);
 // Column with that name, null if there is none. A comment mark in front of the name ("# t_s") is ignored.
 const std::vector<double>* find_column(const CsvTable& table, std::string_view name);

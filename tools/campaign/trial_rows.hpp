@@ -23,6 +23,7 @@ std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vect
 // Text like "250 were read from a.csv, from 0 to 0.498 s".
 std::string shown_rows(std::string_view file, const std::vector<double>& t_s);
 
+// Keeps only the given rows, in `recording` and in `places`.
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep);
 
 // Joins rows with the same time: later cells fill empty cells of the earlier row. With a selection by column

@@ -9,9 +9,13 @@
 
 namespace sandhopper::conceal {
 
+// Kind of a concealed campaign: nothing hidden (null, decoy), one effect (single), two or three (several), an
+// unlisted effect (unknown), one effect that the apparatus cannot distinguish from another
+// (indistinguishable).
 enum class Kind { null, decoy, single, several, unknown, indistinguishable };
 
 const char* name_of(Kind kind);
+// Empty if there is no such kind.
 std::optional<Kind> kind_named(const std::string& name);
 
 // A request; everything left empty is drawn.
@@ -27,6 +31,7 @@ struct Request {
   static Request from_json(const Json& json);
 };
 
+// One effect to hide, with the random numbers for its parameters.
 struct HiddenEffect {
   EffectInfo info;
   double size;  // relative to typical

@@ -13,6 +13,7 @@ void write_campaign(const std::filesystem::path& folder, const Case& c, const st
 // The answer. It must be stored outside the campaign's folder (README.md).
 Json answer(const Case& c, const Request& request, std::uint64_t index);
 
+// Writes `text` to a file. Throws std::runtime_error if that fails.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace sandhopper::conceal

@@ -10,7 +10,7 @@ namespace sandhopper::diagnose {
 struct EngineOptions {
   std::size_t most_effects = 3;
   bool tell_evidence = false;  // Append the posterior mass of the best sets to the log.
-  // Copied to the answer, which adds what it says about each of these numbers.
+  // Copied to the answer, which adds its results for each of these numbers.
   std::vector<BelievedNumber> belief{};
   // Called with the fraction of work done. The first text that is not empty is the preliminary verdict.
   std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};

@@ -48,6 +48,7 @@ struct BedState {
   double touched_s = 0.0;           // time of the last touchdown
 };
 
+// Step of the grid of BedState::fluctuation.
 constexpr double kFluctuationGrid_m = 5e-4;
 
 // Force on virgin grains = steady_N + moving_mass_kg x acceleration (down positive).

@@ -4,6 +4,7 @@
 
 namespace sandhopper::conceal {
 
+// Recipes that hide an effect of the bed.
 Recipe<Bed> bed_added_mass();
 std::vector<Recipe<Bed>> bed_speed_effects();
 std::vector<Recipe<Bed>> bed_depth_effects();

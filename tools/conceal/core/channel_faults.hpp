@@ -23,6 +23,7 @@ struct ChannelFaults {
   double stuck_s = 0.0;
 };
 
+// Measuring chain of one channel without faults.
 struct ChannelChain {
   double bandwidth_Hz = 0.0;  // first-order low pass; 0: none
   double latency_s = 0.0;

@@ -9,6 +9,7 @@
 
 namespace sandhopper::conceal {
 
+// Name and group of an effect.
 struct EffectInfo {
   std::string id;     // As in diagnosis.json; for unlisted effects any word.
   std::string port;   // For unlisted effects the port at which it acts, else empty.
@@ -33,6 +34,7 @@ class Bench {
   virtual void restrict_to(std::size_t ambiguity) = 0;
 };
 
+// A kind of apparatus and the effects that it can hide. Each `build` draws one apparatus.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -46,6 +48,7 @@ class Plant {
 };
 
 const std::vector<const Plant*>& plants();
+// Null if there is no plant of this name.
 const Plant* find_plant(const std::string& name);
 
 }  // namespace sandhopper::conceal

@@ -13,12 +13,14 @@ struct Recipe {
   std::function<Json(World&, double size, Random&)> apply;
 };
 
+// A change of the world (set-ups, channels) that makes the members of an ambiguity indistinguishable.
 template <class World>
 struct Restriction {
   Ambiguity ambiguity;
   std::function<void(World&)> apply;
 };
 
+// Functions and recipes from which PlantOf makes a plant.
 template <class World>
 struct PlantSpec {
   std::string name;

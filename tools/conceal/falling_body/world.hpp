@@ -44,6 +44,7 @@ struct World {
   }
 };
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

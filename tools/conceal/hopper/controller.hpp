@@ -4,6 +4,7 @@
 
 namespace sandhopper::conceal::hopper {
 
+// Phase of the gait, as in the channel `phase`.
 enum class Phase { flight = 0, compression = 1, extension = 2 };
 
 // Inputs of the controller in one cycle.

@@ -21,6 +21,8 @@ enum : std::size_t {
   kJoint
 };
 
+// Contact of the foot with the bed: none, on virgin grains, or above the deepest point (unloading,
+// reloading).
 enum class Contact { none, virgin, rebound };
 
 // Constants of one trial.
@@ -33,6 +35,7 @@ struct Scene {
   bool clamped = false;       // The body keeps its speed.
 };
 
+// Rate of the state, accelerations of body and foot (upward), force of the bed on the foot.
 struct Accelerations {
   State slope;
   double body_mps2 = 0.0, foot_mps2 = 0.0;
@@ -43,6 +46,7 @@ struct Accelerations {
 Accelerations accelerations(const Scene& scene, Contact contact, double t_s, const State& x,
                             double torque_Nm);
 
+// Depth of the foot below the surface; height and speed of the body, upward.
 double depth_m(const Scene& scene, const State& x);
 double body_height_m(const Scene& scene, const State& x);
 double body_speed_mps(const Scene& scene, const State& x);

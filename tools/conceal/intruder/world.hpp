@@ -35,8 +35,10 @@ struct World {
 struct Motion {
   Trace depth_m, speed_mps, acceleration_mps2;
 };
+// Motion for a set-up (impact_speed_mps, depth_m, profile), starting 20 mm above the surface.
 Motion prescribed(const World& world, const Setup& setup);
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

@@ -17,6 +17,7 @@ struct FoundParameter {
   bool derived = false;          // Repeats the parameter before it as a change against the belief.
 };
 
+// One effect of the answer: listed, unknown ("unknown@PORT"), or a fault of the data.
 struct FoundEffect {
   std::string id;
   std::string port;
@@ -62,6 +63,7 @@ std::string times_the_floor(const ErrorBeforeAfter& error, double floor);
 // "0.97 times the noise floor".
 std::string times_the_floor(double error, double floor);
 
+// Errors of one channel on all trials, fitted (train) and held out.
 struct ChannelFit {
   std::string channel;
   ErrorBeforeAfter train, heldout;
@@ -118,11 +120,13 @@ struct BelievedNumber {
   bool matters() const { return usual_error >= error_that_shows; }
 };
 
+// A law of free form: value and standard deviation at the knots `at` of the variable.
 struct Curve {
   std::string variable;
   std::vector<double> at, value, sd;
 };
 
+// An unlisted force or torque that was found at a port.
 struct UnknownForce {
   std::string port;
   std::string quantity;  // acting quantity with its unit, for example force_N
@@ -159,6 +163,7 @@ struct TrialToTrial {
   double mean_after = 0.0, sd_after = 0.0;
 };
 
+// The whole answer, as written to diagnosis.json, text and page.
 struct Diagnosis {
   Verdict verdict = Verdict::insufficient_data;
   Detail detail = Detail::none;

@@ -7,9 +7,15 @@
 
 namespace sandhopper::diagnose {
 
+// insufficient_data: too few trials. consistent: no effect is needed. missing_physics: listed effects, or
+// faults of the data, explain the difference. unknown_physics: something unlisted is needed, and the listed
+// effects explain less than half of the difference or are not probable.
 enum class Verdict : std::uint8_t { insufficient_data, consistent, missing_physics, unknown_physics };
 
-// Kind of a verdict.
+// Kind of a verdict. known: listed effects only. one_of_class: listed effects of which some cannot be
+// distinguished from others. known_and_rest: listed effects, and something unlisted. data_fault: only the
+// recording is faulty. unknown_at_port: a law of free form was found at a port. unknown_not_localised: no
+// such law was found.
 enum class Detail : std::uint8_t {
   none,
   too_little_data,

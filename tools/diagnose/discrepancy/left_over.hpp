@@ -43,6 +43,7 @@ struct Lean {
 // all trials move it the same way, an effect is missing, and the deviance does not show it. The number of
 // trials counts as at most 12: with 100 trials even the error of a simulation would be significant.
 std::vector<Lean> leans_of(const Problem& problem, const Point& point);
+// The offset with the largest |z|; z = 0 if there is none.
 Lean largest_lean(const Problem& problem, const Point& point);
 
 // RMS difference of two noise models: logarithms of the standard deviation and of the innovation's standard

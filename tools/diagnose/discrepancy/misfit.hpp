@@ -14,6 +14,7 @@ struct Misfit {
   bool noticeable = false;  // Large enough to look at the force balances.
 };
 
+// Deviance and number of rows of one trial.
 struct TrialMisfit {
   double deviance = 0.0, rows = 0.0;
 };

@@ -42,6 +42,7 @@ struct Unexplained {
   double remainder() const { return law ? law->held_out : 0.0; }
 };
 
+// Misfit of the best set.
 Misfit misfit_of(const Problem& problem, const Search& search);
 
 // `faults`: the recordings hold faulty samples. Then a residual above the noise is not taken as unknown

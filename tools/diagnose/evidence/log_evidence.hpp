@@ -28,6 +28,7 @@ struct AtFit {
 };
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {});
 
+// Log evidence of a fit; `at`: linearised at its point.
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at);
 
 // Log prior of a set of that many effects: the listed effects are equally probable, Limits::effects_expected

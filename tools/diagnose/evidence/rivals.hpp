@@ -18,6 +18,7 @@ struct Rivals {
 
   std::size_t size() const { return fits.size(); }
 };
+// One group for each effect of the best set that has alternatives.
 std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, const Posterior& belief);
 
 // Power of a planned trial to separate rival explanations. It is linearised once, at the first rival. The

@@ -25,6 +25,7 @@ struct EffectEvidence {
   bool weak = false;       // Enough evidence to be named alone, not beside other effects.
 };
 
+// One fitted set of effects.
 struct SetFit {
   std::vector<std::size_t> set;  // Candidate indices, sorted.
   Fit fit;

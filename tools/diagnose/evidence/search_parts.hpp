@@ -9,13 +9,16 @@
 namespace sandhopper::diagnose {
 
 inline constexpr double kSignificance = 0.01;  // Family-wise p-value.
+// Smallest amplitude that is named, in typical sizes.
 inline constexpr double kSmallestOfTypical = 0.08;
 
+// The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
   set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
   return set;
 }
 
+// Labels of the set's effects for the log.
 inline std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
   if (set.empty()) return "nothing";
   std::string text;

@@ -29,7 +29,9 @@ std::string in_words(std::string name);       // "fast_fall" -> "fast fall"
 bool is_changed(const Diagnosis& diagnosis);  // True if a finding changes the simulation.
 std::vector<StudyAnswer> page_answers(const Diagnosis& diagnosis);
 std::vector<StudySection> page_sections(const Diagnosis& diagnosis, const PageFacts& facts);
+// Recorded and simulated traces of one trial.
 StudySection trial_section(const Diagnosis& diagnosis, const std::string& trial);
+// Predictions of the recommended trial by two explanations.
 StudySection next_trial_section(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose
