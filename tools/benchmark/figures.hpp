@@ -6,7 +6,8 @@
 
 namespace sandhopper::benchmark {
 
-// One row of the table of targets: a fraction and the limit that it must keep (tools/benchmark/README.md).
+// One row of the table of targets: a fraction and the limit that it must keep
+// (tools/docs/guide/benchmark.md).
 struct Figure {
   std::string name;
   std::size_t count = 0, of = 0;
