@@ -173,8 +173,8 @@ class Checker {
   }
 
   // True if other channels move during the run. If the whole robot rests, every channel stays within a small
-  // part of its range. For an angle only its speed counts: on an axis that is held still, noise moves the
-  // speed but not the angle.
+  // part of its range. For an angle only its averaged speed counts: on an axis that is held still, the speed
+  // is noise and the angle stays within one step of the encoder.
   bool others_move(std::size_t self, const Run& run) const {
     constexpr double kMoves = 0.3;
     const auto part_of = [&](std::size_t i) {

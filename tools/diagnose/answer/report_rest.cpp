@@ -146,7 +146,7 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
 }
 
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
-  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  constexpr double kQuiet = 1.3;  // ratio to the sensor's own noise
   const auto ports = problem.plant->free_ports(problem.context);
   if (ports.size() != 1) return;
   if (const auto quiet = problem.plant->quiet_phase())

@@ -9,11 +9,10 @@
 namespace sandhopper::diagnose {
 
 // Log evidence of one hypothesis (a fitted set of effects): the Laplace approximation at its fit,
-//   ln Z = -Phi/2 - 1/2 sum_t ln|I + C_t F_t| + sum_e ln int p(b_e) exp(-(b_e - b^_e)^2 / 2 s_e^2) db_e
+//   ln Z = -d/2 - 1/2 sum_t ln|I + C_t F_t| + sum_e ln int p(b_e) exp(-(b_e - b^_e)^2 / 2 s_e^2) db_e
 //          - 1/2 ln|I + Lambda|        (shapes and tolerances, Lambda in units of their prior)
-// F_t: information of trial t on the form of each effect, C_t: its prior covariance (Limits::form,
-// size_of_trial).
-// Phi: the deviance with its priors.
+// d: deviance at the fit, with the priors of shapes and tolerances. F_t: information of trial t on the form
+// of each effect, C_t: its prior covariance (Limits::form, size_of_trial).
 struct LogEvidence {
   double value = 0.0;
   std::vector<double> times{};  // Most probable ratio of each repeatable model error to its learnt scale.

@@ -7,8 +7,9 @@
 namespace sandhopper::diagnose {
 
 // Probabilities of the effects of the best set, from the weights exp(-difference of criterion / 2 /
-// temperature) of all fitted sets. `remainder`, the held-out gain of a free law beside the best set, raises
-// the temperature: if the best set leaves much unexplained, differences between sets count less.
+// temperature) of all fitted sets that are not larger. `remainder`, the held-out gain of a free law beside
+// the best set, raises the temperature: if the best set leaves much unexplained, differences between sets
+// count less.
 struct Posterior {
   // A rival whose deviance / dispersion exceeds the best one's by `apart` is no longer an alternative. A
   // further trial raises this limit by `apart_per_explained` times the deviance / dispersion that it gives

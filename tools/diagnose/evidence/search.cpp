@@ -21,7 +21,7 @@ constexpr double kLikelierThanOneMore = 2.0;
 constexpr double kLinearError =
     0.05;  // Error of a proposal's linear deviance, relative to the explained deviance.
 // Prior of ln(size / typical): standard deviation below and above 1. Small effects are common. Large sizes
-// are rare: in most such fits two effects nearly cancel each other.
+// are suspect: two effects that nearly cancel each other are both many times their typical size.
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
 // Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
@@ -46,9 +46,10 @@ constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 // Keep the null fit unless the refit gains at least 2 % of what the closest single effect gained.
 constexpr double kFreed = 0.02;
-// The nuisances have absorbed something if the deviance per row exceeds this,
+// The nuisances have absorbed something if the deviance per row exceeds this value.
 constexpr double kBentPerRow = 1.5;
-// or if a nuisance's mean over trials has |z| above this (largest value with nothing missing: 2.9).
+// The same if a nuisance's mean over the trials has a larger |z| than this. With nothing missing |z| is at
+// most 2.9.
 constexpr double kBentLean = 4.0;
 // An effect explains the common nuisance offset if |z| falls below this fraction.
 constexpr double kUnbent = 0.6;
@@ -401,8 +402,8 @@ void Search::choose_best() {
     const bool differs = std::ranges::any_of(fit->evidence, &EffectEvidence::unnoticed);
     if (fit->judged && fit->sound && !differs) trivial.push_back(fit);
   }
-  // If a set with a tiny additional effect explains clearly more than the best set, the surplus in the best
-  // set is not a finding: keep only the part of it that can be named.
+  // A better set may consist of `part` and an effect too small to be named. Then the other effect in the best
+  // set only replaces the small one: name `part` alone.
   for (const auto* fit : trivial) {
     const auto part = named_part(*fit);
     if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&

@@ -3,8 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The rest height is fitted near the height of the resting body, so that the spring differs from a constant
-// force.
+// The rest height starts near the height of the resting body. A spring with a distant zero would act like a
+// constant force.
 const EffectRegistration kEffect(
     {.id = "rail.cable",
      .port = Port::rail,

@@ -3,8 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The bias is at most half of the channel's range in the campaign. A falling accelerometer has almost no
-// range, so gravity is its lower limit.
+// The bias is at most half of the channel's range in the campaign. A freely falling accelerometer has almost
+// no range; its range counts as at least gravity.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
