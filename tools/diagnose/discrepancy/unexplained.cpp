@@ -17,7 +17,7 @@ namespace {
 // of the plant (105 campaigns of a second program), 0.16 for a law of a sensor.
 constexpr double kUnknownShare = 0.30, kUnknownShareOfPlant = 0.16;
 constexpr double kUnknownSignificance = 0.003;
-constexpr double kSmallestLaw = 0.1;  // Largest value in scales of the port; smaller laws do not matter.
+constexpr double kSmallestLaw = 0.1;  // Ignore laws whose largest value (in scales of the port) is smaller.
 // Relative to the best fit's deviance; the errors of a null campaign stay below.
 constexpr double kUnknownShareOfDeviance = 0.03;
 constexpr double kUnknownPerRow = 0.3;  // Gain per row that is too large for an error of the form.

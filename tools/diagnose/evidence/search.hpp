@@ -40,10 +40,9 @@ struct SetFit {
 };
 
 struct SearchOptions {
-  // `beam`: number of sets of each size that are extended by a further effect.
-  std::size_t most_effects = 3;
-  std::size_t beam = 2;
-  std::size_t proposals = 0;  // Number of sets from `propose` that are fitted at the end.
+  std::size_t most_effects = 3;  // Largest number of effects in a set.
+  std::size_t beam = 2;          // Number of sets of each size that are extended by a further effect.
+  std::size_t proposals = 0;     // Number of sets from `propose` that are fitted at the end.
   std::size_t fits_per_screen = 6;
   // Fits in the first screen. On hoppers that screen is often far off, so there are many.
   std::size_t fits_of_singles = 20;
