@@ -1,17 +1,17 @@
 #pragma once
 #include "tools/benchmark/records.hpp"
 
-// Tools that look at nothing, to be beaten.
+// Baselines that do not look at the recordings, or use a simple method.
 namespace sandhopper::benchmark {
 
-// Says every time that nothing is missing.
+// Always answers that nothing is missing.
 Diagnosis null_only();
-// Names one of the plant's effects at random each time, as sure as its chance; the same for the same
-// campaign.
+// Names one of the plant's effects at random, with probability 1 / number of effects. Always the same effect
+// for the same campaign.
 Diagnosis random_pick(const Truth& truth, const std::vector<std::string>& ids_of_plant);
 
-// Says what a plainer method would have named ("largest_correlation", "fit_every_parameter": of `baselines`
-// in the tool's diagnosis.json), without doubt, as such a method does. nullopt: the tool tells no such thing.
+// The answer of a simple method ("largest_correlation", "fit_every_parameter"), taken from `baselines` in the
+// tool's diagnosis.json, with probability 1. nullopt if the tool does not write it.
 std::optional<Diagnosis> plainer(const std::optional<Diagnosis>& diagnosis, const std::string& method);
 
 }  // namespace sandhopper::benchmark

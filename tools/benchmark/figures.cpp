@@ -24,7 +24,7 @@ std::vector<Figure> section_6(const std::vector<Judged>& cases) {
   Figure alike{"indistinguishable: class holds the truth", 0, 0, 0.90, 0.97};
   Figure floor{"held-out error within 1.2 of the floor, solved", 0, 0, 0.90, 0.90};
   Figure intervals{"95 % intervals that hold the truth", 0, 0, 0.90, 0.94};
-  // A hidden size above the bound that its effect is said to stay below: none may be.
+  // Hidden effects that were called absent with a bound below their size: none is allowed.
   Figure bounds{"upper bounds of `absent` that hold", 0, 0, 1.0, 1.0};
   for (const auto& j : cases) {
     const auto& truth = *j.truth;

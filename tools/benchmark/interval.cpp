@@ -6,7 +6,7 @@
 namespace sandhopper::benchmark {
 namespace {
 
-// P(X >= count) for X binomial(of, p).
+// P(X >= count) for a binomial X with `of` draws and probability p.
 double upper_tail(std::size_t count, std::size_t of, double p) {
   double sum = 0.0;
   const double n = static_cast<double>(of);
@@ -18,7 +18,7 @@ double upper_tail(std::size_t count, std::size_t of, double p) {
   return sum;
 }
 
-// The p at which the rising function reaches the level.
+// The p at which the increasing function reaches the level.
 template <class Function>
 double solve(const Function& rising, double level) {
   double low = 1e-12, high = 1.0 - 1e-12;

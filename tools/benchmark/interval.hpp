@@ -7,8 +7,8 @@ struct Interval {
   double low, high;
 };
 
-// 95 % interval of a share seen `count` times of `of`.
+// 95 % confidence interval of a probability, for `count` successes in `of` trials.
 Interval wilson95(std::size_t count, std::size_t of);           // Wilson, J. Am. Stat. Assoc. 22, 1927
-Interval clopper_pearson95(std::size_t count, std::size_t of);  // Biometrika 26, 1934; never too narrow
+Interval clopper_pearson95(std::size_t count, std::size_t of);  // Biometrika 26, 1934; conservative
 
 }  // namespace sandhopper::benchmark

@@ -11,7 +11,7 @@ namespace {
 
 bool is_unknown(const std::string& id) { return id.rfind("unknown@", 0) == 0; }
 
-// The added mass's own gradient is a quadratic drag; beside it that name is no mistake.
+// The gradient of a hidden added mass is a quadratic drag, so that name is accepted beside it.
 bool excused(const Claim& claim, const Truth& truth) {
   return claim.id == "terrain.quadratic_drag" && truth.holds("terrain.added_mass");
 }
@@ -21,11 +21,11 @@ bool names_something_hidden(const Claim& claim, const Truth& truth) {
                      [&](const auto& e) { return claim.covers(e.id); });
 }
 
-// Each hidden effect has a claim of its own and no claim is left over.
+// True if each hidden effect has its own claim and no claim is left over.
 bool is_exact(const std::vector<Claim>& claims, const Truth& truth) {
   std::vector<const Truth::Effect*> open;
   for (const auto& effect : truth.effects) open.push_back(&effect);
-  // Claims of one name before those of a class, so that a class does not take another claim's effect.
+  // Claims of a single name first, so that a class does not take the effect of another claim.
   auto ordered = claims;
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Claim& a, const Claim& b) { return a.alike.size() < b.alike.size(); });

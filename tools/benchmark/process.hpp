@@ -5,14 +5,15 @@
 
 namespace sandhopper::benchmark {
 
+// Result of a finished program.
 struct Outcome {
-  int exit = -1;  // 128 + signal when killed
+  int exit = -1;  // 128 + signal if killed
   bool timed_out = false;
   double seconds = 0.0;
 };
 
-// Runs a program with its standard output into one file and its standard error into another, and kills it
-// with all it started when the limit is over. Throws std::system_error when it cannot be started.
+// Runs a program with its standard output and standard error in two files. After `limit_s` the program and
+// its children are killed. Throws std::system_error if it cannot be started.
 Outcome run_limited(const std::vector<std::string>& command, const std::filesystem::path& output,
                     const std::filesystem::path& errors, double limit_s);
 

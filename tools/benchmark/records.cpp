@@ -15,7 +15,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(in);
   } catch (const nlohmann::json::exception&
-               error) {  // a number too large for a double is out_of_range, no parse_error
+               error) {  // A number too large for a double gives out_of_range, not parse_error.
     throw std::runtime_error(file.string() + " is not JSON: " + error.what());
   }
 }

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-// The scorer's input: the sealed answers of `hop conceal` and diagnosis.json of `hop diagnose`.
+// Input of the scorer: the answers of `hop conceal` and the diagnosis.json files of `hop diagnose`.
 namespace sandhopper::benchmark {
 
+// An answer of `hop conceal`: the hidden effects.
 struct Truth {
-  std::string name;  // of the campaign, "001"
+  std::string name;  // name of the campaign, "001"
   std::string plant, kind;
   struct Effect {
     std::string id;
@@ -18,13 +19,14 @@ struct Truth {
   };
   std::vector<Effect> effects;
   std::optional<std::string> unknown_port;
-  std::vector<std::string> alike;  // ids the data cannot tell apart, the true one first
+  std::vector<std::string> alike;  // Effects that the data cannot distinguish, the hidden one first.
   double visibility = 0.0;
 
   bool nothing_hidden() const { return effects.empty(); }
   bool holds(const std::string& id) const;
 };
 
+// One entry of `effects` in diagnosis.json.
 struct Claim {
   std::string id;
   double probability = 0.0;
@@ -35,31 +37,32 @@ struct Claim {
   };
   std::map<std::string, Value> parameters;
 
-  // Whether it names the effect, by itself or through its class.
+  // True if the claim names the effect, itself or in its class.
   bool covers(const std::string& id) const;
 };
 
-// An effect that was not found, and the size it stays below with 95 % (`absent`).
+// An effect that was not found, and the 95 % bound of its size (`absent`).
 struct UpperBound {
   std::string id, parameter;
   double value = 0.0;
 };
 
+// A diagnosis.json as read; claims sorted by probability, most probable first.
 struct Diagnosis {
   std::string verdict, detail;
   std::vector<Claim> claims;
   std::vector<UpperBound> absent;
   std::optional<double> heldout_after, floor;
   std::optional<double> seconds;
-  bool asks_for_a_split = false;  // recommends a trial to tell a class' members apart
-  std::map<std::string, std::string>
-      baselines;  // what plainer methods would have named, where the tool tells
+  bool asks_for_a_split = false;                 // Recommends a trial to separate the members of a class.
+  std::map<std::string, std::string> baselines;  // Answers of simple methods, if the tool writes them.
   bool says_missing() const { return verdict == "missing_physics" || verdict == "unknown_physics"; }
 };
 
-// All NNN.json of a folder, by name. Throws std::runtime_error naming the file that cannot be read.
+// Reads all NNN.json of a folder, sorted by name. Throws std::runtime_error with the file that cannot be
+// read.
 std::vector<Truth> read_truths(const std::filesystem::path& folder);
-// nullopt where the tool gave no answer (no file, or an empty one).
+// nullopt if the tool gave no answer (no file, an empty one, or invalid JSON).
 std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file);
 
 }  // namespace sandhopper::benchmark

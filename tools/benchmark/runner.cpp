@@ -25,7 +25,7 @@ std::vector<std::string> command_for(const RunOptions& options, const fs::path& 
   return command;
 }
 
-// Has the tool look at one campaign, unless it did.
+// Runs the tool on one campaign, unless that is already done.
 void diagnose(const RunOptions& options, const fs::path& root, const std::string& name) {
   const auto folder = root / "diagnoses";
   const auto note = folder / (name + ".run");
@@ -67,7 +67,8 @@ void follow_up(const RunOptions& options, const conceal::Case& one, const std::s
   };
   if (diagnosis->asks_for_a_split) try {
       repeat("after", conceal::completed(one, recommended_setup(told)));
-    } catch (const std::invalid_argument& error) {  // a trial this apparatus cannot do: counts as not split
+      // The apparatus cannot do this trial: counted as not separated.
+    } catch (const std::invalid_argument& error) {
       conceal::write_text(options.folder / "diagnoses" / (name + ".refused"),
                           std::string(error.what()) + "\n");
     }

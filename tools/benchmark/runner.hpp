@@ -4,16 +4,20 @@
 #include "tools/benchmark/process.hpp"
 #include "tools/conceal/case.hpp"
 
-// Makes concealed campaigns, has a tool diagnose each, and adds the trial the tool asked for. What is done is
-// not done again, so that a run that was stopped goes on where it was.
+// Makes concealed campaigns, runs a tool on each, and records the trial that the tool recommends. Finished
+// parts are not repeated, so an interrupted run can be continued.
 //
-//   FOLDER/campaigns/NNN/          what the tool sees
-//   FOLDER/answers/NNN.json        what it must not see
-//   FOLDER/diagnoses/NNN.json      its standard output; NNN.log its standard error, NNN.run time and exit
-//   status FOLDER/after/campaigns/NNN/    the campaign with the trial it asked for where it named a class;
-//   after/diagnoses/ FOLDER/random/…                the same with a set-up drawn at random, as control
+//   FOLDER/campaigns/NNN/          input of the tool
+//   FOLDER/answers/NNN.json        hidden from the tool
+//   FOLDER/diagnoses/NNN.json      standard output of the tool; NNN.log: standard error,
+//                                  NNN.run: run time and exit status
+//   FOLDER/after/campaigns/NNN/    if the tool named a class: the campaign with the recommended trial
+//   FOLDER/after/diagnoses/NNN.json
+//   FOLDER/random/…                the same with a random set-up, as control
 namespace sandhopper::benchmark {
 
+// `limit_s`: time limit of the tool per campaign. `jobs`: campaigns in parallel. `follow_up`: also record the
+// recommended and a random trial.
 struct RunOptions {
   std::filesystem::path folder;
   conceal::Request request;
@@ -22,10 +26,10 @@ struct RunOptions {
   unsigned jobs = 1;
   bool follow_up = true;
   std::vector<std::string>
-      tool;  // {campaign}: the campaign's folder; {output}: a folder of its own to write to
+      tool;  // {campaign}: folder of the campaign, {output}: a folder that the tool may write to
 };
 
-// Calls `done` after each campaign, from any thread but one at a time.
+// Calls `done` after each campaign with the number of finished ones: from any thread, but never concurrently.
 void run_benchmark(const RunOptions& options, const std::function<void(std::uint64_t count)>& done);
 
 }  // namespace sandhopper::benchmark

@@ -4,12 +4,12 @@
 
 namespace sandhopper::benchmark {
 
-// The benchmark's report as a page: the table of targets with the baselines beside them,
-// reliability, size ladder, what became of each effect, and every case.
+// The benchmark's report as a page: targets and baselines, reliability, results by size, results by effect,
+// every case.
 Study score_study(const std::vector<Column>& columns, const std::vector<Figure>& splits,
                   const std::vector<double>& seconds);
 
-// The figures as lines of text for a terminal.
+// The figures as text for a terminal.
 std::vector<std::string> score_text(const std::vector<Column>& columns, const std::vector<Figure>& splits,
                                     const std::vector<double>& seconds);
 

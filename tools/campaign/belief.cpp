@@ -20,7 +20,7 @@ std::vector<std::string> keys_of(const Table& table) {
   return keys;
 }
 
-// Takes out of `table` what is not among `known`, with a note of each.
+// Removes from `table` the keys that are not in `known`, with a note for each.
 void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known, const std::string& file,
                        std::vector<Finding>& notes) {
   std::erase_if(table.children, [&](const ConfigNode& child) {
@@ -38,8 +38,7 @@ void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known,
   });
 }
 
-// Takes out of `table` every `key = "?"`, as a draft writes it, with a finding of each: nobody stated the
-// number.
+// Removes every `key = "?"` (written by a draft for a number that nobody stated), with a finding for each.
 void leave_out_unstated(ConfigNode& table, const std::string& path, const std::string& file,
                         std::vector<Finding>& notes) {
   std::erase_if(table.children, [&](ConfigNode& child) {
@@ -78,7 +77,7 @@ Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Fi
   return belief;
 }
 
-// Reads `value` into the first number of that name, table by table; [spread] is not looked at.
+// Reads `value` into the first number with its name, table by table. [spread] is skipped.
 template <HasFields T>
 bool set_named(T& table, const ConfigNode& value, ConfigReader& reader) {
   bool found = false;
@@ -98,7 +97,7 @@ bool is_diameter(std::string_view key) {
   return std::ranges::find(kDiameterKeys, key) != kDiameterKeys.end();
 }
 
-// What a diameter gives on this plant.
+// Radius or area that a diameter gives on this plant; empty if the plant has none.
 std::optional<ConfigNode> from_diameter(CampaignPlant plant, const ConfigNode& value) {
   ConfigNode node = value;
   const double diameter_m =
@@ -128,7 +127,7 @@ std::optional<ConfigNode> from_diameter(CampaignPlant plant, const ConfigNode& v
 BeliefSensors BeliefSensors::without_effect() {
   BeliefSensors sensors;
   SensorConfig::fields(sensors.robot, [](std::string_view key, double& value, Range range = {}) {
-    // What limits a sensor goes to its far end, what disturbs it to nothing.
+    // Rates, bandwidths and ranges go to their upper limit, disturbances to zero.
     const bool limits = key.ends_with("_Hz") || key.ends_with("_range_mps2");
     value = limits ? range.high : 0.0;
   });

@@ -16,8 +16,8 @@
 #include "tools/campaign/plant_kind.hpp"
 #include "tools/plant/world_config.hpp"
 
-// What a campaign's simulation believes (nominal.toml): one struct a plant, every key optional. The equations
-// are those of Leg, Bed and, for the simple plants, of the comments below.
+// Parameters of a campaign's simulation (nominal.toml): one struct per plant, every key optional. The
+// equations are those of Leg and Bed, and for the simple plants those in the comments below.
 namespace sandhopper {
 
 struct HopperBelief {
@@ -31,7 +31,7 @@ struct HopperBelief {
   BeliefEffects effects{};
   std::vector<KeySpread> key_spreads{};
 
-  // As tools/plant simulates it.
+  // The configuration for the simulation in tools/plant.
   WorldConfig world() const;
 
   template <class Self, class Visitor>
@@ -46,7 +46,7 @@ struct HopperBelief {
   }
 };
 
-// A foot moved as prescribed; the recorded depth is the foot's plus what the rig yields, F / k_r.
+// A foot with prescribed motion. recorded depth = depth of the foot + F / k_r, k_r: stiffness of the rig.
 struct IntruderBelief {
   struct Foot {
     double radius_m = 0.040;
@@ -57,7 +57,7 @@ struct IntruderBelief {
     }
   };
   struct Rig {
-    std::optional<double> stiffness_N_per_m;  // none: rigid
+    std::optional<double> stiffness_N_per_m;  // empty: rigid
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -85,7 +85,7 @@ struct IntruderBelief {
 };
 
 // (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h'  (+ k (surface - h) on a bed while
-// going down). Everything but mass and gravity is absent unless given.
+// moving down). By default all terms except mass and gravity are zero.
 struct FallingBodyBelief {
   static constexpr double kEverywhere_m = 1e5;
   struct Bed {
@@ -116,7 +116,7 @@ struct FallingBodyBelief {
     double linear_drag_N_s_per_m = 0.0;
     double buoyancy_factor = 0.0;
     double added_mass_factor = 0.0;
-    double surface_height_m = kEverywhere_m;  // the medium is below it
+    double surface_height_m = kEverywhere_m;  // The medium lies below this height, m.
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -148,15 +148,16 @@ struct FallingBodyBelief {
   }
 };
 
-// J th'' = torque - G sin th - c tanh(th' / v_s) - b th', on the output side; the recorded torque drives it.
+// J th'' = torque - G sin th - c tanh(th' / v_s) - b th', on the output side. The recorded torque is the
+// input.
 struct RotaryAxisBelief {
   struct Axis {
-    double inertia_kg_m2 = 1.0;      // 0: not known, on a bench whose axis is locked in every trial
-    double gravity_torque_Nm = 0.0;  // G = m g l, at th = pi/2; th = 0 hangs down
+    double inertia_kg_m2 = 1.0;      // 0: unknown; only for an axis that is locked in every trial.
+    double gravity_torque_Nm = 0.0;  // G = m g l, the torque at th = pi/2. The axis hangs down at th = 0.
     double viscous_friction_Nm_s = 0.0;
     double coulomb_friction_Nm = 0.0;
     double friction_switch_speed_radps = 0.02;
-    double gear_ratio = 1.0;  // information
+    double gear_ratio = 1.0;  // not used in the simulation
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -187,27 +188,27 @@ struct RotaryAxisBelief {
 // In the order of CampaignPlant.
 using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, RotaryAxisBelief>;
 
-// Belief of a plant without nominal.toml: for a hopper this project's robot in its bed.
+// Belief of a plant without nominal.toml. For a hopper: this project's robot in its bed.
 Belief default_belief(CampaignPlant plant);
-// The same without physics that a file of its owner must ask for: no friction of rail and joints, no cogging,
-// and of the bed only the straight line, without intercept, added mass, drag and an unloading line of its
-// own.
+// The same without effects that a nominal.toml must state explicitly: no friction of rail and joints, no
+// cogging. The bed has only its linear stiffness: no intercept, added mass, drag or separate unloading line.
 Belief belief_of_silence(CampaignPlant plant);
-// Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
-// key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
-// their simulator has, and what is not known here limits no conclusion. [spread] also takes the name of any
-// number of the plant (key_spread.hpp).
-// `key = "?"` is left out, too, with a finding that rules the trials out: its number is still to be written.
+// Value of a key whose number is still to be written (`key = "?"`).
 inline constexpr std::string_view kUnknownNumber = "?";
-// Set-up keys that give the radius or the area.
+// Set-up keys that give a radius or an area.
 inline constexpr std::array<std::string_view, 3> kDiameterKeys{"diameter_m", "foot_diameter_m",
                                                                "plate_diameter_m"};
+// Reads nominal.toml. Throws ConfigError with place and cure of every key that is unknown, of the wrong type
+// or out of range. [spread] also takes the name of any number of the plant (key_spread.hpp). An unknown key
+// in [sensors] or [spread] is only left out with a note, because recordings from elsewhere name what their
+// own simulator has. A `key = "?"` is left out with a finding that makes the
+// trials unusable.
 Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
 
-// A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say
-// how much trials differ, and some bear the name of a set-up key); `diameter_m`, `foot_diameter_m` and
-// `plate_diameter_m` stand for the area or radius they give. True when the key was one of these. What does
-// not fit is added to `problems`.
+// Applies a set-up value to the belief of its trial, if its key is a key of nominal.toml or one of
+// kDiameterKeys. Keys of [spread] are excluded: some have the same name as a set-up key but describe the
+// scatter between trials. Returns true if the key was applied. Values of the wrong type or range are added to
+// `problems`.
 bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,
                      std::vector<ConfigProblem>& problems);
 

@@ -8,9 +8,9 @@
 
 namespace sandhopper {
 
-// Effects that no key of nominal.toml expresses, as `hop diagnose` writes them into corrected.toml: the
-// effect's name, a sensor's channel in brackets, and its parameters. A further effect of the same name
-// follows a '#'.
+// Effects that no key of nominal.toml can express, as written by `hop diagnose` into corrected.toml: name of
+// the effect, channel of the sensor in brackets, parameters. A second effect of the same name gets a '#' and
+// a number.
 //
 //   [effects]
 //   "axis.stribeck"        = { stribeck_torque_Nm = 0.05, stribeck_speed_radps = 0.6 }
@@ -18,7 +18,8 @@ namespace sandhopper {
 //   "axis.stribeck#2"      = { stribeck_torque_Nm = 0.01, stribeck_speed_radps = 2.0 }
 using BeliefEffects = std::map<std::string, std::map<std::string, double>>;
 
-// Takes the table out of the document; what is no number is a problem with its place.
+// Removes the table [effects] from the document and returns it. Values that are not numbers are added to
+// `problems`.
 BeliefEffects take_effects(ConfigDocument& document, std::vector<ConfigProblem>& problems);
 
 }  // namespace sandhopper

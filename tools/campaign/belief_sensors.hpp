@@ -5,11 +5,12 @@
 #include "config/fields.hpp"
 #include "tools/plant/world_config.hpp"
 
-// [sensors] and [spread] of a nominal.toml: the simulated robot's own keys and those of the other plants, in
-// one list, so that every plant's file takes every key. Noise is rms of one sample; a rate, bandwidth or
-// range of 0 means: every row, none, unlimited.
+// Tables [sensors] and [spread] of nominal.toml. Every plant accepts every key: those of the simulated robot
+// and those of the other plants. Noise: standard deviation of one sample. 0 means: a sample in every row
+// (rate), no low-pass (bandwidth), unlimited (range).
 namespace sandhopper {
 
+// Keys of [sensors] besides those of the simulated robot (SensorConfig).
 struct OtherSensors {
   double tof_range_m = 0.0;
   double encoder_latency_s = 0.0;
@@ -106,12 +107,13 @@ struct OtherSensors {
   }
 };
 
+// Keys of [spread] besides those of the simulated robot (SpreadConfig): standard deviations between trials.
 struct OtherSpread {
   double initial_position_rad = 0.0;
   double accel_bias_mps2 = 0.0;
-  std::optional<double> torque_offset_Nm;  // none: unknown, not nothing
+  std::optional<double> torque_offset_Nm;  // empty: unknown, which is not zero
   double height_bias_m = 0.0;
-  std::optional<double> height_scale_relative;  // none: unknown, not nothing
+  std::optional<double> height_scale_relative;  // empty: unknown, which is not zero
   double position_bias_m = 0.0;
   double load_cell_torque_offset_Nm = 0.0;
   double pressure_offset_Pa = 0.0;
@@ -134,7 +136,7 @@ struct BeliefSensors {
   SensorConfig robot{};
   OtherSensors other{};
 
-  static BeliefSensors without_effect();  // no noise, no delay, nothing limited
+  static BeliefSensors without_effect();  // no noise, no delay, no limits
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -147,11 +149,11 @@ struct BeliefSpread {
   SpreadConfig robot{};
   OtherSpread other{};
 
-  static BeliefSpread without_effect();  // every trial alike
+  static BeliefSpread without_effect();  // All trials are equal.
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
-    // A hand throws from anywhere, a robot is let go where it hangs.
+    // A robot is released at rest from a known height; a hand may throw a body from anywhere, so allow more.
     constexpr Range kByHand{0.0, 100.0};
     SpreadConfig::fields(self.robot, [&](std::string_view key, auto& member, Range range) {
       visit(key, member, key == "release_height_m" || key == "release_speed_mps" ? kByHand : range);

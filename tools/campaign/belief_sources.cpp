@@ -27,7 +27,7 @@ void flatten(const T& table, const std::string& prefix, std::map<std::string, do
   });
 }
 
-// Lines of the model file by "table.key".
+// Line numbers in the model file. Key: "table.key".
 std::map<std::string, std::uint64_t> lines_of(const std::filesystem::path& model) {
   std::map<std::string, std::uint64_t> lines;
   if (model.empty()) return lines;
@@ -47,14 +47,15 @@ std::string table_of(const std::string& key) {
   return dot == std::string::npos ? "" : key.substr(0, dot);
 }
 
-// [sensors] and [spread] of the simple plants are empty by default: a range at its far end is none.
+// By default the sensors of the simple plants have no limits and no disturbances, so the defaults of
+// [sensors] and [spread] have no effect.
 bool is_without_effect(CampaignPlant plant, const std::string& key) {
   const bool simple = plant == CampaignPlant::falling_body || plant == CampaignPlant::rotary_axis;
   const auto table = table_of(key);
   return simple && (table == "sensors" || table == "spread");
 }
 
-// The number, or what gives it on this plant.
+// True if the trial states the number, or another key that gives it on this plant.
 bool states(const CampaignTrial& trial, const std::string& path) {
   const auto key = path.substr(path.rfind('.') + 1);
   if (trial.number(key)) return true;
@@ -138,7 +139,7 @@ double usual_error(const UsedNumber& n) {
   const double size = std::max(std::abs(n.low), std::abs(n.high));
   if (n.source == UsedNumber::Source::plant_default)
     return n.key == "gravity_mps2" ? kGravityOverTheEarth_mps2 : size;
-  const auto text = fmt::format("{}", size);  // as few digits as give it back
+  const auto text = fmt::format("{}", size);  // shortest text that gives the same number
   const auto exponent_at = text.find('e');
   const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(text.substr(exponent_at + 1));
   const auto digits = text.substr(0, exponent_at);

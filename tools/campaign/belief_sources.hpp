@@ -7,41 +7,40 @@
 
 namespace sandhopper {
 
-// Every number of a belief under "table.key", [spread] included; absent options are absent, true is 1.
+// All numbers of a belief. Key: "table.key". Empty optional values are left out; true is 1.
 std::map<std::string, double> numbers_of(const Belief& belief);
 
-// One number that an answer rests on, and who said it.
+// One number that an answer depends on, and its source.
 struct UsedNumber {
   enum class Source : std::uint8_t { model_file, trial_setup, plant_default };
   std::string key;               // "terrain.stiffness_N_per_m"
-  double value = 0.0;            // of the campaign; trials may have their own
-  double low = 0.0, high = 0.0;  // over the trials
+  double value = 0.0;            // value of the campaign; trials may have their own
+  double low = 0.0, high = 0.0;  // smallest and largest value over the trials
   std::string unit{};
   Source source = Source::plant_default;
   std::string said_by{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
 };
 
-// Those of the plant's own tables and of [sensors] and [spread] that the file or a set-up states, and
-// defaults that are not 0. What is 0 by default is off and only counted (`off`). Without effect are [sensors]
-// and [spread] of simple plants, whose defaults limit and disturb nothing; they are not listed.
+// Numbers of the belief that the model file or a set-up states, and defaults that are not 0. `off` counts the
+// defaults that are 0 (effect switched off). Defaults of [sensors] and [spread] of the simple plants have no
+// effect and are not listed.
 struct UsedNumbers {
   std::vector<UsedNumber> numbers;
   std::size_t off = 0;
 };
 UsedNumbers used_numbers(const Campaign& campaign);
 
-// As far as a number may be off by the way it was written: half a unit of its last digit (1.20 counts
-// as 1.2). A default may be off by its whole size, for nobody stated it; gravity by what it differs over the
-// Earth.
+// Largest error to be expected from how a number is written: half a unit of its last digit (1.20 counts as
+// 1.2). For a default that nobody stated: its full size; for gravity: its variation over the Earth.
 double usual_error(const UsedNumber& number);
 
 std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 kg m^2 (nominal.toml, line 3)"
 
-// A finding for each number that the plant cannot do without (belief_notes.hpp) and that neither the model
-// file nor the set-up of every trial states. None for the hopper: its belief is this project's robot.
+// One finding for each number that the plant needs (belief_notes.hpp) and that neither the model file nor
+// every trial states. None for a hopper, because its belief is this project's robot.
 std::vector<Finding> missing_numbers(const Campaign& campaign);
 
-// The model file holds a `key = "?"`: nothing can be told from its default.
+// True if the model file holds a `key = "?"`. Then no result should be computed from the default.
 bool has_unstated(const Campaign& campaign);
 
 }  // namespace sandhopper

@@ -88,7 +88,7 @@ class Loader {
     }
   }
 
-  // `data`: the folder of the recordings where they are kept apart from this file.
+  // Sets the recordings' folder. `data` names it if it is not the campaign's own folder.
   void find_recordings(const ConfigNode& root) {
     campaign_.recordings = campaign_.folder;
     const auto* data = root.find("data");
@@ -104,7 +104,7 @@ class Loader {
     campaign_.recordings = *found;
   }
 
-  // Channel names to columns; the short form `t_s = "time"` takes the column as it is.
+  // Reads a table of channels and columns. The short form `t_s = "time"` means scale 1, offset 0.
   std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
     std::vector<ColumnMapping> columns;
     for (const auto& child : table.children) {
@@ -182,7 +182,7 @@ class Loader {
     for (const auto& node : trials->children) read_trial(every == nullptr ? node : completed(node, *every));
   }
 
-  // The trial with what [every_trial] says and it does not.
+  // The trial with the keys of [every_trial] that it does not have itself.
   static ConfigNode completed(ConfigNode trial, const ConfigNode& every) {
     for (const auto& child : every.children)
       if (trial.find(child.key) == nullptr) trial.children.push_back(child);

@@ -176,7 +176,7 @@ class Drafter {
                                                        : std::string(1, l.separator);
     std::string text = "\n[format]   # how the files are written; found by looking\n";
     text += fmt::format("separator   = \"{}\"   # \",\", \";\", \"|\", \"tab\" or \"blank\"\n", separator);
-    const std::string mark = l.is_ambiguous ? "# " : "";  // to be stated by the owner
+    const std::string mark = l.is_ambiguous ? "# " : "";  // If it is ambiguous, the user must state it.
     text += fmt::format("{}decimal     = \"{}\"\n", mark, l.numbers.decimal);
     text += fmt::format("{}thousands   = \"{}\"   # \"\": none\n", mark,
                         l.numbers.thousands == '\0' ? std::string() : std::string(1, l.numbers.thousands));
@@ -196,7 +196,7 @@ class Drafter {
     return text;
   }
 
-  // An acceleration without gravity, as telephones have it, lacks what a specific force holds.
+  // Phones record the acceleration without gravity. A specific force includes it, so add g.
   double offset_of(const ColumnGuess& g) const {
     const auto lower = in_lower_case(table_.names[g.column]);
     const bool without =
@@ -214,8 +214,8 @@ class Drafter {
     }
     const std::string number = fmt::format("{:.12g}", scale);
     const bool real = number.find_first_of(".e") != std::string::npos;
-    // `unit` and `scale` together are the owner's word, which goes before every doubt: a draft gives the
-    // unit, and a scale alone where the sign changes.
+    // `unit` and `scale` together mean that the user confirms the values, which switches the checks off. So a
+    // draft writes the unit alone, or a scale alone if the sign changes.
     std::string how = fmt::format("unit = \"{}\"", unit);
     if (scale < 0.0) how = fmt::format("scale = {}{}", number, real ? "" : ".0");
     if (scale < 0.0 && unit == kUnknownUnit) how = fmt::format("unit = \"{}\", {}", kUnknownUnit, how);
@@ -258,7 +258,7 @@ class Drafter {
     const bool known = unit && unit->dimension == "time" && unit->to_si > 0.0;
     double scale = known ? unit->to_si : 1.0;
     const double first = values.empty() ? 0.0 : std::abs(values.front());
-    for (const double epoch : {1e3, 1e6, 1e9})  // 1.7e9 s is 2023
+    for (const double epoch : {1e3, 1e6, 1e9})  // As s since 1970, 1.7e9 is the year 2023.
       if (!known && first > 0.8e9 * epoch && first < 4e9 * epoch) scale = 1.0 / epoch;
     const std::string name = known           ? unit->text
                              : scale == 1e-3 ? "ms"
@@ -270,7 +270,8 @@ class Drafter {
     return mapping("t_s", table_.names[*time_], is_doubtful ? kUnknownUnit : name, scale, 0.0, second_time());
   }
 
-  // "header.stamp.secs" beside "header.stamp.nsecs", "Date" beside "Time"; with the scale of the second.
+  // The column with the other part of the time and its scale: "header.stamp.nsecs" for "header.stamp.secs",
+  // "Time" for "Date".
   std::optional<std::pair<std::size_t, std::string>> other_part_of_time() const {
     const auto lower = in_lower_case(table_.names[*time_]);
     const bool is_seconds = lower.ends_with("secs") || lower.ends_with("sec");
@@ -321,7 +322,7 @@ class Drafter {
   const std::vector<fs::path>& files_;
   std::optional<CampaignPlant> plant_;
   fs::path folder_;
-  const std::vector<std::string>& names_;  // of the columns, where the file has none
+  const std::vector<std::string>& names_;  // Names of the columns if the file has none.
   CsvTable table_;
   std::optional<std::size_t> time_;
   std::vector<ColumnGuess> guesses_;

@@ -9,30 +9,28 @@
 
 namespace sandhopper {
 
-// Neither a column's name nor its unit belongs to one plant alone.
+// The plant cannot be guessed from the names and units of the columns.
 struct PlantNotTold : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A campaign for files that another program wrote, to be corrected by their owner.
+// Draft of a campaign for files of another program, to be corrected by the user.
 struct CampaignDraft {
   CampaignPlant plant{};
-  std::vector<std::string> said{};  // what the files were taken for, in sentences
+  std::vector<std::string> said{};  // interpretation of the files, as sentences
   std::string campaign_toml{};
   std::string nominal_toml{};
 };
 
-// Looks at the first file: how it is written (csv_layout.hpp), which column is the time and which may be
-// which channel, by unit and name; `plant` is guessed from these where it is not given. Both texts hold every
-// key, with unit and a comment; keys that state physics are remarks until somebody wants them. Files are
-// named relative to `folder`. Throws std::runtime_error where a file cannot be read as a table, with the way
-// out. `names` are those of the columns where the file has none.
+// Drafts a campaign from the first file: its format (csv_layout.hpp), its time column, and the channel of
+// each column by unit and name. The plant is guessed if `plant` is empty. Both texts contain every key with
+// unit and comment; keys of optional physics are commented out. File names are relative to `folder`. `names`:
+// names of the columns if the file has none. Throws std::runtime_error with a cure if a file is not a table.
 CampaignDraft draft_campaign(const std::vector<std::filesystem::path>& files,
                              std::optional<CampaignPlant> plant, const std::filesystem::path& folder,
                              const std::vector<std::string>& names = {});
 
-// Every key of the plant's nominal.toml; those without which nothing can be said are stated, the rest are
-// remarks.
+// nominal.toml of a plant with every key. Needed keys have the value "?"; all others are commented out.
 std::string draft_nominal(CampaignPlant plant);
 
 }  // namespace sandhopper

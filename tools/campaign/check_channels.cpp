@@ -16,9 +16,10 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kFewestSamples = 20;
+// Fraction of stuck or saturated samples above which a channel is removed.
 constexpr double kUnusableShare = 0.2;
 
-// Equal neighbours among the fresh samples.
+// Consecutive equal samples (empty rows in between are skipped).
 struct Run {
   std::size_t first_row;
   std::size_t last_row;
@@ -30,7 +31,7 @@ struct Shape {
   std::vector<Run> runs;
   std::size_t samples = 0;
   double low = 0.0, high = 0.0;
-  std::size_t usual_hold = 1;  // run length that 90 % of the runs do not exceed
+  std::size_t usual_hold = 1;  // 90th percentile of the run length.
 };
 
 Shape shape_of(const std::vector<double>& values) {
@@ -59,7 +60,7 @@ Shape shape_of(const std::vector<double>& values) {
   return shape;
 }
 
-// Distance between the 5th and 95th percentile; robust against single outliers.
+// Distance between the 5th and 95th percentile, robust against outliers.
 double spread_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   if (values.size() < 2) return 0.0;
@@ -70,7 +71,7 @@ double spread_of(std::vector<double> values) {
   return at(0.95) - at(0.05);
 }
 
-// What is left of noise, whose samples do not know of each other, is small; what moves, moves in these means.
+// Means over 1/30 of the samples each. They average out noise but keep a real motion.
 std::vector<double> means_of_stretches(const std::vector<double>& values) {
   constexpr std::size_t kStretches = 30;
   std::vector<double> fresh;
@@ -84,7 +85,7 @@ std::vector<double> means_of_stretches(const std::vector<double>& values) {
   return means;
 }
 
-// "position_rad" and "motor_left_position_rad" have theirs beside them.
+// Name of the velocity channel of a position channel; empty if there is none.
 std::string rate_of(const std::string& channel) {
   constexpr std::string_view kPosition = "position_rad";
   return channel.ends_with(kPosition)
@@ -94,7 +95,7 @@ std::string rate_of(const std::string& channel) {
 
 bool natural_rest(const ChannelTraits& traits, double value) {
   if (traits.may_rest == MayRest::always) return true;
-  constexpr double kStandardGravity_mps2 = 9.81;  // specific force of a noise-free sensor at rest
+  constexpr double kStandardGravity_mps2 = 9.81;  // Specific force of a noise-free sensor at rest.
   return traits.may_rest == MayRest::at_zero && (value == 0.0 || value == kStandardGravity_mps2);
 }
 
@@ -129,7 +130,7 @@ class Checker {
   }
 
  private:
-  // True when the channel must go.
+  // True if the channel must be removed.
   bool is_stuck(std::size_t i, const ChannelTraits& traits) {
     const auto& shape = shapes_[i];
     const auto longest = std::max_element(shape.runs.begin(), shape.runs.end(),
@@ -154,8 +155,8 @@ class Checker {
     return unusable;
   }
 
-  // A sensor that stops working stays so to the end, or comes back with a jump. A coarse one whose quantity
-  // rests does neither.
+  // A failed sensor keeps its value to the end or comes back with a jump. A sensor of low resolution whose
+  // quantity rests does neither.
   bool fails(std::size_t i, const Run& run) const {
     constexpr double kJump = 5.0;
     const auto& runs = shapes_[i].runs;
@@ -171,9 +172,9 @@ class Checker {
     return std::abs((at + 1)->value - at->value) > kJump * *ninth;
   }
 
-  // During a rest of the whole robot every channel keeps to a small part of what it does over the trial. Of
-  // an angle its speed knows best: that of an axis held still is noise, and the angle within one step of its
-  // encoder.
+  // True if other channels move during the run. If the whole robot rests, every channel stays within a small
+  // part of its range. For an angle only its averaged speed counts: on an axis that is held still, the speed
+  // is noise and the angle stays within one step of the encoder.
   bool others_move(std::size_t self, const Run& run) const {
     constexpr double kMoves = 0.3;
     const auto part_of = [&](std::size_t i) {
@@ -200,7 +201,7 @@ class Checker {
     return static_cast<double>(at_limit) >= kUnusableShare * static_cast<double>(shapes_[i].samples);
   }
 
-  // Samples in runs at one end of the range that are too long to be chance.
+  // Number of samples in runs at one end of the range that are too long to be chance.
   std::size_t saturated_side(std::size_t i, bool top) {
     const auto& shape = shapes_[i];
     const double limit = top ? shape.high : shape.low;
@@ -225,7 +226,7 @@ class Checker {
     return samples;
   }
 
-  // At the start or end of the recording, or while the motion itself dwells.
+  // True at the start or end of the recording, or while the motion itself pauses.
   bool rests(std::size_t self, const Run& run) const {
     const auto& shape = shapes_[self];
     if (run.first_row == shape.runs.front().first_row || run.last_row == shape.runs.back().last_row)
@@ -245,7 +246,7 @@ class Checker {
         low = std::min(low, values[row]);
         high = std::max(high, values[row]);
       }
-      return high > low;  // a position decides
+      return high > low;  // the first position channel decides
     }
     return true;
   }
@@ -266,7 +267,7 @@ class Checker {
   CampaignPlant plant_;
   const RecordingPlaces& places_;
   std::vector<Shape> shapes_;
-  std::vector<double> spreads_;  // largest minus smallest
+  std::vector<double> spreads_;  // largest minus smallest value
 };
 
 }  // namespace

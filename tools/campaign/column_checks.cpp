@@ -10,7 +10,7 @@
 namespace sandhopper {
 namespace {
 
-// Ends of 16, 24 and 32 bits, and the fill values of meteorology, well logging (LAS), netCDF and C.
+// Limits of 16, 24 and 32 bit integers, and fill values of meteorology, well logging (LAS), netCDF and C.
 constexpr std::array kFills{999.0,        9999.0,       99999.0,      999999.0,  999.25,    999.9,
                             32767.0,      32768.0,      65535.0,      8388607.0, 8388608.0, 16777215.0,
                             2147483647.0, 2147483648.0, 4294967295.0, 1e20,      1e30,      9.96921e36};
@@ -59,7 +59,7 @@ std::optional<TimeDoubt> doubt_time(const std::vector<double>& times, const std:
                     "the number of a row?",
                     step),
         fmt::format("say which in [columns]: {}", in_unit("ms"))};
-  // A day has 86,400 s: in days, rows of a logger lie less than 1e-4 apart.
+  // A day has 86,400 s, so the rows of a logger are less than 1e-4 days apart.
   struct Origin {
     double from, to;
     std::string_view who;

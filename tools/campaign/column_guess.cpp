@@ -12,8 +12,8 @@ struct Naming {
   std::string_view channel;
   CampaignPlant plant;
   std::string_view dimension;
-  std::array<std::string_view, 12> words;  // lower case; any of them in the column's name
-  bool is_downward = false;                // the words mean a depth: the channel counts upward
+  std::array<std::string_view, 12> words;  // In lower case; one of them must be in the column's name.
+  bool is_downward = false;                // The words mean a depth, but the channel counts upward.
 };
 constexpr std::array kNamings{
     Naming{"foot_z_m",

@@ -7,23 +7,27 @@
 #include "tools/campaign/plant_kind.hpp"
 #include "tools/campaign/written_unit.hpp"
 
-// A foreign column's channel, by the words in its name and by its unit.
+// Guesses the channel of a foreign column from the words in its name and from its unit.
 namespace sandhopper {
 
+// A column of the table and the channel it may be. channel = scale x column.
 struct ColumnGuess {
-  std::size_t column = 0;  // of the table
+  std::size_t column = 0;  // index in the table
   std::string channel{};
   std::optional<WrittenUnit> unit{};
   double scale = 1.0;
-  bool is_downward = false;  // the name means a depth: the channel counts upward
+  bool is_downward = false;  // The name means a depth, but the channel counts upward.
 };
 
-// Words go before units. Nothing where neither fits a channel of the plant that `taken` leaves.
+// Words take precedence over units. Returns an empty optional if nothing fits a channel of the plant that is
+// not in `taken`.
 std::optional<ColumnGuess> guess_column(const std::string& name, const std::optional<WrittenUnit>& unit,
                                         CampaignPlant plant, const std::vector<ColumnGuess>& taken);
 
+// Only the letters A to Z are changed.
 std::string in_lower_case(std::string_view text);
-// One letter must be the whole quantity: "z (mm)", not the z in "size". `lower` is in lower case.
+// True if `lower` (lower-case text) contains the word. A single letter must be the whole quantity: "z (mm)",
+// not the z in "size".
 bool has_word(const std::string& lower, std::string_view word);
 
 }  // namespace sandhopper

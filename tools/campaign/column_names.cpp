@@ -12,7 +12,8 @@ struct Parts {
   std::string unit;
 };
 
-// "load_cell_force_kN" or "load_cell_force [kN]" given the quantity "load_cell_force".
+// Unit after a quantity: "kN" for the column "load_cell_force_kN" or "load_cell_force [kN]" and the quantity
+// "load_cell_force".
 std::optional<std::string> unit_after(std::string_view column, std::string_view quantity) {
   if (column.size() <= quantity.size() || !column.starts_with(quantity)) return std::nullopt;
   std::string_view rest = column.substr(quantity.size());
@@ -45,7 +46,7 @@ std::optional<MisnamedUnit> misnamed_unit(std::string_view column, CampaignPlant
     const auto parts = split_unit(channel);
     if (!parts || parts->quantity.size() <= longest) return;
     const auto unit = unit_after(column, parts->quantity);
-    // What follows must look like a unit: one word, or a unit known here.
+    // The rest must look like a unit: one word, or a unit listed here.
     if (!unit || *unit == parts->suffix) return;
     const auto scale = scale_between(*unit, parts->suffix, parts->dimension);
     const bool one_word = unit->find('_') == std::string::npos;

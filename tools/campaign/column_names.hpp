@@ -7,13 +7,14 @@
 
 namespace sandhopper {
 
-// A column that bears a channel's name in another unit: "load_cell_force_kN", "foot_z [mm]".
+// A column with the name of a channel but another unit: "load_cell_force_kN", "foot_z [mm]".
 struct MisnamedUnit {
-  std::string channel;            // the channel it seems to be
+  std::string channel;            // The channel it seems to be.
   std::string unit;               // as written
-  std::optional<double> scale{};  // to the channel's unit, where the unit is known
+  std::optional<double> scale{};  // Factor to the channel's unit; empty if the unit is unknown.
 };
 
+// Empty if the column is no channel's name with another unit.
 std::optional<MisnamedUnit> misnamed_unit(std::string_view column, CampaignPlant plant);
 
 }  // namespace sandhopper

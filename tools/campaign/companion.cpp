@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
-// Rows of either recording that make one row of the joint one.
+// Rows of the two recordings that form one joint row.
 struct RowPair {
   double t_s;
   std::size_t first = kNoRow, second = kNoRow;
@@ -39,7 +39,7 @@ std::vector<double> gathered(const std::vector<double>& values, const std::vecto
 void join_companion(TrialRecording& recording, TrialRecording other) {
   const bool joins = recording.usable() && other.usable();
   for (auto& finding : other.findings) {
-    // A companion that cannot be used costs its channels, not the trial.
+    // A companion that cannot be used loses only its channels; the trial stays usable.
     if (finding.severity == FindingSeverity::trial_unusable)
       finding.severity = FindingSeverity::channel_unusable;
     recording.findings.push_back(std::move(finding));

@@ -3,10 +3,10 @@
 
 namespace sandhopper {
 
-// Puts another recording on the same clock into this one: rows of both in the order of time, NaN where a
-// channel has no sample, nothing from before its first or after its last row. A channel that both have is
-// this one's. What is wrong with the other comes along; where it cannot be used at all this one stays as it
-// is and says so.
+// Merges another recording with the same clock into `recording`: rows of both in the order of time, NaN where
+// a channel has no sample. Rows of `other` before the first or after the last row of `recording` are left
+// out. If both have a channel, that of `recording` is kept. The findings of `other` are added; if it cannot
+// be used, `recording` stays otherwise unchanged.
 void join_companion(TrialRecording& recording, TrialRecording other);
 
 }  // namespace sandhopper

@@ -5,7 +5,7 @@
 
 namespace sandhopper {
 
-// A number written with or without a decimal point; nothing for a value of another kind.
+// The value of an integer or real node; empty for other kinds.
 inline std::optional<double> number_of(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::real) return node.real;
   if (node.kind == ConfigNode::Kind::integer) return static_cast<double>(node.integer);

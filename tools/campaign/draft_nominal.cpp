@@ -13,11 +13,11 @@
 namespace sandhopper {
 namespace {
 
-// Without these the answer hangs on a number that nobody stated.
+// Keys that decide the answer and must be stated.
 constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2", "inertia_kg_m2", "gravity_torque_Nm",
                                                   "mass_kg",      "radius_m",      "stiffness_N_per_m"};
 
-// A number as TOML reads a real.
+// Text of a number that TOML reads as a float.
 std::string toml_real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";

@@ -12,7 +12,7 @@ std::string to_string(const Finding& f) {
   if (!f.channel.empty()) text += ": " + f.channel;
   text += ": " + f.what;
   if (!f.cure.empty()) text += "; " + f.cure;
-  for (char& c : text)  // a terminal obeys control characters
+  for (char& c : text)  // Control characters could control the terminal.
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   return text;
 }

@@ -7,7 +7,7 @@
 
 namespace sandhopper {
 
-// What is wrong with a recording or with the campaign's own file.
+// Kind of a problem in a recording or in campaign.toml.
 enum class FindingKind : std::uint8_t {
   missing_file,
   unreadable_file,
@@ -28,11 +28,11 @@ enum class FindingKind : std::uint8_t {
   stuck,
   wrong_plant,
   set_up,
-  file_format,     // how the file is written, where that is unusual or not known
+  file_format,     // The format of the file is unusual or unknown.
   unit_disagrees,  // the file and campaign.toml state different units
   coarse_time,     // times with too few digits
-  held_samples,    // values repeated, or zeros filled in, between true samples
-  implausible      // not possible on this plant: a unit is likely to be wrong
+  held_samples,    // Repeated values, or zeros filled in between true samples.
+  implausible      // Impossible on this plant; probably a wrong unit.
 };
 template <>
 struct EnumNames<FindingKind> {
@@ -62,30 +62,31 @@ struct EnumNames<FindingKind> {
                                                           "implausible"};
 };
 
-// What it costs: nothing but what the text says was left out, the whole channel, or the whole trial.
+// Consequence. note: only what the text names is left out. channel_unusable: the channel is lost.
+// trial_unusable: the trial is lost.
 enum class FindingSeverity : std::uint8_t { note, channel_unusable, trial_unusable };
 template <>
 struct EnumNames<FindingSeverity> {
   static constexpr std::array<std::string_view, 3> value{"note", "channel_unusable", "trial_unusable"};
 };
 
-// One thing that is wrong, where, and what the user can do about it.
+// One problem: its place, its cause, and what the user can do.
 struct Finding {
   FindingKind kind{};
   FindingSeverity severity{};
   std::string file;
-  std::uint64_t line = 0;  // from 1; 0: the file as a whole. In a .mcap log: the row `hop export` would write
-  std::uint64_t column = 0;  // character of the line, from 1
-  std::string channel{};     // the column's, channel's or key's name, where one is meant
+  // From 1; 0: the whole file. In a .mcap log: the row that `hop export` would write.
+  std::uint64_t line = 0;
+  std::uint64_t column = 0;  // character in the line, from 1
+  std::string channel{};     // Name of the column, channel or key; may be empty.
   std::string what{};
   std::string cure{};
 
   bool operator==(const Finding&) const = default;
 };
 
-// "file:line:column: channel: what; cure"
 std::string to_string(const Finding& finding);
 
-bool any_unusable(const std::vector<Finding>& findings);  // a finding that rules the trial out
+bool any_unusable(const std::vector<Finding>& findings);  // True if a finding makes the trial unusable.
 
 }  // namespace sandhopper

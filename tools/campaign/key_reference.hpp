@@ -6,31 +6,31 @@
 #include "config/fields.hpp"
 #include "tools/campaign/plant_kind.hpp"
 
-// The recording contract as tables: every key of a plant's nominal.toml and every channel of its recordings,
-// with unit, default and meaning. Keys, ranges and defaults are read from the structs that read the files, so
-// that they cannot differ from what the program does; only the meanings are written here.
+// Reference tables of the recording contract: keys of nominal.toml and channels, with unit, default and
+// meaning. Keys, ranges and defaults come from the structs that read the files, so they always agree with the
+// program. Only the meanings are written by hand.
 namespace sandhopper {
 
 struct BeliefKey {
-  std::string table;  // empty: at the top of the file
+  std::string table;  // empty: top of the file
   std::string key;
-  std::string unit;           // "1" for a pure number
-  std::string default_value;  // as one would write it; "not set" where the key has no default
+  std::string unit;           // "1" for a dimensionless number
+  std::string default_value;  // As written in a file; "not set" if there is no default.
   Range range;
-  std::string_view meaning;  // empty: nobody has written one (a test fails)
-  // Every plant's [sensors] and [spread] take every plant's keys: false where the key says nothing of this
-  // plant.
+  std::string_view meaning;  // A test fails if it is empty.
+  // False if the key has no meaning for this plant: [sensors] and [spread] of every plant accept the keys of
+  // all plants.
   bool of_this_plant = true;
-  bool used = true;  // false: read and checked, but no tool uses it so far
+  bool used = true;  // False if the key is read and checked, but not used by any tool yet.
 
   std::string path() const { return table.empty() ? key : table + "." + key; }
 };
 
-// In the order of the file.
+// in the order of the file
 std::vector<BeliefKey> belief_keys(CampaignPlant plant);
 
-// Meaning of a key of nominal.toml; `path` is "table.key", or "key" at the top of the file. Empty: no such
-// key.
+// Meaning of a key of nominal.toml; empty if there is no such key. `path`: "table.key", or "key" at the top
+// of the file.
 std::string_view meaning_of_key(std::string_view path);
 
 struct ChannelEntry {
@@ -39,9 +39,10 @@ struct ChannelEntry {
   std::string_view meaning;
 };
 
-// `t_s` first.
+// The first entry is `t_s`.
 std::vector<ChannelEntry> channel_entries(CampaignPlant plant);
 
+// Meaning of a kind of trial or of a plant, as a short text.
 std::string_view meaning_of(TrialKind kind);
 std::string_view meaning_of(CampaignPlant plant);
 

@@ -9,7 +9,7 @@ using enum CampaignPlant;
 using enum MayRest;
 
 constexpr bool kRange = true;
-// A motor's current and speed have none here: they stand at the drive's own limit, and that is the truth.
+// Current and speed of a motor have no kRange: at the drive's limit they still are true values.
 constexpr std::array kChannels{
     ChannelTraits{"motor_left_position_rad", hopper}, ChannelTraits{"motor_right_position_rad", hopper},
     ChannelTraits{"motor_left_velocity_radps", hopper, at_zero},
@@ -37,12 +37,12 @@ constexpr std::array kChannels{
     ChannelTraits{"estimate_foot_velocity_mps", hopper, always},
     ChannelTraits{"estimate_contact_force_N", hopper, always},
     ChannelTraits{"quasi_static_force_N", hopper, always}, ChannelTraits{"foot_z_m", intruder},
-    ChannelTraits{"foot_velocity_mps", intruder, always},  // prescribed: constant by intent
+    ChannelTraits{"foot_velocity_mps", intruder, always},  // Prescribed: may be constant on purpose.
     ChannelTraits{"foot_accel_mps2", intruder, at_zero, kRange},
     ChannelTraits{"force_N", intruder, at_zero, kRange}, ChannelTraits{"height_m", falling_body},
     ChannelTraits{"accel_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"pressure_Pa", falling_body, never, kRange},
-    // Further accelerometers along the same axis, of other range, and two across it.
+    // Further accelerometers: along the same axis with other ranges, and two lateral ones.
     ChannelTraits{"accel_2_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"accel_3_mps2", falling_body, at_zero, kRange},
     ChannelTraits{"accel_4_mps2", falling_body, at_zero, kRange},

@@ -7,7 +7,7 @@
 
 #include "config/fields.hpp"
 
-// Names of plants, kinds of trial, and every channel a recording may have.
+// Plants, kinds of trial, and all channels that a recording may have.
 namespace sandhopper {
 
 enum class CampaignPlant : std::uint8_t { hopper, intruder, falling_body, rotary_axis };
@@ -23,27 +23,28 @@ struct EnumNames<TrialKind> {
                                                          "hold", "press",     "tap",  "clamped"};
 };
 
-// What an experimenter on this plant usually does.
+// Kind of a trial without `kind`.
 TrialKind usual_kind(CampaignPlant plant);
 
-// When the same value over and over is nothing to remark on.
+// Says if a channel may keep the same value without being reported as stuck.
 enum class MayRest : std::uint8_t {
-  never,    // a live sensor: noise or motion changes it
-  at_zero,  // only the value 0 (prescribed, simulated without noise)
+  never,    // live sensor: noise or motion changes it
+  at_zero,  // only at the value 0 (prescribed, or simulated without noise)
   always    // phase, temperature, command, the firmware's own estimates
 };
 
+// A channel of a plant, and how it may behave without being reported.
 struct ChannelTraits {
   std::string_view name;
   CampaignPlant plant;
   MayRest may_rest = MayRest::never;
-  bool has_range = false;  // a sensor that can be driven to the end of its range
+  bool has_range = false;  // The sensor can reach the end of its range.
 };
 
 std::span<const ChannelTraits> known_channels();
-// Of that plant; null when there is none. `t_s` belongs to every plant and is not among them.
+// Channel of that plant; null if there is none. `t_s` belongs to every plant and is not listed.
 const ChannelTraits* find_channel(CampaignPlant plant, std::string_view name);
-// The first plant that has a channel of this name.
+// First plant with a channel of this name.
 std::optional<CampaignPlant> plant_with_channel(std::string_view name);
 
 }  // namespace sandhopper

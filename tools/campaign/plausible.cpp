@@ -45,7 +45,7 @@ constexpr std::array kBounds{
     PlausibleBound{hopper, "imu_body_accel_z_mps2", 2e4, kImu},
     PlausibleBound{hopper, "imu_foot_accel_z_mps2", 2e4, kImu}};
 
-// The plant's belief, as stated for the trial.
+// The trial's belief, if it is of this plant.
 template <class T>
 const T* belief_of(const CampaignTrial& trial) {
   return std::get_if<T>(&trial.belief);
@@ -86,7 +86,7 @@ class PlausibilityChecker {
     });
   }
 
-  // "X = { column = …, unit = …, scale = … }", which says that the values are as they are.
+  // Advice: correct the scale, or confirm it with `unit` and `scale` in [columns].
   std::string cure(std::string_view channel) const {
     std::string column(channel);
     for (const auto& mapping : trial_.columns)
@@ -109,16 +109,16 @@ class PlausibilityChecker {
     }
   }
 
-  // A stated depth of the bed counts instead of what laboratories have.
+  // Limit of a channel; for the depth at least twice the stated depth of the bed.
   double bound_of(const PlausibleBound& bound) const {
     if (bound.channel != "foot_z_m") return bound.most;
     return std::max(bound.most, 2.0 * trial_.number("bed_depth_m").value_or(0.0));
   }
 
-  // Milliseconds, or an epoch in them, taken for seconds.
+  // Reports times in ms, us or ns (also as s since 1970) that are taken as s.
   void check_clock() {
     if (recording_.t_s.size() < 10) return;
-    constexpr double kNow_s = 1.7e9;  // 2023, as an epoch
+    constexpr double kNow_s = 1.7e9;  // s since 1970, in 2023
     const double first = std::abs(recording_.t_s.front());
     for (const double unit : {1e3, 1e6, 1e9})
       if (first > 0.5 * kNow_s * unit && first < 3.0 * kNow_s * unit) {
@@ -175,9 +175,9 @@ class PlausibilityChecker {
     return ratio < 0.0 ? " or has the other sign" : "";
   }
 
-  // Slope of the speed channel over the rate of the position, where they go together and it is far from 1:
-  // below 0.2, above 5, or of the other sign. Rates are taken over a twentieth of the rows, above the
-  // sensor's noise.
+  // Slope of the speed channel over the rate of the position. Returned only if the two correlate and the
+  // slope is below 0.2, above 5 or negative. Rates are taken over 1/20 of the rows to suppress the sensor's
+  // noise.
   std::optional<double> rate_ratio(std::string_view position, std::string_view speed) const {
     if (!recording_.has(position) || !recording_.has(speed)) return std::nullopt;
     const auto x = recording_.channel(position), v = recording_.channel(speed);
@@ -221,7 +221,7 @@ class PlausibilityChecker {
     }
   }
 
-  // rho g z A is what the displaced material weighs: less cannot push a foot at rest in a bed.
+  // rho g z A is the weight of the displaced material. A foot at rest in a bed cannot be pushed with less.
   void check_overburden() {
     const auto* belief = belief_of<IntruderBelief>(trial_);
     const bool has_foot = trial_.states_diameter() || trial_.number("radius_m") || !campaign_.model.empty();
@@ -257,8 +257,8 @@ class PlausibilityChecker {
   const RecordingPlaces& places_;
 };
 
-// Gravity at the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars, Mercury, Titan,
-// Venus, Jupiter (NASA Planetary Fact Sheet), and none.
+// True for the gravity on the Earth's surface (9.764 to 9.834, WGS 84 with its anomalies), Moon, Mars,
+// Mercury, Titan, Venus, Jupiter (NASA Planetary Fact Sheet), and 0.
 bool is_known_gravity(double g) {
   constexpr std::array kElsewhere{0.0, 1.62, 3.7, 3.71, 3.72, 3.73, 1.35, 8.87, 24.8, 24.79};
   return (g > 9.7 && g < 9.9) || std::any_of(kElsewhere.begin(), kElsewhere.end(),
@@ -272,7 +272,7 @@ std::string text_of_gravity(double g) {
 
 void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, const std::string& file) {
   constexpr double kDensest_kg_per_m3 = 22600.0;  // osmium
-  constexpr double kLongest = 30.0;               // length over diameter of the slenderest penetrometers
+  constexpr double kLongest = 30.0;               // Length / diameter of the most slender penetrometers.
   const double area_m2 = belief.body.frontal_area_m2;
   const double length_m = kLongest * std::sqrt(4.0 * area_m2 / std::numbers::pi);
   const double volume_m3 = belief.body.volume_m3 > 0.0 ? belief.body.volume_m3 : area_m2 * length_m;

@@ -6,28 +6,29 @@
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// Values that are not possible on a plant, so that a unit must be wrong. One table of bounds (plausible.cpp),
-// each with the physics or the part that gives it; and laws that two channels must keep together:
+// Finds values that are impossible on a plant, so that a unit must be wrong: a table of limits with their
+// sources (plausible.cpp), and relations between channels:
 //   rate of a position = its speed channel              within a factor of 5
-//   |height(t) - height(0)| <= 15 m/s t + g t^2         a throw and a fall, with room
-//   peak force >= rho g z_max A / 5                     a bed pushes at least with its own weight above the
-//   foot
+//   |height(t) - height(0)| <= 15 m/s t + g t^2         a throw and a fall, with margin
+//   peak force >= rho g z_max A / 5                     weight of the displaced material
 namespace sandhopper {
 
+// Largest plausible magnitude of one channel.
 struct PlausibleBound {
   CampaignPlant plant;
   std::string_view channel;
-  double most;              // of the magnitude, in the channel's unit
-  std::string_view source;  // of the bound
+  double most;              // limit of the magnitude, in the channel's unit
+  std::string_view source;  // source of the limit
 };
 std::span<const PlausibleBound> plausible_bounds();
 
-// Adds findings to a recording: what rules the trial out, or a note where `unit` and `scale` of the channel
-// are both written down, so that its experimenter has said that it is so.
+// Adds findings to a recording. A finding makes the trial unusable, except if the mapping of the channel
+// states both `unit` and `scale`: then the user confirms the values and it is only a note.
 void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                      const RecordingPlaces& places);
 
-// Findings for numbers of the belief that no laboratory has: a gravity of 1.0, a body denser than any metal.
+// Findings for impossible numbers of the belief, for example a gravity of 1.0 or a body denser than any
+// metal.
 std::vector<Finding> implausible_beliefs(const Campaign& campaign);
 
 }  // namespace sandhopper

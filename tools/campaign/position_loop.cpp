@@ -20,7 +20,7 @@ std::optional<Loop> loop_of(const CampaignTrial& trial, const std::string& phase
   return Loop{*gain, trial.number(phase + "_velocity_gain_Nm_s_per_rad").value_or(0.0), *target};
 }
 
-// Of the angle where it was sampled; NaN elsewhere.
+// Derivative of the angle by a local polynomial; NaN in rows without a sample.
 std::vector<double> rate_of(const std::vector<double>& t_s, const std::vector<double>& angle_rad) {
   constexpr double kHalfWidth_s = 0.008;
   std::vector<double> rate;

@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using enum FindingSeverity;
 
-// Names of a hop's phases: those of `hop export`, and the robot's further states, which are no phase.
+// Words for the phases of a hop: those of `hop export`, and other states of the robot, which count as no
+// sample.
 std::vector<CsvWord> phase_words(const std::string& column) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<CsvWord> words;
@@ -79,8 +80,7 @@ class TableReader {
     return std::nullopt;
   }
 
-  // A path of Windows has backslashes, and TOML reads "\r", "\t", "\n" in double quotes as control
-  // characters.
+  // In double quotes TOML reads the backslashes of a Windows path as control characters ("\r", "\t", "\n").
   std::string cure_for_missing() const {
     constexpr std::array<std::pair<char, std::string_view>, 7> kEscapes{
         {{'\r', "/r"}, {'\n', "/n"}, {'\t', "/t"}, {'\b', "/b"}, {'\f', "/f"}, {'\x1B', "/e"}, {'\\', "/"}}};
@@ -133,7 +133,7 @@ class TableReader {
           fmt::format("{} records were lost when it was logged", exported.lost_records), "");
   }
 
-  // The column of the mapped name of the time, or t_s where the file has no such column.
+  // Reads the table. The time column is the mapped one, or t_s if the file does not have the mapped one.
   CsvTable parse(std::istream& in) {
     CsvReadOptions options;
     options.gap_steps = std::numeric_limits<double>::infinity();
@@ -149,7 +149,8 @@ class TableReader {
     if (time == nullptr) return read_csv(in, options);
     options.time_column = time->column;
     options.second_time_column = time->plus.column;
-    if (!time->plus.column.empty()) options.check_order = false;  // of both together
+    // The order is only defined for the sum of both columns.
+    if (!time->plus.column.empty()) options.check_order = false;
     auto table = read_csv(in, options);
     if (table.find(time->column) != nullptr || table.names.empty()) return table;
     const auto* other = find_column(table, time->column);
@@ -161,7 +162,7 @@ class TableReader {
     return read_csv(in, options);
   }
 
-  // One note of all that is unusual about the file.
+  // One note with everything unusual about the format.
   void describe_format() {
     const auto& layout = out_.table.layout;
     if (out_.own_log || layout.said.empty() || any_unusable(findings_)) return;
@@ -177,7 +178,7 @@ class TableReader {
     findings_.push_back({kind, severity, out_.file, line, line, "", std::move(what), std::move(cure)});
     findings_.back().column = line > 0 ? 1 : 0;
   }
-  // Findings for columns that the trial's entry in campaign.toml names and the file lacks.
+  // Finding at the position of the trial's entry in campaign.toml.
   void complain(FindingKind kind, std::string what, std::string cure) {
     findings_.push_back({kind, trial_unusable, campaign_.file.string(), trial_.position.line,
                          trial_.position.column, "file", std::move(what), std::move(cure)});
@@ -203,7 +204,7 @@ bool is_called_time(std::string_view name) {
          lower.ends_with("timestamp") || lower.ends_with("_time") || lower.ends_with(": time (s)") ||
          lower.ends_with("stamp.secs") || lower.ends_with("stamp.sec") || lower == "sec" || lower == "secs" ||
          lower == "seconds" || lower == "ms" || lower == "millis" || lower == "micros" || lower == "clock" ||
-         lower == "x_value";  // of LabVIEW
+         lower == "x_value";  // LabVIEW
 }
 
 const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view channel) {

@@ -9,33 +9,34 @@
 
 namespace sandhopper {
 
-// A trial's file as a table, before its columns become channels.
+// A trial's file as a table, before columns become channels.
 struct TrialTable {
   CsvTable table{};
   std::string file{};
   bool own_log = false;
-  // Columns that cannot be used: most cells are no numbers, or the name stands twice.
+  // Unusable columns: most cells are not numbers, or the name occurs twice.
   std::vector<std::string> unusable_columns{};
 };
 
-// Finds the file (a recording, or the folder of a hop that holds one), reads it and adds what is wrong to
-// `findings`. Nothing where there is no table at all.
+// Finds the file (a recording, or a folder that holds one), reads it, and adds its problems to `findings`.
+// Returns an empty optional if there is no table.
 std::optional<TrialTable> read_table(const Campaign& campaign, const CampaignTrial& trial,
                                      std::vector<Finding>& findings);
 
+// The trial's mapping for a channel; null if there is none. A mapping of the trial precedes that of the
+// campaign.
 const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view channel);
-// The column of a name as written, or as it stands behind the mark of a remark ("# t_s"). Null where there is
-// none.
+// Column with that name, null if there is none. A comment mark in front of the name ("# t_s") is ignored.
 const std::vector<double>* find_column(const CsvTable& table, std::string_view name);
-// The mapped column of the time, else t_s; null where the file has neither.
+// The mapped time column, else t_s; null if there is neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
 
-// "Time (s)", "timestamp", "t", "millis", "Zeit".
+// True for names like "Time (s)", "timestamp", "t", "millis", "Zeit".
 bool is_called_time(std::string_view name);
-// The column that looks like a time, by its name; t_s is not looked for.
+// Column that looks like a time by its name or unit; t_s itself is not considered.
 std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant plant);
-// Advice for a file in which no column is the time: the column that looks like it, with its scale. Empty
-// where no column looks like a time.
+// Advice for a file without a time column: the column that looks like one, with its scale. Empty if there is
+// none.
 std::string cure_for_time(const CsvTable& table, CampaignPlant plant);
 
 }  // namespace sandhopper

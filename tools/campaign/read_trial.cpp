@@ -66,7 +66,7 @@ class Reader {
       if (std::find(taken.begin(), taken.end(), mapping.channel) != taken.end()) continue;
       const bool plain =
           find_column(table_, mapping.column) == nullptr && table_.find(mapping.channel) != nullptr;
-      if (plain) continue;  // this file already bears the channel's own name
+      if (plain) continue;  // The file already has a column with the channel's name.
       taken.push_back(mapping.channel);
       take_mapped(mapping);
     }
@@ -85,7 +85,7 @@ class Reader {
     const auto* mapping = mapping_of(trial_, "t_s");
     const auto* column = time_column(table_, trial_);
     places_.lines = table_.lines;
-    if (column == nullptr) return count_rows();  // else judge_time
+    if (column == nullptr) return count_rows();  // judge_time handles this
     const auto i = index_of(*column);
     const bool mapped = mapping != nullptr && find_column(table_, mapping->column) == column;
     const auto scale = unit_scale(i, mapped ? *mapping : ColumnMapping{"t_s", table_.names[i]});
@@ -114,7 +114,7 @@ class Reader {
     if (!out_.own_log && !has_unit_of_time(i, mapped ? mapping : nullptr)) doubt(i);
   }
 
-  // [format] row_every_s: rows by their lines, so that one which had to be left out leaves a gap.
+  // [format] row_every_s: times from line numbers, so that a row that was left out leaves a gap.
   void count_rows() {
     const double step_s = trial_.format.row_every_s;
     if (!(step_s > 0.0) || table_.lines.empty()) return;
@@ -127,7 +127,8 @@ class Reader {
         fmt::format("the file has no time; rows come every {:.6g} s, as [format] says", step_s), "");
   }
 
-  // A name or a row of units that says it, dates, seconds since 1970, or the mapping.
+  // True if the unit is known: from the name, the row of units, the format (date, time of day) or the
+  // mapping.
   bool has_unit_of_time(std::size_t i, const ColumnMapping* mapping) const {
     if (mapping != nullptr && (mapping->has_scale || !mapping->unit.empty())) return true;
     const bool is_clock = std::ranges::find(table_.clocks, table_.names[i]) != table_.clocks.end();
@@ -139,7 +140,8 @@ class Reader {
           table_.names[i], doubt->what, doubt->cure);
   }
 
-  // Force against depth needs no time: rows are then taken in the order of the file.
+  // Reports a missing time. Force against depth is accepted without time: its rows are taken in the order of
+  // the file.
   void judge_time() {
     if (time_column(table_, trial_) != nullptr || !out_.t_s.empty()) return;
     const auto* mapping = mapping_of(trial_, "t_s");
@@ -179,7 +181,7 @@ class Reader {
     take(index_of(*column), mapping);
   }
 
-  // The factor to the channel's unit; nothing where the file and the mapping disagree on it.
+  // Factor to the channel's unit; empty if the file and the mapping contradict each other.
   std::optional<double> unit_scale(std::size_t i, const ColumnMapping& mapping) {
     if (out_.own_log) return mapping.scale;
     double largest = 0.0;
@@ -210,7 +212,7 @@ class Reader {
     auto values = table_.columns[i];
     const bool empty =
         std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-    if (empty) return;  // as if it were not there
+    if (empty) return;  // Treat it like a missing column.
     if (!out_.own_log) look_at_numbers(i, mapping, values);
     for (double& value : values) value = *scale * value + mapping.offset;
     if (!out_.own_log && mapping.channel.ends_with("position_rad")) unwrap(i, mapping, values);
@@ -268,7 +270,7 @@ class Reader {
         cure);
   }
 
-  // What is wrong in a column that nobody reads costs nothing.
+  // Drops findings in columns that are not used.
   void forget_unused_columns() {
     std::erase_if(out_.findings, [&](const Finding& finding) {
       const bool in_cells = finding.kind == FindingKind::non_numeric_cell ||
@@ -311,7 +313,7 @@ class Reader {
               : "say in [columns] which column is which channel");
   }
 
-  // An axis that is recorded in metres.
+  // True for an axis that is recorded in metres.
   bool is_linear_stage() const {
     if (campaign_.plant != CampaignPlant::rotary_axis) return false;
     return std::any_of(table_.names.begin(), table_.names.end(), [](const auto& name) {
@@ -357,7 +359,7 @@ class Reader {
     out_.findings.push_back({kind, severity, campaign_.file.string(), at.line, at.column, std::move(key),
                              std::move(what), std::move(cure)});
   }
-  // What the trial's entry in campaign.toml asks for and cannot have.
+  // Finding at the position of the trial's entry in campaign.toml.
   void complain(FindingKind kind, FindingSeverity severity, std::string what, std::string cure) {
     complain_at(trial_.position, kind, severity, "file", std::move(what), std::move(cure));
   }
@@ -368,7 +370,7 @@ class Reader {
   CsvTable table_;
   std::string file_;
   RecordingPlaces places_;
-  std::vector<bool> used_;  // columns that became a channel
+  std::vector<bool> used_;  // Columns that became a channel.
   std::vector<std::string> unusable_columns_;
 };
 

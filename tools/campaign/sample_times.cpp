@@ -13,7 +13,7 @@ using enum FindingSeverity;
 
 constexpr std::size_t kFewestRows = 10;
 
-// 0.002 s as "2 ms"
+// 0.002 s -> "2 ms"
 std::string duration(double s) {
   if (s < 0.9995e-3) return fmt::format("{:.3g} us", 1e6 * s);
   if (s < 0.9995) return fmt::format("{:.3g} ms", 1e3 * s);
@@ -27,7 +27,8 @@ void add(TrialRecording& recording, FindingKind kind, FindingSeverity severity, 
       {kind, severity, places.file, line, 1, channel, std::move(what), std::move(cure)});
 }
 
-// True where the rows hold different values of some channel: two samples, not one row in two parts.
+// True if some channel has different values in the two rows: then they are two samples, not one row in two
+// parts.
 bool rows_differ(const TrialRecording& recording, std::size_t a, std::size_t b) {
   return std::any_of(recording.channels.begin(), recording.channels.end(), [&](const auto& channel) {
     return !std::isnan(channel.values[a]) && !std::isnan(channel.values[b]) &&
@@ -36,8 +37,8 @@ bool rows_differ(const TrialRecording& recording, std::size_t a, std::size_t b) 
 }
 
 struct SharedTimes {
-  std::size_t rows = 0;   // that share the time of the row before
-  std::size_t first = 0;  // of them
+  std::size_t rows = 0;   // rows with the same time as the row before
+  std::size_t first = 0;  // index of the first of them
   std::size_t distinct = 1;
   double resolution_s = std::numeric_limits<double>::infinity();
 };
@@ -56,7 +57,7 @@ SharedTimes shared_times(const TrialRecording& recording) {
   return shared;
 }
 
-// t_i = a + b i by least squares; a row's number is known, and its time is rounded.
+// Least squares t_i = a + b i: the row number is exact, the time is rounded.
 void spread(std::vector<double>& t_s) {
   const auto n = static_cast<double>(t_s.size());
   const double first = t_s.front(), middle = 0.5 * (n - 1.0);
@@ -73,8 +74,8 @@ void spread(std::vector<double>& t_s) {
 
 bool nearly_all(std::size_t count, std::size_t of) { return 5 * count >= 4 * of; }
 
-// Every step is a multiple of the shortest, and nearly all are the shortest: rows are missing between others
-// that come evenly. Coarse times of even rows step by n or n + 1 resolutions, and by both often.
+// True if every step is a multiple of the shortest one and nearly all are the shortest: then rows are missing
+// in an even table. Rounded times of even rows have steps of n or n + 1 resolutions, both often.
 bool are_lost_rows(const std::vector<double>& t_s, const std::vector<double>& distinct_steps) {
   const double shortest = distinct_steps.front();
   if (!(shortest > 0.0)) return false;
@@ -86,7 +87,7 @@ bool are_lost_rows(const std::vector<double>& t_s, const std::vector<double>& di
   return multiples && nearly_all(alone, t_s.size() - 1);
 }
 
-// The common divisor of all steps where it is coarse; 0 otherwise.
+// Common divisor of all steps if it is coarse; otherwise 0.
 double coarse_resolution(const std::vector<double>& t_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) {
@@ -103,12 +104,12 @@ double coarse_resolution(const std::vector<double>& t_s) {
   const bool multiples = std::all_of(steps.begin(), steps.end(), [&](double step) {
     return std::abs(step / resolution - std::round(step / resolution)) < 0.01;
   });
-  // Gaps in a regular table are not coarse times: there nearly all steps are the shortest.
+  // In a regular table with gaps nearly all steps are the shortest; that is not a coarse time.
   const bool regular = std::abs(mean - steps.front()) < 0.02 * mean;
   return multiples && !regular && resolution > 0.15 * mean && steps.back() < 3.0 * mean ? resolution : 0.0;
 }
 
-// Lengths of the runs of equal values that are neither the first nor the last.
+// Lengths of the runs of equal values, without the first and the last run.
 struct Runs {
   std::vector<std::size_t> lengths;
   double largest_step = 0.0;
@@ -134,7 +135,7 @@ Runs inner_runs(const std::vector<double>& values) {
   return runs;
 }
 
-// The length that nearly all runs have; 0 where there is none.
+// Length of nearly all runs; 0 if they differ.
 std::size_t usual_length(std::vector<std::size_t> lengths) {
   if (lengths.size() < 8) return 0;
   std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
@@ -145,7 +146,7 @@ std::size_t usual_length(std::vector<std::size_t> lengths) {
   return nearly_all(static_cast<std::size_t>(alike), lengths.size()) ? middle : 0;
 }
 
-// v 0 0 0 v 0 0 0: every true sample alone, equally many zeros between.
+// Replaces filled-in zeros by NaN: v 0 0 0 v 0 0 0, single samples with equally many zeros in between.
 bool drop_filled_zeros(std::vector<double>& values) {
   std::vector<std::size_t> zeros;
   std::size_t samples = 0, alone = 0, length = 0;

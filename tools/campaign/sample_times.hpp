@@ -4,15 +4,14 @@
 
 namespace sandhopper {
 
-// Times written with too few digits. Rows that share a time and hold different values of one channel are rows
-// of their own: where they are more than a tenth, the trial is left out, or, with `spread_times`, the rows
-// are spread evenly over the recording (least squares of the times over the number of the row). Steps that
-// are all multiples of a resolution of more than 15 % of the mean step are noted. Call it before rows of one
-// time are joined.
+// Finds times with too few digits. Rows that share a time but differ in a channel are separate samples. If
+// they are more than a tenth of all rows, the trial is unusable; with `spread_times` the rows are instead
+// spread evenly (least squares of the times over the row number). Times whose steps are all multiples of a
+// resolution above 15 % of the mean step get a note. Call it before rows of the same time are joined.
 void check_times(TrialRecording& recording, const RecordingPlaces& places, bool spread_times);
 
-// Samples that are none: a value repeated over a fixed number of rows while another channel changes with
-// every row is noted with the rate that remains; zeros between single true samples become no samples.
+// Finds values that are not samples. A value repeated over a fixed number of rows, while another channel
+// changes in every row, gets a note with the true rate. Zeros between single true samples are removed.
 void check_held_samples(TrialRecording& recording, const RecordingPlaces& places);
 
 }  // namespace sandhopper

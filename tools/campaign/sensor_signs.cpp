@@ -31,7 +31,8 @@ Range range_of(std::span<const double> values) {
   return range;
 }
 
-// Means over stretches of a fifth of the recording in which the values keep to a tenth of their whole range.
+// Means over stretches of a fifth of the samples in which the values stay within a tenth of their whole
+// range.
 std::vector<double> means_at_rest(std::span<const double> values) {
   constexpr std::size_t kStretches = 5, kFewest = 10;
   std::vector<double> fresh;
@@ -99,7 +100,8 @@ class SignChecker {
           "m/s^2", -1.0);
   }
 
-  // Telephones write an acceleration without gravity, which a specific force is not.
+  // Reports a column that is an acceleration without gravity by its name (phones write it); a specific force
+  // includes gravity.
   void check_name() {
     for (const auto& mapping : trial_.columns) {
       if (mapping.channel != "accel_mps2" || mapping.offset != 0.0 || !recording_.has(mapping.channel))
@@ -120,7 +122,7 @@ class SignChecker {
     }
   }
 
-  // Rows in the upper fifth of the forces, against the range of positions.
+  // Compares the position of the rows with the largest fifth of the forces with the range of positions.
   void check_push() {
     if (!recording_.has("force_N") || !recording_.has("foot_z_m")) return;
     const auto force = recording_.channel("force_N"), z = recording_.channel("foot_z_m");
@@ -143,7 +145,7 @@ class SignChecker {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < pairs_z.size(); ++i)
       if (pairs_force[i] > forces.low + 0.8 * forces.width()) sum += pairs_z[i], count += 1.0;
-    const double place = (sum / count - heights.low) / heights.width();  // 0 lowest, 1 highest
+    const double place = (sum / count - heights.low) / heights.width();  // 0: lowest, 1: highest
     if (place > 0.8 && heights.low > -0.1 * heights.width())
       add("foot_z_m",
           "is highest where the force is largest: it counts the depth downward, and the channel counts "
@@ -151,8 +153,8 @@ class SignChecker {
           "m", -1.0);
   }
 
-  // A body that is let go ends lower than it began. One that was thrown may end anywhere: its set-up says so
-  // with a speed.
+  // A released body ends lower than it started. A thrown body may end anywhere; its set-up states
+  // release_speed_mps.
   void check_drop() {
     const auto speed_mps = trial_.number("release_speed_mps");
     const bool is_thrown = speed_mps && *speed_mps != 0.0;
@@ -171,7 +173,7 @@ class SignChecker {
           "m", -1.0);
   }
 
-  // `unit` alone gives the scale.
+  // Scale of a mapping; `unit` without `scale` gives it.
   static double factor_of(const ColumnMapping& mapping) {
     const auto unit = mapping.has_scale ? std::nullopt : read_unit(mapping.unit, true);
     const auto wanted = unit_of_channel(mapping.channel);

@@ -4,11 +4,12 @@
 
 namespace sandhopper {
 
-// Signs and units that show where a rig rests or pushes:
-//   a specific force at rest is +g (accelerometers): 1 is g taken for m/s^2, -g an axis that points downward;
-//   a bed pushes a foot up the harder the deeper it stands: where the largest forces are negative, or belong
-//   to the highest positions, force or depth is counted the other way.
-// Adds what rules the trial out, or a note where `unit` and `scale` of the channel are both written down.
+// Checks signs and units from the physics at rest and under load:
+//   Specific force at rest is +g. 1 means g taken as m/s^2, -g an axis that points downward.
+//   A bed pushes harder the deeper the foot is. If the largest forces are negative, or belong to the highest
+//   positions, force or depth has the opposite sign.
+// A finding makes the trial unusable, except if the mapping of the channel states both `unit` and `scale`:
+// then it is a note.
 void check_signs(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                  const RecordingPlaces& places);
 

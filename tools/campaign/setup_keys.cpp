@@ -57,7 +57,8 @@ std::optional<SetupMeaning> meaning_of_setup(std::string_view key) {
     return std::nullopt;
   }
   const Words words = words_of(key);
-  // Minutes and hours are no units of the configuration: its keys end in _min for other reasons.
+  // _min and _h are not unit suffixes of the configuration (its keys end in _min for "minimum"), so handle
+  // them here.
   if (says_wait(words) && (words.back() == "min" || words.back() == "h"))
     return SetupMeaning{.key = "wait_s", .scale = words.back() == "h" ? 3600.0 : 60.0};
   if (!any_of(words, kPush)) return std::nullopt;

@@ -87,13 +87,14 @@ FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, cons
   if (in_cells && column != nullptr && count * 5 > samples_in(*column) + count) return channel_unusable;
   if (issue.fault == CsvFault::duplicate_column && column == time_column(table.table, trial))
     return trial_unusable;
-  // A few rows out of order are slips; a clock set back leaves nothing to count time by.
+  // A few rows in the wrong order are tolerated. Many mean that the clock was set back, and the time is lost.
   if (issue.fault == CsvFault::time_backwards && count > kMostSlips + table.table.rows() / 100)
     return trial_unusable;
   return meaning_of(issue.fault).severity;
 }
 
-// Cells of a number with a comma and three digits, or of any text: the cure depends on what they hold.
+// Advice for an issue. For a cell that is not a number it depends on the text: a unit behind the number, or a
+// decimal comma.
 std::string cure_of(const CsvIssue& issue) {
   constexpr std::string_view kDigits = "0123456789";
   const auto last = issue.text.rfind("\" is not a number");

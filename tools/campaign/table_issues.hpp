@@ -5,8 +5,9 @@
 
 namespace sandhopper {
 
-// Problems that the reader of tables found, as findings with what each costs; names the columns that cannot
-// be used. A missing column of the time is not told here: whether one is needed depends on the trial.
+// Translates the issues of the table reader into findings with their consequence, and lists the unusable
+// columns in `table`. A missing time column is not reported here, because it depends on the trial if one is
+// needed.
 void translate_issues(const Campaign& campaign, const CampaignTrial& trial, TrialTable& table,
                       std::vector<Finding>& findings);
 

@@ -10,17 +10,16 @@
 
 namespace sandhopper {
 
-// A stretch of rows in which a channel stood at the end of its range; what it holds there is a bound, not a
-// measurement.
+// Rows in which a channel was at the end of its range. Their values are bounds, not measurements.
 struct SaturatedRows {
   std::string channel;
   double limit = 0.0;
   bool at_top = true;
-  std::size_t rows = 0;  // in all
+  std::size_t rows = 0;  // total number
 };
 
-// One trial's columns, in SI units and in the order of time, which grows strictly; NaN where there was no
-// fresh sample. Channels that must not be used are not in it: `findings` says which and why.
+// One trial as channels in SI units. Times grow strictly. NaN: no sample in that row. Channels that must not
+// be used are not included; `findings` gives the reasons.
 class TrialRecording {
  public:
   struct Channel {
@@ -30,28 +29,28 @@ class TrialRecording {
 
   std::vector<double> t_s;
   std::vector<Channel> channels;
-  // Of those that are not used: at the end of their range for too long, or at one value throughout.
+  // Unused channels that were saturated for too long, or constant throughout.
   std::vector<Channel> at_one_value;
-  bool own_log = false;  // a log of this firmware, not a table from somewhere
-  bool has_time = true;  // false: t_s counts the rows of a force against depth, 0, 1, 2 …
-  std::vector<std::string> unused_columns;  // of the file, that no channel or mapping names
+  bool own_log = false;  // Log of this firmware, not a foreign table.
+  bool has_time = true;  // False: force against depth without time; t_s is the row number 0, 1, 2, …
+  std::vector<std::string> unused_columns;  // Columns of the file that no channel or mapping uses.
   std::vector<SaturatedRows> saturated;
   std::vector<Finding> findings;
 
   std::size_t rows() const { return t_s.size(); }
   bool usable() const { return !any_unusable(findings) && !t_s.empty(); }
   bool has(std::string_view name) const { return find(name) != nullptr; }
-  // Throws std::out_of_range when there is no such channel.
+  // Throws std::out_of_range if there is no such channel.
   std::span<const double> channel(std::string_view name) const;
   const std::vector<double>* find(std::string_view name) const;
   const SaturatedRows* saturation(std::string_view name) const;
-  // True where the channel stands at the end of its range.
+  // True if the channel is at the end of its range in this row.
   bool is_saturated(std::string_view name, std::size_t row) const;
 };
 
-// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or the folder of a hop
-// that holds one of either. Never throws for bad input; findings say what is wrong, and usable() whether
-// enough is left.
+// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or a folder that holds
+// one of them. Does not throw for bad input: `findings` lists the problems, and usable() says if enough is
+// left.
 TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial);
 
 }  // namespace sandhopper

@@ -8,27 +8,29 @@
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// The rows of a recording once its columns are known.
+// Operations on the rows of a recording after its columns were assigned.
 namespace sandhopper {
 
-// With fewer a channel cannot be judged (check_times, doubt_time need as many); more than one row is kept.
+// With fewer rows a channel cannot be checked (check_times and doubt_time need as many), so a note is
+// written.
 inline constexpr std::size_t kFewSelectedRows = 10;
 
-// Rows whose time, in s, and value in `column` (null: of any value) are selected. Lines are chosen as the
-// file is read.
+// Indices of the rows whose time (s) and value in `column` are selected; null: any value. Selection by line
+// is done when the file is read.
 std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,
                                        const std::vector<double>* column);
 
-// "250 were read from a.csv, from 0 to 0.498 s"
+// Text like "250 were read from a.csv, from 0 to 0.498 s".
 std::string shown_rows(std::string_view file, const std::vector<double>& t_s);
 
+// Keeps only the given rows, in `recording` and in `places`.
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep);
 
-// Rows of one instant become one: later cells fill what the earlier row left empty. With a selection the
-// order has not been checked yet; a row that steps back is left out.
+// Joins rows with the same time: later cells fill empty cells of the earlier row. With a selection by column
+// the order was not checked before, so a row that goes back in time is left out here.
 void join_equal_times(TrialRecording& recording, RecordingPlaces& places);
 
-// Steps of more than five times the median step, said once with the largest.
+// Adds one note for all steps of more than five times the median step, at the largest.
 void note_gaps(TrialRecording& recording, const RecordingPlaces& places);
 
 }  // namespace sandhopper

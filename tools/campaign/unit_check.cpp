@@ -16,7 +16,7 @@ std::string mapping(const ColumnUnits& c, std::string_view unit, double scale) {
 
 bool by_unit_alone(const ColumnUnits& c) { return !c.has_scale && !c.stated_unit.empty(); }
 
-// "23.59 mm are 0.02359 m, and scale = -1 makes 23.59 m of them"
+// Example: "23.59 mm are 0.02359 m, and scale = -1 makes 23.59 m of them".
 std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
                        double factor) {
   const auto claim =
@@ -25,7 +25,7 @@ std::string arithmetic(const ColumnUnits& c, const WrittenUnit& unit, const Writ
                      c.largest * factor, wanted.text, claim, c.largest * std::abs(c.scale), wanted.text);
 }
 
-// `other`: the unit that the numbers have if c.scale is right.
+// `other`: unit of the numbers if c.scale is right.
 UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
                          double factor, std::string_view where, const std::string& other) {
   const double sign = c.scale < 0.0 ? -1.0 : 1.0;
@@ -38,7 +38,7 @@ UnitVerdict disagreement(const ColumnUnits& c, const WrittenUnit& unit, const Wr
                       mapping(c, unit.text, sign * factor), other, mapping(c, other, c.scale))};
 }
 
-// ", an angle"
+// Example: ", an angle".
 std::string dimension_of(const WrittenUnit& unit) {
   if (unit.dimension.empty()) return ", which is no unit known here";
   const bool vowel = std::string_view("aeiou").find(unit.dimension.front()) != std::string_view::npos;
@@ -59,18 +59,18 @@ struct FilesUnit {
   std::string_view where;
 };
 
-// In the row of units, else in the column's name.
+// Unit in the row of units, else in the column's name.
 FilesUnit unit_in_file(const ColumnUnits& c) {
   if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
     return {std::move(unit), "the row of units says"};
   return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
 }
 
-// `unit` without `scale` is not enough to overrule the file: it may be the channel's, copied from an example.
+// `unit` without `scale` does not overrule the file: it may be the channel's unit, copied from an example.
 UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
   c.scale = factor;
   const auto [unit, where] = unit_in_file(c);
-  if (!unit || unit->dimension.empty()) return {factor, "", ""};  // a word not known here contradicts nothing
+  if (!unit || unit->dimension.empty()) return {factor, "", ""};  // An unknown word contradicts nothing.
   if (const auto files = factor_between(*unit, wanted))
     return same(factor, *files) ? UnitVerdict{factor, "", ""}
                                 : disagreement(c, *unit, wanted, *files, where, c.stated_unit);

@@ -14,13 +14,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 struct Spelling {
-  std::string_view written;  // without blanks; case counts
+  std::string_view written;  // without blanks, case-sensitive
   std::string_view dimension;
   double to_si;
 };
 
-// Beside the suffixes of config/hint.hpp. Factors: BIPM, The International System of Units, 9th ed. (2019),
-// table 8; pound, foot, inch: NIST SP 811 (2008), appendix B; kgf = 9.80665 N (CGPM 1901).
+// In addition to the suffixes of config/hint.hpp. Factors: BIPM, The International System of Units, 9th ed.
+// (2019), table 8; pound, foot, inch: NIST SP 811 (2008), appendix B; kgf = 9.80665 N (CGPM 1901).
 constexpr std::array kSpellings{
     Spelling{"\xC2\xB5m", "length", 1e-6},
     Spelling{"\xCE\xBCm", "length", 1e-6},
@@ -202,7 +202,8 @@ constexpr std::array kSpellings{
     Spelling{"bits", "counts", 0.0},
     Spelling{"digits", "counts", 0.0}};
 
-// A name of one word, where a short unit may be a word by chance: "h" for height, "t" for time, "m" for mass.
+// True for units that may be the whole name of a column. Shorter ones are ambiguous: "h" for height, "t" for
+// time, "m" for mass.
 bool stands_alone(std::string_view text) {
   constexpr std::array<std::string_view, 12> kAlone{"rpm", "RPM", "deg",    "degrees", "mm", "kN",
                                                     "dps", "Nm",  "millis", "micros",  "ms", "erpm"};
@@ -216,7 +217,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Words in brackets that say which of several, or how it was treated.
+// Words in brackets that are not units: they select one of several, or name a processing step.
 bool is_no_unit(std::string_view text) {
   constexpr std::array<std::string_view, 44> kWords{
       "left", "right", "front", "rear", "top",  "bottom", "up",    "down",  "upper", "lower", "x",
@@ -259,8 +260,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-// Units whose letters mean one thing however they are written: "DEG", "Ms", "NM" of a torque. MN and mN, MPa
-// and mPa are not among them.
+// Units whose meaning does not depend on case: "DEG", "Ms", "NM" for a torque. Not MN and mN, MPa and mPa.
 std::optional<WrittenUnit> unit_in_any_case(std::string_view text) {
   struct Spoken {
     std::string_view lower, unit;
@@ -277,8 +277,8 @@ std::optional<WrittenUnit> unit_in_any_case(std::string_view text) {
   return std::nullopt;
 }
 
-// "angleDeg", "timeMs", "tUs", "TimeUS": the unit behind the last change from small to capital letters. Of
-// "torquemNm" nobody can tell whether the m is the word's or the unit's.
+// Unit after the last change from small to capital letters: "angleDeg", "timeMs", "tUs", "TimeUS". Ambiguous
+// names give none: in "torquemNm" the m may belong to the word or to the unit.
 std::optional<WrittenUnit> unit_behind_a_hump(std::string_view column) {
   for (std::size_t i = column.size(); i-- > 1;) {
     if (!is_capital(column[i]) || !is_small(column[i - 1])) continue;
@@ -288,7 +288,7 @@ std::optional<WrittenUnit> unit_behind_a_hump(std::string_view column) {
   return std::nullopt;
 }
 
-// "TIME_MS", "FORCE KN": names without any small letter.
+// Unit in names without small letters: "TIME_MS", "FORCE KN".
 std::optional<WrittenUnit> unit_in_capitals(std::string_view column) {
   const auto at = column.find_last_of("_ .");
   if (at == std::string_view::npos || std::any_of(column.begin(), column.end(), is_small))
@@ -296,7 +296,7 @@ std::optional<WrittenUnit> unit_in_capitals(std::string_view column) {
   return unit_in_any_case(column.substr(at + 1));
 }
 
-// The text in the last brackets of the name.
+// Text in the last brackets of the name.
 std::optional<std::string_view> bracketed(std::string_view name) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const auto end = name.rfind(close);
@@ -312,7 +312,7 @@ WrittenUnit as_acceleration(const WrittenUnit& unit, std::string_view wanted) {
   return {unit.text, "acceleration", 9.80665};
 }
 
-// Weighing machines write kg and g for a force.
+// Scales write kg and g for a force.
 WrittenUnit as_wanted(const WrittenUnit& unit, std::string_view wanted) {
   if (wanted == "force" && unit.dimension == "mass" && unit.to_si > 0.0)
     return {unit.text, "force", 9.80665 * unit.to_si};
@@ -327,7 +327,7 @@ std::optional<WrittenUnit> read_unit(std::string_view text, bool in_brackets) {
   if (const auto inner = bracketed(text); inner && (text.front() == '[' || text.front() == '('))
     return read_unit(*inner, true);
   if (const auto unit = known_unit(text)) return unit;
-  // One short word in brackets is a unit that nobody here knows; "(left)", "(raw data)" and "(1)" are none.
+  // One short word in brackets is taken as an unknown unit; "(left)", "(raw data)" and "(1)" are not units.
   const bool worded =
       text.find(' ') != std::string_view::npos || text.size() > 6 || text.empty() || text == "-";
   const bool numbered = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -340,7 +340,7 @@ std::optional<WrittenUnit> unit_in_name(std::string_view column) {
   if (const auto inner = bracketed(column)) return read_unit(*inner, true);
   if (stands_alone(column)) return known_unit(column);
   if (const auto unit = unit_in_capitals(column)) return unit;
-  // "motor_speed_rad_s", "force_N_per_m": units of several words.
+  // Units of several words: "motor_speed_rad_s", "force_N_per_m".
   if (column.ends_with("rad_s")) return WrittenUnit{"rad/s", "angular rate", 1.0};
   if (column.ends_with("deg_s")) return WrittenUnit{"deg/s", "angular rate", kPi / 180};
   if (column.ends_with("m_s2")) return WrittenUnit{"m/s^2", "acceleration", 1.0};

@@ -19,7 +19,7 @@ constexpr int kInSixteen[] = {3, 1, 6, 2, 2, 2};
 struct Range {
   double low, high;
 };
-// Of sizes, relative to typical.
+// Range of the sizes relative to typical.
 Range sizes(Kind kind) {
   switch (kind) {
     case Kind::several:
@@ -33,10 +33,10 @@ Range sizes(Kind kind) {
   }
 }
 
-constexpr double kActs = 0.02;  // visibility below this: the effect does nothing on this apparatus
+constexpr double kActs = 0.02;  // An effect with less visibility does nothing on this apparatus.
 constexpr int kAttempts = 200;
 
-// Sixteen campaigns in a row hold every kind in its share, in an order that the seed shuffles.
+// Sixteen consecutive campaigns contain every kind in its share, in an order drawn from the seed.
 Kind kind_of(const Request& request, std::uint64_t index) {
   std::vector<Kind> deck;
   for (std::size_t i = 0; i < std::size(kKinds); ++i)
@@ -57,11 +57,11 @@ const EffectInfo* named(const std::vector<EffectInfo>& all, const std::string& i
   return found == all.end() ? nullptr : &*found;
 }
 
-// What to hide; sets the restriction or the port that goes with it.
+// Draws the effects to hide, and sets the restriction or the port that belongs to them.
 std::vector<EffectInfo> draw_effects(Case& c, const Request& request, Random& random) {
   const auto listed = c.plant->listed(), unlisted = c.plant->unlisted();
   if (c.kind == Kind::null || c.kind == Kind::decoy) {
-    // Some have the limited apparatus of the ambiguous ones, so that it says nothing.
+    // Some null campaigns have the limited apparatus of the ambiguous ones, so that it gives no hint.
     if (const auto count = c.plant->ambiguities().size(); count > 0 && random.chance(0.35))
       c.restriction = static_cast<std::size_t>(random.below(static_cast<int>(count)));
     return {};
@@ -89,7 +89,7 @@ std::vector<EffectInfo> draw_effects(Case& c, const Request& request, Random& ra
   return chosen;
 }
 
-// A wear of the recording that says nothing about physics.
+// Draws defects of the recording that have nothing to do with physics.
 void draw_wear(Case& c, Random& random) {
   const double more = c.kind == Kind::decoy ? 3.0 : 1.0;
   const auto expendable = c.plant->expendable();
@@ -118,8 +118,8 @@ const Plant& plant_for(const Request& request, Random& random) {
 
 Case attempt(const Request& request, std::uint64_t index, const Random& base, int number) {
   const auto random = base.stream("attempt", static_cast<std::uint64_t>(number));
-  auto which =
-      base.stream("which");  // the same in every attempt: no plant or kind gets rarer for being hard to see
+  // Independent of the attempt, so that no plant or kind becomes rare because its effects are hard to see.
+  auto which = base.stream("which");
   Case c;
   c.plant = &plant_for(request, which);
   const bool outside = !request.effect.empty() && named(c.plant->unlisted(), request.effect);
@@ -144,8 +144,8 @@ Case attempt(const Request& request, std::uint64_t index, const Random& base, in
   return c;
 }
 
-// Whether the apparatus can express the effect at all: at typical size it moves some channel, at its own a
-// little.
+// True if the effect can act on this apparatus: at typical size it moves some channel clearly, at its own
+// size at least a little.
 bool acts(const Case& c, const HiddenEffect& effect) {
   auto typical = effect;
   typical.size = std::max(effect.size, 1.0);
@@ -153,7 +153,8 @@ bool acts(const Case& c, const HiddenEffect& effect) {
          (effect.size >= 1.0 || visibility(c, {effect}).ratio > 0.0);
 }
 
-// Nor is it hidden where another hides all that it does: what a sensor at its limit would show.
+// True if the effect is visible beside the other hidden effects. A saturated sensor, for example, would hide
+// it.
 bool acts_beside(const Case& c, std::size_t which) {
   auto others = c.hidden;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));

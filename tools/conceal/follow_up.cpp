@@ -40,8 +40,8 @@ Setup completed(const Case& c, const Json& asked) {
 }
 
 Setup random_setup(const Case& c) {
-  // Without the limits of an ambiguous campaign: any trial the plant does may be the one that splits the
-  // class.
+  // Drawn without the limits of an ambiguous campaign: any trial of the plant may be the one that separates
+  // the class.
   auto setups = c.plant->build(c.apparatus)->draw_setups(8, c.recording.stream("control"));
   auto random = c.recording.stream("which control");
   return setups[static_cast<std::size_t>(random.below(8))];

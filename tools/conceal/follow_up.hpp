@@ -3,11 +3,11 @@
 
 namespace sandhopper::conceal {
 
-// A set-up somebody asks for, with what it leaves open taken from the campaign's first trial of that kind.
-// Throws std::invalid_argument where this apparatus cannot do it.
+// A requested set-up; missing keys are taken from the campaign's first trial of that kind. Throws
+// std::invalid_argument if this apparatus cannot do it.
 Setup completed(const Case& c, const Json& asked);
 
-// A set-up as the campaign's own are drawn, but a new one.
+// A new set-up, drawn like those of the campaign.
 Setup random_setup(const Case& c);
 
 }  // namespace sandhopper::conceal

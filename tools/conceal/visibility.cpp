@@ -7,7 +7,7 @@
 namespace sandhopper::conceal {
 namespace {
 
-constexpr std::size_t kTrials = 6;  // enough to see every kind of set-up
+constexpr std::size_t kTrials = 6;  // Enough trials to include every kind of set-up.
 
 struct Sum {
   double squares = 0.0;

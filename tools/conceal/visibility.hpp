@@ -6,18 +6,19 @@
 
 namespace sandhopper::conceal {
 
+// The most visible channel and its ratio.
 struct Visibility {
   std::string channel;
   double ratio = 0.0;
 };
 
-// How far two sets of hidden effects set the recordings of one case apart: root mean square of the difference
-// in a channel over that between two repeats of the same trial with nothing hidden; the channel that differs
-// most. Both recordings draw the same noise, so that only the effects differ.
+// Visibility of the difference between two sets of hidden effects: RMS difference of a channel / RMS
+// difference between two repeats of a trial without hidden effects, for the channel with the largest ratio.
+// Both recordings have the same noise, so only the effects differ.
 Visibility difference(const Case& c, const std::vector<HiddenEffect>& one,
                       const std::vector<HiddenEffect>& other);
 
-// From nothing hidden.
+// Visibility compared with no hidden effects.
 Visibility visibility(const Case& c, const std::vector<HiddenEffect>& hidden);
 
 }  // namespace sandhopper::conceal

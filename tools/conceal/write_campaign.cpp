@@ -11,7 +11,7 @@
 namespace sandhopper::conceal {
 namespace {
 
-// A channel under another laboratory's name and unit: channel = scale x column.
+// Another name and unit for a channel: channel = scale x column.
 struct ForeignName {
   std::string column;
   double scale;

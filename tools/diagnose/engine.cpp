@@ -25,18 +25,21 @@ namespace {
 
 constexpr std::size_t kSeeds = 14;
 constexpr std::size_t kManyTrialsInAll = 30, kSearchedTrials = 20;
-constexpr double kManyRows = 20'000.0;  // of all trials: what an axis of a dozen trials has
+// Rows of all trials; an axis campaign of a dozen trials has about as many.
+constexpr double kManyRows = 20'000.0;
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
-constexpr FitOptions kFirst{.max_iterations = 6};  // with a noise that is only guessed
+constexpr FitOptions kFirst{.max_iterations = 6};  // The noise is only a guess at this stage.
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
-constexpr double kNoiseHidesAll = 4.0;  // times the sensors' own
+constexpr double kNoiseHidesAll = 4.0;  // Ratio to the sensors' own noise.
 constexpr double kLikelierThanNot = 0.5;
-constexpr double kMostOfTheGap =
-    0.5;  // of the explainable held-out energy; less, and what is missing is on no list
-// Names that close most of the gap, and what is left: it may be the form of one of their laws.
+// If the named effects explain less than this fraction of the held-out energy that can be explained, the
+// verdict is unknown physics.
+constexpr double kMostOfTheGap = 0.5;
+// Largest probabilities if names close most of the gap and something is left: the rest may be an error in the
+// form of a named law.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
@@ -78,10 +81,10 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
 
 struct Settled {
   Point null;
-  std::vector<Point> starts;  // of a search, beside it
+  std::vector<Point> starts;  // Further start points for the search.
 };
 
-// Nothing missing, with a noise that was estimated there.
+// Fits the null (nothing missing) and estimates the noise there.
 Settled settled_null(Problem& problem) {
   Point null = fit_from(problem, null_point(problem), kFirst).point;
   update_noise(problem, null);
@@ -93,8 +96,8 @@ Settled settled_null(Problem& problem) {
   return {std::move(null), std::move(starts)};
 }
 
-// Where a campaign has many trials whose simulation takes long, some of them are searched: the points that
-// came near.
+// Start points for a large campaign of a costly plant: search a subset of the trials and return its best
+// points.
 std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, const Point& null,
                                  const SearchOptions& options) {
   Prepared some = prepare(spread_over(clean, kSearchedTrials));
@@ -105,21 +108,21 @@ std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, cons
   return carried_over(some.problem, search.best_points(kSeeds), problem, null);
 }
 
-// All that is searched: once, and again with the noise as it shows with what was found in place. Of many
-// trials whose simulation takes long some are searched; what comes near there is where all of them begin.
+// The whole search, repeated with the noise estimated at the first result. In a large campaign of a costly
+// plant a subset of the trials is searched first, and the full problem starts from its best points.
 Search searched(Problem& problem, const Recordings& clean, const Settled& settled,
                 const EngineOptions& options, BalanceLaw& balance, Diagnosis& diagnosis) {
   const Point& null = settled.null;
   SearchOptions search_options;
   search_options.most_effects = options.most_effects;
   search_options.straight = problem.plant->starts_as_believed();
-  // Where a simulation takes little, every candidate is tried, not only what the screen puts first.
+  // Cheap simulation: fit more candidates of each screen, and proposals.
   if (!problem.plant->is_costly())
     search_options.fits_per_screen = search_options.proposals = problem.rows() < kManyRows ? 10 : 6;
   search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
-  // Where next to nothing else is seen and the recordings' balances may say at once what it is, a search
-  // looks at what is nearest only.
+  // If the residual hides nearly everything else and the force balances already show a law, restrict the
+  // search to the nearest candidates.
   if (noise_over_sensors(problem) > kNoiseHidesAll && balance()) {
     search_options.straight = false;
     search_options.fits_of_singles = search_options.fits_per_screen;
@@ -133,8 +136,8 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   Search search(problem, search_options);
   search.run(null, seeds);
   log_sets(problem, search, diagnosis);
-  // Where the list leaves far more than the noise and the balances say what it is, no second look at the list
-  // would help.
+  // If the listed effects leave far more than the noise and the force balances show a law, a second search
+  // would not help.
   if (search.best().set.empty() || (misfit_of(problem, search).noticeable && balance())) return search;
 
   options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
@@ -153,7 +156,7 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   }
   keep_columns(problem, search.null().fit.point);
   search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
-  // What came near already needs no search, but another fit.
+  // The best points of the first search only need another fit.
   search_options.most_effects = options.most_effects;
   search_options.fits_per_screen = search_options.fits_of_singles = 3;
   search_options.straight = false;
@@ -164,7 +167,7 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   return second;
 }
 
-// Tells the rest that the best set leaves.
+// Reports what the best set does not explain.
 void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagnosis& diagnosis) {
   if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
   if (!rest.unknown) return;
@@ -175,8 +178,8 @@ void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagno
     report_unknown_of_plant(problem, diagnosis);
 }
 
-// The verdict and the effects that go with it. Names that close most of the gap are told as such, whatever is
-// left; none is believed by more than the share that they close together.
+// Sets the verdict and its effects. Effects that close most of the gap are reported even if something is
+// left. The probability of each is multiplied by the fraction of the gap that they close together.
 void report_verdict(const Problem& problem, const Search& search, const Posterior& belief,
                     const Unexplained& rest, Diagnosis& diagnosis) {
   const bool too_few = problem.trials.size() < kTooFewTrials, named = !search.best().set.empty();
@@ -214,7 +217,8 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
                                                             : Detail::known;
 }
 
-// Takes out of `faults` what is none, and notes it.
+// Removes entries from `faults` that are no faults (known range limits, single events) and adds a note for
+// each.
 void note_what_is_no_fault(std::vector<DataFault>& faults, const Recordings& clean, Diagnosis& diagnosis) {
   for (const auto& limit : take_known_limits(faults, clean.belief))
     diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
@@ -225,8 +229,8 @@ void note_what_is_no_fault(std::vector<DataFault>& faults, const Recordings& cle
                                           event.duration_s));
 }
 
-// Names that leave the trials they were not fitted to no nearer than what is believed are none. A hopper's
-// nuisances move too much for that to say anything.
+// Drops the named effects if held-out trials do not come nearer with them. Not for costly plants (hoppers):
+// their nuisance parameters vary too much for this test.
 void drop_names_in_vain(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   if (problem.plant->is_costly() || search.best().set.empty()) return;
   const Point &null = search.null().fit.point, &point = search.best().fit.point;
@@ -235,7 +239,7 @@ void drop_names_in_vain(const Problem& problem, Search& search, Diagnosis& diagn
   search.name_nothing();
 }
 
-// Everything that goes with the verdict: errors, places, bounds, the next trial, the corrected model.
+// Reports everything besides the verdict: errors, places, bounds, next trial, corrected model.
 void report_around(Problem& problem, const Recordings& recordings, const Recordings& clean,
                    const Posterior& belief, const Unexplained& rest, const Point& answer, Search& search,
                    Diagnosis& diagnosis) {
@@ -292,7 +296,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
   options.progress(0.9, "");
   Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
-  // What a name on the list says as well is not unknown, however small the effect.
+  // If a listed effect explains the rest as well as the free law, name it, however small it is.
   if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
     drop_names_in_vain(problem, search, diagnosis);
     rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);

@@ -5,16 +5,18 @@
 #include "tools/diagnose/fit/prepare.hpp"
 
 namespace sandhopper::diagnose {
+// `most_effects`: largest number of effects in one set.
 
 struct EngineOptions {
   std::size_t most_effects = 3;
-  bool tell_evidence = false;            // of what the search puts first, in the log
-  std::vector<BelievedNumber> belief{};  // what the answer says of them is added to it
-  // Called with the share of work done; the first call with a text other than empty is the quick verdict.
+  bool tell_evidence = false;  // Append the posterior mass of the best sets to the log.
+  // Copied to the answer, which adds its results for each of these numbers.
+  std::vector<BelievedNumber> belief{};
+  // Called with the fraction of work done. The first text that is not empty is the preliminary verdict.
   std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};
 };
 
-// Finds what the recordings hold that the belief does not. Deterministic.
+// Finds the differences between the recordings and the belief. Deterministic.
 Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options = {});
 
 }  // namespace sandhopper::diagnose

@@ -8,7 +8,7 @@ namespace sandhopper::conceal {
 namespace {
 
 constexpr double kReferenceDepth_m = 0.02;
-constexpr double kOnset_m = 1.5e-3;  // depth over which what depends on speed comes in
+constexpr double kOnset_m = 1.5e-3;  // Depth over which forces that depend on speed start.
 
 double fluctuation_at(const BedState& s, double z_m) {
   if (s.fluctuation.size() < 2) return 0.0;
@@ -18,7 +18,7 @@ double fluctuation_at(const BedState& s, double z_m) {
   return s.fluctuation[i] + (place - static_cast<double>(i)) * (s.fluctuation[i + 1] - s.fluctuation[i]);
 }
 
-// What time and history did to the stiffness.
+// Factor of the stiffness from earlier pushes and from waiting.
 double ageing(const Bed& b, const BedState& s) {
   const double packed = b.hidden.compaction * (1.0 - std::exp(-s.pushes / b.hidden.compaction_pushes));
   return (1.0 + packed) * (1.0 + b.hidden.strengthening * std::log1p(s.wait_s));
@@ -28,7 +28,8 @@ double stiffness_N_per_m(const Bed& b) {
   return b.per_area_N_per_m3 > 0.0 ? b.per_area_N_per_m3 * b.area_m2() : b.stiffness_N_per_m;
 }
 
-// Aguilar and Goldman's cone (Nature Physics 12, 2016): mass and its gradient.
+// Added mass of the cone of grains under the foot, and its derivative by depth. Source: Aguilar and Goldman,
+// Nature Physics 12 (2016).
 struct Cone {
   double mass_kg, gradient_kg_per_m;
 };
@@ -40,7 +41,7 @@ Cone cone(const Bed& b, double z_m) {
           scale * flat_m * flat_m};
 }
 
-// Pushes lower the surface; the floor and the deepest point stay where they are.
+// Pushes lower the surface; floor and deepest point keep their place.
 double below_surface_m(const Bed& b, const BedState& s, double z_m) {
   return z_m - b.hidden.crater_m_per_push * s.pushes;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-// Sizes are typical ones (tools/conceal/README.md); forces are scaled with the bed's own force at 20 mm.
+// Size 1 is the typical size (tools/conceal/README.md). Forces are scaled with the bed's own force at 20 mm.
 namespace sandhopper::conceal {
 namespace {
 
@@ -14,8 +14,8 @@ Json added_mass(Bed& b, double size, Random&) {
   return {{"added_mass_kg", b.hidden.added_mass_kg}, {"growth_depth_m", b.hidden.added_mass_depth_m}};
 }
 
-// Resistances to speed grow with the foot's area: sizes are those of a foot of 40 mm, what is told is what
-// acts on this one.
+// Forces that depend on speed grow with the foot's area. Sizes refer to a radius of 40 mm; the answer states
+// the force of the actual foot.
 double share_of_area(const Bed& b) { return std::pow(b.foot_radius_m / 0.04, 2); }
 
 Json quadratic(Bed& b, double size, Random&) {

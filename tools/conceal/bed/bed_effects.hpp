@@ -4,13 +4,14 @@
 
 namespace sandhopper::conceal {
 
+// Recipes that hide an effect of the bed.
 Recipe<Bed> bed_added_mass();
 std::vector<Recipe<Bed>> bed_speed_effects();
 std::vector<Recipe<Bed>> bed_depth_effects();
 std::vector<Recipe<Bed>> bed_history_effects();
 std::vector<Recipe<Bed>> bed_unlisted_effects();
 
-// The bed's recipes for a world that has a `bed`.
+// The bed's recipes for a world with a member `bed`.
 template <class World>
 std::vector<Recipe<World>> for_bed_of(const std::vector<Recipe<Bed>>& recipes) {
   std::vector<Recipe<World>> all;

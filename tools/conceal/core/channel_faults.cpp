@@ -7,8 +7,8 @@
 namespace sandhopper::conceal {
 namespace {
 
-// For each row: whether an episode that comes `rate_Hz` often and lasts `length_s` is on. Drawn whether it is
-// used or not, so that nothing else of the recording depends on it.
+// For each row: true during an episode. Episodes start at random with `rate_Hz` and last `length_s`. They are
+// always drawn from their own stream, so that the rest of the recording does not depend on them.
 std::vector<bool> episodes(const std::vector<double>& rows_s, double rate_Hz, double length_s,
                            Random random) {
   std::vector<bool> on(rows_s.size(), false);

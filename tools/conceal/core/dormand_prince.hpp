@@ -6,10 +6,10 @@
 
 namespace sandhopper::conceal {
 
-// Explicit Runge-Kutta 5(4) of Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with step control, stopping
-// at the first zero of a guard function.
+// Explicit Runge-Kutta method of order 5(4) by Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with step
+// control. Stops at the first zero of a guard function.
 //
-//   rhs(t_s, x) -> dx/dt          guard(t_s, x) -> positive while the present law holds
+//   rhs(t_s, x) -> dx/dt          guard(t_s, x) -> positive while the present equations hold
 template <std::size_t N>
 class DormandPrince {
  public:
@@ -23,8 +23,8 @@ class DormandPrince {
 
   explicit DormandPrince(Tolerance tolerance = {}) : tolerance_(tolerance) {}
 
-  // Advances x from t_s towards end_s; true when the guard fell to zero before, with t_s and x at that
-  // instant.
+  // Advances x from t_s towards end_s. Returns true if the guard became negative before; then t_s and x are
+  // those of that time.
   template <class Rhs, class Guard>
   bool advance(double& t_s, State& x, double end_s, const Rhs& rhs, const Guard& guard) {
     double before = guard(t_s, x);
@@ -95,7 +95,7 @@ class DormandPrince {
     return y;
   }
 
-  // The guard changes sign within the step: the step is shortened by bisection until it ends just past the
+  // The guard changes its sign within the step: shorten the step by bisection until it ends just after the
   // zero.
   template <class Rhs, class Guard>
   void locate(double& t, State& x, double h, const Rhs& rhs, const Guard& guard, const State& at_end) const {

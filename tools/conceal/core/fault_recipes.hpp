@@ -6,7 +6,8 @@
 
 namespace sandhopper::conceal {
 
-// Faults that any of a world's `channels` may have. `World` has a map `faults` from channel to ChannelFaults.
+// Clock and data faults of any of the given channels. `World` has a map `faults` from channel to
+// ChannelFaults.
 template <class World>
 std::vector<Recipe<World>> data_fault_recipes(std::function<std::vector<std::string>(const World&)> channels,
                                               double typical_skew_s) {

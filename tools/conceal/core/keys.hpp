@@ -8,8 +8,7 @@ namespace sandhopper::conceal {
 
 using Json = nlohmann::ordered_json;
 
-// The experimenter's notes about one trial: keys of a [[trial]] (tools/docs/guide/recordings.md),
-// without the file.
+// The set-up of one trial: keys of a [[trial]] (tools/docs/guide/recordings.md) except the file.
 struct Setup {
   Json keys = Json::object();
 
@@ -20,14 +19,14 @@ struct Setup {
   }
 };
 
-// nominal.toml: gravity at the top, then tables of keys.
+// Contents of nominal.toml: gravity at the top, then tables of keys.
 struct Belief {
   double gravity_mps2 = 9.81;
   std::vector<std::pair<std::string, Json>> tables;
 };
 
-std::string toml_value(const Json& value);  // number, text or boolean; numbers to six significant digits
-double six_digits(double value);            // what toml_value's reader will read
+std::string toml_value(const Json& value);  // Number (six significant digits), text or boolean.
+double six_digits(double value);            // The number that a reader of toml_value gets.
 std::string to_toml(const Belief& belief);
 
 }  // namespace sandhopper::conceal

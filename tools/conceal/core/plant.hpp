@@ -9,30 +9,32 @@
 
 namespace sandhopper::conceal {
 
+// Name and group of an effect.
 struct EffectInfo {
-  std::string id;     // as in diagnosis.json; outside that list any word
-  std::string port;   // where an effect outside the list acts; empty for those on it
-  std::string group;  // effects of one group are not hidden together
+  std::string id;     // As in diagnosis.json; for unlisted effects any word.
+  std::string port;   // For unlisted effects the port at which it acts, else empty.
+  std::string group;  // Effects of the same group are not hidden together.
 };
 
-// Explanations that the set-ups of such a campaign cannot tell apart; the first of them is the truth.
+// Effects that the set-ups of such a campaign cannot distinguish. The first one is the hidden one.
 struct Ambiguity {
   std::vector<std::string> ids;
 };
 
-// The apparatus of one campaign: a world, what is believed of it, and how it is recorded.
+// The apparatus of one campaign: true and believed parameters, and the recording.
 class Bench {
  public:
   virtual ~Bench() = default;
   virtual Belief belief() const = 0;
   virtual std::vector<Setup> draw_setups(int trials, Random random) const = 0;
   virtual Table record(const Setup& setup, Random random) const = 0;
-  // Adds physics that the belief does not have; `size` is relative to typical. Returns its parameters.
+  // Hides an effect that the belief does not contain. `size` is relative to typical. Returns its parameters.
   virtual Json hide(const std::string& id, double size, Random random) = 0;
-  // Limits the apparatus (channels, range of set-ups) so that the ambiguity's members stay together.
+  // Limits channels or set-ups so that the members of the ambiguity cannot be distinguished.
   virtual void restrict_to(std::size_t ambiguity) = 0;
 };
 
+// A kind of apparatus and the effects that it can hide. Each `build` draws one apparatus.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -40,11 +42,13 @@ class Plant {
   virtual std::vector<EffectInfo> listed() const = 0;
   virtual std::vector<EffectInfo> unlisted() const = 0;
   virtual std::vector<Ambiguity> ambiguities() const = 0;
+  // Channels that may be recorded dead.
   virtual std::vector<std::string> expendable() const = 0;
   virtual std::unique_ptr<Bench> build(Random random) const = 0;
 };
 
 const std::vector<const Plant*>& plants();
+// Null if there is no plant of this name.
 const Plant* find_plant(const std::string& name);
 
 }  // namespace sandhopper::conceal

@@ -6,19 +6,21 @@
 
 namespace sandhopper::conceal {
 
-// One effect of a plant: how it changes the world.
+// One effect of a plant, as a change of its world.
 template <class World>
 struct Recipe {
   EffectInfo info;
   std::function<Json(World&, double size, Random&)> apply;
 };
 
+// A change of the world (set-ups, channels) that makes the members of an ambiguity indistinguishable.
 template <class World>
 struct Restriction {
   Ambiguity ambiguity;
   std::function<void(World&)> apply;
 };
 
+// Functions and recipes from which PlantOf makes a plant.
 template <class World>
 struct PlantSpec {
   std::string name;
@@ -29,10 +31,10 @@ struct PlantSpec {
   std::vector<Recipe<World>> listed;
   std::vector<Recipe<World>> unlisted;
   std::vector<Restriction<World>> restrictions;
-  std::vector<std::string> expendable;  // channels whose sensor may be dead
+  std::vector<std::string> expendable;  // Channels that may be recorded dead.
 };
 
-// A plant from the functions of its folder.
+// A plant made from the functions of its folder.
 template <class World>
 class PlantOf final : public Plant {
  public:

@@ -4,12 +4,12 @@
 
 namespace sandhopper::conceal {
 
-// Random numbers that are the same on every machine (std's distributions are not): SplitMix64, Box-Muller.
+// Random numbers that are equal on every machine (the distributions of std are not): SplitMix64, Box-Muller.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
-  // A generator of its own for one purpose: what one consumer draws never shifts what another gets.
+  // An independent generator for one purpose. Draws for one purpose never change those for another.
   Random stream(std::string_view purpose, std::uint64_t index = 0) const;
 
   std::uint64_t bits();

@@ -38,7 +38,7 @@ std::string to_csv(const Table& table) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const auto& column = table.columns[c];
       if (c) fmt::format_to(out, ",");
-      const double value = column.values[row] + 0.0;  // no "-0"
+      const double value = column.values[row] + 0.0;  // avoids "-0"
       if (!std::isnan(value)) fmt::format_to(out, "{:.{}f}", value, column.decimals);
     }
     fmt::format_to(out, "\n");

@@ -8,10 +8,10 @@ namespace sandhopper::conceal {
 struct Column {
   std::string name;
   int decimals;
-  std::vector<double> values;  // NaN: no fresh sample, an empty cell
+  std::vector<double> values;  // NaN: no sample, written as an empty cell
 };
 
-// One recording: rows in time, columns as tools/docs/guide/recordings.md names them.
+// One recording: rows in time, columns named as in tools/docs/guide/recordings.md.
 struct Table {
   std::vector<Column> columns;
 
@@ -22,7 +22,7 @@ struct Table {
   void keep_rows(const std::vector<bool>& kept);
 };
 
-// Every number of a column with the same count of decimals.
+// The table as CSV; every number of a column has the same number of decimals.
 std::string to_csv(const Table& table);
 
 }  // namespace sandhopper::conceal

@@ -41,7 +41,7 @@ Trace second_order(const Trace& trace, double natural_Hz, double damping_ratio) 
   const double w = 2.0 * std::numbers::pi * natural_Hz, h = trace.step_s;
   double y = trace.values.front(), rate = 0.0;
   for (std::size_t i = 1; i < out.values.size(); ++i) {
-    // Implicit in the rate: stable for any step.
+    // Implicit in the rate, so stable for any step.
     rate = (rate + h * w * w * (trace.values[i] - y)) / (1.0 + 2.0 * damping_ratio * w * h + w * w * h * h);
     y += h * rate;
     out.values[i] = y;

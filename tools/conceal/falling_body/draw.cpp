@@ -17,7 +17,7 @@ void ball_in_air(World& w, Random& random) {
   w.height_rate_Hz = random.chance(0.5) ? 60.0 : 240.0;
   w.height_noise_m = six_digits(random.log_uniform(1e-3, 1e-2));
   w.has_accel = random.chance(0.6);
-  // Some laboratories know the drag, some believe in none.
+  // Some beliefs contain the drag, others contain none.
   if (random.chance(0.5)) w.drag_coefficient = six_digits(random.uniform(0.35, 0.6));
 }
 
@@ -79,7 +79,8 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
   for (int i = 0; i < trials; ++i) {
     Setup s;
     s.keys["kind"] = "drop";
-    const double share = (i % 4 + random.uniform(0.2, 0.8)) / 4.0;  // the whole range in any four trials
+    // Any four consecutive trials cover the whole range.
+    const double share = (i % 4 + random.uniform(0.2, 0.8)) / 4.0;
     s.keys["release_height_m"] =
         six_digits(w.least_release_m * std::pow(w.most_release_m / w.least_release_m, share));
     s.keys["release_speed_mps"] = 0.0;

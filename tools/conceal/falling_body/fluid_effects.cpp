@@ -3,7 +3,7 @@
 
 #include "tools/conceal/falling_body/world.hpp"
 
-// Forces of the fluid and the mass of the body. Typical sizes follow the speed this rig reaches.
+// Forces of the fluid, and the mass of the body. Typical sizes depend on the largest speed of this rig.
 namespace sandhopper::conceal::falling_body {
 
 double heaviness_kg(const World& w) {
@@ -18,7 +18,7 @@ double top_speed_mps(const World& w) {
 
 namespace {
 
-// Drag as much as a tenth of the weight at the top speed; told as a coefficient of the believed shape.
+// Size 1: a tenth of the weight at the largest speed. The answer also states it as a drag coefficient.
 Json quadratic(World& w, double size, Random&) {
   const double v = top_speed_mps(w);
   w.hidden.quadratic = size * 0.1 * heaviness_kg(w) * w.gravity_mps2 / (v * v);

@@ -10,7 +10,7 @@ namespace {
 
 using State = std::array<double, 2>;  // height, speed (up)
 constexpr double kStep_s = 1e-3;
-constexpr double kStay_s = 0.05;  // recorded after the body came to rest in the bed
+constexpr double kStay_s = 0.05;  // Recorded time after the body has come to rest in the bed.
 
 struct Fall {
   const World& world;
@@ -52,7 +52,7 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
   const double speed_mps = -setup.number("release_speed_mps", 0.0) +
                            trial.stream("release speed").normal(0.0, w.release_speed_spread_mps);
   World mine = w;
-  // A payload the experimenter weighed is part of the body, but not of what is wrong with its mass.
+  // A weighed payload is part of the body, but the hidden error of the mass must not apply to it.
   mine.mass_kg += setup.number("payload_kg", 0.0) / (1.0 + w.hidden.mass_share);
   const Fall fall{mine, height_m,
                   w.bed_stiffness_N_per_m * (1.0 + trial.stream("bed").normal(0.0, w.bed_stiffness_spread))};
@@ -61,7 +61,7 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
   State s{height_m, speed_mps};
   DormandPrince<2> integrator;
   const auto rhs = [&](double t, const State& y) { return State{y[1], fall.acceleration_mps2(t, y)}; };
-  // Without a bed the record ends at the ground, with one when the body rests in it.
+  // Without a bed the recording ends at the ground; with a bed when the body has come to rest.
   const auto guard = [&](double, const State& y) {
     return w.has_bed && y[0] < w.surface_height_m ? -y[1]
                                                   : y[0] - w.surface_height_m + (w.has_bed ? 1e3 : 0.0);

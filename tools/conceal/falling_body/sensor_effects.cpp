@@ -13,7 +13,7 @@ std::vector<std::string> channels(const World& w) {
   return all;
 }
 
-// The accelerometer where there is one, otherwise the height.
+// A random one of the channels of this rig; always the accelerometer, if there is one, for `prefer_accel`.
 std::string channel_of(const World& w, Random& random, bool prefer_accel) {
   if (!w.has_height) return "accel_mps2";
   if (!w.has_accel) return "height_m";

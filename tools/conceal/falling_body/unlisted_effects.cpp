@@ -45,8 +45,8 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"drag_that_opens", "body", "u"}, opening}};
 }
 
-// Height alone of one short drop height: what differs between the laws stays within the noise. In thin air
-// without believed buoyancy, drag over mass is one number.
+// Short drops with a height channel only: the difference between the two laws stays below the noise. In thin
+// air without believed buoyancy, only the ratio of drag and mass is observable.
 std::vector<Restriction<World>> restrictions() {
   const auto short_drops = [](World& w) {
     w.has_accel = w.has_bed = false;

@@ -5,10 +5,11 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// A body falling through a fluid, perhaps onto a soft floor. Believed:
+// A body that falls through a fluid, with or without a soft floor. Believed:
 //
-//   (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h' + k max(0, surface - h) while
-//   falling
+//   (m + C_m rho V) h'' = -m g + B rho V g - 1/2 rho A C_d |h'| h' - b h' + k max(0, surface - h)
+//
+// The last term acts while falling only.
 namespace sandhopper::conceal::falling_body {
 
 struct World {
@@ -18,7 +19,8 @@ struct World {
   double buoyancy_factor = 0.0, added_mass_factor = 0.0;
   bool has_bed = false;
   double surface_height_m = 0.0, bed_stiffness_N_per_m = 0.0;
-  double least_release_m = 1.0, most_release_m = 10.0, fall_m = 1.0;  // release and length of the record
+  // Range of the release height; fall_m is not used.
+  double least_release_m = 1.0, most_release_m = 10.0, fall_m = 1.0;
 
   bool has_height = true, has_accel = true;
   double row_rate_Hz = 500.0, height_rate_Hz = 100.0;
@@ -30,9 +32,9 @@ struct World {
     double quadratic = 0.0, linear_N_s_per_m = 0.0;  // quadratic: N s2/m2
     double buoyancy = 0.0, added_mass = 0.0, mass_share = 0.0;
     double gust_N = 0.0, gust_at_m = 0.0, gust_width_m = 0.3;
-    double tether_N_per_m = 0.0, tether_slack_m = 0.0;  // pulls up beyond this fall
+    double tether_N_per_m = 0.0, tether_slack_m = 0.0;  // Pulls up after a fall of this length.
     double flutter_N = 0.0, flutter_Hz_per_mps = 1.0;   // vortex shedding
-    double opening_N_s2 = 0.0, opening_at_s = 0.0;      // drag that opens in the air
+    double opening_N_s2 = 0.0, opening_at_s = 0.0;      // Drag that starts at this time.
   } hidden;
   std::map<std::string, ChannelFaults> faults;
 
@@ -42,6 +44,7 @@ struct World {
   }
 };
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

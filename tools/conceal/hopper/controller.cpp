@@ -36,7 +36,7 @@ void Controller::switch_phase(const Seen& seen, double length_m, double rate_mps
       phase_ = Phase::extension;
   } else if (length_m >= g.extension_length_m - g.liftoff_margin_m) {
     phase_ = Phase::flight;
-    left_ground_ = false;  // the foot is still in its crater
+    left_ground_ = false;  // The foot is still in its crater, below the surface.
   }
 }
 

@@ -4,20 +4,21 @@
 
 namespace sandhopper::conceal::hopper {
 
+// Phase of the gait, as in the channel `phase`.
 enum class Phase { flight = 0, compression = 1, extension = 2 };
 
-// What the controller knows in one cycle.
+// Inputs of the controller in one cycle.
 struct Seen {
   double t_s, angle_rad, angle_rate_radps, foot_over_surface_m;
 };
 
-// The nominal 1 kHz controller (virtual springs in stance, position hold in flight) on measured values;
-// torques leave with the CAN frame's resolution. The hidden departures from what is configured are in it.
+// The nominal 1 kHz controller on measured values: a virtual leg spring in each phase. Torques have the
+// resolution of the CAN frame. Hidden deviations from the configuration are included.
 class Controller {
  public:
   Controller(const World& world, const Setup& setup);
 
-  // Torque of both motors together.
+  // Sum of the torques of both motors, Nm.
   double torque_Nm(const Seen& seen);
   Phase phase() const { return phase_; }
 

@@ -8,7 +8,7 @@ namespace sandhopper::conceal::hopper {
 World draw(Random& random) {
   World w;
   w.bed.stiffness_N_per_m = six_digits(random.uniform(1100.0, 2200.0));
-  // Some beds show no inertia of the grains, and some beliefs hold none.
+  // Some beds have no added mass, and some beliefs contain none.
   if (random.chance(0.4)) w.bed.added_mass_factor = w.bed.drag_factor = 0.0;
   w.robot.body_kg = six_digits(random.uniform(1.45, 1.75));
   w.robot.rail_coulomb_N = six_digits(random.uniform(1.5, 4.5));
@@ -125,7 +125,7 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
       s.keys["compression_stiffness_N_per_m"] = w.same_drops ? 375.0 : kStiffness_N_per_m[i % 3];
       s.keys["extension_stiffness_N_per_m"] = 500.0;
     }
-    // The softest leg would run into its stop from high up, and in a second hop.
+    // From a large height, or in a second hop, the softest leg would reach its stop.
     const bool soft = !sweep && s.keys["compression_stiffness_N_per_m"] == kStiffness_N_per_m[0];
     if (!sweep && !hold)
       s.keys["release_height_m"] = w.same_drops ? 0.05 : six_digits(0.005 + (soft ? 0.03 : 0.085) * share);

@@ -2,7 +2,7 @@
 
 #include "tools/conceal/hopper/world.hpp"
 
-// Motors, drives and the controller's configuration.
+// Effects of motors, drives and the controller's configuration.
 namespace sandhopper::conceal::hopper {
 namespace {
 
@@ -21,7 +21,7 @@ Json temperature(World& w, double size, Random&) {
   return {{"derating_per_K", w.hidden.derating_per_K}};
 }
 
-// The supply allows this current at 15 rad/s.
+// Voltage that allows the current 32 A / (1 + 0.33 size) at a motor speed of 15 rad/s.
 Json voltage(World& w, double size, Random&) {
   w.hidden.supply_V = 15.0 * w.drive.torque_constant_Nm_per_A + 0.125 * 32.0 / (1.0 + 0.33 * size);
   return {{"supply_V", w.hidden.supply_V}};

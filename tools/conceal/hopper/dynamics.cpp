@@ -8,13 +8,14 @@ namespace sandhopper::conceal::hopper {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kGearStiffness_Nm_per_rad = 400.0;  // of teeth that touch; both sides together
+// Stiffness of gear teeth in contact, both motors together.
+constexpr double kGearStiffness_Nm_per_rad = 400.0;
 constexpr double kGearDamping_Nm_s = 0.3;
 constexpr double kSpringDampingRatio = 0.08;
 
 double smooth_sign(double v, double width) { return 2.0 / kPi * std::atan(v / width); }
 
-// Stretch of an elastoplastic spring: it follows the motion and yields gradually.
+// Rate of the stretch of an elastoplastic spring: it follows the motion v and yields gradually.
 double stretch_rate(double v, double stretch, double yield) {
   const double load = stretch / yield;
   return v - std::abs(v) * load * std::abs(load);
@@ -47,7 +48,7 @@ double joint_Nm(const Scene& s, const State& x) {
   return torque - h.spring_Nm_per_rad * x[kJoint];
 }
 
-// Solves a x = b in place for the first n unknowns; the matrices here are well conditioned.
+// Solves a x = b in place for the first n unknowns, with pivoting.
 void solve(double (&a)[4][4], double (&b)[4], int n) {
   for (int i = 0; i < n; ++i) {
     int pivot = i;
@@ -75,8 +76,8 @@ struct Solution {
   double foot, angle, spring;
 };
 
-// Kane's equations for foot, angle and (where there is one) the foot's spring; a clamped body adds the rail's
-// holding force as an unknown and its own acceleration, zero, as an equation.
+// Kane's equations for foot, leg angle and the foot's spring, if there is one. For a clamped body the holding
+// force of the rail is a further unknown, and zero acceleration of the body a further equation.
 Solution solve_motion(const Scene& s, const Leg& leg, const State& x, const Load& load) {
   const double g = s.world.gravity_mps2 * std::cos(s.world.hidden.rail_tilt_rad);
   const double rate2 = x[kAngleRate] * x[kAngleRate];
@@ -127,7 +128,7 @@ Accelerations accelerations(const Scene& s, Contact contact, double t_s, const S
   const double body_mps = x[kFootRate] - x[kSpringRate] + leg.hip_m.first * x[kAngleRate];
   const double z = depth_m(s, x), v = -x[kFootRate];
 
-  // Through the teeth when there is play, otherwise rotor and link are one.
+  // With backlash the torque acts through the gear teeth; otherwise rotor and link are one body.
   double link_Nm = torque_Nm, rotor_mps2 = 0.0;
   if (h.backlash_rad > 0.0) {
     const double play = x[kRotor] - x[kAngle], half = 0.5 * h.backlash_rad;
@@ -145,7 +146,7 @@ Accelerations accelerations(const Scene& s, Contact contact, double t_s, const S
   }
   auto solution = solve_motion(s, leg, x, load);
   double ground_N = load.ground_N - load.moving_kg * solution.foot;
-  if (ground_N < 0.0 && contact == Contact::virgin) {  // grains do not pull on the way down
+  if (ground_N < 0.0 && contact == Contact::virgin) {  // Grains do not pull on the way down.
     load.ground_N = load.moving_kg = ground_N = 0.0;
     solution = solve_motion(s, leg, x, load);
   }

@@ -1,6 +1,6 @@
 #include "tools/conceal/hopper/world.hpp"
 
-// At the hip and knee, each figure for one side.
+// Effects at hip and knee. The sizes in the answer are those of one side.
 namespace sandhopper::conceal::hopper {
 namespace {
 

@@ -5,7 +5,7 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-// The lower link's angle from the vertical: lower sin(psi) = hip offset + upper sin(phi).
+// Angle of the lower link from the vertical: lower sin(psi) = hip offset + upper sin(phi).
 Curve lower_angle(const Robot& r, double phi) {
   const double sine = (r.hip_offset_m + r.upper_m * std::sin(phi)) / r.lower_m,
                cosine = std::sqrt(1.0 - sine * sine);
@@ -16,7 +16,7 @@ Curve lower_angle(const Robot& r, double phi) {
   return psi;
 }
 
-// scale x cos(angle) and scale x sin(angle) along phi.
+// scale x cos(angle) and scale x sin(angle), with derivatives by phi.
 Curve cosine_of(const Curve& angle, double scale) {
   const double c = scale * std::cos(angle.value), s = scale * std::sin(angle.value);
   return {c, -s * angle.first, -c * angle.first * angle.first - s * angle.second};
@@ -47,7 +47,7 @@ Curve hip_over_toe(const Robot& r, double angle_rad) {
 }
 
 double angle_for(const Robot& r, double hip_over_toe_m) {
-  double low = 0.05, high = 2.9;  // the leg shortens as the angle grows
+  double low = 0.05, high = 2.9;  // The leg shortens as the angle grows.
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (hip_over_toe(r, middle).value > hip_over_toe_m ? low : high) = middle;

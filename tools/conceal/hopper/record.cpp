@@ -8,7 +8,7 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-// One recording in the making: channels go through their chains one after the other.
+// Builds one recording, channel by channel.
 class Recorder {
  public:
   Recorder(const World& w, const Run& run, const Random& trial) : w_(w), run_(run), trial_(trial) {
@@ -30,7 +30,7 @@ class Recorder {
     const auto& s = w_.sensors;
     const double step = 2.0 * std::numbers::pi / s.encoder_counts;
     const bool other = side == "right";
-    // The controller read the left one; the right one's reading differs by its own noise.
+    // The controller reads the left encoder. The reading of the right one differs by its own noise.
     add("motor_" + side + "_position_rad", of_cycles([](const auto& c) { return c.angle_rad; }),
         {.noise = other ? std::sqrt(2.0) * s.encoder_noise_rad : 0.0, .quantum = step, .decimals = 6});
     add("motor_" + side + "_velocity_radps", of_cycles([](const auto& c) { return c.angle_rate_radps; }),
@@ -42,7 +42,7 @@ class Recorder {
         {.quantum = 1.0, .decimals = 0});
   }
 
-  // Specific force; in stance the structure rings.
+  // Specific force. In stance the vibration of the structure adds noise.
   void add_imu(const std::string& name, const Trace& acceleration) {
     const auto& s = w_.sensors;
     auto random = trial_.stream("structure " + name);

@@ -55,7 +55,7 @@ Json imu_scale(World& w, double size, Random& random) {
   return {{"channel", channel}, {"scale_error", error}};
 }
 
-// Seen along a tilted axis everything is smaller by the cosine.
+// A tilted axis measures the cosine of the acceleration.
 Json imu_tilt(World& w, double size, Random& random) {
   const auto channel = either_imu(random);
   const double tilt_rad = size * 0.15;

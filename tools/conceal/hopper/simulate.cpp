@@ -11,7 +11,7 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-constexpr int kPieces = 4;  // of a cycle
+constexpr int kPieces = 4;  // integration pieces per cycle
 constexpr double kPiece_s = kCycle_s / kPieces;
 constexpr double kFullCurrent_A = 32.0;
 constexpr double kWinding_ohm = 0.125, kRoom_C = 25.0;
@@ -24,7 +24,7 @@ Robot as_built(const World& w) {
   return r;
 }
 
-// Follows one trial: cycle by cycle the controller, piece by piece the drive, event by event the bed.
+// Simulates one trial: the controller once per cycle, the drive once per piece, contact events in between.
 class Trial {
  public:
   Trial(const World& w, const Setup& setup, const Random& trial)
@@ -98,7 +98,7 @@ class Trial {
     temperature_C_ += kCycle_s * (current_A * current_A * kWinding_ohm / 60.0);
   }
 
-  // The encoders turn with the rotors.
+  // The encoders are on the rotors.
   Seen look(double t_s) {
     const auto& s = w_.sensors;
     const auto& h = w_.hidden;
@@ -119,7 +119,7 @@ class Trial {
     return commands_[std::min(static_cast<std::size_t>(place), commands_.size() - 1)];
   }
 
-  // What current becomes at the shaft, of both motors together.
+  // Torque at the shaft from the torque of the current, both motors together.
   double shaft_Nm(double drive_Nm, double t_s) const {
     const auto& h = w_.hidden;
     const double load = 0.5 * drive_Nm / w_.drive.torque_constant_Nm_per_A / kFullCurrent_A;
@@ -153,7 +153,7 @@ class Trial {
     drive_Nm_ = drive_Nm(end_s);
   }
 
-  // Positive while the contact law holds.
+  // Positive while the present contact law holds.
   double remains(const State& x) const {
     const double z = depth_m(scene_, x);
     switch (contact_) {

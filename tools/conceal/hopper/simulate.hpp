@@ -5,11 +5,11 @@
 
 namespace sandhopper::conceal::hopper {
 
-// A trial as it was: traces four times a cycle, and what the cycle itself saw and did.
+// A simulated trial: true traces, four samples per cycle, and what the controller read and did in each cycle.
 struct Run {
   Trace body_m, foot_m, body_mps2, foot_mps2, contact_N, current_A;
   struct Cycle {
-    double angle_rad, angle_rate_radps;  // as read and as filtered
+    double angle_rad, angle_rate_radps;  // reading, and its filtered derivative
     double foot_rate_mps, torque_Nm, command_Nm, deepest_m;
     double temperature_C;
     int phase;
@@ -17,7 +17,7 @@ struct Run {
   std::vector<Cycle> cycles;
 };
 
-// Throws std::invalid_argument for a kind of trial this robot cannot do.
+// Throws std::invalid_argument for a kind of trial that this robot cannot do.
 Run simulate(const World& world, const Setup& setup, const Random& trial);
 
 }  // namespace sandhopper::conceal::hopper

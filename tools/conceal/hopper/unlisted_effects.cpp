@@ -3,7 +3,7 @@
 namespace sandhopper::conceal::hopper {
 namespace {
 
-// A burr on the rail where the body passes.
+// Additional friction at one height of the rail.
 Json bump(World& w, double size, Random& random) {
   w.hidden.bump_N = size * 8.0;
   w.hidden.bump_at_m = random.uniform(0.36, 0.42);
@@ -41,8 +41,9 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"torque_hum", "actuator", "u"}, hum}};
 }
 
-// A late time-of-flight reading is a late reading, whoever made it late; an accelerometer that leans reads
-// less, like one of another scale; links and foot move almost alike when every drop is the same.
+// Indistinguishable pairs. A latency and a late clock of the time-of-flight sensor are the same. A tilted
+// accelerometer reads less, like one with a gain error. If all drops are alike, links and foot move almost
+// alike.
 std::vector<Restriction<World>> restrictions() {
   const auto as_is = [](World&) {};
   const auto same_drops = [](World& w) { w.same_drops = true, w.sensors.mocap = false; };

@@ -6,7 +6,8 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// The hopper: believed parameters of robot, controller and sensors, then what may be hidden, off by default.
+// Parameters of the hopper: believed ones of robot, controller and sensors, then the hidden effects (off by
+// default).
 namespace sandhopper::conceal::hopper {
 
 struct Robot {
@@ -18,10 +19,12 @@ struct Robot {
   double joint_coulomb_Nm = 0.015, cogging_Nm = 0.02, cogging_per_rev = 252.0;
 };
 
+// `current_lag_s`: time constant of the current loop.
 struct Drive {
   double torque_constant_Nm_per_A = 0.0868, torque_limit_Nm = 2.8, current_lag_s = 5e-4;
 };
 
+// Parameters of the controller; phases as in tools/conceal/hopper/controller.cpp.
 struct Gains {
   double compression_length_m = 0.30, extension_length_m = 0.34;
   double extension_N_per_m = 500.0, stance_damping_N_s_per_m = 0.0;
@@ -30,8 +33,9 @@ struct Gains {
          liftoff_margin_m = 5e-4;
 };
 
+// Rates, bandwidths, latencies and noise (standard deviation of one sample).
 struct Sensors {
-  bool ideal = false;  // no noise, no quantisation, no spread: for comparing with a reference
+  bool ideal = false;  // No noise, no quantisation, no scatter, for comparison with a reference.
   double imu_rate_Hz = 1667.0, imu_noise_mps2 = 0.012, imu_bandwidth_Hz = 400.0,
          imu_structure_noise_mps2 = 0.3;
   double tof_rate_Hz = 500.0, tof_noise_m = 5e-3, tof_latency_s = 2e-3;
@@ -42,16 +46,18 @@ struct Sensors {
   double mocap_rate_Hz = 240.0, mocap_noise_m = 2e-4;
 };
 
+// Standard deviations between trials.
 struct Spread {
   double bed_stiffness = 0.03, bed_fluctuation = 0.02, surface_m = 5e-4, release_m = 5e-4;
   double load_cell_offset_N = 0.05, imu_bias_mps2 = 0.05, tof_bias_m = 3e-3, current_offset_A = 0.03;
 };
 
+// Parameters of the hidden effects; all effects are off by default.
 struct Hidden {
   double rail_coulomb_N = 0.0, rail_viscous_N_s_per_m = 0.0, stribeck_N = 0.0, stribeck_mps = 0.03;
   double rail_per_load = 0.0, rail_tilt_rad = 0.0;
   double cable_N_per_m = 0.0, cable_N = 0.0,
-         cable_slack_m = 0.01;                                // spring about the release, and its hysteresis
+         cable_slack_m = 0.01;  // Spring with its zero at the release, and its hysteresis.
   double bump_N = 0.0, bump_at_m = 0.4, bump_width_m = 0.01;  // friction at one height of the rail
   double joint_coulomb_Nm = 0.0, joint_viscous_Nm_s = 0.0;
   double cogging_Nm = 0.0, cogging_per_rev = 42.0, cogging_phase_rad = 0.0;
@@ -67,7 +73,7 @@ struct Hidden {
   double load_cell_kg = 0.0;
 };
 
-inline constexpr double kCycle_s = 1e-3;  // of the controller and of the recording
+inline constexpr double kCycle_s = 1e-3;  // Cycle of the controller and of the recording.
 
 struct World {
   double gravity_mps2 = 9.81;
@@ -78,7 +84,7 @@ struct World {
   Sensors sensors;
   Spread spread;
   Hidden hidden;
-  bool same_drops = false;  // a limit of an ambiguous campaign: one release height, one stiffness
+  bool same_drops = false;  // For an ambiguous campaign: one release height, one stiffness.
   std::map<std::string, ChannelFaults> faults;
 
   ChannelFaults faults_of(const std::string& channel) const {
@@ -87,6 +93,7 @@ struct World {
   }
 };
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

@@ -15,7 +15,7 @@ World draw(Random& random) {
   } else {
     w.bed.stiffness_N_per_m = six_digits(random.uniform(1000.0, 2400.0) * share);
   }
-  // Some beds show no inertia of the grains, and some beliefs hold none.
+  // Some beds have no added mass, and some beliefs contain none.
   if (random.chance(0.5)) w.bed.added_mass_factor = w.bed.drag_factor = 0.0;
   w.bed_stiffness_spread = six_digits(random.log_uniform(0.01, 0.03));
   w.bed_fluctuation = six_digits(random.log_uniform(0.005, 0.02));

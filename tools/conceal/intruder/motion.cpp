@@ -7,9 +7,9 @@ namespace sandhopper::conceal::intruder {
 namespace {
 
 constexpr double kStep_s = 2.5e-4;
-constexpr double kStart_m = -0.02;  // above the surface
+constexpr double kStart_m = -0.02;  // Start of the motion: above the surface (depth is positive).
 
-// Writes a motion piece by piece; speeds change along a raised cosine.
+// Builds a motion from pieces. Speed changes follow a raised cosine.
 class Writer {
  public:
   Writer() {
@@ -50,7 +50,7 @@ class Writer {
 Motion prescribed(const World&, const Setup& setup) {
   const double speed = setup.number("impact_speed_mps", 0.2), depth = setup.number("depth_m", 0.04);
   const auto profile = setup.text("profile", "stop_and_withdraw");
-  const double ramp_s = std::min(0.05, 0.016 / speed);  // 8 mm to get going and as much to stop
+  const double ramp_s = std::min(0.05, 0.016 / speed);  // 8 mm to accelerate and 8 mm to stop
   const double stop_m = 0.5 * speed * ramp_s;
   Writer writer;
   writer.stay(0.05);
@@ -67,7 +67,7 @@ Motion prescribed(const World&, const Setup& setup) {
   }
   writer.change_speed(speed, ramp_s);
   writer.run_to(depth - stop_m);
-  if (profile == "through") return writer.take();  // the record ends at full speed
+  if (profile == "through") return writer.take();  // The recording ends at full speed.
   writer.change_speed(0.0, ramp_s);
   writer.stay(0.08);
   writer.change_speed(-0.1, 0.02);

@@ -6,7 +6,8 @@
 namespace sandhopper::conceal::intruder {
 namespace {
 
-// The bed's memory is followed along the motion; a soft rig lets the plate lag behind the actuator.
+// Force along a prescribed motion, with the memory of the bed. With a compliant rig the plate is less deep
+// than the actuator.
 class Press {
  public:
   Press(const World& w, const Setup& setup, const Random& trial) : world_(w), bed_(w.bed) {
@@ -43,7 +44,7 @@ class Press {
     return std::max(0.0, force.steady_N + force.moving_mass_kg * acceleration_mps2);
   }
 
-  // The depth at which the rig's deflection F/k balances what was asked for.
+  // Depth z with z + F(z) / k = depth of the actuator, k: stiffness of the rig.
   double settled_m(double t_s, double asked_m, double speed_mps, double acceleration_mps2) const {
     double low = 0.0, high = asked_m;
     for (int i = 0; i < 40; ++i) {

@@ -61,7 +61,7 @@ std::vector<Recipe<World>> rig_effects() {
   return all;
 }
 
-// Every record at one even speed: any function of speed is one number.
+// All trials have the same speed, so functions of speed cannot be distinguished.
 std::vector<Restriction<World>> restrictions() {
   const auto one_speed = [](World& w) { w.only_one_speed = true; };
   return {{{{"terrain.viscous", "terrain.quadratic_drag"}}, one_speed},

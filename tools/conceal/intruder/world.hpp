@@ -6,7 +6,7 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// A plate on a linear actuator pressed into the bed along a prescribed motion.
+// Parameters of a plate on a linear actuator that is pushed into the bed with a prescribed motion.
 namespace sandhopper::conceal::intruder {
 
 struct World {
@@ -22,7 +22,7 @@ struct World {
   bool only_one_speed = false;
 
   double rig_stiffness_N_per_m = 0.0;  // hidden; 0: rigid
-  double plate_mass_kg = 0.0;          // hidden: beyond the load cell, shaken by the motion
+  double plate_mass_kg = 0.0;          // Hidden: mass between load cell and bed, accelerated by the motion.
   std::map<std::string, ChannelFaults> faults;
 
   ChannelFaults faults_of(const std::string& channel) const {
@@ -31,12 +31,14 @@ struct World {
   }
 };
 
-// Depth of the plate's face along a trial, positive down.
+// Prescribed motion of the plate's face; depth is positive downward.
 struct Motion {
   Trace depth_m, speed_mps, acceleration_mps2;
 };
+// Motion for a set-up (impact_speed_mps, depth_m, profile), starting 20 mm above the surface.
 Motion prescribed(const World& world, const Setup& setup);
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

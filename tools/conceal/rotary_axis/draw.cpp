@@ -10,7 +10,7 @@ World draw(Random& random) {
   const double mass_kg = random.uniform(0.4, 1.5), length_m = random.uniform(0.25, 0.6);
   w.inertia_kg_m2 = six_digits(mass_kg * length_m * length_m * random.uniform(1.0, 1.2));
   w.gravity_torque_Nm = six_digits(mass_kg * w.gravity_mps2 * length_m);
-  // What is already known of the friction differs from laboratory to laboratory.
+  // Beliefs contain different parts of the friction.
   if (random.chance(0.5)) w.viscous_Nm_s = six_digits(random.log_uniform(0.003, 0.03));
   if (random.chance(0.5)) w.coulomb_Nm = six_digits(random.log_uniform(0.03, 0.15));
   w.gear_ratio = random.chance(0.5) ? 6.0 : 9.0;
@@ -57,7 +57,7 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
     Setup s;
     s.keys["kind"] = w.only_held ? "hold" : "motion";
     const auto number = [&](const char* key, double value) { s.keys[key] = six_digits(value); };
-    // Every profile at least once in five trials: slow, fast, free and far from the bottom.
+    // Any five consecutive trials contain every profile: slow, fast, free, and far from the bottom.
     const int profile = w.only_free_swing ? 2 : i % 5;
     if (w.only_held) {
       number("position_rad", random.sign() * random.uniform(0.3, 2.5));
@@ -70,7 +70,7 @@ std::vector<Setup> draw_setups(const World& w, int trials, Random& random) {
       s.keys["profile"] = "release";
       number("release_position_rad", random.sign() * random.uniform(0.6, 2.4));
     } else if (profile == 3) {
-      s.keys["profile"] = "ramp";  // to and fro at even speed
+      s.keys["profile"] = "ramp";  // back and forth at constant speed
       number("speed_radps", random.log_uniform(0.1, 3.0));
       number("amplitude_rad", random.uniform(0.8, 1.5));
     } else {

@@ -1,6 +1,6 @@
 #include "tools/conceal/rotary_axis/world.hpp"
 
-// The drive delivers something else than it reports.
+// Effects by which the delivered torque differs from the reported one.
 namespace sandhopper::conceal::rotary_axis {
 namespace {
 

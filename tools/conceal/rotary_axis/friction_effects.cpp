@@ -1,6 +1,7 @@
 #include "tools/conceal/rotary_axis/world.hpp"
 
-// Friction the belief does not have. Typical sizes follow the arm: 5 % of its gravity torque at 1 rad/s.
+// Friction that the belief does not contain. Typical sizes are a few per cent of the gravity torque of the
+// arm (viscous: at 1 rad/s).
 namespace sandhopper::conceal::rotary_axis {
 namespace {
 
@@ -14,7 +15,7 @@ Json viscous(World& w, double size, Random&) {
   return {{"viscous_friction_change_Nm_s", w.hidden.viscous_Nm_s}};
 }
 
-// More friction at rest than in motion; it fades with a Lorentzian of speed.
+// Static friction above the sliding friction; it decays with speed as a Lorentzian.
 Json stribeck(World& w, double size, Random& random) {
   w.hidden.stribeck_Nm = size * 0.05 * w.gravity_torque_Nm;
   w.hidden.stribeck_speed_radps = random.uniform(0.15, 0.5);

@@ -1,6 +1,6 @@
 #include "tools/conceal/rotary_axis/world.hpp"
 
-// What hangs on the axis is not what was believed.
+// Effects by which the load differs from the believed one.
 namespace sandhopper::conceal::rotary_axis {
 namespace {
 

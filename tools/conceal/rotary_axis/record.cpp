@@ -8,8 +8,8 @@
 namespace sandhopper::conceal::rotary_axis {
 namespace {
 
-constexpr double kTick_s = 1e-3;  // of the drive's own position loop
-constexpr int kSettling = 2000;   // cycles
+constexpr double kTick_s = 1e-3;  // cycle of the drive's own position loop
+constexpr int kSettling = 2000;   // Cycles before the recording starts.
 constexpr double kPi = std::numbers::pi;
 using State = std::array<double, 3>;  // position, velocity, stretch of the hysteretic spring
 
@@ -22,7 +22,7 @@ bool free_swing(const Setup& setup) {
   return setup.kind() != "hold" && setup.text("profile", "sine") == "release";
 }
 
-// Where the arm is asked to be, before it is smoothed.
+// Target angle before smoothing.
 double target_rad(const Setup& setup, double t_s) {
   const auto profile = setup.text("profile", "sine");
   const double amplitude = setup.number("amplitude_rad", 1.0);
@@ -39,8 +39,8 @@ double target_rad(const Setup& setup, double t_s) {
   return amplitude * std::sin(2.0 * kPi * (f0 * t_s + 0.5 * rate * t_s * t_s));
 }
 
-// The target through a critically damped second order of 4 Hz: no motor is given steps, and a torque that
-// jumped would be lost between slow rows.
+// Target smoothed by a critically damped second order with 4 Hz. Steps would make the torque jump, and slow
+// rows would not record that.
 struct Reference {
   double position_rad = 0.0, velocity_radps = 0.0;
 
@@ -64,7 +64,7 @@ double hidden_torque_Nm(const World& w, const State& x, double torque_Nm, double
   const double off = (th - h.magnet_at_rad) / h.magnet_width_rad;
   sum -= h.magnet_Nm * off * std::exp(0.5 * (1.0 - off * off));
   if (th > h.rub_from_rad && th < h.rub_to_rad) sum -= h.rub_Nm * side;
-  // Stretch grows with the motion until it yields, and then slides along.
+  // The stretch follows the motion until it yields.
   const double load = x[2] / h.spring_yield_rad;
   spring_rate = v - std::abs(v) * load * std::abs(load);
   return sum - h.spring_Nm_per_rad * x[2];
@@ -81,7 +81,7 @@ State slope(const World& w, const State& x, double torque_Nm) {
   return {x[1], sum_Nm / (w.inertia_kg_m2 * (1.0 + h.inertia_share)), spring_rate};
 }
 
-// What the drive delivers when its current says `reported`.
+// Torque delivered if the current corresponds to `reported_Nm`.
 double delivered_Nm(const World& w, double reported_Nm) {
   const auto& h = w.hidden;
   const double load = reported_Nm / h.saturation_torque_Nm;
@@ -111,7 +111,7 @@ Motion simulate(const World& w, const Setup& setup, const Random& trial) {
           0.0};
   DormandPrince<3> integrator({1e-7, 1e-8, 1e-6});
   const auto never = [](double, const State&) { return 1.0; };
-  // An arm that is held has come to rest before the record begins.
+  // An arm that is held is at rest when the recording starts.
   const int before = setup.kind() == "hold" ? kSettling : 0;
   const auto ticks =
       before + static_cast<int>(std::lround(setup.number("duration_s", w.duration_s) / kTick_s));
@@ -122,9 +122,9 @@ Motion simulate(const World& w, const Setup& setup, const Random& trial) {
   for (int i = 0; i <= ticks; ++i) {
     goal.follow(free ? 0.0 : target_rad(setup, t_s));
     const double now_Nm = reported.values.back();
-    const double next_Nm = free ? 0.0 : now_Nm + 0.6 * (command_Nm(w, goal, x) - now_Nm);  // the current loop
+    const double next_Nm = free ? 0.0 : now_Nm + 0.6 * (command_Nm(w, goal, x) - now_Nm);  // current loop
     reported.values.push_back(next_Nm);
-    // Between cycles the torque goes over evenly, as a reader of the recording will take it to.
+    // Between cycles the torque is interpolated linearly, as a user of the recording would assume.
     const auto acting_Nm = [&](double t) {
       return delivered_Nm(w, reported.at(t - w.hidden.delay_s)) + stray_Nm;
     };
@@ -149,7 +149,6 @@ Table record(const World& w, const Setup& setup, const Random& trial) {
   auto motion = simulate(w, setup, trial);
   for (double& p : motion.position_rad.values)
     p += w.eccentricity_rad * std::sin(p + w.eccentricity_phase_rad);
-  // A torque held from tick to tick is on average half a tick old when it stands in the middle of its row.
   const auto rows =
       static_cast<std::size_t>(std::lround(setup.number("duration_s", w.duration_s) * w.row_rate_Hz));
   auto jitter = trial.stream("jitter");

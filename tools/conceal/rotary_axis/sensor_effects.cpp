@@ -11,7 +11,7 @@ Json bias(World& w, double size, Random& random) {
   return {{"channel", torque ? "torque_Nm" : "velocity_radps"}, {"bias", bias}};
 }
 
-// The reported velocity stops growing: the earlier, the larger the size.
+// The reported velocity is clipped; a larger size means a lower limit.
 Json velocity_saturation(World& w, double size, Random&) {
   const double limit_radps = 4.0 / (1.0 + size);
   w.faults["velocity_radps"].limit = limit_radps;

@@ -1,6 +1,6 @@
 #include "tools/conceal/rotary_axis/world.hpp"
 
-// Physics outside the list of names, all of it at the axis.
+// Unlisted effects, all of them at the axis.
 namespace sandhopper::conceal::rotary_axis {
 namespace {
 
@@ -21,7 +21,7 @@ Json rub(World& w, double size, Random& random) {
       {"friction_Nm", w.hidden.rub_Nm}, {"from_rad", w.hidden.rub_from_rad}, {"to_rad", w.hidden.rub_to_rad}};
 }
 
-// Eddy currents brake most at one speed and less beyond it.
+// An eddy-current brake has its largest torque at one speed.
 Json eddy_brake(World& w, double size, Random& random) {
   w.hidden.brake_Nm = size * 0.05 * w.gravity_torque_Nm;
   w.hidden.brake_speed_radps = random.uniform(0.5, 1.5);
@@ -43,8 +43,8 @@ std::vector<Recipe<World>> unlisted_effects() {
           {{"hysteretic_spring", "axis", "u"}, hysteresis}};
 }
 
-// Free swings of a believed frictionless arm fix only gravity over inertia; an arm held still fixes only
-// gravity over torque.
+// A free swing without believed friction determines only gravity / inertia. An arm that is held determines
+// only gravity / torque.
 std::vector<Restriction<World>> restrictions() {
   const auto free_swing = [](World& w) {
     w.only_free_swing = true;

@@ -5,11 +5,11 @@
 #include "tools/conceal/core/channel_faults.hpp"
 #include "tools/conceal/core/plant_of.hpp"
 
-// A motor's axis with an unbalanced arm, everything on the output side. First the believed part
+// Parameters of a motor axis with an unbalanced arm, on the output side. Believed part:
 //
 //   J th'' = torque - G sin th - b th' - c tanh(th'/v_s)
 //
-// then what may be hidden, zero by default.
+// The hidden effects are zero by default.
 namespace sandhopper::conceal::rotary_axis {
 
 struct World {
@@ -29,23 +29,23 @@ struct World {
   double velocity_bandwidth_Hz = 120.0;
   bool bench_load_cell = false;
   double initial_position_spread_rad = 0.01, torque_offset_spread_Nm = 0.01;
-  bool only_held = false, only_free_swing = false;  // limits of an ambiguous campaign
+  bool only_held = false, only_free_swing = false;  // for ambiguous campaigns
 
   struct Hidden {
     double coulomb_Nm = 0.0, coulomb_width_radps = 0.015;
     double viscous_Nm_s = 0.0;
     double stribeck_Nm = 0.0, stribeck_speed_radps = 0.2;
-    double load_dependent = 0.0;  // friction torque per transmitted torque
+    double load_dependent = 0.0;  // friction torque / transmitted torque
     double inertia_share = 0.0, gravity_share = 0.0;
-    double offset_rad = 0.0;    // of the arm's true bottom
-    double torque_scale = 0.0;  // true torque = (1 + this) reported
+    double offset_rad = 0.0;    // angle of the arm's true bottom
+    double torque_scale = 0.0;  // true torque = (1 + this) reported torque
     double saturation = 0.0, saturation_torque_Nm = 10.0;
-    double delay_s = 0.0;  // the reported torque acts this much later
+    double delay_s = 0.0;  // Delay from reported to acting torque.
     double cogging_Nm = 0.0, cogging_per_rev = 84.0, cogging_phase_rad = 0.0;
     double magnet_Nm = 0.0, magnet_at_rad = 0.0, magnet_width_rad = 0.1;
     double rub_Nm = 0.0, rub_from_rad = 0.0, rub_to_rad = 0.0;
-    double brake_Nm = 0.0, brake_speed_radps = 1.0;          // an eddy-current brake: most at that speed
-    double spring_Nm_per_rad = 0.0, spring_yield_rad = 0.1;  // elastoplastic: a hysteresis loop
+    double brake_Nm = 0.0, brake_speed_radps = 1.0;  // Eddy-current brake: largest torque at that speed.
+    double spring_Nm_per_rad = 0.0, spring_yield_rad = 0.1;  // Elastoplastic spring: a hysteresis loop.
   } hidden;
   double eccentricity_rad = 0.0, eccentricity_phase_rad = 0.0;
   std::map<std::string, ChannelFaults> faults;  // by channel
@@ -56,6 +56,7 @@ struct World {
   }
 };
 
+// Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);

@@ -12,14 +12,14 @@ using Numbers = std::map<std::string, double>;
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// A number that TOML reads as a real.
+// Text of a number that TOML reads as a float.
 std::string real_text(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".einf") == std::string::npos) text += ".0";
   return text;
 }
 
-// The key of nominal.toml that bears this parameter's name; none where it has none or more than one.
+// Key of nominal.toml with the name of the first parameter. Empty if there is none, or more than one.
 std::string key_of(const Candidate& candidate, const Numbers& numbers) {
   const auto& name = candidate.parameters.front().name;
   const auto& usual = candidate.effect->belief_key;

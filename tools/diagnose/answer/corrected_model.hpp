@@ -6,9 +6,10 @@
 
 namespace sandhopper::diagnose {
 
-// nominal.toml with what was found in place, so that a second run starts from it: as keys of nominal.toml
-// where they can say it and no trial's set-up overrides them, else under [effects] (tools/campaign). What was
-// found outside the list of effects stands in it as a comment; empty where there is nothing but that.
+// Text of a nominal.toml that contains the findings, so that a second run can start from it. A finding
+// becomes a change of keys if keys can express it and no trial's set-up overrides them; otherwise an entry
+// under [effects] (tools/campaign/README.md). Findings outside the list of effects become comments. Returns
+// an empty string if comments are all there is.
 std::string corrected_model(const Recordings& recordings, const Problem& problem, const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

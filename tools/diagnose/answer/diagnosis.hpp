@@ -9,14 +9,15 @@
 
 namespace sandhopper::diagnose {
 
-// What diagnosis.json says; see tools/diagnose/README.md.
+// Contents of diagnosis.json; see tools/diagnose/README.md.
 struct FoundParameter {
   std::string name;
   double value = 0.0;
-  double low = 0.0, high = 0.0;  // 95 %
-  bool derived = false;          // says the one before it again, as a change of what was believed
+  double low = 0.0, high = 0.0;  // 95 % interval
+  bool derived = false;          // Repeats the parameter before it as a change against the belief.
 };
 
+// One effect of the answer: listed, unknown ("unknown@PORT"), or a fault of the data.
 struct FoundEffect {
   std::string id;
   std::string port;
@@ -25,45 +26,51 @@ struct FoundEffect {
   std::string equation;
   std::vector<FoundParameter> parameters;
   double probability = 0.0;
-  double heldout_gain = 0.0;  // share of the held-out excess that goes with it
+  // Fraction of the explained deviance that held-out trials lose without this effect.
+  double heldout_gain = 0.0;
   double p_value = 1.0;
+  // |first amplitude| in typical sizes.
   double typicals = 0.0;
   std::vector<std::string> indistinguishable_from{};
 
-  bool is_unknown() const { return id.starts_with("unknown@"); }  // on no list
-  // The 95 % interval of its size, the first parameter (or its change against the belief, which follows it),
-  // holds zero: suspected, not found.
+  bool is_unknown() const { return id.starts_with("unknown@"); }  // not a listed effect
+  // True if the 95 % interval of the first parameter contains zero (or that of its change against the belief,
+  // which follows it). Such an effect is suspected, not found.
   bool may_be_zero() const;
 };
 
+// A channel and phase in which the residual of the null is above the noise floor.
 struct Where {
   std::string channel;
-  std::string port;  // of what was found to act in this cell; empty where nothing found says
+  std::string port;  // Port of the found effect that changes this cell most; empty if none does.
   std::string phase;
   double from_s = 0.0, to_s = 0.0;
   std::vector<std::string> trials;
+  // Quantity along which the residual varies most, and the range of its larger values.
   std::string coordinate;
   double range_low = 0.0, range_high = 0.0;
   double share_of_excess = 0.0;
   double p_value = 1.0;
 };
 
+// RMS errors of the null and of the answer, in the channel's unit.
 struct ErrorBeforeAfter {
   double before = 0.0, after = 0.0;
 };
 
-// "5.3 times the noise floor before, 0.70 after".
+// "5.3 times the noise floor before, 0.7 after"
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor);
 // "0.97 times the noise floor".
 std::string times_the_floor(double error, double floor);
 
+// Errors of one channel on all trials, fitted (train) and held out.
 struct ChannelFit {
   std::string channel;
   ErrorBeforeAfter train, heldout;
   double floor = 0.0;
 };
 
-// Held-out error in one phase; the floor is that phase's own.
+// RMS errors on held-out trials in one phase, and the noise floor of that phase, in the channel's unit.
 struct PhaseError {
   std::string channel;
   std::string phase;
@@ -71,16 +78,16 @@ struct PhaseError {
   std::size_t samples = 0;
 };
 
-// One channel of one trial as recorded and as simulated, thinned to what a page draws.
+// One channel of one trial, recorded and simulated, in the channel's unit; thinned for the page.
 struct Trace {
   std::string trial;
-  std::string setup;  // in words
+  std::string setup;  // as text
   std::string channel;
   std::vector<double> time_s, measured, before, after;  // after: held out
-  std::vector<double> floor;  // standard deviation of each row when nothing is missing
+  std::vector<double> floor;  // Standard deviation of each row if nothing is missing.
 };
 
-// A row that was compared: recorded minus simulated.
+// One compared row: recorded minus simulated, in the channel's unit.
 struct ResidualRow {
   std::string trial, channel, phase;
   double time_s = 0.0, before = 0.0;
@@ -88,83 +95,87 @@ struct ResidualRow {
   double noise_sd = 0.0;
 };
 
-struct Bound {  // of an effect that was looked for and not found
+struct Bound {  // Upper bound of an effect that was not found.
   std::string id;
   std::string parameter;
   double value = 0.0;     // 95 % upper bound of its magnitude
-  double typicals = 0.0;  // the same, of the size at which the effect matters
+  double typicals = 0.0;  // the same, in typical sizes
 };
 
-// One number that the answer rests on.
+// One number of the belief that the answer depends on.
 struct BelievedNumber {
   std::string key;               // "axis.inertia_kg_m2"
-  double low = 0.0, high = 0.0;  // over the trials
+  double low = 0.0, high = 0.0;  // Smallest and largest value over the trials.
   std::string unit{};
+  // Source: a file and line, a set-up, or a default with its reason.
   std::string said_by{};
-  // As far as it may be off, by the way it was written: half a unit of its last digit; a default that nobody
-  // stated, by its whole size.
+  // Error to be expected from how the number is written: half a unit of its last digit. For a default that
+  // nobody stated: its full size.
   double usual_error = 0.0;
-  // Beyond this error the recordings would contradict it (95 %), what differs from trial to trial fitted
-  // along; infinite: they do not depend on it.
+  // Error beyond which the recordings contradict the number (95 %), with the nuisances refitted. Infinite:
+  // the recordings do not depend on it.
   double error_that_shows = 0.0;
 
   double size() const { return low < 0.0 && -low > high ? -low : high; }
   bool matters() const { return usual_error >= error_that_shows; }
 };
 
+// A law of free form: value and standard deviation at the knots `at` of the variable.
 struct Curve {
   std::string variable;
   std::vector<double> at, value, sd;
 };
 
+// An unlisted force or torque that was found at a port.
 struct UnknownForce {
   std::string port;
-  std::string quantity;  // that acts there, with its unit: force_N
+  std::string quantity;  // acting quantity with its unit, for example force_N
   double p_value = 1.0;
-  double share = 0.0;  // of what can be explained at all
+  double share = 0.0;  // fraction of the explainable deviance
   Curve curve;
 };
 
-// The trial worth doing next.
+// The recommended trial.
 struct NextTrial {
-  // "split" a class, "sharpen" intervals, "map" an unknown force, "bound" what is absent, "repeat" after a
-  // repair; empty where no trial is recommended.
+  // "split" a class, "sharpen" intervals, "map" an unknown force, "bound" absent effects, "repeat" after a
+  // repair. Empty: no trial is recommended.
   std::string purpose;
   std::string why;
   std::string kind;
   std::map<std::string, double> setup;
-  std::map<std::string, std::string> words;  // set-up keys that are no numbers: profile
-  // Chance that one such trial tells all rivals from what was found, and at least one; 0: not a question of
-  // telling.
+  std::map<std::string, std::string> words;  // Set-up keys whose values are words (profile).
+  // Probability that one such trial separates all rivals from the found effect, and at least one of them. 0
+  // if there are no rivals.
   double settles = 0.0, splits = 0.0;
-  // What it would record, by two explanations; empty where there is only one.
+  // Predictions by two explanations; empty if there is only one.
   std::string channel;
   std::string first, second;
   double floor = 0.0;
   std::vector<double> time_s, by_first, by_second;
 };
 
-// What a fit says of something that differs from trial to trial, without any effect and with those found:
-// mean and standard deviation over the trials, beside the one believed.
+// A nuisance parameter: mean and standard deviation over the trials, fitted without any effect and with the
+// found ones, and the believed standard deviation.
 struct TrialToTrial {
-  std::string name;  // ends in its unit
+  std::string name;  // ends with its unit
   double believed_sd = 0.0;
   double mean_before = 0.0, sd_before = 0.0;
   double mean_after = 0.0, sd_after = 0.0;
 };
 
+// The whole answer, as written to diagnosis.json, text and page.
 struct Diagnosis {
   Verdict verdict = Verdict::insufficient_data;
   Detail detail = Detail::none;
   std::map<std::string, double> noise_floor;
   std::vector<Where> where;
   std::vector<FoundEffect> effects;
-  double gap_closed = 1.0;       // by the effects on the list, of what can be explained
-  std::vector<ChannelFit> fits;  // the channel that shows most first
+  double gap_closed = 1.0;       // By listed effects: fraction of the explainable deviance.
+  std::vector<ChannelFit> fits;  // largest error over noise floor first
   std::vector<Bound> absent;
   std::vector<BelievedNumber> belief;
   std::vector<UnknownForce> unknown;
-  std::vector<std::string> notes;  // missing channels, trials left out, weaker tests
+  std::vector<std::string> notes;  // Missing channels, trials left out, tests with less power.
   std::vector<PhaseError> phase_errors;
   std::vector<TrialToTrial> trial_to_trial;
   std::vector<Trace> traces;
@@ -175,7 +186,7 @@ struct Diagnosis {
   std::size_t trials = 0;
   std::uint64_t simulations = 0;
   double seconds = 0.0;
-  std::vector<std::string> log;  // how the search went
+  std::vector<std::string> log;  // log of the search
 };
 
 }  // namespace sandhopper::diagnose

@@ -8,7 +8,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// One object for each item, by `object(item)`.
+// JSON array of object(item) for each item.
 template <class Items, class ToObject>
 Json list_of(const Items& items, ToObject object) {
   Json list = Json::array();

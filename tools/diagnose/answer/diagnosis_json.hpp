@@ -5,7 +5,7 @@
 
 namespace sandhopper::diagnose {
 
-// The object of diagnosis.json.
+// The diagnosis as the JSON object of diagnosis.json.
 nlohmann::ordered_json to_json(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

@@ -19,7 +19,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// Never "100 %" where something is left.
+// At most "99 %": the rest is never exactly zero.
 std::string percent(double share) { return fmt::format("{:.0f} %", std::min(99.0, 100.0 * share)); }
 
 std::string effect_text(const FoundEffect& e) {
@@ -58,7 +58,7 @@ std::string next_text(const NextTrial& next) {
   return fmt::format("next   {}\n       {}\n", trial_in_words(next.kind, next.words, next.setup), next.why);
 }
 
-// The few that matter: what was looked for and is left with the widest bounds.
+// The widest bounds, and the number of the others.
 std::string absent_text(const std::vector<Bound>& absent) {
   if (absent.empty()) return "";
   std::string text = "absent ";
@@ -70,7 +70,7 @@ std::string absent_text(const std::vector<Bound>& absent) {
   return text + "\n";
 }
 
-// Half of the held-out error of the channel that shows most, or more, is left.
+// True if at least half of the held-out error remains in the channel with the largest error.
 bool explains_little(const Diagnosis& d) {
   return !d.fits.empty() && d.fits.front().heldout.after >= 0.5 * d.fits.front().heldout.before;
 }
@@ -79,7 +79,7 @@ bool explains_little(const Diagnosis& d) {
 
 bool FoundEffect::may_be_zero() const {
   if (parameters.empty()) return false;
-  // A change of what was believed says it better than the value itself.
+  // For a number of the belief, its change decides, not its value.
   const auto& size = parameters.size() > 1 && parameters[1].derived ? parameters[1] : parameters[0];
   return size.low <= 0.0 && size.high >= 0.0 && size.low < size.high;
 }

@@ -5,12 +5,13 @@
 
 namespace sandhopper::diagnose {
 
-// The verdict as a sentence.
+// The verdict as one sentence.
 std::string headline(const Diagnosis& diagnosis);
 
 double simulations_per_second(const Diagnosis& diagnosis);
 
-// The answer for people: verdict, what, where, how much better, what next, the bounds that matter.
+// The answer as text: verdict, effects, places, errors before and after, next trial, the widest bounds,
+// notes.
 std::string to_text(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

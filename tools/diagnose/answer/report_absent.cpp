@@ -10,10 +10,10 @@ namespace {
 
 using Set = std::vector<std::size_t>;
 
-// A standard error beyond this many typical sizes: the recordings do not bound the effect.
+// Standard error in typical sizes above which the recordings do not bound the effect.
 constexpr double kUnbounded = 1e6;
 
-// The set's parts that were fitted, itself and the empty one among them.
+// All fitted subsets of the set, including itself and the empty set.
 std::vector<Set> fitted_parts(const Search& search, const Set& set) {
   std::vector<Set> parts;
   for (const auto& [tried, fit] : search.sets())
@@ -21,8 +21,9 @@ std::vector<Set> fitted_parts(const Search& search, const Set& set) {
   return parts;
 }
 
-// Largest size of each effect, in typical sizes, in place of some of what was found or beside it: a name that
-// was given may be the wrong one, and the right one then has all of its size to hide.
+// 95 % bound of each effect's size, in typical sizes: the largest of all cases in which the effect stands
+// beside the found ones or replaces some of them. A found name may be wrong; then the true effect may have
+// its full size.
 std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& search, double quantile) {
   std::map<std::size_t, double> largest;
   const auto consider = [&](std::size_t candidate, double typicals) {
@@ -33,7 +34,7 @@ std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& sear
   for (const auto& part : parts)
     for (const auto& s : search.screened(part))
       consider(s.candidate, std::abs(s.evidence.size()) + quantile * s.evidence.standard_error());
-  // Beside what is far off linearly the fitted size counts, too.
+  // If an effect is not linear, the fitted size may exceed the linear bound.
   for (const auto& [set, tried] : search.sets())
     for (std::size_t i = 0; i < tried.fit.point.hypothesis.candidates.size(); ++i) {
       const auto candidate = tried.fit.point.hypothesis.candidates[i];
@@ -46,8 +47,8 @@ std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& sear
   return largest;
 }
 
-// Something unknown may hide whatever acts in the plant, or what the same sensor does; and what may stand in
-// place of something found is not absent.
+// True if the candidate may be present: it may replace a found effect, or an unknown effect may hide it (in
+// the plant, or at the same sensor).
 bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Candidate& candidate) {
   return std::ranges::any_of(diagnosis.effects, [&](const FoundEffect& found) {
     if (found.is_unknown())

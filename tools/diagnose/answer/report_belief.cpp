@@ -7,11 +7,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kShareMoved = 0.01;         // of a number, for its derivative
+constexpr double kShareMoved = 0.01;         // Relative change of a number for its derivative.
 constexpr double kNinetyFivePercent = 1.96;  // standard deviations of a 95 % interval
+// Number of trials used if the simulation is costly.
 constexpr std::size_t kTrialsOfCostly = 8;
 
-// A rig's stiffness is edited as its compliance, one over it.
+// A rig's stiffness is simulated as a compliance, its reciprocal.
 Edits with_number(Edits edits, const std::string& key) {
   if (key == "rig.stiffness_N_per_m")
     edits.scale("rig.compliance_m_per_N", 1.0 / (1.0 + kShareMoved));
@@ -22,8 +23,8 @@ Edits with_number(Edits edits, const std::string& key) {
 
 }  // namespace
 
-// With g_i(r) the whitened derivative of trial i by the number's relative change, what nuisances take up
-// integrated out, the recordings know the number to  sd = 1 / sqrt(sum_i |g_i|^2)  of its size.
+// g_i(r): whitened derivative of trial i by the relative change of a number, with the nuisances integrated
+// out. The recordings determine the number with relative standard deviation 1 / sqrt(sum_i |g_i|^2).
 void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagnosis) {
   std::vector<Direction> directions;
   std::vector<BelievedNumber*> numbers;

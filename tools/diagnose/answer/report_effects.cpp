@@ -13,11 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Covariance of a fit's parameters in typical sizes: the larger of what the noise gives and what the spread
-// between trials gives (sandwich), the latter held up as if `kModelTrials` trials agreed with the noise. To
-// this comes what a believed law of another form may do: it leaves up to the plant's `form_error` of the
-// explained deviance as a residual that all trials share, of which a part `kAlong` (root mean square) lies
-// along a parameter.
+// Covariance of a fit's parameters in typical sizes. Sandwich estimate: the scatter of the scores between
+// trials, averaged with the noise, which counts as `kModelTrials` trials. In addition, a believed law of
+// another form leaves up to the plant's `form_error` of the explained deviance as a residual common to all
+// trials; a fraction `kAlong` (RMS) of it lies along a parameter.
 MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
   constexpr double kModelTrials = 4.0;
   constexpr double kAlong = 1.0 / 6.0;
@@ -39,8 +38,7 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   for (; at < k; ++at) held(at, at) += 1.0;
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
-  // What is believed beforehand counts like an observation: a channel's lateness is known no better than what
-  // instants of sampling leave unsure.
+  // The prior counts like an observation, because sampling limits how well a channel's delay is known.
   const MatrixXd middle =
       (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) + (held - information);
   const double form = kAlong * kAlong * problem.plant->form_error() * explained;
@@ -48,7 +46,7 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   return covariance.topLeftCorner(own, own);
 }
 
-// "mass_change_kg" of "mass_kg".
+// "mass_kg" -> "mass_change_kg"
 std::string change_of(const std::string& name) {
   for (const char* unit :
        {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
@@ -58,8 +56,9 @@ std::string change_of(const std::string& name) {
   return name + "_change";
 }
 
-// No more than a fit without the effect loses: of two that nearly cancel each seems to explain much, while
-// without it the other shrinks, too.
+// Loss of deviance on held-out trials without this effect, limited to the rise of the deviance in the fit
+// without it. If two effects nearly cancel, each seems to explain much, but without it the other one shrinks,
+// too.
 double held_out_loss(const Search& search, const EffectEvidence& evidence) {
   const double drop = evidence.evidence.held_out_drop();
   auto rest = search.best().set;
@@ -76,7 +75,8 @@ std::string filled(std::string text, const std::string& channel) {
   return text;
 }
 
-// The fitted numbers of one effect with their 95 % intervals; `at` is the first one's row of the covariance.
+// Fitted parameters of one effect with their 95 % intervals. `at`: row of its first parameter in the
+// covariance.
 std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std::vector<double>& values,
                                           const MatrixXd& covariance, double quantile, Index at) {
   std::vector<FoundParameter> found;
@@ -86,21 +86,21 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
     const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
     FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
                        p.reported(std::min(p.high, value + half)), false};
-    if (p.scale == 0.0) {  // a limit is read off, at best within a thousandth
+    if (p.scale == 0.0) {  // A limit is read from the data; assume an error of 1/1000.
       const double within = p.resolution + 1e-3 * std::abs(out.value);
       out.low = out.value - within;
       out.high = out.value + within;
     }
     if (out.low > out.high) std::swap(out.low, out.high);
     found.push_back(out);
-    // The change of a number that the belief held already.
+    // For a number that the belief already contains, also give its change.
     if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
       found.push_back({change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
   }
   return found;
 }
 
-// Effects that cannot be told apart from a candidate, by its law or on these recordings.
+// Effects indistinguishable from a candidate: by their law, or on these recordings.
 std::vector<std::string> class_of(const Problem& problem, std::size_t c, const Posterior& belief) {
   std::vector<std::string> list = problem.candidates[c].effect->same_as;
   if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
@@ -112,7 +112,7 @@ std::vector<std::string> class_of(const Problem& problem, std::size_t c, const P
   return list;
 }
 
-// Sorts by what each explains, and takes from the probabilities of those beside the first.
+// Sorts by explained deviance and limits the probabilities of the effects after the first.
 void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
   std::ranges::sort(effects, std::greater<>{}, &FoundEffect::heldout_gain);
   bool form_in_doubt = false;
@@ -122,7 +122,8 @@ void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
     beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
     form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
   }
-  // A small fault of a sensor may be all that another form of the large law leaves.
+  // A small sensor fault may only correct the form of the large effect's law. Then the large effect is in
+  // doubt, too.
   if (form_in_doubt && !is_fault(effects.front()))
     effects.front().probability = std::min(effects.front().probability, kMostBeside);
 }

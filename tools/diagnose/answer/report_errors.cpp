@@ -9,13 +9,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+// Sum of squares and number of rows per cell.
 struct Squares {
   std::vector<double> sum, count;
   explicit Squares(std::size_t cells) : sum(cells, 0.0), count(cells, 0.0) {}
   double rms(std::size_t c) const { return count[c] > 0.0 ? std::sqrt(sum[c] / count[c]) : 0.0; }
 };
 
-// Sums by channel, and by channel and phase.
+// Sums per channel, and per channel and phase.
 struct Sums {
   Squares by_channel, by_cell;
   template <class ErrorOf>
@@ -38,9 +39,9 @@ struct Sums {
 
 }  // namespace
 
-// Held out: the effects' parameters come from the other trials, the trial's own nuisances are fitted. The
-// floor is what noise and model error alone would leave in the same rows: it may grow with the force, and
-// differ between trials.
+// Held-out errors: the effects' parameters come from the other trials, the trial's own nuisances are fitted.
+// The floor is the RMS of noise and model error in the same rows; it may differ between trials and grow with
+// force.
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis) {
   const auto sums_of = [&](const std::vector<VectorXd>& errors) {
     return Sums(problem, [&](std::size_t t, std::size_t k) { return errors[t][static_cast<Index>(k)]; });

@@ -9,34 +9,43 @@
 #include "tools/diagnose/recordings/data_faults.hpp"
 #include "tools/diagnose/recordings/events.hpp"
 
-// Parts of the answer, each made from the finished search.
+// Parts of the answer. Each function adds one part to `diagnosis`, from the finished search.
 namespace sandhopper::diagnose {
 
+// Notes on trials left out, missing channels, and a small number of trials.
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
+// Notes on stretches in which something happened once.
 void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis);
+// The effects of the best set with parameters, intervals and probabilities.
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis);
+// A law of free form as effect "unknown@PORT" and as curve.
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
-// Adds an unknown without a law of free form, at the port of the effect that explains most; the effects
-// together close `gap_closed` of the gap. Call it after report_effects.
+// Adds an unknown effect without a law of free form, at the port of the effect that explains most.
+// `gap_closed`: fraction of the gap that the effects close together. Call it after report_effects.
 void report_unknown_near(double gap_closed, Diagnosis& diagnosis);
-// Where nothing is on the list but a channel scatters too much, or all trials lean alike: at the port of
-// that.
+// For a diagnosis without effects: adds an unknown effect at the port of the noisy channel, or of the common
+// nuisance offset.
 void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
-// Where nothing says more, and the plant has one port only: there, unless sensors are loud where nothing
-// acts.
+// For a plant with a single port: adds an unknown effect there, unless a sensor is noisy in a phase without
+// forces.
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis);
+// Effects that the recordings show without a fit. They also change the verdict if nothing else was found.
 void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagnosis);
+// Faults of the data (stuck, lost, clipped samples). They also change the verdict if nothing else was found.
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+// Nuisance parameters before and after, over the trials.
 void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis);
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);
+// Upper bounds of the effects that were not found.
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
 // Sets `error_that_shows` of each number of `diagnosis.belief`.
 void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagnosis);
+// Channels and phases in which the null's residual exceeds the noise floor.
 void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
                   Diagnosis& diagnosis);
 

@@ -11,8 +11,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kSeenDirectly = 0.97;    // what the recordings show by themselves
-constexpr double kNearProbability = 0.5;  // that what is unknown acts where the nearest name does: no more
+constexpr double kSeenDirectly = 0.97;  // probability of findings that the recordings show directly
+// Largest probability that an unknown effect acts at the port of the nearest named one.
+constexpr double kNearProbability = 0.5;
 
 void found_without_a_fit(Diagnosis& diagnosis, Detail detail) {
   if (diagnosis.verdict != Verdict::consistent && diagnosis.verdict != Verdict::insufficient_data) return;
@@ -44,7 +45,7 @@ void report_events(const Problem& problem, const std::vector<Event>& events, Dia
                     event.furthest, event.times_others));
 }
 
-// Only what has a name of its own: knots along depth have none.
+// Reports only nuisances with a unique name; the knots along depth share one name.
 void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
   const auto trials = problem.trials.size();
   if (trials < 2) return;
@@ -78,7 +79,7 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   UnknownForce unknown{port, quantity, gain.p_value, share, {gain.family.variable, {}, {}, {}}};
   const auto n = gain.family.terms.size();
   for (std::size_t i = 0; i < n; ++i) {
-    // A knot that no recording visits keeps its prior: nothing is known there.
+    // At a knot that no recording visits, the standard deviation stays at its prior: leave it out.
     if (gain.sd[static_cast<Eigen::Index>(i)] > 0.8 / std::sqrt(kFreeLawInformation)) continue;
     unknown.curve.at.push_back(gain.family.knots[i]);
     unknown.curve.value.push_back(gain.size[static_cast<Eigen::Index>(i)] * gain.family.scale);
@@ -145,7 +146,7 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
 }
 
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
-  constexpr double kQuiet = 1.3;  // times the sensor's own noise
+  constexpr double kQuiet = 1.3;  // ratio to the sensor's own noise
   const auto ports = problem.plant->free_ports(problem.context);
   if (ports.size() != 1) return;
   if (const auto quiet = problem.plant->quiet_phase())
@@ -211,8 +212,8 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
     } else {
       effect.equation =
           fault.id == "data.stuck" ? "y(t) = y(t_0), t_0 < t < t_0 + T" : "no y(t), t_0 < t < t_0 + T";
-      // A stretch of n samples lasted between n - 1 and n + 1 steps; one that fell between samples was not
-      // seen. How many there were follows Poisson.
+      // A stretch of n samples lasted between n - 1 and n + 1 steps. A stretch that fell between two samples
+      // was not seen. The number of stretches is Poisson-distributed.
       const double longer_s = fault.duration_s + fault.step_s;
       const double count = static_cast<double>(fault.stretches), each_Hz = fault.rate_Hz / count;
       const double unseen = 1.0 + fault.step_s / std::max(fault.duration_s, fault.step_s);

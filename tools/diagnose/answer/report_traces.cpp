@@ -10,8 +10,9 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kMostTrials = 3;
-constexpr std::size_t kMostTracePoints = 500;  // of one channel of one trial
+constexpr std::size_t kMostTracePoints = 500;  // per channel and trial
 
+// Mean square of the residual / noise.
 double excess(const Problem& problem, std::size_t trial, const Eigen::VectorXd& residual) {
   double sum = 0.0, count = 0.0;
   const auto& rows = problem.trials[trial]->rows;
@@ -24,7 +25,7 @@ double excess(const Problem& problem, std::size_t trial, const Eigen::VectorXd& 
   return count > 0.0 ? sum / count : 0.0;
 }
 
-// The trials that show most, least and middling: what a reader wants to see of many.
+// The trials with the largest, smallest and median residual.
 std::vector<std::size_t> shown_trials(const Problem& problem, const Residuals& residuals) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t t = 0; t < residuals.before.size(); ++t)

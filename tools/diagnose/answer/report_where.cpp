@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Index;
 
-// The axis along which the mismatch gathers: that whose bins differ most in mean square, and the range of the
-// bins that hold the upper half.
+// Finds the coordinate along which the mean residual of ten bins varies most (variance of the bin means /
+// total), and the range of the bins whose mean is at least half of the largest.
 void place_on_axis(const Problem& problem, const std::vector<Eigen::VectorXd>& residual, std::size_t channel,
                    std::size_t phase, Where& where) {
   constexpr std::size_t kBins = 10;
@@ -61,7 +61,7 @@ void place_on_axis(const Problem& problem, const std::vector<Eigen::VectorXd>& r
   }
 }
 
-// The port of the effect that changes this cell most; an unknown force stands for what no effect does.
+// Port of the effect that changes this cell most, or of the unknown force if there is one.
 std::string port_in_cell(const Problem& problem, const Search& search, const Residuals& residuals,
                          std::size_t channel, std::size_t phase, const Diagnosis& diagnosis) {
   if (!diagnosis.unknown.empty()) return diagnosis.unknown.front().port;
@@ -81,7 +81,8 @@ std::string port_in_cell(const Problem& problem, const Search& search, const Res
 
 }  // namespace
 
-// The null fit's residual by channel and phase, above the floor. Trials are the units of the p-value.
+// Residual of the null by channel and phase, above the noise floor. The p-value is Student's t over trials.
+// Cells with p < 0.05 and more than 3 % of the excess are reported.
 void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
                   Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::consistent || diagnosis.verdict == Verdict::insufficient_data) return;

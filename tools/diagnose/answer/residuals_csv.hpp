@@ -5,9 +5,8 @@
 
 namespace sandhopper::diagnose {
 
-// Recorded minus simulated, row by row, for tools of the reader's own: trial, channel, phase, t_s, before (as
-// believed), after (with what was found, its sizes from the other trials) and the noise's standard deviation,
-// in the channel's unit.
+// Residuals (recorded minus simulated) of every row as CSV: trial, channel, phase, t_s, before (null), after
+// (with the findings, their sizes fitted to the other trials), noise_sd. In the channel's unit.
 std::string residuals_csv(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

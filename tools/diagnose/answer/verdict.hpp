@@ -7,9 +7,15 @@
 
 namespace sandhopper::diagnose {
 
+// insufficient_data: too few trials. consistent: no effect is needed. missing_physics: listed effects, or
+// faults of the data, explain the difference. unknown_physics: something unlisted is needed, and the listed
+// effects explain less than half of the difference or are not probable.
 enum class Verdict : std::uint8_t { insufficient_data, consistent, missing_physics, unknown_physics };
 
-// The kind of a verdict.
+// Kind of a verdict. known: listed effects only. one_of_class: listed effects of which some cannot be
+// distinguished from others. known_and_rest: listed effects, and something unlisted. data_fault: only the
+// recording is faulty. unknown_at_port: a law of free form was found at a port. unknown_not_localised: no
+// such law was found.
 enum class Detail : std::uint8_t {
   none,
   too_little_data,
@@ -21,7 +27,7 @@ enum class Detail : std::uint8_t {
   unknown_not_localised
 };
 
-// Their words in diagnosis.json, text and page, in the order of the enumerators.
+// Their names in diagnosis.json, text and page, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 4> kVerdictNames{"insufficient_data", "consistent",
                                                                "missing_physics", "unknown_physics"};
 inline constexpr std::array<std::string_view, 8> kDetailNames{
@@ -33,7 +39,7 @@ constexpr std::string_view name_of(Verdict verdict) {
 }
 constexpr std::string_view name_of(Detail detail) { return kDetailNames[static_cast<std::size_t>(detail)]; }
 
-// "missing_physics, known", or the verdict alone.
+// "missing_physics, known"; without a detail only the verdict.
 inline std::string name_of(Verdict verdict, Detail detail) {
   std::string text(name_of(verdict));
   if (detail != Detail::none) text.append(", ").append(name_of(detail));

@@ -12,13 +12,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kKnots = 21;
-constexpr std::size_t kLeastRows = 50;  // of a trial
+constexpr std::size_t kLeastRows = 50;  // rows of one trial
 constexpr std::size_t kLeastTrials = 3;
-constexpr double kRidge = 1e-3;  // of the mean information of a knot
+constexpr double kRidge = 1e-3;  // relative to the mean information of a knot
+// Prior spread of the square roots of the held-out fractions (`p_of_gains`).
 constexpr double kShareSpread = 0.1;
 
-// Products of the rest, the known shapes and a law's terms over one trial, each less its mean, weighed by the
-// variance of the rest.
+// Gram matrix of one trial: residual force, known shapes, terms of the law. The mean of each column is
+// subtracted. The sum is divided by the sum of squares of the residual force.
 MatrixXd products(const Balance& balance, const FreeFamily& family) {
   const auto n = static_cast<Index>(balance.rest.size());
   const auto known = static_cast<Index>(balance.known.size());
@@ -34,12 +35,13 @@ MatrixXd products(const Balance& balance, const FreeFamily& family) {
   return x.transpose() * x / std::max(x.col(0).squaredNorm(), 1e-300);
 }
 
-// The same with the known shapes taken out of everything, their sizes those of all trials together.
+// Gram matrices with the known shapes eliminated from all other columns. Their coefficients are fitted to all
+// trials together.
 std::vector<MatrixXd> without_known(const std::vector<MatrixXd>& trials, Index known) {
   MatrixXd sum = MatrixXd::Zero(trials.front().rows(), trials.front().cols());
   for (const auto& trial : trials) sum += trial;
   const Index width = sum.cols() - known;
-  MatrixXd take_out = MatrixXd::Zero(sum.cols(), width);  // columns of the result from those given
+  MatrixXd take_out = MatrixXd::Zero(sum.cols(), width);  // Maps the given columns to those of the result.
   take_out(0, 0) = 1.0;
   take_out.bottomRightCorner(width - 1, width - 1).setIdentity();
   if (known > 0) {
@@ -109,7 +111,7 @@ std::vector<FreeGain> laws_of_balances(const Problem& problem, const std::vector
       }
       const MatrixXd inverse =
           (sum.bottomRightCorner(kKnots, kKnots) + ridge).ldlt().solve(MatrixXd::Identity(kKnots, kKnots));
-      // Rows of one trial are alike: trials, not rows, are what there is of independent ones.
+      // Rows of one trial are correlated, so trials are counted as independent samples, not rows.
       const double left = std::max(0.0, sum(0, 0) - sum.col(0).tail(kKnots).dot(gain.size));
       gain.sd = (inverse.diagonal() * left / n).cwiseMax(0.0).cwiseSqrt();
       if (std::isfinite(gain.held_out)) gains.push_back(std::move(gain));

@@ -5,13 +5,14 @@
 
 namespace sandhopper::diagnose {
 
-// Of one trial, a constant and the known shapes fitted and taken out.
+// `balance.rest` minus the least-squares fit of a constant and the known shapes, in the unit of `rest`.
 std::vector<double> rest_without_known(const Balance& balance);
 
-// Laws of free form of one variable at one port, fitted to the balances of all trials (each weighed by its
-// own variance, a constant of each trial free for the sensors' offsets, what is known taken out) and judged
-// on trials left out; `held_out` is the share of a trial's variance that the other trials' law explains. The
-// clearest first.
+// Fits laws of free form to the balances of all trials: piecewise linear functions of one variable at one
+// port. Each trial is weighted by 1 / its sum of squares and has a free constant (offsets of the sensors);
+// the known shapes are eliminated. Each law is judged on trials left out: `held_out` is the mean fraction of
+// a trial's variance that a law fitted to the other trials explains. Sorted by `held_out`, largest first.
+// Ports with fewer than three usable trials are left out.
 std::vector<FreeGain> laws_of_balances(const Problem& problem, const std::vector<Balance>& balances);
 
 }  // namespace sandhopper::diagnose

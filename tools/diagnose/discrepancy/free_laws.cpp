@@ -11,8 +11,10 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr int kLawKnots = 9;
+// Fraction of the values ignored at each end of the range.
 constexpr double kTails = 0.005;
-constexpr int kFineKnots = 41;  // of what may ripple, where a simulation costs little
+// Equally spaced knots, for variables in which a law may ripple; only if the simulation is cheap.
+constexpr int kFineKnots = 41;
 
 struct Variable {
   std::string name;
@@ -90,9 +92,9 @@ std::vector<Variable> variables_of(const std::string& port, bool sensor) {
   }
 }
 
-// Values that the simulation visits, with the share of its trial that each is.
+// Values of a variable that the simulation visits.
 struct Visited {
-  std::vector<std::pair<double, double>> values;  // value, weight
+  std::vector<std::pair<double, double>> values;  // value, weight (1 / number of values in its trial)
 };
 std::vector<Visited> visited(const Problem& problem, const Point& point, const std::string& port, bool sensor,
                              const std::vector<Variable>& variables) {
@@ -126,7 +128,7 @@ std::vector<double> uniform_knots(double low, double high, int count) {
   return knots;
 }
 
-// Equal shares between knots, but none closer than a small part of the range.
+// Quantiles of the visited values, at least `kClosest` of the range apart.
 std::vector<double> knots_by_share(Visited& visited, int count) {
   constexpr double kClosest = 2e-3;
   auto& values = visited.values;
@@ -213,7 +215,7 @@ std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vect
 }
 
 Eigen::MatrixXd knot_correlation(Eigen::Index knots) {
-  constexpr double kAlike = 2.0;  // knots
+  constexpr double kAlike = 2.0;  // correlation length, in knots
   Eigen::MatrixXd correlation(knots, knots);
   for (Eigen::Index i = 0; i < knots; ++i)
     for (Eigen::Index j = 0; j < knots; ++j)

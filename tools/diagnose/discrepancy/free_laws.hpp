@@ -7,38 +7,42 @@
 
 namespace sandhopper::diagnose {
 
-// A family of laws of free form at one port: piecewise linear in one variable, perhaps times a sign.
+// Laws of free form at one port: piecewise linear in one variable, multiplied by a weight (for some variables
+// a sign or another factor of the state).
 struct FreeFamily {
   std::string port;
   bool sensor = false;
-  std::string variable;  // what it is a function of, with unit as the plant's coordinates have it
+  std::string variable;  // Variable of the law, with unit, named like the plant's coordinates.
   double scale = 1.0;
   std::vector<double> knots;    // ascending
-  std::vector<FreeTerm> terms;  // one a knot
-  bool of_model_error = false;  // what the port is a law of first of all
+  std::vector<FreeTerm> terms;  // One hat function per knot.
+  // True if the port's own law depends on this variable, so that model error takes this form.
+  bool of_model_error = false;
 };
 
-inline constexpr double kFreeLawInformation = 0.25;  // of a knot in scales of the port: prior sd 2
+// Prior information of the value at a knot, in scales of the port: standard deviation 2.
+inline constexpr double kFreeLawInformation = 0.25;
 
-// Of values at knots that are an Ornstein-Uhlenbeck process along them, unit variance.
+// Correlation matrix of an Ornstein-Uhlenbeck process at equally spaced knots; correlation length two knots.
 Eigen::MatrixXd knot_correlation(Eigen::Index knots);
 
-// Prior information of a law's knots in scales of the port: each with sd 2, neighbours alike (an
-// Ornstein-Uhlenbeck process along the knots).
+// Prior information matrix of the values at the knots, in scales of the port: standard deviation 2 each,
+// correlated as in `knot_correlation`.
 Eigen::MatrixXd free_law_information(std::size_t knots);
 
-// Families for every port of the plant and for every channel, over what the trials visit at `point`: between
-// two knots lies an equal share of what they visit, every trial counting alike, so that what happens in
-// milliseconds of a fast trial is resolved beside seconds of a slow one.
+// Families for every port of the plant and every channel, over the values that the simulation visits at
+// `point`. The knots are quantiles: an equal share of the samples lies between two knots, with equal weight
+// for each trial. So milliseconds of a fast trial are resolved beside seconds of a slow one.
 std::vector<FreeFamily> free_families(const Problem& problem, const Point& point);
 
-// Those of one port over the states given, but for the few at the ends of each range.
+// Families of one port over the given states, with `knots` equally spaced knots. The outermost 0.5 % of the
+// values at each end are ignored.
 std::vector<FreeFamily> free_families_over(const FreePort& port, const std::vector<PortState>& states,
                                            int knots);
 
 // The edits of `base` with one term added.
 Edits with_term(Edits base, const FreeTerm& term, double amplitude);
-// The amplitude, in the port's scale, at which the derivative by a term is taken.
+// Amplitude, in the port's scale, for the finite difference of a term.
 inline constexpr double kTermStep = 0.2;
 
 }  // namespace sandhopper::diagnose

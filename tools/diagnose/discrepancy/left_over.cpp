@@ -12,6 +12,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Largest number of trials counted in z.
 constexpr double kTrialsThatLean = 12.0;
 
 }  // namespace
@@ -65,7 +66,9 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
 }
 
 std::optional<LoudChannel> loudest_channel(const Problem& problem) {
-  constexpr double kLoud = 4.5, kQuiet = 1.3, kSmooth = 0.6;  // of it all, what is new in a sample
+  // `kLoud`: ratio above which a channel is reported. `kQuiet`: ratio below which a channel shows nothing.
+  // `kSmooth`: innovation / total standard deviation of an acceleration that changes slowly.
+  constexpr double kLoud = 4.5, kQuiet = 1.3, kSmooth = 0.6;
   std::optional<LoudChannel> loudest;
   std::size_t loud_index = 0;
   std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
@@ -83,10 +86,11 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
   if (!loudest) return std::nullopt;
   const auto& by_phase = problem.noise.channel(loud_index).sd_of_phase;
   const auto quiet_phase = problem.plant->quiet_phase();
-  // It is loud where nothing acts, or the other channels show nothing.
+  // The sensor alone is noisy if it is noisy in a phase without forces, or if the other channels show
+  // nothing.
   bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kLoud * own[loud_index];
-  // What accelerates a body changes slowly from sample to sample, a sensor's own noise does not; heights
-  // hardly show what comes and goes.
+  // A real acceleration changes slowly from sample to sample; a sensor's noise does not. Heights hardly show
+  // a short disturbance, so they cannot rule out a force.
   const auto is_smooth = [&] {
     const auto& of_phase = problem.noise.channel(loud_index).correlation_of_phase;
     return std::ranges::all_of(of_phase, [](const Autoregression& a) { return a.innovation_sd < kSmooth; });
@@ -94,7 +98,7 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
   const bool accelerates = loudest->channel.find("accel") != std::string::npos && is_smooth();
   if (!quiet_phase && !accelerates) {
     times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
-    std::erase(times, 0.0);  // of no sensor that the belief describes
+    std::erase(times, 0.0);  // Drop channels without a stated noise.
     sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuiet; });
   }
   const auto ports = problem.plant->free_ports(problem.context);

@@ -6,47 +6,48 @@
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/problem.hpp"
 
-// What no fit explained, held against what sensors make of nothing. Where it passes for noise, a deviance
-// says nothing of it.
+// The residual of the best fit, compared with the noise that the sensors should have. The noise model is
+// estimated from residuals, so it may have absorbed a missing effect; the deviance cannot show that.
 namespace sandhopper::diagnose {
 
-// Standard deviation that the belief states for a channel's sensor; 0: it says nothing.
+// Standard deviation of the channel's noise as stated in the belief, in the channel's unit; 0 if not stated.
 double believed_noise(const Belief& belief, const std::string& channel);
 
-// The noise over the sensors' own fast fluctuation: geometric mean over the channels.
+// Ratio of the fitted noise to the sensors' own noise (estimated from fast fluctuations): geometric mean over
+// the channels.
 double noise_over_sensors(const Problem& problem);
 
-// Root mean square of what a fit leaves over that of the noise, sample by sample and not whitened (whitening
-// hides what changes slowly): of the middle trial, and of the channel that shows most among those whose noise
-// the belief states. 0 where it states none, or for fewer than three trials.
+// RMS of the residual / RMS of noise and model error, without whitening, because whitening hides slow
+// deviations. Median over the trials, then the largest of the channels with a stated noise. Returns 0 if no
+// noise is stated or if there are fewer than three trials.
 double left_over_noise(const Problem& problem, const Fit& fit);
 
-// A channel whose noise, with all in place that was found, is far beyond what its sensor is believed to make:
-// what comes and goes at no set time, depth or speed passes for noise.
+// A channel whose fitted noise far exceeds the stated noise of its sensor. A disturbance that does not repeat
+// in time, depth or speed is fitted as noise.
 struct LoudChannel {
   std::string channel;
-  double times = 1.0;  // the sensor's own
-  std::string port;    // the channel where the sensor alone is loud, else the plant's first
+  double times = 1.0;  // ratio to the sensor's own noise
+  std::string port;    // The channel if only its sensor is noisy, else the plant's first port.
 };
-// The loudest of those whose noise the belief states. With nothing missing, or the right names in place, a
-// second and a third program's were at most 1.45, heights that wander (seed 9101) up to 3.2; hum and ringing
-// 5.6 and more.
+// The channel with the largest ratio, among those with a stated noise; empty if none exceeds the limit of
+// 4.5. Ratios measured with nothing missing or with the right names: at most 1.45 with two other programs, up
+// to 3.2 with heights that drift. With hum or ringing: at least 5.6.
 std::optional<LoudChannel> loudest_channel(const Problem& problem);
 
-// A nuisance that all trials move alike.
+// Mean offset of a nuisance parameter over all trials.
 struct Lean {
   std::string nuisance, port;
-  double z = 0.0;  // mean of value / sd over the trials, times the square root of their number, at most 12
+  double z = 0.0;  // mean(value / sd) * sqrt(min(trials, 12))
 };
-// Nuisances differ from trial to trial by what they are; one that is off by the same in all trials is no
-// nuisance but something that is missing, and no deviance says so. The one that leans most first. With a
-// hundred trials any small share of what they differ by would be certain, and is what a simulation may be off
-// by: more than twelve count as twelve.
+// Offsets of all nuisance parameters, largest |z| first. A nuisance should scatter around its prior mean. If
+// all trials move it the same way, an effect is missing, and the deviance does not show it. The number of
+// trials counts as at most 12: with 100 trials even the error of a simulation would be significant.
 std::vector<Lean> leans_of(const Problem& problem, const Point& point);
+// The offset with the largest |z|; z = 0 if there is none.
 Lean largest_lean(const Problem& problem, const Point& point);
 
-// By how much standard deviations, and those of what is new in each sample, differ: root mean square of both
-// logarithms over samples.
+// RMS difference of two noise models: logarithms of the standard deviation and of the innovation's standard
+// deviation, weighted by samples.
 double noise_change(const NoiseModel& before, const NoiseModel& now);
 
 }  // namespace sandhopper::diagnose

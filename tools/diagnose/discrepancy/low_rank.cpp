@@ -9,10 +9,10 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 LowRank::LowRank(const MatrixXd& columns) {
   if (columns.cols() == 0) return;
-  // From D'D = V diag(d^2) V', Q = D V / d: D is tall.
+  // D has many more rows than columns: use D'D = V diag(d^2) V' and Q = D V / d.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(columns.transpose() * columns);
   const VectorXd& squares = solver.eigenvalues();  // ascending
-  const double least = 1e-6;  // a direction that moves nothing by a thousandth of the noise
+  const double least = 1e-6;                       // Drop directions below 1/1000 of the noise.
   Index first = 0;
   while (first < squares.size() && squares[first] < least) ++first;
   const Index kept = squares.size() - first;

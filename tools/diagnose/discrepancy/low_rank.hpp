@@ -3,25 +3,25 @@
 
 namespace sandhopper::diagnose {
 
-// Model error of one trial along known columns, beside noise that is white already:
+// Model error of one trial along known columns D, in addition to white noise:
 //   r = D a + eps,   a ~ N(0, I),   eps ~ N(0, I),   so that   cov r = I + D D'
-// Whitening it means multiplying by (I + D D')^-1/2 = I - Q diag(s) Q', with the singular vectors Q and
-// singular values d of D, s = 1 - 1 / sqrt(1 + d^2).
+// It is whitened with (I + D D')^-1/2 = I - Q diag(s) Q'. Q: left singular vectors of D, d: its singular
+// values, s = 1 - 1 / sqrt(1 + d^2).
 class LowRank {
  public:
   LowRank() = default;
-  // `columns`: D, rows x count, whitened like the residuals.
+  // `columns`: D, rows x count, whitened by the noise model like the residuals.
   explicit LowRank(const Eigen::MatrixXd& columns);
 
-  // Each column of `values`, in place.
+  // Whitens each column of `values` in place.
   void whiten(Eigen::Ref<Eigen::MatrixXd> values) const;
 
-  // Amplitudes a that a whitened residual (before this whitening) makes likeliest: (I + D'D)^-1 D' r.
+  // Posterior mean of a for a residual before this whitening: (I + D'D)^-1 D' r. `columns`: D.
   Eigen::VectorXd amplitudes(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual) const;
 
-  // How many of the residual's degrees of freedom the columns take up: sum of d^2 / (1 + d^2).
+  // Effective number of degrees of freedom that the columns take from the residual: sum of d^2 / (1 + d^2).
   double taken_up() const;
-  // log |I + D D'|.
+  // ln |I + D D'|
   double log_determinant() const;
   bool empty() const { return shrink_.size() == 0; }
 

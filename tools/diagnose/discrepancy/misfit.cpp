@@ -3,10 +3,13 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Limits of the residual deviance per row, above the noise, and relative to the explained deviance.
 constexpr double kMuchPerRow = 0.5;
 constexpr double kMuchOfExplained = 0.1;
-constexpr double kLittlePerRow = 0.05;   // enough to be held against what is explained
-constexpr double kNoMatterOfForm = 0.3;  // of it: a true effect under another law leaves less
+// Smallest residual per row that is compared with the explained deviance.
+constexpr double kLittlePerRow = 0.05;
+// A true effect with a law of another form leaves less than this fraction of the explained deviance.
+constexpr double kNoMatterOfForm = 0.3;
 
 }  // namespace
 
@@ -21,7 +24,7 @@ Misfit misfit_of(const std::vector<TrialMisfit>& trials, double null_deviance, b
   m.explained = null_deviance - deviance;
   if (trials.size() < kTooFewTrials) return m;
   const std::size_t enough = motion_is_prescribed ? 2 : (trials.size() + 1) / 2;
-  // A few trials left far, whose simulations went astray, are no physics that is missing.
+  // Missing physics shows in many trials. A few trials with a large residual are failed simulations.
   const auto left = [&](double per_row) {
     std::size_t far = 0;
     for (const auto& trial : trials) far += trial.deviance > (1.0 + per_row) * trial.rows;

@@ -4,22 +4,23 @@
 
 namespace sandhopper::diagnose {
 
-inline constexpr std::size_t kTooFewTrials = 3;  // to say what holds for all
+inline constexpr std::size_t kTooFewTrials = 3;  // Smallest number of trials for statements about all trials.
 
-// How much an explanation leaves beyond the noise, whose own deviance is 1 a row.
+// Deviance that an explanation leaves above the noise (expected deviance: 1 per row).
 struct Misfit {
   double unexplained = 0.0, explained = 0.0;
-  bool large = false;       // too much for any name to be trusted
-  bool outweighs = false;   // more than a true effect under another law would leave of what is explained
-  bool noticeable = false;  // enough to ask the balances
+  bool large = false;       // Too large to trust any named effect.
+  bool outweighs = false;   // More than a true effect with a law of another form leaves.
+  bool noticeable = false;  // Large enough to look at the force balances.
 };
 
+// Deviance and number of rows of one trial.
 struct TrialMisfit {
   double deviance = 0.0, rows = 0.0;
 };
 
-// `null_deviance`: with nothing explained. Where the motion is prescribed one trial does not lead others
-// astray, and two that are left far are enough; else it takes half of them.
+// `null_deviance`: deviance without any effect. With prescribed motion a simulation cannot diverge, so two
+// trials with a large residual are enough; otherwise half of the trials must have one.
 Misfit misfit_of(const std::vector<TrialMisfit>& trials, double null_deviance, bool motion_is_prescribed);
 
 }  // namespace sandhopper::diagnose

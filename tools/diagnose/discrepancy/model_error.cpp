@@ -15,12 +15,14 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
+// Largest number of knots in time.
 constexpr Index kMostForceKnots = 40;
 
-// L with L L' = correlation of values at `count` knots.
+// Cholesky factor L, L L' = `knot_correlation`.
 MatrixXd process_factor(Index count) { return knot_correlation(count).llt().matrixL(); }
 
-// Derivatives by a force at `port` that is a hat function of time around each knot, along the process.
+// Derivatives by a force at `port` that is a hat function of time around each knot, times the Cholesky factor
+// of the process.
 MatrixXd port_columns(const Problem& problem, const TrialModel& trial, const Edits& base,
                       const std::vector<double>& nuisances, const VectorXd& centre, const FreePort& port,
                       double knot_s) {
@@ -61,8 +63,8 @@ ModelError at(const Problem& problem, const TrialModel& trial, const Edits& base
       parts.emplace_back(s.numerical * (other - centre));
     } else {
       predict(sooner, one);
-      // Half their difference is a column; their mean less the simulation has no sign and goes to the row's
-      // sd.
+      // Half of the difference is a column. The mean deviation has no sign and goes to the standard deviation
+      // of the row.
       parts.emplace_back(s.numerical * 0.5 * (other - one));
       rest.array() += (s.numerical * 0.5 * (other + one - 2.0 * centre)).array().square();
     }
@@ -86,7 +88,7 @@ ModelError at(const Problem& problem, const TrialModel& trial, const Edits& base
   return error;
 }
 
-// Columns of blocks share no rows: each block has its own, where it has any.
+// A column may act in several blocks: split it into one independent column per block, if it acts there.
 void split_by_block(const TrialModel& trial, ModelError& error) {
   if (trial.blocks < 2) return;
   const Index rows = error.columns.rows(), count = error.columns.cols();
@@ -95,7 +97,7 @@ void split_by_block(const TrialModel& trial, ModelError& error) {
     return static_cast<Index>(trial.rows[static_cast<std::size_t>(k)].block);
   };
   for (Index k = 0; k < rows; ++k) squares.row(block(k)) += error.columns.row(k).cwiseAbs2();
-  const double least = 1e-6;  // of the block's largest column
+  const double least = 1e-6;  // relative to the block's largest column
   std::vector<std::pair<Index, Index>> kept;
   for (Index b = 0; b < squares.rows(); ++b)
     for (Index c = 0; c < count; ++c)
@@ -123,7 +125,7 @@ RepeatableError repeatable_error(const Problem& problem, const Signatures& signa
     out.group.push_back(groups);
     out.candidate.push_back(candidate);
   };
-  std::vector<std::pair<Index, Index>> families;  // first column, count
+  std::vector<std::pair<Index, Index>> families;  // first column, number of columns
   for (const auto& [family, first] : signatures.laws) {
     if (family.sensor || !family.of_model_error) continue;
     const auto count = static_cast<Index>(family.terms.size());

@@ -13,16 +13,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kAloneGain = 7.5;  // of the spread, squared: believed of a single trial
+constexpr double kAloneGain = 7.5;  // With a single trial: gain / spread^2 that is accepted.
+// Prior standard deviation of the square root of a trial's gain.
 constexpr double kGainSpread = 2.0;
-constexpr double kSensorHandicap = 0.75;  // a law in the plant is preferred to one in a sensor
+constexpr double kSensorHandicap = 0.75;  // Prefer a law in the plant to a law in a sensor.
 
 }  // namespace
 
 double p_of_gains(const std::vector<double>& gains, double spread) {
   const double n = static_cast<double>(gains.size());
   if (n < 2.0) return gains.empty() || gains[0] < kAloneGain * spread * spread ? 1.0 : 0.01;
-  // Signed square roots: one trial with a huge gain is not the evidence of many.
+  // Signed square roots, so that one trial with a huge gain does not dominate.
   double sum = 0.0, squares = 0.0;
   for (const double g : gains) {
     const double x = std::copysign(std::sqrt(std::abs(g)), g);
@@ -76,11 +77,11 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
 }
 
 Point with_law_fitted(const Problem& problem, const Fit& at, FreeGain& law) {
-  constexpr double kWorthAStep = 0.005, kGoodStart = 0.7;  // of the deviance without the law
+  constexpr double kWorthAStep = 0.005, kGoodStart = 0.7;  // fractions of the deviance without the law
   const FitOptions refit{.max_iterations = 6, .tolerance = kWorthAStep * at.deviance};
   const auto terms = law.family.terms.size();
   Fit best = at;
-  // From where its linear approximation, or the balance, has it; if that leads nowhere, from nothing.
+  // Start from the linear estimate (or the balance). If that fails, start from zero.
   for (const double share : {1.0, 0.0}) {
     Point start = at.point;
     start.hypothesis.law = law.family.terms;

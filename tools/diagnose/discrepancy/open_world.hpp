@@ -7,25 +7,25 @@
 
 namespace sandhopper::diagnose {
 
-// What a free law at one port would still explain at a point, on trials it was not fitted to.
+// Gain of a law of free form, beside the effects of a point, on trials it was not fitted to.
 struct FreeGain {
   FreeFamily family;
-  double held_out = 0.0;       // drop of the deviance
-  double trials_better = 0.0;  // share of trials where it helps
-  double p_value = 1.0;        // trials as units, for all families together
+  double held_out = 0.0;       // Drop of the deviance; from `laws_of_balances`, a fraction of the variance.
+  double trials_better = 0.0;  // fraction of the trials that improve
+  double p_value = 1.0;        // One-sided Student's t over trials, Bonferroni-corrected for all families.
   Eigen::VectorXd size;
   Eigen::VectorXd sd;
 };
 
-// One-sided, trials as units: are held-out gains more than chance, given their own spread? Of their square
-// roots at least `spread` is believed beforehand.
+// One-sided p-value that the mean of the gains is positive, by Student's t over the signed square roots of
+// the trials' gains. `spread`: prior standard deviation of these square roots.
 double p_of_gains(const std::vector<double>& gains, double spread);
 
-// All families, the largest gain first.
+// All families, the largest gain first (laws of sensors count 3/4).
 std::vector<FreeGain> free_gains(const Problem& problem, const Point& point);
 
-// The law beside what stands at a fit, all fitted together through the simulation; its sizes and their
-// standard deviations become those of that fit. The fit's own point where none is closer.
+// Fits the law together with everything else at `at` through the simulation. Writes the fitted sizes and
+// their standard deviations to `law`. Returns the point of `at` if no fit improves on it.
 Point with_law_fitted(const Problem& problem, const Fit& at, FreeGain& law);
 
 }  // namespace sandhopper::diagnose

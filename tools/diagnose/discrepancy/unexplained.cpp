@@ -12,31 +12,35 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Of what can be explained: more than this the library does not say. Of what acts in the plant itself, beside
-// right names, a law of free form says up to 0.08 (a second program's 105 campaigns), of a sensor 0.16.
+// Limits of the fraction of the explainable deviance that a free law explains (a law of a sensor, a law of
+// the plant). Above the limit it is unknown physics. Measured beside the right names: at most 0.08 for a law
+// of the plant (105 campaigns of a second program), 0.16 for a law of a sensor.
 constexpr double kUnknownShare = 0.30, kUnknownShareOfPlant = 0.16;
 constexpr double kUnknownSignificance = 0.003;
-constexpr double kSmallestLaw =
-    0.1;  // of the port's scale, at its largest: what is smaller matters to nobody
-constexpr double kUnknownShareOfDeviance = 0.03;  // a null campaign's own misfits stay below
-constexpr double kUnknownPerRow = 0.3;  // so much of the noise's own power left is no matter of form
+constexpr double kSmallestLaw = 0.1;  // Ignore laws whose largest value (in scales of the port) is smaller.
+// Relative to the best fit's deviance; the errors of a null campaign stay below.
+constexpr double kUnknownShareOfDeviance = 0.03;
+constexpr double kUnknownPerRow = 0.3;  // Gain per row that is too large for an error of the form.
 constexpr double kMisfitSignificance = 0.05;
+// A free law must explain this many times what the best names explain.
 constexpr double kOutdone = 1.3;
-constexpr double kLeastPerRow = 0.75;     // of the deviance: what no law gets below is not worth asking for
-constexpr double kMostTrialsLeft = 0.75;  // that a law must be better for
+// Expected deviance per row that no law undercuts; free laws are tried only if they can stay above it.
+constexpr double kLeastPerRow = 0.75;
+constexpr double kMostTrialsLeft = 0.75;  // fraction of the trials that a law must improve
 constexpr double kUnknownGain = 25.0;
-constexpr double kUnknownGainPerRow = 0.004;  // less moves nothing by a noticeable part of the floor
-constexpr double kBalanceShare = 0.25;  // of a trial's variance; with nothing missing it stays below 0.05
+// Smaller gains change no residual by a noticeable fraction of the noise floor.
+constexpr double kUnknownGainPerRow = 0.004;
+constexpr double kBalanceShare = 0.25;  // Fraction of a trial's variance; below 0.05 with nothing missing.
 constexpr double kBalanceSignificance = 0.01;
-// Of trials that lean alike, beside names (with the right ones up to 3.3) and without any (nulls up to 2.9).
+// Limits of |z| of a common nuisance offset: beside named effects (at most 3.3 with the right ones), and
+// without any (at most 2.9 with nothing missing).
 constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
-constexpr double kMoreThanNoise = 1.35;  // of it left; nulls of seed 9023 up to 1.00, of 9025 up to 1.13
-// Of the noise over the sensors' own with the best set in place: with nothing missing it stays below.
+constexpr double kMoreThanNoise = 1.35;  // Residual RMS / noise RMS; at most 1.13 with nothing missing.
+// Fitted noise / sensors' own noise with the best set; smaller if nothing is missing.
 constexpr double kNoiseHidesMuch = 1.3;
 constexpr std::size_t kLawsTold = 4;
 
-// Not a law of the drive's torque: what the list says of the actuator looks like that; nor of time, which
-// goes with everything.
+// Skip laws of torque (listed actuator effects look the same) and of time (correlates with everything).
 std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings& recordings) {
   std::vector<Balance> balances;
   for (std::size_t i = 0; i < recordings.trials.size(); ++i)
@@ -50,16 +54,16 @@ std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings
   return std::nullopt;
 }
 
-// The first of them that will do.
+// First gain that satisfies the condition.
 template <class WillDo>
 std::optional<FreeGain> first_of(const std::vector<FreeGain>& gains, WillDo will_do) {
   const auto it = std::ranges::find_if(gains, will_do);
   return it == gains.end() ? std::nullopt : std::optional(*it);
 }
 
-// Beside a large effect a small fault of a sensor may be no more than how the large one differs in form. Then
-// a law of free form in the plant, in the fault's place, says more of trials it has not seen than the fault
-// of those it was fitted to; with true faults it said up to 0.87 of that (seed 9043).
+// A small sensor fault beside a large effect may only correct the form of the large one's law. In that case a
+// free law of the plant explains more on held-out trials than the fault explains on the trials it was fitted
+// to. With true faults the ratio was at most 0.87.
 std::optional<FreeGain> in_place_of_small_faults(const Problem& problem, const Search& search,
                                                  std::vector<std::string>& log) {
   const SetFit& best = search.best();
@@ -96,7 +100,8 @@ Misfit misfit_of(const Problem& problem, const Search& search) {
     trials.push_back(
         {search.best().fit.trial_deviance[t], static_cast<double>(problem.trials[t]->rows.size())});
   auto m = misfit_of(trials, search.null().fit.deviance, problem.plant->motion_is_prescribed());
-  if (m.outweighs && !search.best().set.empty()) m.large = m.noticeable = true;  // names that say little
+  // The named effects explain too little.
+  if (m.outweighs && !search.best().set.empty()) m.large = m.noticeable = true;
   return m;
 }
 
@@ -122,7 +127,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
         100.0 * beside[i].trials_better, beside[i].family.scale * beside[i].size.cwiseAbs().maxCoeff()));
   if (problem.trials.size() >= kTooFewTrials)
     out.law = first_of(beside, [&](const FreeGain& gain) {
-      // Where few of the trials show it most, they show it the better for that.
+      // If few trials show a law, the p-value is weak. Accept that if the gain is large.
       const bool much = gain.held_out > kUnknownPerRow * rows;
       return is_more(gain) && gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
              gain.trials_better >= kMostTrialsLeft && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
@@ -136,8 +141,8 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
                               out.law->p_value));
     out.law->held_out = std::max(0.0, out.misfit.unexplained);
   }
-  // Where the best set leaves far more than the noise, it is no explanation, and it bends the laws of free
-  // form, too: they are asked again without it.
+  // If the best set leaves far more than the noise, it is no explanation and it distorts the free laws. Fit
+  // them again without it.
   std::vector<FreeGain> alone;
   if (out.misfit.large && !out.law) {
     alone = free_gains(problem, search.null().fit.point);
@@ -145,8 +150,8 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
       return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
     });
   }
-  // Where a law of free form says more of trials it has not seen than the best names of those they were
-  // fitted to, the names are not it.
+  // If a free law explains more on held-out trials than the best names on the trials they were fitted to, the
+  // names are wrong.
   bool outdone = false;
   const bool may_be_outdone =
       !problem.plant->is_costly() ||
@@ -165,12 +170,13 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     outdone = form_outdoes = out.law.has_value();
   }
 
-  // Where the sensors are known and more is left than their noise, that is something, whatever it is; so it
-  // is where it bends what differs from trial to trial by so much in all of them.
+  // If the sensors' noise is known, a residual above it is something missing. The same holds for a nuisance
+  // that all trials move alike.
   out.left = left_over_noise(problem, best.fit);
   if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
   out.leans = std::abs(out.lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
-  // A hopper's accelerometers shake with its structure; how much, a belief hardly says.
+  // Not for costly plants: a hopper's accelerometers vibrate with the structure, and no belief states that
+  // noise well.
   if (!problem.plant->is_costly()) out.loud = loudest_channel(problem);
   if (out.loud)
     log.push_back(fmt::format("loud: {}, {:.2f} times its sensor", out.loud->channel, out.loud->times));
@@ -187,7 +193,7 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     return out.law ? out.law->held_out / (out.law->held_out + std::max(explained, 0.0)) : 0.0;
   };
   const double most_share = out.law && !out.law->family.sensor ? kUnknownShareOfPlant : kUnknownShare;
-  // What lies within the noise and is little, beside what was found and beside the noise, is nothing unknown.
+  // A law whose gain is within the noise and small beside the explained deviance is dropped.
   if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && share() <= most_share &&
       out.remainder() <= kUnknownPerRow * rows)
     out.law.reset();
@@ -198,11 +204,11 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   if (out.unknown)
     left = std::max({left, out.misfit.unexplained, (out.left * out.left - 1.0) * rows,
                      out.leans ? out.lean.z * out.lean.z : 0.0,
-                     // Of the noise as estimated, in which the deviance is counted, what no sensor makes.
+                     // The part of the estimated noise that is not the sensor's own.
                      out.loud ? (1.0 - std::pow(out.loud->times, -2)) * rows : 0.0});
   out.gap_closed = best.set.empty() || explained <= 0.0 ? 0.0 : explained / (explained + std::max(0.0, left));
-  // A law of free form that alone says more of trials it has not seen than the names and a law beside them:
-  // the names are not it.
+  // If a free law alone explains more on held-out trials than the names and a law together, the names are
+  // wrong.
   if (out.unknown && out.law && !best.set.empty()) {
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
     const double together = explained + out.law->held_out;

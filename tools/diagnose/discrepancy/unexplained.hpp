@@ -9,10 +9,11 @@
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 
-// What the list of effects leaves, and whether that is physics of its own.
+// Decides if the residual of the listed effects is unknown physics.
 namespace sandhopper::diagnose {
 
-// The law that the balances of the recordings show by themselves. No fit changes it: it is asked for once.
+// Law of free form found in the force balances of the recordings. It does not depend on any fit, so it is
+// computed once, on first use.
 class BalanceLaw {
  public:
   BalanceLaw(const Problem& problem, const Recordings& recordings)
@@ -26,23 +27,26 @@ class BalanceLaw {
   std::optional<FreeGain> law_;
 };
 
+// Result of `unexplained_by`.
 struct Unexplained {
   Misfit misfit;
-  std::optional<FreeGain> law;  // of free form, that says most of it on trials it was not fitted to
-  double share = 0.0;           // of all that can be explained, what that law has
-  double left = 0.0;            // times the noise
+  std::optional<FreeGain> law;  // Explains most of the residual on held-out trials.
+  double share = 0.0;           // Fraction of the explainable deviance that the law explains.
+  double left = 0.0;            // residual RMS / noise RMS
   Lean lean;
   bool leans = false;
   std::optional<LoudChannel> loud;
-  bool unknown = false;     // it is physics that is not on the list
-  double gap_closed = 1.0;  // by the names: explained / (explained + left), deviances
+  bool unknown = false;     // Unlisted physics is present.
+  double gap_closed = 1.0;  // By named effects: explained / (explained + left), deviances.
 
   double remainder() const { return law ? law->held_out : 0.0; }
 };
 
+// Misfit of the best set.
 Misfit misfit_of(const Problem& problem, const Search& search);
 
-// `faults`: something was recorded wrongly, and what is left beyond the noise may be that.
+// `faults`: the recordings hold faulty samples. Then a residual above the noise is not taken as unknown
+// physics.
 Unexplained unexplained_by(const Problem& problem, const Search& search, const Belief& belief, bool faults,
                            BalanceLaw& balance, std::vector<std::string>& log);
 

@@ -9,11 +9,13 @@
 #include "tools/diagnose/model/effect.hpp"
 #include "tools/diagnose/model/sign_smooth.hpp"
 
-// What effects share.
+// Helpers shared by the effects.
 namespace sandhopper::diagnose {
 
-inline constexpr double kSwitchSpeed_mps = 0.01;  // of friction laws: below it they fade through zero
+// Friction laws are continuous: below this speed they go to zero.
+inline constexpr double kSwitchSpeed_mps = 0.01;
 
+// Those of the given channels that the campaign predicts.
 inline std::vector<std::string> present(const Context& context, std::initializer_list<const char*> channels) {
   std::vector<std::string> found;
   for (const char* channel : channels)
@@ -29,34 +31,38 @@ inline std::vector<std::string> accelerometers(const Context& context) {
   return present(context, {"accel_mps2", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"});
 }
 
-// Of an intruder's position and force, the one whose clock may be off.
+// An intruder's position and force have no common reference in time, so only one of the two can be called
+// late: the one whose clock is in doubt.
 inline std::string intruder_out_of_time(const Context& context) {
   return context.facts.position_is_out_of_time ? "foot_z_m" : "force_N";
 }
 
-// Whether this campaign has ground at all: a falling body need not.
+// True if the campaign has ground; a falling body may have none.
 inline bool has_bed(const Context& context) {
   return context.plant != PlantKind::falling_body || context.belief.value("bed.stiffness_N_per_m") > 0.0;
 }
 
-// How much of a law at the ground has come in at a depth: 0 at the surface, 1 far below `over_m`.
+// Fraction of a ground law that acts at a depth: 0 at the surface, nearly 1 far below `over_m`.
 inline double come_in(double depth_m, double over_m, double power = 1.0) {
   return 1.0 - std::exp(-std::pow(std::max(0.0, depth_m) / over_m, power));
 }
 
-// Over which depth a law of speed comes in. A body that falls onto a bed is not recorded well enough there.
+// Adds the depth over which a law of speed starts. A falling body is not recorded well enough on the bed to
+// fit it.
 inline void add_onset(const Context& context, std::vector<EffectParameter>& parameters) {
   if (context.plant != PlantKind::falling_body)
     parameters.push_back(
         {.name = "onset_depth_m", .typical = 1e-3, .low = 1e-5, .high = 0.01, .shapes = {3e-3}});
 }
+// The onset depth is the second parameter if it exists.
 inline double onset_of(std::span<const double> values) { return values.size() > 1 ? values[1] : 1e-5; }
 
-// A bed that is stiffer by a share: the force that it resists with, and where it is so, too, the line along
-// which it lets go of it.
+// `part_of_unloading`: a stiffer bed has a larger loading force. This fraction of the increase also applies
+// to the unloading line.
 inline EffectParameter part_of_unloading() {
   return {.name = "part_of_unloading", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}};
 }
+// Multiplies the quasi-static force by 1 + share(state), and the unloading line by 1 + part * share(state).
 // `share`: a function of GroundState.
 template <class Share>
 void stiffen(Edits& edits, double part, const Share& share) {
@@ -64,26 +70,27 @@ void stiffen(Edits& edits, double part, const Share& share) {
   edits.law(LawPort::ground_unloading, [=](const GroundState& s) { return part * share(s); });
 }
 
+// Range of a channel's values over the campaign, at least 1e-12; 1 if the channel is not predicted.
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);
   return it == context.channels.end() ? 1.0 : std::max(it->second.high - it->second.low, 1e-12);
 }
 
-// "m" of "height_m", for the names of parameters.
+// Unit at the end of a channel's name ("m" of "height_m"), for the names of parameters.
 inline std::string unit_of(const std::string& channel) {
   for (const char* unit : {"mps2", "radps", "mps", "rad", "Nm", "N", "m", "Pa", "A"})
     if (channel.ends_with(std::string("_") + unit)) return unit;
   return "unit";
 }
 
-// A number of nominal.toml ("table.key"), or what it is where the file does not say.
+// A number of nominal.toml, key "table.key"; `otherwise` if the file does not state it.
 struct BelievedNumber {
   const char* key;
   double otherwise = 0.0;
   double of(const Context& context) const { return context.belief.value(key, otherwise); }
 };
 
-// An effect whose parameters add to numbers of the belief, in their order.
+// Completes an effect whose parameters are added, in this order, to numbers of the belief.
 inline Effect adds_to(std::vector<BelievedNumber> numbers, Effect effect) {
   effect.apply = [numbers](const Context&, const std::string&, std::span<const double> v, Edits& edits) {
     for (std::size_t i = 0; i < numbers.size(); ++i) edits.add(numbers[i].key, v[i]);
@@ -96,7 +103,7 @@ inline Effect adds_to(std::vector<BelievedNumber> numbers, Effect effect) {
   return effect;
 }
 
-// A sensor that reads in proportion too much or too little, under the name its kind of sensor has.
+// Effect "gain error of a sensor", under the name that this kind of sensor uses.
 inline Effect scale_effect(std::string id, std::vector<PlantKind> plants,
                            std::function<std::vector<std::string>(const Context&)> channels) {
   return {.id = std::move(id),

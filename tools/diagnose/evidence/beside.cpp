@@ -13,8 +13,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kWeighed = 8;      // sets
-constexpr std::size_t kLawsWeighed = 3;  // beside one set
+// Number of sets whose evidence is computed: those with the smallest criterion.
+constexpr std::size_t kWeighed = 8;
+constexpr std::size_t kLawsWeighed = 3;  // Number of unknown laws listed with one set.
 
 struct WeighedAnswer {
   std::string what;

@@ -6,8 +6,8 @@
 
 namespace sandhopper::diagnose {
 
-// The posterior mass of the sets that a search puts first, and of unknown laws beside its best and alone: one
-// line each, the likeliest first. It decides nothing yet.
+// Appends to `log` the posterior mass of the sets with the smallest criterion, and of unknown laws added to
+// the best set and to the null (one line each, most probable first). Nothing is decided by it yet.
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log);
 
 }  // namespace sandhopper::diagnose

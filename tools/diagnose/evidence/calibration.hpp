@@ -5,8 +5,8 @@
 
 namespace sandhopper::diagnose {
 
-// The weight that a claim has among all sets that were fitted, as the probability that it is right: a
-// monotone map, piecewise linear, frozen. See README for the campaigns it was chosen on.
+// Maps the posterior weight of a claim (its share among all fitted sets) to the probability that it is right.
+// The map is monotone, piecewise linear and fixed.
 inline double calibrated(double weight) {
   struct Knot {
     double weight, probability;
@@ -20,16 +20,16 @@ inline double calibrated(double weight) {
   return a.probability + (b.probability - a.probability) * (w - a.weight) / (b.weight - a.weight);
 }
 
-// Beside a large effect a small one may be no more than how the large one's law differs in form: of those
-// that explain less than `kSmallShare` of what all explain, on the campaigns named in README 4 of 7 were
-// right.
+// A small effect beside a large one may only correct the form of the large one's law. Therefore an effect
+// that explains less than `kSmallShare` of the total gets a probability of at most `kMostBeside`: in the
+// campaigns that set these two numbers, 4 of 7 such effects were right.
 inline constexpr double kSmallShare = 0.13;
 inline constexpr double kMostBeside = 0.7;
 inline double calibrated_beside(double probability, double share_of_explained) {
   return share_of_explained < kSmallShare ? std::min(probability, kMostBeside) : probability;
 }
 
-// What is named alone on evidence that would not do beside others.
+// Largest probability of an effect that is named alone on evidence too weak to name it beside others.
 inline constexpr double kMostOfWeak = 0.75;
 
 }  // namespace sandhopper::diagnose

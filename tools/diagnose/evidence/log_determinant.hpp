@@ -4,7 +4,7 @@
 
 namespace sandhopper::diagnose {
 
-// Of a symmetric positive definite matrix.
+// ln det(m) of a symmetric positive definite matrix, from its Cholesky factor.
 inline double log_determinant(const Eigen::MatrixXd& m) {
   return 2.0 * m.llt().matrixLLT().diagonal().array().abs().log().sum();
 }

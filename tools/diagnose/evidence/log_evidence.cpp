@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-// Of the form and size of one effect in one trial, over the knots of FormOf.
+// Prior covariance of the form error and the size error of one effect in one trial, at the knots of FormOf.
 MatrixXd form_covariance() {
   return (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
          kLimits.size_of_trial * kLimits.size_of_trial;
@@ -24,9 +24,9 @@ MatrixXd form_covariance() {
 }  // namespace
 
 double log_integral_over_size(double best, double sd, bool either_sign) {
-  // By the midpoint rule in ln|b|, on a grid that spans the peak of the likelihood only.
+  // Midpoint rule in ln|b|. The grid covers only the part that contributes.
   const double spread = kLimits.size_spread;
-  const auto density = [&](double b) {  // of the prior, per unit of b
+  const auto density = [&](double b) {  // Prior density per unit of b.
     const double l = std::log(std::abs(b)) / spread;
     return std::exp(-0.5 * l * l) / (std::abs(b) * spread * std::sqrt(2.0 * std::numbers::pi)) *
            (either_sign ? 0.5 : 1.0);
@@ -35,7 +35,7 @@ double log_integral_over_size(double best, double sd, bool either_sign) {
   constexpr int kPoints = 400;
   for (const double sign : {1.0, -1.0}) {
     if (sign < 0.0 && !either_sign) continue;
-    // Where the likelihood is within eight standard deviations and the prior within six.
+    // Limits: eight standard deviations of the likelihood, six of the prior.
     const double low = std::max(std::exp(-6.0 * spread), sign * best - 8.0 * sd);
     const double high = std::min(std::exp(6.0 * spread), sign * best + 8.0 * sd);
     if (!(high > low)) continue;
@@ -69,7 +69,8 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
   directions.insert(directions.end(), more.begin(), more.end());
   const auto linear =
       linearise_all(problem, point, directions, {.forms = &forms, .with_repeatable_error = true});
-  // [residual, directions | forms | repeatable error]: the forms belong to one trial each.
+  // Columns: [residual, directions | forms | repeatable error]. The forms differ between trials, so they are
+  // eliminated trial by trial.
   const auto n = static_cast<Index>(forms.size()) * kFormKnots;
   const auto before = static_cast<Index>(directions.size()) + 1;
   std::vector<Index> shared, of_form;
@@ -97,22 +98,25 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
 
 namespace {
 
-// Minus twice the logarithm of posterior density around a point, without the amplitudes' own priors:
-//   deviance - 2 score' x + x' information x,  x the change of effects' parameters and tolerances
+// -2 ln(posterior density) near a point, without the priors of the first amplitudes, as a quadratic in x:
+//   deviance - 2 score' x + x' information x,   x: change of the effects' parameters, the tolerances and the
+//   repeatable errors
 struct Quadratic {
   MatrixXd information;
   VectorXd score;
-  VectorXd prior;         // information that was there beforehand
-  double deviance = 0.0;  // of priors and trials at the point
+  VectorXd prior;         // Diagonal of the prior information.
+  double deviance = 0.0;  // Prior and trials together, at the point.
 
   double least() const { return deviance - score.dot(information.ldlt().solve(score)); }
 };
 
-// An amplitude that nothing shows keeps the solution finite by a little.
+// Added to the information of a first amplitude, so that the matrix stays invertible if no trial shows that
+// amplitude.
 constexpr double kBarely = 1e-4;
-constexpr double kNamed = 1e12;  // holds the error of an effect that is in the set at nothing
+// Prior information that holds a repeatable error at zero if its effect is in the set.
+constexpr double kNamed = 1e12;
 
-// `times`: of each repeatable model error, its scale here over the learned one.
+// `times`: ratio of each group of repeatable errors in this campaign to its learnt scale.
 Quadratic quadratic_at(const Problem& problem, const Point& point, const std::vector<MatrixXd>& grams,
                        const std::vector<double>& times) {
   const Hypothesis& h = point.hypothesis;
@@ -160,14 +164,14 @@ Quadratic quadratic_at(const Problem& problem, const Point& point, const std::ve
   return q;
 }
 
-// ln of the hyperprior: half-normal, one for each repeatable error.
+// ln of the half-normal prior of the ratios, without its constant.
 double log_hyperprior(const std::vector<double>& times) {
   double sum = 0.0;
   for (const double one : times) sum -= 0.5 * one * one;
   return sum;
 }
 
-// Without the amplitudes' priors, which hardly know of it.
+// Log evidence without the priors of the first amplitudes: those hardly depend on the ratios `times`.
 double value_of(const Quadratic& q) {
   double of_prior = 0.0;
   for (Index i = 0; i < q.prior.size(); ++i)
@@ -181,7 +185,7 @@ std::size_t groups_of(const Problem& problem) {
   return static_cast<std::size_t>(most + 1);
 }
 
-// One group of repeatable errors after the other, from what was learned.
+// Coordinate search over `Limits::repeatable_sizes`, starting at 1 (the learnt scale) for every group.
 std::vector<double> likeliest_times(const Problem& problem, const Point& point,
                                     const std::vector<MatrixXd>& grams) {
   std::vector<double> times(groups_of(problem), 1.0);
@@ -213,8 +217,8 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
   const Quadratic plain =
       quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
-  // The fit is as close as the simulation lets it be; what errors of form, and larger ones of the ports,
-  // change is read off the linear approximation.
+  // The fit has the least deviance that the simulation reaches. Take the deviance from the fit, and only its
+  // change by form errors and larger repeatable errors from the linear approximation.
   double off = 0.0;
   for (std::size_t t = 0; t < at.plain.size(); ++t) off += fit.trial_deviance[t] - at.plain[t](0, 0);
   off += plain.deviance - plain.least();
@@ -226,7 +230,8 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
   for (std::size_t e = 0; e < h.candidates.size(); ++e) {
     const auto& p = problem.candidates[h.candidates[e]].parameters;
     const double sd = std::sqrt(std::max(covariance(first, first), 1e-300));
-    // In place of the integral sqrt(2 pi) sd of a flat prior, which the determinant stands for.
+    // The determinant stands for a flat prior: its integral is sqrt(2 pi) sd. Replace that by the integral
+    // over the prior of the size.
     out.value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].either_sign) -
                  std::log(sd);
     first += static_cast<Index>(p.size());

@@ -8,12 +8,13 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kRemainderScale = 10.0;  // of remainder that halves every difference
-// Of what is explained, a difference this small may come from the simulation's own errors, or from laws whose
-// true form is another one.
+constexpr double kRemainderScale = 10.0;  // Held-out gain of a free law that adds 1 to the temperature.
+// Simulation errors and laws of another form can change the explained deviance by this relative amount.
+// Smaller differences between sets count less.
 constexpr double kShareOfExplained = 2e-4;
-constexpr double kShareOfForm = 0.02;  // of the plant's form error
-constexpr double kLeastShare = 0.05;   // of the likeliest: below, an alternative is no member of the class
+constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form error.
+// Weight relative to the best set below which an alternative does not join the class.
+constexpr double kLeastShare = 0.05;
 
 }  // namespace
 
@@ -30,7 +31,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
   std::map<std::vector<std::size_t>, double> weight;
   double total = 0.0;
   for (const auto& [set, fit] : search.sets()) {
-    // A rival need not be needed in every part, but it must not be larger than what it competes with.
+    // A rival may hold an effect it does not need, but it must not have more effects than the best set.
     if (fit.fit.status == FitStatus::failed || set.size() > best.set.size()) continue;
     const double difference = search.criterion(fit) - best_score;
     weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);

@@ -6,16 +6,20 @@
 
 namespace sandhopper::diagnose {
 
-// How sure the search is, by comparing all sets it fitted. Differences of the penalised deviance count less
-// where the best set itself leaves something unexplained: `remainder` is what free laws would still explain
-// on held-out trials.
+// Probabilities of the effects of the best set, from the weights exp(-difference of criterion / 2 /
+// temperature) of all fitted sets that are not larger. `remainder`, the held-out gain of a free law beside
+// the best set, raises the temperature: if the best set leaves much unexplained, differences between sets
+// count less.
 struct Posterior {
-  // A rival whose deviance is this much larger, over the dispersion, is no alternative; and by how much that
-  // grows with every unit that a further trial gives the answer to explain.
+  // A rival whose deviance / dispersion exceeds the best one's by `apart` is no longer an alternative. A
+  // further trial raises this limit by `apart_per_explained` times the deviance / dispersion that it gives
+  // the answer to explain.
   double apart = 6.0;
   double apart_per_explained = 0.0;
-  std::map<std::size_t, double> probability;  // of each effect of the best set or one of its alternatives
-  std::map<std::size_t, std::vector<std::size_t>> alternatives;  // that explain as much in its place
+  // Key: effect of the best set. Value: probability that it, or one of its alternatives, is right.
+  std::map<std::size_t, double> probability;
+  // Key: effect of the best set. Value: effects that explain as much in its place, most probable first.
+  std::map<std::size_t, std::vector<std::size_t>> alternatives;
 };
 Posterior posterior(const Problem& problem, const Search& search, double remainder);
 

@@ -16,13 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kProposalInformation = 0.01;  // of an amplitude in typicals; of a shape 1
-constexpr std::size_t kGrowing = 24;           // sets that the next larger ones are made of
+// Prior information of an amplitude in typical sizes. A shape has 1.
+constexpr double kProposalInformation = 0.01;
+constexpr std::size_t kGrowing = 24;  // Number of best sets that are extended by one more effect.
 
-// One candidate at one choice of its shapes: the columns it brings.
+// A candidate with one choice of its shapes, and the columns of the Gram matrix that belong to it.
 struct Option {
   std::size_t candidate;
-  std::vector<double> values;  // shapes, or where its fit stands
+  std::vector<double> values;  // Fixed shapes; for the point's own effects, the fitted values.
   std::vector<std::size_t> parameters;
   std::vector<Index> columns;
   bool own = false;
@@ -46,7 +47,8 @@ class Weigher {
     const auto grams = eliminated(linear, first_tolerance, tolerances, VectorXd::Ones(tolerances));
     gram_ = MatrixXd::Zero(grams.front().rows(), grams.front().cols());
     for (const auto& gram : grams) gram_ += gram;
-    // Put the point's own amplitudes back: column 0 becomes what is there without them.
+    // Add the point's own amplitudes back to the residual, so that column 0 is the residual without its
+    // effects.
     VectorXd back = VectorXd::Zero(gram_.rows());
     back[0] = 1.0;
     for (const auto& option : options_)
@@ -62,7 +64,7 @@ class Weigher {
 
   const std::vector<Option>& options() const { return options_; }
 
-  // Deviance with these options; an amplitude out of its bounds makes the set no proposal.
+  // Computes the sizes and the deviance of a set. Returns false if an amplitude is out of its bounds.
   bool weigh(Weighed& set) const {
     std::vector<Index> columns;
     std::vector<std::pair<const Option*, std::size_t>> which;
@@ -208,7 +210,7 @@ std::vector<Proposal> propose(const Problem& problem, const Point& point, std::s
     }
   }
   std::sort(all.begin(), all.end(), better);
-  // One proposal of every set of candidates, whatever its shapes.
+  // Keep the best choice of shapes for each set of candidates.
   std::vector<Proposal> proposals;
   std::set<std::vector<std::size_t>> told;
   const auto tell = [&](const std::vector<Weighed>& sets, std::size_t most, double cost) {

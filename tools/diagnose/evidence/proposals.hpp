@@ -5,16 +5,17 @@
 
 namespace sandhopper::diagnose {
 
-// A set of effects that looks worth a fit, with where the fit may start.
+// A set of effects that deserves a fit, with start values for the fit.
 struct Proposal {
   Hypothesis start;
-  double deviance = 0.0;  // as the linear approximation has it, with what the set itself costs
+  double deviance = 0.0;  // Deviance in the linear approximation, plus the cost of the set's effects.
 };
 
-// All singles and pairs, and what the best of them grow to, weighed in one linear approximation at `point`:
-// its own effects are put back into the residual, so that a set may do without them. Forward search finds no
-// pair of which neither half helps alone; this does. The best `count` first, then as many that have one of
-// the point's own effects exchanged for another: what cannot be told from it is found there.
+// Scores all single effects, all pairs and extensions of the best pairs in one linear approximation at
+// `point`. The point's own effects are added back to the residual, so a set may lack them. This finds pairs
+// of effects that help only together; forward search does not. Returns the best `count` sets, then up to
+// `count` sets in which one of the point's own effects is exchanged for another: indistinguishable effects
+// appear there.
 std::vector<Proposal> propose(const Problem& problem, const Point& point, std::size_t most_effects,
                               std::size_t count, double cost_of_an_effect);
 

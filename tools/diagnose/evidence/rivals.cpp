@@ -20,7 +20,8 @@ Edits edits_of(const Problem& problem, const SetFit& fit) {
   return edits_for(problem, fit.fit.point.hypothesis, fit.fit.point.tolerances);
 }
 
-// Of a difference of deviances whose mean is lambda and whose variance is four times that.
+// Probability that a difference of deviances exceeds `limit`. The difference is normal with mean lambda and
+// variance 4 lambda.
 double chance_above(double lambda, double limit) {
   return lambda <= 0.0 ? 0.0 : 0.5 * std::erfc((limit - lambda) / (2.0 * std::sqrt(2.0 * lambda)));
 }
@@ -64,7 +65,8 @@ Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size
     columns_.push_back(columns);
   }
   const auto linear = planned.linearised(trial, edits_of(problem, *fits_[0]), directions_);
-  // A derivative of a later rival is a difference to the first so far: less its own difference over the step.
+  // Every direction was simulated as a difference to the first explanation. For the derivatives of another
+  // one, subtract that explanation's own difference, divided by the step.
   transform_ = MatrixXd::Identity(linear.gram.rows(), linear.gram.cols());
   for (const auto& c : columns_)
     for (Index k = c.from; k < c.from + c.count && c.difference > 0; ++k) {
@@ -81,7 +83,7 @@ VectorXd Contest::between(std::size_t i, std::size_t j) const {
   return v;
 }
 
-// What is left of all columns when j's parameters follow them as far as they may.
+// Gram matrix after the parameters of j were refitted, with the information of the earlier trials as prior.
 MatrixXd Contest::left(std::size_t j) const {
   const auto& c = columns_[j];
   if (c.count == 0) return gram_;

@@ -9,32 +9,37 @@
 
 namespace sandhopper::diagnose {
 
-// Explanations that the recordings leave in one effect's place: the best set first, then each set that has
-// the effect exchanged for another that explains as much.
+// Explanations that the recordings do not tell apart: the best set first, then each set in which one of its
+// effects is replaced by another that explains as much.
 struct Rivals {
   std::vector<const SetFit*> fits;
-  std::vector<std::string> names;  // of the effects in which they differ
-  const SetFit* null = nullptr;    // what is believed
+  std::vector<std::string> names;  // Labels of the exchanged effects.
+  const SetFit* null = nullptr;    // The belief without any effect.
 
   std::size_t size() const { return fits.size(); }
 };
+// One group for each effect of the best set that has alternatives.
 std::vector<Rivals> rivals_of(const Problem& problem, const Search& search, const Posterior& belief);
 
-// What a planned trial would say of rivals: one linearisation at the first of them that holds every other's
-// difference to it and everybody's derivatives, the trial's nuisances integrated out.
+// Power of a planned trial to separate rival explanations. It is linearised once, at the first rival. The
+// columns are the other rivals' differences to it and the derivatives of all of them, with the trial's
+// nuisance parameters integrated out.
 class Contest {
  public:
   Contest(const Problem& problem, const PlannedTrials& planned, std::size_t trial, const Rivals& rivals,
           double dispersion);
 
-  // Rise of the deviance of the wrong one of two, the smaller of both ways round, over the dispersion.
+  // Expected rise of the deviance of the wrong one of two rivals, divided by the dispersion: the smaller of
+  // the two directions.
   double lambda(std::size_t i, std::size_t j) const;
-  // Deviance that the first explains in the trial, over the dispersion.
+  // Expected deviance that the first rival explains in the trial, divided by the dispersion.
   double explained() const { return rise(0, fits_.size() - 1); }
-  // Chance that their deviances differ by more than `apart`, the parameters of i as uncertain as they are.
+  // Probability that the two deviances differ by more than `apart` if i is true. The parameters of i are
+  // drawn from their posterior.
   double settles(std::size_t i, std::size_t j, double apart) const;
 
-  // Predictions for the trial's rows: by i, and by j refitted to look like it.
+  // Predictions for the trial's rows, in the channels' units: `first` by rival i, `second` by rival j
+  // refitted to rival i's prediction.
   struct Predictions {
     std::vector<double> first, second;
   };
@@ -43,14 +48,14 @@ class Contest {
 
  private:
   struct Columns {
-    Eigen::Index difference = 0;  // to the first; 0 for the first itself
+    Eigen::Index difference = 0;  // Column of the difference to the first rival; 0 for the first itself.
     Eigen::Index from = 0, count = 0;
   };
-  double rise(std::size_t i, std::size_t j) const;  // of j's deviance when i is true
+  double rise(std::size_t i, std::size_t j) const;  // Rise of j's deviance if i is true.
   Eigen::VectorXd between(std::size_t i, std::size_t j) const;
   Eigen::MatrixXd left(std::size_t j) const;
 
-  std::vector<const SetFit*> fits_;  // the rivals, then what is believed
+  std::vector<const SetFit*> fits_;  // The rivals, then the null.
   std::vector<Direction> directions_;
   std::vector<Columns> columns_;
   Eigen::MatrixXd transform_, gram_;

@@ -14,7 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPriorInformation = 0.01;  // of a size in typicals: sd 10
+// Prior information of a size in typical sizes: standard deviation 10.
+constexpr double kPriorInformation = 0.01;
 
 }  // namespace
 
@@ -143,7 +144,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
       const double wanted = group.size[static_cast<Index>(i)] * p.typical;
       value = std::clamp(wanted, p.low, p.high);
       if (group_columns.size() == 1 && value != wanted) {
-        // Held at a bound the drop is that of the bounded size.
+        // The size is clamped to its bound: compute the gain of the clamped size.
         double score = 0.0, information = 0.0;
         for (const auto& gram : grams) {
           score += gram(group_columns[0], 0);

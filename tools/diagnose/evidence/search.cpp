@@ -13,36 +13,50 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kWorthAFit = 6.0;  // drop of the deviance
+constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that justifies a fit.
+// Prior probability that a given listed effect is missing.
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
-constexpr double kLikelierThanOneMore = 2.0;  // that anything is missing
+// Prior odds: "something is missing" against "one more effect is missing".
+constexpr double kLikelierThanOneMore = 2.0;
 constexpr double kLinearError =
-    0.05;  // of what is explained: a proposal's estimate may be worse than its fit
-// Of the logarithm of a size in typical ones, believed beforehand. Small effects are common; of two that
-// nearly cancel, both are many times their typical size.
+    0.05;  // Error of a proposal's linear deviance, relative to the explained deviance.
+// Prior of ln(size / typical): standard deviation below and above 1. Small effects are common. Large sizes
+// are suspect: two effects that nearly cancel each other are both many times their typical size.
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
-constexpr double kCaught = 3.0;         // of the deviance over the dispersion, above what a proposal promises
-constexpr double kNearlyAsGood = 0.35;  // of the explained deviance: what more may start from
+// Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
+constexpr double kCaught = 3.0;
+// Sets within this fraction of the explained deviance are extended or used as start points.
+constexpr double kNearlyAsGood = 0.35;
 
 constexpr FitOptions kRough{
-    .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // of sets that are only tried
-constexpr double kFarGain = 1e-3;                              // of what a trial is off beyond its rows
-constexpr double kRival = 20.0;                                // of the criterion
-// Of what is explained: a rough fit may be short by so much, a single one of few by far more.
+    .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // Settings for the first fit of a set.
+// Skip a nuisance step that gains less than this fraction of the trial's deviance above the noise.
+constexpr double kFarGain = 1e-3;
+constexpr double kRival = 20.0;  // Largest distance in the criterion at which a rival's fit is completed.
+// Possible further drop of a rough fit, relative to the explained deviance: of every set, and of the
+// `kNearestRivals` nearest sets.
 constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
 constexpr std::size_t kNearestRivals = 3;
+// p-value below which an effect is added to the best set by its own dispersion.
 constexpr double kSurely = 1e-8;
-constexpr double kPromiseShort = 1.5;  // a linear estimate of a drop may be short by so much
+// The real drop of the deviance may be this many times its linear estimate.
+constexpr double kPromiseShort = 1.5;
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
-constexpr double kFreed = 0.02;      // of a drop that the null fit finds, too
-constexpr double kBentPerRow = 1.5;  // deviance from which nuisances are not what they are believed to be
-constexpr double kBentLean = 4.0;    // or all trials move one of them alike; with nothing missing up to 2.9
-constexpr double kUnbent = 0.6;      // of a lean that is left
+// Keep the null fit unless the refit gains at least 2 % of what the closest single effect gained.
+constexpr double kFreed = 0.02;
+// The nuisances have absorbed something if the deviance per row exceeds this value.
+constexpr double kBentPerRow = 1.5;
+// The same if a nuisance's mean over the trials has a larger |z| than this. With nothing missing |z| is at
+// most 2.9.
+constexpr double kBentLean = 4.0;
+// An effect explains the common nuisance offset if |z| falls below this fraction.
+constexpr double kUnbent = 0.6;
 constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
-constexpr double kNearlyAll = 0.9;                        // of what a law of free form gains
-constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // in typical ones
+// Fraction of the gain of a law of free form that a set must explain to replace the law.
+constexpr double kNearlyAll = 0.9;
+constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // Start values in typical sizes.
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
   set.push_back(candidate);
@@ -50,7 +64,7 @@ std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidat
   return set;
 }
 
-// Minus twice the logarithm of how likely these sizes were beforehand.
+// -2 ln(prior density of the sizes), up to a constant.
 double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
@@ -60,7 +74,7 @@ double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   return sum;
 }
 
-// Whether every effect is large enough to be worth another beside it.
+// True if every effect is large enough that a further effect beside it is worth a fit.
 bool worth_growing(const Problem& problem, const Hypothesis& hypothesis) {
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
     if (typicals_of(problem, hypothesis, e) < 0.5 * kSmallestOfTypical) return false;
@@ -106,8 +120,8 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
   rough.columns = columns_for(from.set);
   rough.of_use_below = from.fit.deviance;
   result.fit = fit_at(start, rough);
-  // A second start where the first got nowhere near what its linear approximation promised, if that would
-  // pay.
+  // The first fit gained much less than the linear estimate: fit again from other sizes, if the estimated
+  // gain exceeds the penalty of an effect.
   if (options_.second_starts && from.fit.deviance - result.fit.deviance < 0.5 * added.gain &&
       added.gain > cost_of_an_effect() * dispersion_) {
     const auto& parameters = problem_->candidates[added.candidate].parameters;
@@ -120,7 +134,7 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
       if (again.deviance < result.fit.deviance) result.fit = std::move(again);
     }
   }
-  // With the effect nearly off the fit cannot be worse than without it.
+  // The fit with the effect must not be worse than the fit without it: start with the effect nearly off.
   if (result.fit.deviance > from.fit.deviance + 0.1) {
     auto values = added.values;
     values[0] = std::clamp(
@@ -134,10 +148,9 @@ void Search::evaluate(const SetFit& from, const Screened& added) {
   sets_[set] = std::move(result);
 }
 
-// Where much is missing, nuisances bend to it, and a derivative there says what bends them back, not what is
-// missing. With all nuisances as they are believed the simulation is further off, but off by what is missing:
-// there every candidate is held against the recordings at sizes that are common, and those that come nearest
-// are fitted.
+// If the model lacks something large, the nuisance parameters absorb it, and derivatives at that fit point at
+// the nuisances. So also compare every candidate at common sizes with the nuisances at their prior means: the
+// residual there still shows the missing effect. The nearest candidates are fitted.
 void Search::evaluate_straight(const SetFit& from) {
   const auto before = straight_.find(from.set);
   if (before != straight_.end() && before->second == from.fit.deviance) return;
@@ -147,9 +160,9 @@ void Search::evaluate_straight(const SetFit& from) {
   const auto columns = columns_at(*problem_, straight);
   struct Nearest {
     Point start;
-    double deviance = 0.0;  // with the nuisances as a linear approximation has them
+    double deviance = 0.0;  // after one linear step of the nuisance parameters
   };
-  std::map<std::size_t, Nearest> nearest;  // of each candidate
+  std::map<std::size_t, Nearest> nearest;  // by candidate
   const std::size_t every = std::max<std::size_t>(1, problem_->trials.size() / kTrialsHeld);
   const auto hold = [&](std::size_t candidate, const std::vector<double>& values) {
     Nearest one{straight, 0.0};
@@ -187,7 +200,7 @@ void Search::evaluate_straight(const SetFit& from) {
     result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
     result.fit = fit_at(order[i]->start, {.max_iterations = kRough.max_iterations, .columns = &columns});
     result.rough = true;
-    // Nuisances have far to go: no rough fit of what comes near.
+    // The nuisances start far from their optimum: finish the fit of every set that comes near.
     if (result.fit.status == FitStatus::failed &&
         result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest)) {
       result.fit = fit_at(Point(result.fit.point), {.columns = &columns});
@@ -200,13 +213,13 @@ void Search::evaluate_straight(const SetFit& from) {
   }
 }
 
-// Whether nuisances have taken up what is missing.
+// True if the nuisance parameters have absorbed something that is missing.
 bool Search::is_bent(const Fit& fit) const {
   return fit.deviance > kBentPerRow * problem_->rows() ||
          std::abs(largest_lean(*problem_, fit.point).z) > kBentLean;
 }
 
-// Whether nuisances that all trials bent alike need not be with an effect.
+// True if `with` removes most of a nuisance offset that all trials have in common in `without`.
 bool Search::unbends(const Fit& without, const Fit& with) const {
   const double before = std::abs(largest_lean(*problem_, without.point).z);
   return before > kBentLean && std::abs(largest_lean(*problem_, with.point).z) < kUnbent * before;
@@ -225,7 +238,7 @@ void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
   }
 }
 
-// Derivatives by the nuisances as they are at the best set so far; without effects those of the null.
+// Derivatives by the nuisances at the best set so far; for the empty set those at the null.
 const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_t>& set) const {
   return set.empty() || columns_.empty() ? &problem_->kept_columns : &columns_;
 }
@@ -233,7 +246,7 @@ const std::vector<KeptColumns>* Search::columns_for(const std::vector<std::size_
 Fit Search::fit_at(const Point& start, FitOptions options) const {
   if (options.columns == nullptr) options.columns = columns_for(start.hypothesis.candidates);
   options.far_gain = kFarGain;
-  options.tolerance *= dispersion_;  // a gain counts by what it is between trials
+  options.tolerance *= dispersion_;  // Gains count relative to the scatter between trials.
   return fit_from(*problem_, start, options);
 }
 
@@ -244,7 +257,8 @@ void Search::finish(SetFit& fit) const {
   borrow(fit);
 }
 
-// A trial may have two valleys: where another set's fit brought one much lower, this set starts there, too.
+// A trial's deviance can have two minima. If another set found a much lower one for a trial, restart this set
+// from the nuisance parameters found there.
 void Search::borrow(SetFit& fit) const {
   Point start = fit.fit.point;
   bool lower = false;
@@ -264,8 +278,8 @@ void Search::borrow(SetFit& fit) const {
   fit.judged = false;
 }
 
-// What competes with the best must not lose only because it was fitted roughly and stopped short of what it
-// might explain: one that comes out ahead is the best, or without what it does not need.
+// A rival must not lose only because its rough fit stopped early. Complete the fits of near rivals. If one
+// gets ahead, choose again.
 void Search::finish_rivals() {
   const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
   const double best_so_far = criterion(best()),
@@ -289,8 +303,8 @@ void Search::finish_rivals() {
   prune();
 }
 
-// Trials may differ by far more in one effect than in another beside it, and the mean of both would hide the
-// other: what is beyond doubt by its own dispersion, and pays by that, is added.
+// The trials may scatter much more in one effect than in another, and the common dispersion would hide the
+// second effect. Add an effect that is certain and lowers the criterion by its own dispersion.
 void Search::grow_best() {
   const auto pays = [&](SetFit& fit) {
     if (!fit.judged) judge(fit);
@@ -313,7 +327,7 @@ void Search::grow_best() {
   }
 }
 
-// With derivatives of its own: what nuisances still lean by shows only then.
+// Refit with derivatives at the best set itself: only these show the remaining nuisance offsets.
 void Search::settle_best() {
   SetFit& fit = sets_.at(best_);
   if (fit.set.empty()) return;
@@ -344,7 +358,8 @@ std::vector<double> Search::deviances_without_one(const SetFit& fit) const {
   return deviances;
 }
 
-// Also where a set without one of its effects came lower since.
+// True if the set was not judged yet, or if a set without one of its effects has since found a lower
+// deviance.
 bool Search::is_to_be_judged(const SetFit& fit) const {
   if (!fit.judged) return true;
   const auto now = deviances_without_one(fit);
@@ -354,7 +369,7 @@ bool Search::is_to_be_judged(const SetFit& fit) const {
 }
 
 void Search::choose_best() {
-  // The closest fit first; only sets that can still win are judged.
+  // Smallest deviance first, to get the dispersion from the best-fitting set that needs all its effects.
   std::vector<SetFit*> order;
   for (auto& [set, fit] : sets_)
     if (fit.fit.status != FitStatus::failed || fit.rough || set.empty()) order.push_back(&fit);
@@ -362,7 +377,7 @@ void Search::choose_best() {
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
   const auto needed = [&](SetFit& fit) {
     if (is_to_be_judged(fit)) judge(fit);
-    // A rough fit that is far from needing its effects is not worth a better one.
+    // Complete a rough fit only if its effects may be needed.
     if (fit.rough && !fit.hopeless) {
       finish(fit);
       judge(fit);
@@ -377,7 +392,8 @@ void Search::choose_best() {
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
   const auto before = best_;
-  std::vector<const SetFit*> trivial;  // better sets, something in which is too small to be named
+  // Sets with a smaller criterion that hold an effect too small to be named.
+  std::vector<const SetFit*> trivial;
   for (auto* fit : order) {
     if (needed(*fit)) {
       best_ = fit->set;
@@ -386,7 +402,8 @@ void Search::choose_best() {
     const bool differs = std::ranges::any_of(fit->evidence, &EffectEvidence::unnoticed);
     if (fit->judged && fit->sound && !differs) trivial.push_back(fit);
   }
-  // What an effect too small to be named explains clearly better is no finding.
+  // A better set may consist of `part` and an effect too small to be named. Then the other effect in the best
+  // set only replaces the small one: name `part` alone.
   for (const auto* fit : trivial) {
     const auto part = named_part(*fit);
     if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&
@@ -396,8 +413,9 @@ void Search::choose_best() {
   if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
 }
 
-// A set's fit with only `part` of its effects; one that was tried stays as it is, unless what the others gain
-// cannot account for how much worse it is: then it was caught short, and starts again from here.
+// Fits `part` of the effects of `whole`. A part that was fitted before is only refitted if its deviance is
+// higher than the gains of the other effects can explain: then the earlier fit stopped in a worse minimum.
+// True if a fit was stored.
 bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
   const auto known = sets_.find(part);
   if (known != sets_.end()) {
@@ -422,15 +440,16 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
   return true;
 }
 
-// Sets that fit better than the best but hold an effect they do not need: what is left without it may be the
-// answer, although no forward step led there.
+// A set may fit better than the best one but hold an effect it does not need. Fit it without that effect:
+// forward search may never have reached the smaller set.
 void Search::prune() {
   for (int round = 0; round < 3; ++round) {
     std::vector<const SetFit*> order;
     for (const auto& [set, fit] : sets_)
       if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
     std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
-    std::map<std::vector<std::size_t>, SetFit> wholes;  // the closest that holds each part
+    // Key: the needed part. Value: the set with the smallest deviance that contains it.
+    std::map<std::vector<std::size_t>, SetFit> wholes;
     for (const auto* fit : order) {
       std::vector<std::size_t> part;
       for (const auto& evidence : fit->evidence)
@@ -446,7 +465,7 @@ void Search::prune() {
   }
 }
 
-// Each effect of the best set against all others in its place.
+// Removes each effect of the best set in turn and tries all others in its place.
 void Search::exchange() {
   for (int round = 0; round < 3; ++round) {
     const auto before = best_;
@@ -460,8 +479,8 @@ void Search::exchange() {
   }
 }
 
-// A null fit may be stuck where one of its effects gets the nuisances out: it starts again from there, or
-// what only freed the nuisances would pass for an effect.
+// The null fit may be stuck in a local minimum of the nuisances, and an effect may lead out of it. Refit the
+// null from there. Otherwise the effect would get credit for what the nuisances explain.
 void Search::restart_null() {
   for (int round = 0; round < kNullRestarts; ++round) {
     const double before = null().fit.deviance;
@@ -484,7 +503,7 @@ void Search::restart_null() {
   }
 }
 
-// Sets that a linear approximation at the best point puts first. True when one was new.
+// Fits the sets that `propose` scores best at the best point. Returns true if a set was new or improved.
 bool Search::try_proposals() {
   const Point from = best().fit.point;
   const double cost = cost_of_an_effect();
@@ -499,7 +518,7 @@ bool Search::try_proposals() {
     if (proposal.deviance > limit) continue;
     const auto before = sets_.find(set);
     const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
-    // A fit that was tried may have been caught short of what it can explain.
+    // An earlier fit of the set may have stopped above the deviance that the proposal predicts: fit it again.
     if (before != sets_.end() && before->second.fit.deviance < promised + kCaught * dispersion_) continue;
     SetFit fit;
     fit.set = set;
@@ -541,7 +560,7 @@ std::vector<Point> Search::best_points(std::size_t count) const {
       order.push_back(&fit);
   std::sort(order.begin(), order.end(),
             [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
-  // Not those that only add to a better one.
+  // Skip sets that only add effects to a better set.
   std::vector<const SetFit*> chosen;
   std::vector<Point> points;
   for (const auto* fit : order) {
@@ -575,7 +594,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   }
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
-    // Only beside what comes nearest: it takes as long as a screen and all its fits.
+    // Only for the nearest set: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
     if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
     for (std::size_t i = 0; i < front.size(); ++i) {

@@ -9,64 +9,70 @@
 
 namespace sandhopper::diagnose {
 
-// Evidence for one effect of a fitted set, the others and the tolerances free to take its place.
+// Evidence for one effect of a fitted set, with the other effects and the tolerances refitted in its place.
 struct EffectEvidence {
   std::size_t candidate = 0;
   TrialEvidence evidence;
-  double gain = 0.0;     // what the deviance would rise by without it, linearly
-  double p_value = 1.0;  // trials as units, for all candidates together
+  double gain = 0.0;     // Rise of the deviance without the effect, in the linear approximation.
+  double p_value = 1.0;  // Student's t over trials, Bonferroni-corrected for all candidates.
+  // Sign-flip test over trials, family-wise.
   double flip_p_value = 1.0;
-  double dispersion = 1.0;  // between trials over what the noise alone would give, not below 1
-  double typicals = 0.0;    // |size| of the first amplitude
+  double dispersion = 1.0;  // Variance between trials / variance from the noise alone, >= 1.
+  double typicals = 0.0;    // |first amplitude| in typical sizes
   bool at_bound = false;
-  bool too_small = false;  // to be named, though it may be there
-  bool unnoticed = false;  // explains no more than two simulations differ by
-  bool weak = false;       // enough to be named alone, not beside others
+  bool too_small = false;  // Below the size from which an effect is named; it may still be there.
+  bool unnoticed = false;  // Explains no more than two programs with the same equations differ by.
+  bool weak = false;       // Enough evidence to be named alone, not beside other effects.
 };
 
+// One fitted set of effects.
 struct SetFit {
-  std::vector<std::size_t> set;  // sorted
+  std::vector<std::size_t> set;  // Candidate indices, sorted.
   Fit fit;
   std::vector<EffectEvidence> evidence;
-  double dispersion = 1.0;  // the mean of the effects'
-  bool rough = false;       // only tried: finished before it can be the answer
+  double dispersion = 1.0;  // Mean of the effects' dispersions.
+  bool rough = false;       // Fitted with few iterations only; `finish` completes the fit.
   bool judged = false;
-  std::vector<double> beside;  // deviances of the sets without one effect each, when it was judged
-  bool needed = false;         // every effect stands on its own; known once judged
-  bool sound = false;          // would be needed if none were too small
-  bool hopeless = false;       // an effect is far from that
+  std::vector<double> beside;  // Deviances of the sets without one of the effects, at the time of judging.
+  bool needed = false;    // Every effect is significant, large enough and noticeable; valid after `judge`.
+  bool sound = false;     // Like `needed`, but small effects are allowed.
+  bool hopeless = false;  // An effect is so far from needed that a better fit is not worth its cost.
 };
 
 struct SearchOptions {
-  std::size_t most_effects = 3;
-  std::size_t beam = 2;
-  std::size_t proposals = 0;  // sets from a linear approximation at the best point, tried at the end
+  std::size_t most_effects = 3;  // Largest number of effects in a set.
+  std::size_t beam = 2;          // Number of sets of each size that are extended by a further effect.
+  std::size_t proposals = 0;     // Number of sets from `propose` that are fitted at the end.
   std::size_t fits_per_screen = 6;
-  std::size_t fits_of_singles = 20;  // of the first screen: what it says of hoppers is often far off
-  bool second_starts = true;  // where the first fit fell short of what its linear approximation promised
-  bool straight = false;      // start from the believed nuisances, too
-  double hopeless = 0.03;  // of the largest gain on the screen: less is not fitted, but for the first three
+  // Fits in the first screen. On hoppers that screen is often far off, so there are many.
+  std::size_t fits_of_singles = 20;
+  // Fit again from other sizes if the first fit gains much less than the linear estimate.
+  bool second_starts = true;
+  bool straight = false;  // Also start from the prior means of the nuisance parameters.
+  // A candidate with less than this fraction of the largest gain on the screen is not fitted; the first three
+  // always are.
+  double hopeless = 0.03;
   std::function<void(double share, const char* what)> progress = [](double, const char*) {};
 };
 
-// Forward search over sets of effects with a beam, exchanges and deletions; every set that was tried is kept.
+// Forward beam search over sets of effects, with exchanges and deletions. Every fitted set is kept.
 class Search {
  public:
   Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
 
-  // From what is already known at `start` (nuisances): the set that explains most with every effect needed.
-  // `seeds`: sets to begin with, where their fits may start.
+  // Returns the set that explains most, with every effect needed. `start`: a point without effects whose
+  // nuisance parameters are the start values. `seeds`: sets to fit first, from these points.
   const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
 
-  // Where a law of free form beside the best set gains this much: the set that holds the best one and
-  // explains as much, each of its effects certain though too small to be named otherwise, becomes the best.
-  // False when there is none.
+  // `gain`: held-out gain of a law of free form beside the best set. If a larger set explains nearly as much
+  // and every effect in it is significant, it becomes the best set, even if an effect is too small to be
+  // named otherwise. Returns false if there is no such set.
   bool name_small(double gain);
 
-  // Nothing is named after all.
+  // Makes the empty set the best one.
   void name_nothing() { best_.clear(); }
 
-  // Where the fits of the sets with the smallest criterion stand, of those that come near.
+  // Up to `count` fitted points whose deviance is near the best one's, smallest criterion first.
   std::vector<Point> best_points(std::size_t count) const;
 
   const SetFit& best() const { return sets_.at(best_); }
@@ -74,14 +80,14 @@ class Search {
   const std::map<std::vector<std::size_t>, SetFit>& sets() const { return sets_; }
   const std::vector<Screened>& screened(const std::vector<std::size_t>& set);
 
-  // Penalised deviance: smaller is better. All sets share one dispersion, that of the set that fits best, or
-  // a set that fits badly would be forgiven for it.
+  // Penalised deviance: smaller is better. All sets are compared with the same dispersion, that of the
+  // best-fitting set: a set with its own dispersion would be rewarded for fitting badly.
   double criterion(const SetFit& fit) const;
   double dispersion() const { return dispersion_; }
 
  private:
   double criterion(const SetFit& fit, double dispersion) const;
-  double cost_of_an_effect() const;  // of the criterion, with one parameter
+  double cost_of_an_effect() const;  // Penalty per effect, including its first parameter.
   double cost_of_a_parameter() const;
   void evaluate(const SetFit& from, const Screened& added);
   void evaluate_straight(const SetFit& from);
@@ -109,10 +115,10 @@ class Search {
   SearchOptions options_;
   std::map<std::vector<std::size_t>, SetFit> sets_;
   std::map<std::vector<std::size_t>, std::vector<Screened>> screens_;
-  // Sets from which effects were tried at the believed nuisances, with their deviance then.
+  // Sets already screened at the prior means of the nuisance parameters, with their deviance at that time.
   std::map<std::vector<std::size_t>, double> straight_;
   std::vector<std::size_t> best_;
-  std::vector<KeptColumns> columns_;  // at the best set; empty: it is the null
+  std::vector<KeptColumns> columns_;  // Derivatives at the best set; empty while that is the null.
   double dispersion_ = 1.0;
 };
 

@@ -9,7 +9,7 @@
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 
-// Whether the trials need every effect of a set.
+// Tests that decide if the trials need every effect of a set.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -17,30 +17,43 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTrialsToFlip = 6.0;  // that carry the information: 64 flips
-// Of the linear gain at the fit, by how much the fit without the effect is really worse; where a simulation
-// amplifies its smallest change, this is nothing while the derivative is huge.
+// Smallest (effective) number of trials for a sign-flip test: 2^6 = 64 combinations.
+constexpr double kTrialsToFlip = 6.0;
+// The fit without the effect must be worse by this fraction of the linear gain. If the simulation is chaotic,
+// the derivative is huge but the real difference is near zero.
 constexpr double kComesTrue = 0.05;
+// Alternatively: p-value of the signed-rank test that most trials are worse without the effect.
 constexpr double kTrialsAgree = 0.01;
-constexpr double kFlips = 0.05;  // family-wise, beside the trials' own p
-// Of what is named alone: that anything is missing is likelier than that one more thing is.
+// p-value of sign flips, family-wise; required in addition to Student's t over trials.
+constexpr double kFlips = 0.05;
+// Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
+// priori than one more effect.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
-// Of what is named beside something stronger: of 12 trials what is there has less by decades, what only mends
-// the form of the other's law has not.
+// p-value for an effect named beside a stronger one. With 12 trials, real effects lie orders of magnitude
+// below it. Effects that only correct the form of the other law do not reach it.
 constexpr double kSignificanceBeside = 1e-4;
-constexpr double kMostlyTrue = 0.3;  // or what the trials say of the derivative needs their flips, too
+// If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
+constexpr double kMostlyTrue = 0.3;
+// p-value that suffices without sign flips if a few trials carry nearly all information.
 constexpr double kWithoutFlips = 1e-4;
-constexpr double kFarShare = 0.02;  // of what is explained
+// An effect with a gain above this fraction of the explained deviance is far from linear.
+constexpr double kFarShare = 0.02;
+// p-value above which a set is not worth a better fit.
 constexpr double kHopeless = 0.2;
+// p-value below which a large effect needs no sign flips.
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kUnmistakablePerRow =
-    0.3;  // what gains this share of the noise's power is not too small to name
-constexpr double kSmallestShare = 0.002;  // of what all effects explain
+    0.3;  // Gain per row above which an effect is never too small to be named.
+// Smallest gain of an effect, relative to the deviance that all effects explain.
+constexpr double kSmallestShare = 0.002;
 constexpr std::size_t kTrialsToDoubt = 10;
+// Plants with at least this relative form error, and campaigns of at least `kTrialsToDoubt` trials, use
+// `kSignificanceBeside`.
 constexpr double kFormInDoubt = 0.01;
-constexpr double kShareOfFormError = 0.2;  // that passes for an effect of its own
+// Part of the plant's form error below which a gain is not a separate effect.
+constexpr double kShareOfFormError = 0.2;
 
-// What one effect alone changes.
+// Edits of the simulation by effect `e` alone.
 Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
   Edits edits;
@@ -48,8 +61,9 @@ Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t
   return edits;
 }
 
-// By how much this effect makes channels late. The tolerances of those channels do the same and would leave
-// the trials nothing to say. Stamps of a recorded drive that are late make what acts early.
+// Delay of each channel by this effect, s. The tolerances of these channels act in the same way and would
+// absorb the effect, so `judge` excludes them. A late time stamp of a recorded drive means that the drive
+// acts early: opposite sign.
 std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const Edits edits = edits_of(problem, hypothesis, e);
   std::map<std::string, double> delays;
@@ -59,8 +73,8 @@ std::map<std::string, double> delays_s(const Problem& problem, const Hypothesis&
   return delays;
 }
 
-// Whether all it does is to move channels by no more than their times are unsure; that of a recorded input is
-// as unsure as that of the channel whose samples come slowest.
+// True if the effect only delays channels, by no more than the tolerance of their time stamps. For a recorded
+// input, the tolerance is that of the channel with the longest sample time.
 bool within_tolerance(const Problem& problem, const std::map<std::string, double>& delays) {
   if (delays.empty() || problem.tolerances.empty()) return false;
   double slowest_s = 0.0;
@@ -73,9 +87,9 @@ bool within_tolerance(const Problem& problem, const std::map<std::string, double
   });
 }
 
-// Whether all it does is to smooth channels by no more than a converter does that takes the mean of its time,
-// and rows do between which what moves the foot is interpolated: as much variance in time as T^2 / 12 of
-// each.
+// True if the effect only low-passes channels, by no more than averaging in the converter and interpolation
+// between rows do. The mean over a time T has the variance T^2 / 12 in time, a standard deviation of T /
+// sqrt(12).
 bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const Edits edits = edits_of(problem, hypothesis, e);
   if (edits.sensors.empty() || !edits.belief.empty() || !edits.laws.empty()) return false;
@@ -87,7 +101,7 @@ bool within_conversion(const Problem& problem, const Hypothesis& hypothesis, std
   });
 }
 
-// Several channels that are late by the same: none is, against the others.
+// True if several channels are delayed by the same time: only delays between channels can be measured.
 bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
   std::map<std::string, double> delays;
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e)
@@ -98,7 +112,7 @@ bool late_together(const Problem& problem, const Hypothesis& hypothesis) {
   return within_tolerance(problem, delays);
 }
 
-// Channels whose readings it changes; empty where it changes what happens, too.
+// Channels whose readings the effect changes. Empty if it also changes the motion.
 std::vector<std::string> channels_read(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const Edits edits = edits_of(problem, hypothesis, e);
   std::vector<std::string> channels;
@@ -110,8 +124,8 @@ std::vector<std::string> channels_read(const Problem& problem, const Hypothesis&
   return channels;
 }
 
-// What an effect has to explain to be more than a difference between two simulations: of the rows in which it
-// shows.
+// Smallest drop of the deviance that exceeds the difference between two programs with the same equations: a
+// limit per row, times the number of rows in which the effect can show.
 double unnoticed(const Problem& problem, const Candidate& candidate,
                  const std::vector<std::string>& channels) {
   const double per_row =
@@ -125,8 +139,8 @@ double unnoticed(const Problem& problem, const Candidate& candidate,
   return per_row * rows;
 }
 
-// Whether the fit without an effect is really worse: by a part of what the linear gain says, or else trial by
-// trial.
+// True if the deviance without the effect is really higher: by a fraction of the linear gain in total, or
+// consistently over the trials.
 bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
   if (without.deviance - with.deviance > kComesTrue * linear_gain) return true;
   std::vector<double> drops;
@@ -154,8 +168,8 @@ void Search::judge(SetFit& result) {
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
     const auto width = static_cast<Index>(candidate.parameters.size());
-    // The first amplitude of this effect, with its other parameters and everything else eliminated; shapes of
-    // an effect do not shelter others.
+    // Evidence for the amplitudes of this effect, with everything else eliminated. The effect's own shape
+    // parameters are not eliminated: they must not absorb it.
     std::vector<TrialLinear> reordered = linear;
     std::vector<Index> order{0, first};
     std::vector<double> amplitudes;
@@ -168,7 +182,7 @@ void Search::judge(SetFit& result) {
       }
     }
     const auto delays = delays_s(*problem_, point.hypothesis, e);
-    // An input that is late makes all channels early.
+    // A late input is the same as all channels early.
     const bool of_input = std::ranges::any_of(
         delays, [&](const auto& delay) { return !problem_->context.channels.contains(delay.first); });
     std::vector<Index> others;
@@ -184,7 +198,8 @@ void Search::judge(SetFit& result) {
     const auto n_others = static_cast<Index>(others.size());
     VectorXd others_prior(n_others);
     for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
-    // A tolerance that goes as far as it may where the effect is not there cannot stand for it any further.
+    // If a tolerance is already at its limit in the fit without the effect, it cannot absorb the effect: hold
+    // it.
     const auto parent = sets_.find(without(result.set, point.hypothesis.candidates[e]));
     const Point& there = parent != sets_.end() ? parent->second.fit.point : null().fit.point;
     const VectorXd prior_there = prior_information(*problem_, there).tail(k - parameters);
@@ -199,7 +214,7 @@ void Search::judge(SetFit& result) {
       for (Index i = 0; i < gram.rows(); ++i)
         for (Index j = 0; j < gram.cols(); ++j)
           gram(i, j) = trial.gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
-      // Put the effect back into the residual: column 0 becomes what is there without it.
+      // Add the effect back to the residual, so that column 0 is the residual without it.
       VectorXd back = VectorXd::Zero(gram.rows());
       back[0] = 1.0;
       for (Index i = 0; i < n_own; ++i) back[1 + i] = amplitudes[static_cast<std::size_t>(i)];
@@ -260,8 +275,8 @@ void Search::judge(SetFit& result) {
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
     const double drop =
         fitted == sets_.end() ? evidence.gain : fitted->second.fit.deviance - result.fit.deviance;
-    // Signs are flipped at the set without this effect, against all candidates there; and where what its
-    // derivative at the fit promises is true, at the fit, as if all had been tried (Bonferroni).
+    // Flip signs at the set without this effect, against all candidates there. If the linear gain at the fit
+    // is mostly real, also flip there, as if all candidates had been tried (Bonferroni).
     if (screens_.contains(parent)) {
       std::vector<TrialEvidence> rivals;
       std::size_t chosen = 0;
@@ -277,11 +292,12 @@ void Search::judge(SetFit& result) {
     } else {
       evidence.flip_p_value = 0.0;
     }
-    // Where all trials bent a nuisance alike without it, that shows it, not the deviance.
+    // If the effect removes an offset that a nuisance had in all trials, that offset is the evidence, not the
+    // deviance.
     const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
-    // Flips are made where the effect is not there yet, which may be far from where the simulation is linear
-    // in it; what the trials say this clearly at the fit itself does not need them. What explains little is
-    // near. Nor can they say much where a few trials carry nearly all information.
+    // The flips are evaluated without the effect, where the simulation may not be linear in a large effect. A
+    // large effect with a very small p-value at the fit itself needs no flips. Flips also have little power
+    // if a few trials carry nearly all information.
     const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
     const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
     const bool beyond_doubt = (far || !flips_can_tell || hidden) &&
@@ -298,8 +314,8 @@ void Search::judge(SetFit& result) {
     if (!(evidence.p_value < significance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;
-    // A law of another form may leave as much, where it shows; where only readings change, of what those
-    // channels show.
+    // A law of another form can leave a residual of this size where the other effects act. If only readings
+    // change, compare with the deviance explained in those channels.
     if (result.sound && evidence.gain < least_share * explained) {
       const auto read = channels_read(*problem_, point.hypothesis, e);
       const double there =

@@ -5,17 +5,20 @@
 
 #include "tools/diagnose/fit/problem.hpp"
 
-// What walking through sets and judging them share.
+// Helpers shared by the search over sets (search.cpp) and its judge (search_judge.cpp).
 namespace sandhopper::diagnose {
 
-inline constexpr double kSignificance = 0.01;  // family-wise
+inline constexpr double kSignificance = 0.01;  // Family-wise p-value.
+// Smallest amplitude that is named, in typical sizes.
 inline constexpr double kSmallestOfTypical = 0.08;
 
+// The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
   set.erase(std::remove(set.begin(), set.end(), candidate), set.end());
   return set;
 }
 
+// Labels of the set's effects for the log.
 inline std::string set_text(const Problem& problem, const std::vector<std::size_t>& set) {
   if (set.empty()) return "nothing";
   std::string text;
@@ -23,7 +26,7 @@ inline std::string set_text(const Problem& problem, const std::vector<std::size_
   return text;
 }
 
-// The largest amplitude of one effect, in typical sizes.
+// The largest amplitude of effect `e` of a hypothesis, in typical sizes.
 inline double typicals_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& parameters = problem.candidates[hypothesis.candidates[e]].parameters;
   double typicals = 0.0;

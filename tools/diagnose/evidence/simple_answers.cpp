@@ -14,7 +14,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kAnswerInformation = 0.01;  // of a size in typicals: only what the data leave open is held
+// Prior information of a size in typical sizes. It only matters for combinations that the data do not
+// determine.
+constexpr double kAnswerInformation = 0.01;
 
 }  // namespace
 

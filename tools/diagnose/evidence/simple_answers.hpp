@@ -5,12 +5,13 @@
 
 namespace sandhopper::diagnose {
 
-// What plainer methods would have said, from the first linear approximation at what is believed: to be
-// beaten.
+// Answers of two simple methods, from the linear approximation at the belief. They are baselines for
+// comparison.
 struct SimpleAnswers {
-  std::string largest_correlation;  // the effect whose signature correlates most with what is left
+  std::string largest_correlation;  // Effect whose signature correlates most with the residual.
   double correlation = 0.0;
-  std::string fit_every_parameter;  // all effects fitted at once: the largest in its typical size
+  // Effect with the largest |size / typical| if all effects are fitted at once.
+  std::string fit_every_parameter;
   double typicals = 0.0;
 };
 SimpleAnswers simple_answers(const Problem& problem, const Point& null);

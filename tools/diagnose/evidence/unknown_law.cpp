@@ -16,7 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// ln mean over s of exp(u' (H + R^-1 / s^2)^-1 u / 2) / |I + s^2 R H|^1/2.
+// ln of the mean over s of exp(u' (H + R^-1 / s^2)^-1 u / 2) / |I + s^2 R H|^1/2.
+// H: information, u: score, R^-1: precision, s: Limits::unknown_sizes.
 double log_factor_of(const MatrixXd& information, const VectorXd& score, const MatrixXd& precision) {
   std::vector<double> terms;
   for (const double s : kLimits.unknown_sizes) {
@@ -50,7 +51,8 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
   const AtFit at = linearised_at(problem, point, terms);
   std::vector<TrialLinear> linear(at.grams.size());
   for (std::size_t t = 0; t < linear.size(); ++t) linear[t].gram = at.grams[t];
-  // Repeatable error of the port's own law in this variable stays: an unknown one is larger.
+  // Eliminate the repeatable errors before the laws, also that of the law's own port and variable: an unknown
+  // law must explain more than the model error does.
   const auto errors = static_cast<Index>(problem.repeatable_error.size());
   const auto all = at.grams.front().rows();
   std::vector<Index> order;

@@ -7,16 +7,17 @@
 
 namespace sandhopper::diagnose {
 
-// A law of free form at one port, as a hypothesis beside what a point holds.
+// A law of free form at one port, as a further hypothesis beside the effects of a point.
 struct UnknownLaw {
   FreeFamily family;
-  // ln of what it makes of the evidence: the law's sizes integrated out under
-  //   w ~ N(0, s^2 R),  R an Ornstein-Uhlenbeck process along the knots, s one of Limits::unknown_sizes
+  // Increase of the log evidence by the law. Its values w at the knots are integrated out under
+  //   w ~ N(0, s^2 R),  R: correlation of an Ornstein-Uhlenbeck process along the knots, s:
+  //   Limits::unknown_sizes
   double log_factor = 0.0;
 };
 
-// Every law of free form beside what the point holds, the likeliest first.
-// `times`: scale of each repeatable model error over the learned one.
+// Every law of free form beside the effects of the point, most probable first. `times`: ratio of each
+// repeatable model error to its learnt scale.
 std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
                                      const std::vector<double>& times);
 

@@ -18,14 +18,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNarrow = 0.5;          // a bound below this share of the typical size needs no closer one
-constexpr double kWorthATrial = 0.2;     // doublings of the information
-constexpr double kPriceOfTrouble = 0.1;  // doublings for one unit of cost
-constexpr double kASession = 10.0;       // trials: what would take more of them is not recommended
-constexpr double kEnoughGain = 10.0;     // times what tells two explanations apart: more brings nothing
+constexpr double kNarrow = 0.5;  // A bound below this fraction of the typical size is narrow enough.
+// Smallest worth of a recommended trial, in doublings of the information.
+constexpr double kWorthATrial = 0.2;
+constexpr double kPriceOfTrouble = 0.1;  // Doublings subtracted per unit of cost.
+constexpr double kASession = 10.0;       // Largest number of repeats that is still recommended.
+constexpr double kEnoughGain = 10.0;  // Gain / gain that separates two explanations; more counts no further.
+// Number of points of a predicted trace.
 constexpr std::size_t kMostPoints = 400;
 
-// One trial's worth in doublings, before its cost; the best wins, earlier ones in a tie.
+// The trial with the largest worth minus cost (the first of equals). `worth`: without cost, in doublings of
+// the information; `all`: the worth of every trial.
 struct Choice {
   std::size_t trial = 0;
   double worth = 0.0;
@@ -53,7 +56,7 @@ void take(const DoableTrial& trial, const char* purpose, NextTrial& next) {
   next.words = trial.words;
 }
 
-// The trace on which two predictions differ most against the floor.
+// Stores the two predictions of the channel in which they differ most relative to the noise.
 void show(const Problem& problem, const TrialModel& model, const Contest::Predictions& at, NextTrial& next) {
   std::vector<double> energy(problem.channels.size(), 0.0);
   double most = 0.0;
@@ -94,7 +97,7 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
       quantity_of(next.channel).unit);
 }
 
-// A pair of explanations in one contest.
+// Two rivals i, j of one group.
 struct Pair {
   std::size_t group, i, j;
 };
@@ -106,6 +109,7 @@ std::vector<Pair> pairs_of(const std::vector<Rivals>& groups) {
   return pairs;
 }
 
+// "split": the trial that separates the rivals best.
 void split(const Problem& problem, const PlannedTrials& planned, const Search& search,
            const Posterior& belief, const std::vector<Rivals>& groups, NextTrial& next) {
   const auto pairs = pairs_of(groups);
@@ -114,7 +118,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     for (const auto& rivals : groups) all.emplace_back(problem, planned, trial, rivals, search.dispersion());
     return all;
   };
-  // The more there is to explain, the more the simulation's own errors count.
+  // The limit grows with the deviance to explain, because simulation errors grow with it.
   const auto apart = [&](const Contest& one) {
     return belief.apart + belief.apart_per_explained * one.explained();
   };
@@ -138,7 +142,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     const double lambda = all[p.group].lambda(p.i, p.j);
     next.settles = std::min(next.settles, chance);
     next.splits = std::max(next.splits, chance);
-    // Shown is what was found against the rival it is told from best.
+    // Show the found effect and the rival from which this trial separates it best.
     if (p.i == 0 && lambda > most) {
       most = lambda;
       shown = p;
@@ -167,7 +171,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
       planned.size(), groups[shown.group].names[0], others, repeats);
 }
 
-// Doublings of the information on some parameters of a point; `information` so far.
+// Mean over the parameters `of` of log2(variance before / variance after the trial). `information`: so far.
 double sharpening(const MatrixXd& information, const MatrixXd& added, const std::vector<Index>& of) {
   const auto n = information.rows();
   const MatrixXd before = information.ldlt().solve(MatrixXd::Identity(n, n));
@@ -177,6 +181,7 @@ double sharpening(const MatrixXd& information, const MatrixXd& added, const std:
   return of.empty() ? 0.0 : sum / static_cast<double>(of.size());
 }
 
+// "sharpen": the trial that reduces the variances of the found effects most.
 void sharpen(const Problem& problem, const PlannedTrials& planned, const Search& search,
              const Diagnosis& diagnosis, NextTrial& next) {
   const SetFit& best = search.best();
@@ -206,6 +211,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
                          100.0 * std::exp2(-0.5 * median(choice.all)));
 }
 
+// "map": the trial that reduces the variances of a free law's knots most.
 void map_further(const Problem& problem, const PlannedTrials& planned, const Search& search,
                  const FreeGain& rest, NextTrial& next) {
   const Point& point = search.best().fit.point;
@@ -231,7 +237,8 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
       100.0 * std::exp2(-0.5 * median(choice.all)));
 }
 
-// The widest bound there is, of a candidate that the recordings bound at all.
+// "bound": the trial that reduces the widest bound most. Candidates that the recordings do not bound at all
+// are left out.
 void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& search, bool few,
                   NextTrial& next) {
   const auto& screened = search.screened(search.best().set);
@@ -291,6 +298,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
       typicals * std::exp2(-0.5 * choice.worth));
 }
 
+// "repeat": one of the recorded trials, after the faulty sensor was repaired.
 void record_again(const Recordings& recordings, const Diagnosis& diagnosis, NextTrial& next) {
   const Trial& first = recordings.trials.front();
   next.purpose = "repeat";
@@ -301,7 +309,7 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
                          diagnosis.effects.front().channel);
 }
 
-// The trial of most worth within `reach`.
+// Proposes the trial with the largest worth among those within `reach`.
 void propose_within(const Reach& reach, Problem& problem, const Recordings& recordings, Search& search,
                     const Posterior& belief, const std::vector<Rivals>& rivals, const FreeGain* rest,
                     const Diagnosis& diagnosis, NextTrial& next) {

@@ -33,7 +33,7 @@ TrialLinear PlannedTrials::linearised(std::size_t i, const Edits& base,
 }
 
 std::vector<Direction> plain_directions(const Problem& problem, const Point& point) {
-  constexpr double kStep = 0.1;  // of a tolerance's scale
+  constexpr double kStep = 0.1;  // in scales of the tolerance
   auto directions = parameter_directions(problem, point);
   const std::size_t first = directions.size() - point.tolerances.size();
   for (std::size_t i = 0; i < point.tolerances.size(); ++i) {

@@ -7,7 +7,8 @@
 
 namespace sandhopper::diagnose {
 
-// Trials that were not recorded, put beside a problem's own so that they can be linearised like them.
+// Trials that were not recorded, appended to a problem's trials so that they can be linearised in the same
+// way. The destructor removes them.
 class PlannedTrials {
  public:
   PlannedTrials(Problem& problem, std::vector<DoableTrial> doable);
@@ -19,7 +20,7 @@ class PlannedTrials {
   const DoableTrial& operator[](std::size_t i) const { return doable_[i]; }
   const TrialModel& model(std::size_t i) const { return *problem_->trials[first_ + i]; }
 
-  // As linearise(), nuisances at zero. Column 0 is minus the prediction at `base`.
+  // Like linearise(), with all nuisances at zero. Column 0 is minus the prediction at `base`.
   TrialLinear linearised(std::size_t i, const Edits& base, const std::vector<Direction>& directions,
                          bool keep_plain = false) const;
 
@@ -29,8 +30,8 @@ class PlannedTrials {
   std::vector<DoableTrial> doable_;
 };
 
-// As parameter_directions(), tolerances simulated like the others: a kept column is the derivative at the
-// point of the linearisation, not a difference to it.
+// Like parameter_directions(), but tolerances are simulated, too: their kept derivatives belong to the point
+// of the linearisation, and here the points differ.
 std::vector<Direction> plain_directions(const Problem& problem, const Point& point);
 
 }  // namespace sandhopper::diagnose

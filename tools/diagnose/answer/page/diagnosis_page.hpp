@@ -8,28 +8,30 @@
 
 namespace sandhopper::diagnose {
 
-// What a page says besides the diagnosis itself.
+// Facts on the page that are not in the diagnosis.
 struct PageFacts {
-  std::string campaign;  // its name
+  std::string campaign;  // name of the campaign
   std::string plant;
-  std::vector<std::string> findings;  // what was wrong with the files, one line each
+  std::vector<std::string> findings;  // problems with the files, one line each
 };
 
-// The answer as a page: the first screen says where, what, how sure, how much better and what next; below
-// stand the recordings with both simulations, errors by channel and phase, effects, unknown forces, what is
-// absent, what was tried.
+// The answer as a page. The first screen gives place, effects, probability, improvement and the next trial.
+// Below: recordings with both simulations, errors by channel and phase, effects, unknown forces, absent
+// effects, log of the search.
 Study diagnosis_study(const Diagnosis& diagnosis, const PageFacts& facts);
 
-// Throws std::runtime_error with path and cause where that fails.
+// Writes the page to `path`. Throws std::runtime_error with path and cause on failure.
 void write_diagnosis_page(const Diagnosis& diagnosis, const PageFacts& facts,
                           const std::filesystem::path& path);
 
-// Parts of it.
-std::string in_words(std::string name);       // "fast fall" of "fast_fall"
-bool is_changed(const Diagnosis& diagnosis);  // something was found that changes the simulation
+// Parts of the page.
+std::string in_words(std::string name);       // "fast_fall" -> "fast fall"
+bool is_changed(const Diagnosis& diagnosis);  // True if a finding changes the simulation.
 std::vector<StudyAnswer> page_answers(const Diagnosis& diagnosis);
 std::vector<StudySection> page_sections(const Diagnosis& diagnosis, const PageFacts& facts);
+// Recorded and simulated traces of one trial.
 StudySection trial_section(const Diagnosis& diagnosis, const std::string& trial);
+// Predictions of the recommended trial by two explanations.
 StudySection next_trial_section(const Diagnosis& diagnosis);
 
 }  // namespace sandhopper::diagnose

@@ -9,7 +9,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// An error of the floor is no shade, ten times it the full one.
+// Colour of an error: 0 up to 1.1 times the noise floor, 1 from eleven times it.
 double shade(double error_over_floor) {
   return std::clamp(std::log10(std::max(error_over_floor, 1.0) / 1.1), 0.0, 1.0);
 }
@@ -186,7 +186,7 @@ StudySection absent_section(const Diagnosis& d) {
   return {"What is absent", {table}};
 }
 
-// "m/s²" of "m/s^2".
+// "m/s^2" -> "m/s²"
 std::string with_powers(std::string unit) {
   for (const auto& [typed, set] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
     for (auto at = unit.find(typed); at != std::string::npos; at = unit.find(typed)) unit.replace(at, 2, set);

@@ -61,7 +61,7 @@ StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
 StudySection trial_section(const Diagnosis& d, const std::string& trial) {
   const bool found = is_changed(d);
   StudySection section{"Trial " + trial + ": recorded and simulated", {}};
-  for (const auto& fit : d.fits)  // the channel that shows most first
+  for (const auto& fit : d.fits)  // largest error first
     for (const auto& trace : d.traces) {
       if (trace.trial != trial || trace.channel != fit.channel) continue;
       if (section.items.empty())

@@ -13,7 +13,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .high = 100.0 * typical,
                                     .either_sign = false,
                                     .base = believed}};
-  if (believed == 0.0) all.push_back(own_switch_speed(c));  // nobody has seen how it turns round
+  // The believed switch speed belongs to the believed friction; new friction may have another one.
+  if (believed == 0.0) all.push_back(own_switch_speed(c));
   return all;
 }
 

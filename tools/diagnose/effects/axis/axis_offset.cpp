@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// A torque that is always there, and where gravity acts an angle between its zero and the encoder's.
+// A constant torque and, if gravity acts, an offset of the angle at which the arm hangs.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 0.05 * c.facts.torque_Nm;
   std::vector<EffectParameter> all{{.name = "torque_offset_Nm",

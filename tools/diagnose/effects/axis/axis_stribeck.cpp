@@ -3,14 +3,15 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Of bearings and gears; what fades over several rad/s is no boundary lubrication.
+// Largest Stribeck speed of bearings and gears. Friction that decays over several rad/s has another cause.
 constexpr double kFastest_radps = 1.5;
+// Below this tail parameter the curve is taken as exp(-(w/w_s)^2).
 constexpr double kNoTail = 1e-3;
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (!c.facts.moves) return {};
   const double torque = 0.1 * c.facts.torque_Nm;
-  // Below its switch speed all dry friction fades through zero: nothing slower can be told apart.
+  // Below the switch speed all dry friction goes to zero, so a smaller Stribeck speed is not observable.
   const double slowest = 2.0 * switch_speed_radps(c), fastest = std::max(kFastest_radps, 4.0 * slowest);
   const double speed = std::clamp(0.05 * c.facts.speed_radps, 1.5 * slowest, 0.5 * fastest);
   return {{.name = "stribeck_torque_Nm", .typical = torque, .low = 0.0, .high = 50.0 * torque},

@@ -6,14 +6,13 @@ namespace {
 
 constexpr double kShareOfWeight = 0.1;
 
-// With the medium and the frontal area known the coefficient is dimensionless, else the whole factor is
-// asked.
+// If density and frontal area are known, fit the dimensionless drag coefficient; otherwise the whole factor.
 bool medium_known(const Context& c) {
   return c.plant == PlantKind::falling_body && c.belief.value("medium.density_kg_per_m3") > 0.0 &&
          c.belief.value("body.frontal_area_m2") > 0.0;
 }
 
-// What takes so much of the weight at the speed that was reached.
+// Drag factor whose force is this fraction of the weight at the largest speed.
 double noticeable_N_s2_per_m2(const Context& c) {
   return kShareOfWeight * c.facts.weight_N / std::pow(c.facts.speed_mps, 2);
 }
@@ -28,7 +27,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
     const double believed = c.belief.value("medium.drag_coefficient");
     const double per_coefficient_N_s2_per_m2 =
         0.5 * c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.frontal_area_m2");
-    // Up to several times what a body can have: the coefficient then stands for a force of another origin.
+    // Allow several times the largest plausible coefficient, because it may stand for another force.
     const double typical = std::max(0.5, noticeable_N_s2_per_m2(c) / per_coefficient_N_s2_per_m2);
     return {{.name = "drag_coefficient",
              .typical = typical,

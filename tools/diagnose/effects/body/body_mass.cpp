@@ -19,7 +19,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .either_sign = true,
                                     .base = believed_kg(c),
                                     .scale = believed_kg(c)}};
-  // A balance that reads too much, or something on every body that nobody weighed.
+  // The error is proportional to each mass (scale of the balance) or the same for all (an unweighed part).
   if (c.facts.masses_differ) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
   return all;
 }

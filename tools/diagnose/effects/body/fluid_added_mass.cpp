@@ -7,7 +7,7 @@ bool displaced_known(const Context& c) {
   return c.belief.value("medium.density_kg_per_m3") > 0.0 && c.belief.value("body.volume_m3") > 0.0;
 }
 
-// On its way into a liquid the body takes fluid along little by little.
+// True if the body enters a liquid: then the added mass grows with depth.
 bool enters(const Context& c) { return c.facts.wetted_over_m > 0.0; }
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
@@ -20,7 +20,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
              .high = 2.0 * length,
              .shapes = {0.05 * length}}};
   }
-  if (!displaced_known(c)) return {};  // without a medium that has mass there is nothing to carry along
+  if (!displaced_known(c)) return {};  // Without density or volume there is no added mass to compute.
   const double believed = c.belief.value("medium.added_mass_factor");
   const double displaced_kg = c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.volume_m3");
   const double whole = c.belief.value("body.mass_kg", 1.0) / displaced_kg;

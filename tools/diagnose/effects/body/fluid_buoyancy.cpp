@@ -11,7 +11,7 @@ bool displaced_known(const Context& c) {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (displaced_known(c)) {
     const double believed = c.belief.value("medium.buoyancy_factor");
-    // Up to nearly the whole weight: in a thin medium the factor then stands for a force of another origin.
+    // Allow nearly the whole weight: in a thin medium the factor may stand for another force.
     const double displaced_kg = c.belief.value("medium.density_kg_per_m3") * c.belief.value("body.volume_m3");
     const double whole = c.belief.value("body.mass_kg", 1.0) / displaced_kg;
     return {{.name = "buoyancy_factor",

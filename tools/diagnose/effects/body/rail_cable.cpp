@@ -3,7 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// About the height of the body at rest, so that the spring is no constant force in disguise.
+// The rest height starts near the height of the resting body. A spring with a distant zero would act like a
+// constant force.
 const EffectRegistration kEffect(
     {.id = "rail.cable",
      .port = Port::rail,

@@ -3,9 +3,10 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Assumed friction coefficient between body and rail.
 constexpr double kRailFriction = 0.1;
 
-// On a leaning rail less of gravity acts along it, and the rest presses on the rail.
+// On a tilted rail the component g cos(alpha) acts along it, and g sin(alpha) presses on it.
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   const double tilt = v[0], pressed_N = kRailFriction * c.facts.weight_N * std::sin(tilt);
   edits.scale("gravity_mps2", std::cos(tilt));

@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Each sensor may have a clock of its own, and one may serve all of them.
+// Each sensor may have its own clock, or all share one ("all").
 const char* const kAll = "all";
 
 std::vector<std::string> channels(const Context& c) {

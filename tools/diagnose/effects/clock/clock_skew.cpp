@@ -3,9 +3,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// A sensor's time may be off against the others'; of an axis, both sensors' against the drive's torque. Of an
-// intruder's two one's lateness is the other's being early; the recorded speed or acceleration tells which it
-// is.
+// Each sensor's time stamps may be late relative to the others; on an axis, relative to the drive's torque.
+// On an intruder, a late force equals an early position; recorded speed or acceleration shows which of the
+// two is late.
 std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::rotary_axis) {
     auto found = present(c, {"velocity_radps"});
@@ -14,7 +14,7 @@ std::vector<std::string> channels(const Context& c) {
     return found;
   }
   if (c.plant == PlantKind::intruder) return {intruder_out_of_time(c)};
-  // Against the release, which a set-up tells, one channel's time can be off, too.
+  // The release time is known from the set-up, so even a single channel can be late.
   return present(c, {"height_m", "accel_mps2", "force_N", "load_cell_force_N", "imu_body_accel_z_mps2",
                      "imu_foot_accel_z_mps2", "mocap_body_z_m"});
 }

@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Beyond this torque no more of it is lost.
+// Torque above which the relative loss no longer grows.
 double reference_of(const Context& c) {
   return c.plant == PlantKind::hopper ? c.belief.value("motor.torque_limit_Nm", 2.8) * 2.0
                                       : 3.0 * c.facts.torque_Nm;
@@ -18,7 +18,8 @@ const EffectRegistration kEffect(
      .parameters =
          [](const Context& c, const std::string&) {
            std::vector<EffectParameter> all{{.name = "saturation", .typical = 0.15, .low = 0.0, .high = 0.9}};
-           // A hopper's limit is believed; of a drive that is only read, nothing is.
+           // A hopper's torque limit is believed. For other drives the reference torque is not known, so fit
+           // it.
            if (c.plant == PlantKind::hopper) return all;
            const double reference_Nm = reference_of(c);
            all.push_back({.name = "reference_Nm",

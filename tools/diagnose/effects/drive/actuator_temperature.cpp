@@ -3,6 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Needs a rise of the motor's temperature of at least 3 K.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.temperature_K < 3.0) return {};
   return {{.name = "derating_per_K", .typical = 1.2e-3, .low = -0.01, .high = 0.02, .either_sign = true}};

@@ -14,7 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .shapes = {1.0 / 200.0, 1.0 / 25.0}}};
 }
 
-// The back-electromotive force takes from what the bus can drive while the motor does work.
+// Motor speed in the direction of the torque induces a voltage that reduces the largest torque.
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
   const double stall_Nm = 1.0 / std::max(v[0], 1e-9), no_load_radps = 1.0 / std::max(v[1], 1e-9);
   edits.law(LawPort::actuator_limit, [=](const DriveState& s) {

@@ -17,7 +17,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   const auto crust_N = [=](const GroundState& s) {
     return (s.pushes > 0.0 ? left : 1.0) * force * come_in(s.depth_m, depth);
   };
-  // Unloading begins at the whole force, or without what had to be broken.
+  // `part_of_unloading`: fraction of the crust's force that remains until unloading starts.
   edits.law(LawPort::ground_static, [=](const GroundState& s) { return unloads * crust_N(s); });
   edits.law(LawPort::ground_force,
             [=](const GroundState& s) { return s.virgin * (1.0 - unloads) * crust_N(s); });

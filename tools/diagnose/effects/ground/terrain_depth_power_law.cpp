@@ -26,7 +26,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   });
 }
 
-// K A z (z / 1 cm)^(n-1) (z / z_r)^p is of the same form with another K and n.
+// K A z (z / 1 cm)^(n-1) (z / z_r)^p has the same form with other K and n.
 bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, double>& numbers) {
   constexpr double kReference_m = 0.01;
   if (!(c.belief.value("terrain.stiffness_per_area_N_per_m3") > 0.0)) return false;

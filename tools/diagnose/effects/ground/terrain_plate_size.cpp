@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Only plates of more than one size show it.
+// Needs plates of more than one radius.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.foot_radius_ratio < 1.05) return {};
   return {{.name = "size_exponent", .typical = 0.3, .low = -2.0, .high = 3.0, .either_sign = true}};

@@ -15,8 +15,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
   (void)c;
   const double force = v[0], depth = v[1], power = v[2], bearing = v[3];
-  // Whether it pulls from the turn on or only where the bed bears no more: there it comes in as the bed lets
-  // go.
+  // `while_it_bears` = 1: suction acts from the reversal on. 0: it acts only as far as the bed no longer
+  // carries the foot.
   const auto pull = [=](const GroundState& s) {
     if (s.speed_mps >= -1e-4) return 0.0;
     const double whole = force * come_in(s.depth_m, depth, power);

@@ -16,7 +16,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   (void)c;
   const double factor = v[0], onset = onset_of(v);
   edits.law(LawPort::ground_force, [=](const GroundState& s) {
-    // Going down through its own crater the foot meets nothing.
+    // On the way down through its own crater the foot meets no resistance.
     const double speed = s.virgin > 0.0 ? s.speed_mps : std::min(s.speed_mps, 0.0);
     return factor * speed * come_in(s.depth_m, onset);
   });

@@ -3,12 +3,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kFewestPeriods = 3.0;  // slower ripple is gravity's, or the encoder's
+constexpr double kFewestPeriods = 3.0;  // Slower ripple is gravity or the encoder's eccentricity.
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.angle_rad < 0.3) return {};
   const double typical = 0.1 * c.facts.torque_Nm;
-  // How many periods a turn has is asked of the recordings; the fit starts there.
+  // The fit starts from the periods per turn found in the recordings.
   std::vector<double> orders;
   constexpr std::size_t kMost = 3;
   for (std::size_t i = 0; i < c.facts.ripple_orders.size() && i < kMost; ++i)
@@ -29,7 +29,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .low = kFewestPeriods,
            .high = 500.0,
            .shapes = orders},
-          // Of twice as many periods, beside it.
+          // The second harmonic.
           of_sine("cogging_second_sin_Nm", true),
           of_sine("cogging_second_cos_Nm", true)};
 }

@@ -15,7 +15,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
        .high = 0.3,
        .either_sign = true,
        .amplitude = true}};
-  // The velocity is this encoder's derivative, or another sensor's.
+  // The velocity channel is the derivative of this encoder (1) or comes from another sensor (0).
   if (c.plant == PlantKind::rotary_axis && c.has("velocity_radps"))
     all.push_back({.name = "part_of_velocity", .shapes = {0.0}});
   return all;

@@ -8,7 +8,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   return {{.name = "encoder_offset_rad", .typical = 0.02, .low = -0.5, .high = 0.5, .either_sign = true}};
 }
 
-// Of both motors, or of one alone: then the two angles part, and the controller acts on their mean.
+// Channel "" means both motors. If only one encoder is off, the two angles differ and the controller acts on
+// their mean.
 std::vector<std::string> channels(const Context& c) {
   std::vector<std::string> channels{""};
   const auto motors = present(c, {"motor_left_position_rad", "motor_right_position_rad"});

@@ -3,8 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Half of what the sensor shows over the whole campaign is more than any bias; an accelerometer that falls
-// shows next to nothing and may be off by as much as it feels at rest.
+// The bias is at most half of the channel's range in the campaign. A freely falling accelerometer has almost
+// no range; its range counts as at least gravity.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
@@ -41,7 +41,8 @@ const EffectRegistration kEffect(
      .parameters = parameters,
      .apply =
          [](const Context&, const std::string& channel, std::span<const double> v, Edits& edits) {
-           const bool torque = channel == "torque_Nm";  // an input: what acts is what was read less the bias
+           // The torque is an input: the acting torque is the reading minus the bias.
+           const bool torque = channel == "torque_Nm";
            edits.sensor(torque ? "actuator" : channel, SensorEdit::Kind::offset, torque ? -v[0] : v[0]);
          }});
 

@@ -3,15 +3,15 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kPileUp = 0.02;  // of all samples exactly on the end value
+constexpr double kPileUp = 0.02;  // Fraction of all samples exactly at the end value.
 
-// The ends of the range are where samples pile up; how far the sensor is really cut there is fitted, 1
-// wholly.
+// A range ends at a value at which samples accumulate. The fitted parameter is the degree of clamping: 1
+// means a hard limit.
 struct SensorRange {
   double low = -1e300, high = 1e300;
   bool found = false;
-  double limit = 0.0;       // as it is reported
-  double resolution = 0.0;  // half a step of the channel's grid: the limit itself is rounded
+  double limit = 0.0;       // as reported
+  double resolution = 0.0;  // Half a step of the channel's grid, because the limit is rounded to it.
 };
 SensorRange sensor_range(const Context& c, const std::string& channel) {
   SensorRange range;
