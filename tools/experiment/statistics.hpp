@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-// Statistics of small samples for the experiments. Without values they are NaN.
+// Statistics of small samples for the experiments. Without values they are NaN, except standard_deviation().
 namespace sandhopper {
 
 double mean(std::span<const double> values);

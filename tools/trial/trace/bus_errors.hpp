@@ -13,7 +13,7 @@ struct BusErrors {
   std::uint64_t frames = 0;
   std::map<std::string, std::uint64_t> kinds;  // kind, such as "bus-off", and number of frames that report it
   bool bus_off = false;
-  bool frames_lost = false;  // by the controller: its buffers overflowed, or it went bus-off
+  bool frames_lost = false;  // by the controller: its buffers overflowed, or it stopped sending
   int transmit_errors = 0;   // largest error counters reported
   int receive_errors = 0;
 };
