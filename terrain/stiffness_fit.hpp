@@ -11,9 +11,9 @@
 // accumulates it recursively in bounded memory; it is solved afterwards. The standard error accounts for the
 // residuals' autocorrelation without choosing a bandwidth. With the scores s_i = w_i x_i e_i, whose sum is
 // zero,
-//   S = -(1/n) sum_ij |i - j| s_i s_j^T   (Bartlett kernel over the whole sample; Kiefer, Vogelsang & Bunzel
-//   2000),
-// and the interval uses that statistic's own distribution instead of the normal one.
+//   S = -(1/n) sum_ij |i - j| s_i s_j^T
+// (Bartlett kernel over the whole sample; Kiefer, Vogelsang & Bunzel 2000), and the interval uses that
+// statistic's own distribution instead of the normal one.
 namespace sandhopper {
 
 // Samples of a stance that are used.

@@ -71,7 +71,7 @@ struct CubeMarsConfig {
     visit("status_rate_Hz", self.status_rate_Hz, Range{1.0, 500.0});
   }
 
-  // Rules the ranges above do not express: problem(key, what is wrong and what to do).
+  // Rules the ranges above do not express: problem(key, error and remedy).
   template <class Problem>
   void check(Problem&& problem) const {
     if (dialect == Dialect::servo && status_rate_Hz < 400.0)

@@ -24,8 +24,8 @@ class FreezeDump final : public LastAct {
   void run() noexcept override;
   std::span<const int> descriptors() const noexcept override { return {&descriptor_, 1}; }
 
-  // For hopperd that stood still, let the guard act and goes on: the file is hidden again for the next time.
-  // The freeze frame of watchdog_tripped records the standstill.
+  // For use after a standstill in which the guard wrote the file and hopperd then continued. Hides the file,
+  // so that the next standstill can publish it. The freeze frame of watchdog_tripped records this one.
   void take_back() noexcept;
   // Removes both names after hopperd ended in order.
   void remove() noexcept;

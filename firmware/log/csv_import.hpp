@@ -35,7 +35,7 @@ enum class CsvFault : std::uint8_t {
   names_do_not_fit     // there are more or fewer names than cells in a row
 };
 
-// What the owner of the recording can do about it; empty if nothing is lost.
+// Remedy for the owner of the recording; empty if nothing is lost.
 std::string_view cure_for(CsvFault fault);
 
 // A message about the recording for its reader, with the place in the file.

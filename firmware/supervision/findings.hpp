@@ -6,8 +6,8 @@
 
 namespace sandhopper {
 
-// Of two faults the one with the harsher reaction takes precedence or, if these are equal, the one with the
-// stricter latch. If both are equal the first stays.
+// The fault with the harsher reaction takes precedence. If the reactions are equal, the one with the stricter
+// latch does. If both are equal, the first fault found stays.
 constexpr bool is_harsher(Fault fault, Fault than) noexcept {
   const FaultEntry &a = entry_of(fault), &b = entry_of(than);
   return a.reaction != b.reaction ? a.reaction > b.reaction : a.latch > b.latch;

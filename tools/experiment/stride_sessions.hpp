@@ -19,7 +19,7 @@ namespace sandhopper {
 enum class NextBy : std::size_t { chance, plan, oracle };
 inline constexpr std::size_t kNextBy = 3;
 inline constexpr int kMostStrides =
-    15;  // after the first; where the band is not half by then, that many count
+    15;  // after the first; a session whose band is not halved by then counts as this many
 
 struct SessionScore {
   std::string bed;
