@@ -10,6 +10,7 @@
 // force plate. Between the last plate reading before contact and the peak of the impact, t_p later, the foot
 // moves down by at most v t_p, because the ground only slows it. An undamped plate overshoots a sudden force
 // by at most a factor of two, so the true force was at least half the peak F_p:
+//   k >= F_p / (2 v t_p)
 // v is the body's speed at the landing, from the plate's impulse over a cycle that ends as it began, plus the
 // leg's extension rate if it extends. Force from drag or inertia of the ground counts as stiffness.
 namespace sandhopper {
