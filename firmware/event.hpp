@@ -74,7 +74,7 @@ struct EnumNames<Reason> {
 // An event with the values that triggered it. Meaning of the values by kind:
 //   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest range [rad]
 //   arming_refused for drives_not_confirmed: measured torque left, right (NaN: no such motor), commanded
-//     torque [N m], tries; torque_follows() (drive_confirmation.hpp) tells which motor failed
+//     torque [N m], tries; torque_follows() (drive_confirmation.hpp) finds the motor that failed
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
 //   fault_raised, disarm_refused: the two values that the fault's check names (fault_checks.hpp), 0, 0

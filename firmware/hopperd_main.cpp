@@ -246,7 +246,7 @@ FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log
           .told = [&channel](const auto& frame) { channel.tell_text("freeze_frame", frame.string()); }};
 }
 
-// Reads the robot's state from the last run and tells the operator.
+// Reads the robot's state from the last run and reports it to the operator.
 StartState remembered_start(const Options& options, const StatePlaces& places, const RobotConfig& robot,
                             OperatorChannel& channel) {
   auto memory =

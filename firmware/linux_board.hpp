@@ -57,7 +57,7 @@ struct LinuxBoardDevices;
 // down.
 class LinuxBoard : public Board {
  public:
-  // `tap`, if given, sees every CAN frame in both directions.
+  // `tap`, if given, gets every CAN frame in both directions.
   explicit LinuxBoard(const LinuxBoardConfig& config, CanTap* tap = nullptr);
   ~LinuxBoard() override;
   LinuxBoard(const LinuxBoard&) = delete;

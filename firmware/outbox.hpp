@@ -9,8 +9,8 @@
 namespace sandhopper {
 
 // Output queue for a reader that may be slow, stopped or gone: the caller never waits for it. A thread of its
-// own writes to the descriptor only as much as it accepts. Of the status only the newest line is kept. Of the
-// other lines the first kMost unread ones are kept; the rest is dropped, and a line reports their number.
+// own writes to the descriptor only as much as it accepts. Only the newest status line is kept. The first
+// kMost other unread lines are kept; the rest is dropped, and a line reports their number.
 class Outbox {
  public:
   static constexpr std::size_t kMost = 4096;

@@ -131,8 +131,8 @@ struct GroundEventSums {
   float crater_depth_m = 0.0F;  // of earlier strides
   struct Resumption {
     float depth_m = -1.0F;   // depth at which new ground began after a pause; negative: none
-    float bearing_N = 0.0F;  // greatest force on the resting foot in that pause, i.e. what the ground bore
-                             // there
+    float bearing_N = 0.0F;  // greatest force on the resting foot in that pause: a lower bound of the
+                             // ground's strength there
   };
   std::array<Resumption, 2> resumed{};  // the latest first
 };

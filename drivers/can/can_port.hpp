@@ -28,7 +28,7 @@ struct CanCounters {
   std::uint32_t sent = 0;
   std::uint32_t received = 0;           // data frames
   std::uint32_t send_failures = 0;      // refused by the kernel or held back; not tried again
-  std::uint32_t receive_overflows = 0;  // dropped because nobody read (SO_RXQ_OVFL), or by the controller
+  std::uint32_t receive_overflows = 0;  // dropped because unread (SO_RXQ_OVFL), or by the controller
   std::uint32_t error_frames = 0;       // sum of all error frames, including those below
   std::uint32_t no_acknowledge = 0;
   std::uint32_t errors = 0;           // protocol, transceiver, transmit time-out or overflow

@@ -111,7 +111,7 @@ CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> f
 CanSocket::~CanSocket() = default;
 
 // The kernel charges queued frames to the socket until the driver takes them (getsockopt SO_MEMINFO, Linux
-// 4.12). If the call fails the queue is unknown and the cycle goes on. The ledger tracks frames that the
+// 4.12). If the call fails the queue is unknown and the cycle continues. The ledger tracks frames that the
 // driver has taken.
 void CanSocket::begin_cycle() noexcept {
   std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};

@@ -23,7 +23,7 @@ class CubeMarsDrives {
   void set_tap(CanTap* tap) noexcept { port_->set_tap(tap); }
 
   // Listens, then asks each drive for its state with a leave frame, which energises nothing. Throws
-  // DeviceError unless each identifier is answered by exactly one drive that speaks the configured dialect.
+  // DeviceError unless each identifier is answered by exactly one drive that uses the configured dialect.
   void probe();
 
   // Sends this cycle's frames, left then right; `now_ns` is the port's time.
@@ -45,7 +45,7 @@ class CubeMarsDrives {
 
   // Sends zero torque, then leave frames, until every drive has confirmed that it left motor mode; takes some
   // milliseconds. Returns false if the bus is off or a drive has not confirmed within `patience_ns`: that
-  // drive may still produce its last torque. Call it again to go on. Not for the cycle.
+  // drive may still produce its last torque. Call it again to continue. Not for the cycle.
   bool shut_down(std::int64_t patience_ns = kShutDown_ns) noexcept;
   static constexpr std::int64_t kShutDown_ns = 500'000'000;
 

@@ -52,8 +52,8 @@ struct FoundLine {
   unsigned number;
 };
 
-// First chip for which `fits` is true. Null if there is none: then errno is 0, or tells why a chip could not
-// be opened.
+// First chip for which `fits` is true. Null if there is none: then errno is 0, or the reason why a chip
+// could not be opened.
 template <class Fits>
 std::unique_ptr<GpioChip> find_chip(Fits&& fits) {
   int error = 0;

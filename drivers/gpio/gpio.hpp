@@ -63,7 +63,7 @@ class GpioEdges {
   std::unique_ptr<GpioLine> line_;
 };
 
-// Name of the process that holds the line, empty if nobody does. Does not take the line or change its
+// Name of the process that holds the line, empty if none does. Does not take the line or change its
 // direction.
 std::string user_of_gpio_line(std::string_view role, const LineConfig& config);
 

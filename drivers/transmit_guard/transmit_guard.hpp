@@ -25,7 +25,7 @@ struct CycleState {
   bool emergency_stop = true;  // e-stop line as the board reads it
 };
 
-// Judges every frame before it is sent. It knows only its CycleState, the frames sent and the frames
+// Judges every frame before it is sent. It uses only its CycleState, the frames sent and the frames
 // received. Allocates, locks and throws nothing; reads no clock.
 //
 // A drive counts as confirmed in motor mode when

@@ -186,7 +186,7 @@ GuardProcess::GuardProcess(const Setup& setup) {
 
 GuardProcess::~GuardProcess() {
   if (line_) {
-    // If somebody killed the guard, SIGPIPE must not end this process.
+    // If the guard was killed, SIGPIPE must not end this process.
     [[maybe_unused]] const auto told = ::send(line_.get(), "q", 1, MSG_NOSIGNAL);
     line_ = UniqueFd();
   }

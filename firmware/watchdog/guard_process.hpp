@@ -40,8 +40,8 @@ class GuardProcess {
   // For drives that were not confirmed off: the child acts as after the death of this process.
   void abandon() noexcept { line_ = UniqueFd(); }
 
-  // False after the child has ended, for example because somebody killed it: then nobody would cut the
-  // torque. Also reaps the child.
+  // False after the child has ended, for example because it was killed. Then a standstill or a death of this
+  // process would not cut the torque. Also reaps the child.
   bool alive() noexcept;
 
   pid_t process_id() const noexcept { return child_; }

@@ -14,7 +14,7 @@ struct EnumNames<NominalPhase> {
   static constexpr std::array<std::string_view, 3> value{"flight", "compression", "extension"};
 };
 
-// Nominal controller of the diagnosis. It knows the true foot height, while the firmware must detect
+// Nominal controller of the diagnosis. It gets the true foot height, while the firmware must detect
 // touchdown from its measurements. The leg is a spring, F = K (L0 - L) - B Ldot, torque = F L' (limited by
 // the drives):
 //   flight       K 500, L0 0.30, B 15   until x_f <= 0 and (L0 - L > 2 mm or Ldot < -50 mm/s)

@@ -29,8 +29,9 @@ PenetratingSample sample_of(const HopRow& before, const HopRow& row, const Force
   return s;
 }
 
-// Depth estimated by the filter when the foot's accelerometer first feels the ground, which is the robot's
-// own zero: the value after the last cycle before touchdown without contact force.
+// Depth estimated by the filter when the foot's accelerometer first measures the ground's force. The robot
+// takes this point as zero depth. Calculated as the value after the last cycle before touchdown without
+// contact force.
 double met_surface_at_m(const HopTrial& trial) {
   const double contact_force_N = StiffnessConfig{}.contact_force_N;
   double depth_m = 0.0;
