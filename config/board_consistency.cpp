@@ -9,13 +9,13 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kTick_s = 1e-3;  // of the cycle
+constexpr double kTick_s = 1e-3;  // period of the cycle
 constexpr double kStandardGravity_mps2 = 9.80665;
-constexpr double kSpiBitsPerSample = 8.0 * 18.0;  // address, burst and the status register that is asked
+constexpr double kSpiBitsPerSample = 8.0 * 18.0;  // address, burst and the polled status register
 constexpr std::array kAdcFullScale_V{6.144, 4.096, 2.048, 1.024, 0.512, 0.256};       // as in AdcRange
 constexpr std::array kAdcRate_Hz{8.0, 16.0, 32.0, 64.0, 128.0, 250.0, 475.0, 860.0};  // as in AdcRate
 
-// The least that any axis still carries when its bias is taken off.
+// Smallest range of the three axes after their biases are subtracted.
 double carried(double full_scale, const std::array<double, 3>& scale, const std::array<double, 3>& bias) {
   double least = full_scale * scale[0];
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -5,19 +5,19 @@
 
 #include "config/fields.hpp"
 
-// What `hop calibrate` leaves beside the values it wrote, as a table [calibration.NAME] at the end of the
-// same file. Nothing is computed from it; it tells where a value comes from, and a value that was edited
+// Record that `hop calibrate` adds to the values it wrote: a table [calibration.NAME] at the end of the same
+// file. Nothing is computed from it. It documents the origin of a value and reveals one that was edited
 // since.
 namespace sandhopper {
 
 struct CalibrationRecord {
   std::string date;           // UTC, "2026-03-01 09:30:00"
-  int points = 0;             // recordings, or repeats, that the fit stands on
-  double residual_rms = 0.0;  // of the fit
+  int points = 0;             // number of recordings or repeats in the fit
+  double residual_rms = 0.0;  // rms residual of the fit
   std::string residual_unit;
-  std::vector<std::string> keys;  // what was written …
-  std::vector<double> values;     // … with which value …
-  std::vector<double> ci95;       // … plus or minus: half of the 95 % interval; 0: exact, a sign
+  std::vector<std::string> keys;  // keys that were written
+  std::vector<double> values;     // the value written to each key
+  std::vector<double> ci95;       // half of the 95 % interval for each key; 0: exact, such as a sign
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -37,7 +37,8 @@ struct CalibrationRecord {
   }
 };
 
-// [calibration] of robot.toml and of the board's file. A table that is not there was never calibrated.
+// [calibration] of robot.toml and of the board's file. A missing table means that the calibration was never
+// done.
 struct RobotCalibrations {
   std::optional<CalibrationRecord> encoders{};
   std::optional<CalibrationRecord> torque_constant{};

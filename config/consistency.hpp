@@ -7,25 +7,25 @@
 #include "config/robot_config.hpp"
 #include "firmware/linux_board_config.hpp"
 
-// Values that are right one by one and contradict each other: a range that cannot carry the limit it must
-// carry, an age no sensor can keep, a reaction that comes too late to be one. `hop config check` and
-// everything that starts a cycle (hopperd, hop trial, simulations) use these same rules, by way of
-// config/files.hpp. Replay does not: a log from before a rule was known still replays.
+// Finds values that are valid one by one but contradict each other, such as a range below the limit it must
+// represent, an age limit that no sensor can keep, or a reaction that comes too late. `hop config check` and
+// everything that starts a cycle (hopperd, hop trial, simulations) use these rules through config/files.hpp.
+// Replay does not use them, so that older logs can still be replayed.
 namespace sandhopper {
 
 struct Contradiction {
-  std::string key;   // whose line is shown
+  std::string key;   // key whose line is shown
   std::string text;  // the arithmetic and the cure
 };
 
-// Within robot.toml.
+// Contradictions within robot.toml.
 std::vector<Contradiction> contradictions(const RobotConfig& robot);
 
-// Between the device file and robot.toml. Keys are the device file's. `board.can.motor` counts for nothing:
-// the motors are the robot's.
+// Contradictions between the device file and robot.toml. The keys are those of the device file.
+// `board.can.motor` is ignored, because the motors are in robot.toml.
 std::vector<Contradiction> contradictions(const LinuxBoardConfig& board, const RobotConfig& robot);
 
-// Throws ConfigError if there are any, with their lines where the document has any.
+// Throws ConfigError if there are any, with their lines if the document has them.
 void refuse(const std::vector<Contradiction>& found, const ConfigDocument& document);
 
 }  // namespace sandhopper

@@ -15,10 +15,10 @@ struct NamedValue {
   double value;
 };
 
-// Collects contradictions, each with its arithmetic.
+// Collects contradictions, each with its calculation.
 class ContradictionList {
  public:
-  // `by` asks for `needed`; `key`, whose value is written `written`, carries only `carried`.
+  // `by` requires `needed`. `key`, whose value is shown as `written`, provides only `carried`.
   struct Carry {
     std::string key;
     std::string written;
@@ -28,14 +28,14 @@ class ContradictionList {
     std::string_view unit;
     std::string cure;
   };
-  // Not fewer than needed. NaN is fewer.
+  // Adds a contradiction if carried < needed or carried is NaN.
   void carries(const Carry& c) {
     if (c.carried >= c.needed) return;
     found_.push_back({c.key, fmt::format("{} carries {:.4g} {}, {} = {:g} asks for {:.4g}: {}", c.written,
                                          c.carried, c.unit, c.by.key, c.by.value, c.needed, c.cure)});
   }
 
-  // low < high, both written down.
+  // Adds a contradiction unless low < high.
   void below(const NamedValue& low, const NamedValue& high, std::string_view because) {
     if (low.value < high.value) return;
     found_.push_back({low.key, fmt::format("{:g} must be less than {} = {:g}: {}", low.value, high.key,

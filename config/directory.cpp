@@ -25,7 +25,7 @@ fs::path named_directory(const std::string& name, const std::string& said_by) {
   refuse(name, fmt::format("{} must name a directory with robot.toml; {}", said_by, instead));
 }
 
-// As short as it can be said from where the user is.
+// Shortest form of the path as seen from the current directory.
 fs::path as_seen_from_here(const fs::path& path) {
   std::error_code error;
   const auto relative = fs::relative(path, error);

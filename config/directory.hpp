@@ -4,9 +4,9 @@
 
 namespace sandhopper {
 
-// Where the configuration lies: `option` if not empty (what the user named), else $SANDHOPPER_CONFIG, else
-// the first `config/` with a robot.toml found upward from the running program, else /etc/sandhopper. Throws
-// ConfigError when there is none, saying what was tried.
+// Finds the configuration directory: `option` if it is not empty (given by the user), otherwise
+// $SANDHOPPER_CONFIG, otherwise the first `config/` with a robot.toml upward from the running program,
+// otherwise /etc/sandhopper. Throws ConfigError with the places tried if there is none.
 std::filesystem::path find_config_directory(const std::string& option = "");
 
 }  // namespace sandhopper

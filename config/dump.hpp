@@ -10,10 +10,11 @@
 #include "config/fields.hpp"
 #include "config/node.hpp"
 
-// Writes any struct that lists its `fields` as TOML, through the same tree that reading uses (JSON:
+// Writes any struct with `fields` as TOML, through the same tree that is used for reading (JSON:
 // config/json.hpp).
 namespace sandhopper {
 
+// Tree of a value; empty optionals are left out.
 template <class T>
 ConfigNode to_node(const T& value);
 
@@ -69,7 +70,7 @@ ConfigNode to_node(const T& value) {
   return detail::NodeOf<T>::make(value);
 }
 
-// Document text. Numbers are written so that reading gives the same bits.
+// TOML text of a table. Numbers have enough digits to give the same bits when read.
 std::string to_toml(const ConfigNode& table);
 // "key = value" on one line.
 std::string to_toml_line(std::string_view key, const ConfigNode& value);

@@ -35,7 +35,7 @@ const ConfigNode* element(const ConfigNode& array, std::string_view step) {
                                                                                 : nullptr;
 }
 
-// Where the line that holds `at` begins.
+// Start of the line that contains `at`.
 std::size_t line_begin(std::string_view text, std::size_t at) {
   const auto before = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
   return before == std::string_view::npos ? 0 : before + 1;
@@ -59,7 +59,7 @@ ConfigEditor::ConfigEditor(std::string name, std::string text)
 }
 
 ConfigEditor ConfigEditor::of_file(const std::filesystem::path& file) {
-  parse_config_file(file.string());  // says what is wrong with a file that cannot be read
+  parse_config_file(file.string());  // reports the error of a file that cannot be read
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -87,7 +87,7 @@ std::size_t ConfigEditor::offset_of(ConfigPosition position) const {
   return at;
 }
 
-// Of a number, a truth value, a one-line text or an array of these.
+// End of a value: a number, a truth value, a one-line text or an array of these.
 std::size_t ConfigEditor::end_of_value(std::size_t begin) const {
   int depth = 0;
   bool quoted = false;
@@ -112,7 +112,7 @@ void ConfigEditor::set(std::string_view key, std::string_view value) {
   if (node == nullptr) throw std::invalid_argument(fmt::format("{}: there is no key '{}'", name_, key));
   const auto begin = offset_of(node->position);
   const auto end = end_of_value(begin);
-  // A comment beside it keeps its column where the spaces in front of it allow.
+  // A comment on the same line keeps its column if the spaces before it suffice.
   std::size_t spaces = 0;
   while (end + spaces < text_.size() && text_[end + spaces] == ' ') ++spaces;
   const bool aligned = end + spaces < text_.size() && text_[end + spaces] == '#';
@@ -151,7 +151,7 @@ void ConfigEditor::set_table(std::string_view header, std::string_view comment, 
 }
 
 void replace_file(const std::filesystem::path& file, std::string_view text) {
-  const auto real = std::filesystem::canonical(file);  // through a link, not over it
+  const auto real = std::filesystem::canonical(file);  // follows a symbolic link instead of replacing it
   const auto fail = [&](const std::string& what) {
     throw std::system_error(errno, std::generic_category(), what);
   };

@@ -7,20 +7,20 @@
 
 namespace sandhopper {
 
-// Changes single values of a TOML text and leaves every other byte, comments and order included, as it is.
+// Changes single values of a TOML text and leaves every other byte unchanged, including comments and order.
 class ConfigEditor {
  public:
-  // Throws ConfigError where the text is no TOML; `name` stands for the file in messages.
+  // Throws ConfigError if the text is not valid TOML. `name` is the file's name in messages.
   ConfigEditor(std::string name, std::string text);
-  // Throws ConfigError when the file cannot be read.
+  // Throws ConfigError if the file cannot be read.
   static ConfigEditor of_file(const std::filesystem::path& file);
 
-  // `key` with its tables, elements of arrays by number: "motor[1].sign", "imu_body.accel_scale[2]". `value`
-  // is TOML. Throws std::invalid_argument where there is no such key.
+  // Sets the value of a key. `key` includes its tables and array indices: "motor[1].sign",
+  // "imu_body.accel_scale[2]". `value` is TOML. Throws std::invalid_argument if there is no such key.
   void set(std::string_view key, std::string_view value);
 
-  // Puts a table [header] with these lines in place of the one there, or at the end. A comment right above
-  // the old header goes with it.
+  // Replaces the table [header] by these lines, or appends it. A comment directly above the old header is
+  // also replaced.
   void set_table(std::string_view header, std::string_view comment, std::string_view lines);
 
   const std::string& text() const noexcept { return text_; }
@@ -36,7 +36,7 @@ class ConfigEditor {
   ConfigNode root_;
 };
 
-// Writes the text in one step: a reader sees the old file or the new one, and its mode stays. Throws
+// Replaces the file atomically: a reader sees the old file or the new one. The mode is kept. Throws
 // std::system_error.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 

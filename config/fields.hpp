@@ -13,8 +13,8 @@
 //     visit("mass_kg", self.mass_kg, Range{0.0, 10.0});
 //   }
 //
-// Configuration loading, log schema, log encoding, CSV columns and JSON all walk that one list. The unit is
-// part of the name. `Range` is the closed interval the loader accepts; records leave it out.
+// Configuration loading, log schema, log encoding, CSV columns and JSON all use this one list. The unit is
+// part of the name. `Range` is the closed interval that the loader accepts; records omit it.
 namespace sandhopper {
 
 struct Range {

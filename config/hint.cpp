@@ -11,7 +11,7 @@
 namespace sandhopper {
 namespace {
 
-// Suffixes of keys. Those of one dimension convert by `to_si`; 0 marks one that does not convert.
+// Suffixes of keys. Units of one dimension convert by `to_si`; 0 means that a unit does not convert.
 struct Unit {
   std::string_view suffix;
   std::string_view written;
@@ -114,7 +114,7 @@ KeyParts split_key(std::string_view key) {
   return parts;
 }
 
-// Edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`, regardless of case.
+// Number of edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));

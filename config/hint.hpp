@@ -5,18 +5,18 @@
 #include <string_view>
 #include <vector>
 
-// What a message suggests when a word is not among those known.
+// Suggestions for messages about an unknown word.
 namespace sandhopper {
 
-// Known words nearest to `word` by edit distance, best first, at most `limit`; empty when none is near.
+// Known words nearest to `word` by edit distance, best first, at most `limit`. Empty if none is near.
 std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> known,
                                        std::size_t limit = 3);
 
-// "'a'", "'a' or 'b'", "'a', 'b' or 'c'"
+// Joins words with "or": "'a'", "'a' or 'b'", "'a', 'b' or 'c'".
 std::string either(std::span<const std::string> words);
 
-// "force_kN" is quantity "force" in "kN", a "force" that is 1000 times its SI unit (0: not a plain multiple).
-// Empty for a key that ends in no known unit.
+// Splits a key with a unit: "force_kN" is quantity "force", suffix "kN", 1000 times the SI unit (0: not a
+// plain multiple). Empty for a key without a known unit.
 struct UnitOfKey {
   std::string_view quantity;
   std::string_view suffix;
@@ -25,11 +25,11 @@ struct UnitOfKey {
 };
 std::optional<UnitOfKey> split_unit(std::string_view key);
 
-// Unit at the end of a key as one writes it ("kg", "N/m"), empty for a key without one.
+// Unit at the end of a key in usual notation ("kg", "N/m"); empty for a key without one.
 std::string unit_of_key(std::string_view key);
 
-// Cure for an unknown key: the same quantity in the expected unit with the value converted, a key of which
-// this is a part, or the nearest spelling. Keys in `candidates` are tried in the order given.
+// Cure for an unknown key: the same quantity in the expected unit with the converted value, a known key that
+// contains this one, or the nearest spelling. `candidates` are tried in the given order.
 std::string cure_for_unknown_key(std::string_view key, std::optional<double> value,
                                  std::span<const std::string> candidates);
 

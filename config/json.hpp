@@ -5,7 +5,7 @@
 
 namespace sandhopper {
 
-// Keys in the order of `fields`. Numbers that JSON cannot write (NaN, infinities) become null.
+// Keys are in the order of `fields`. Numbers that JSON cannot represent (NaN, infinities) become null.
 nlohmann::ordered_json to_json(const ConfigNode& node);
 
 template <HasFields T>

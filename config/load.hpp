@@ -1,8 +1,8 @@
 #pragma once
 #include "config/reader.hpp"
 
-// Strict reading of a TOML file into a struct that lists its `fields` (config/fields.hpp). A file that is not
-// right in every key is not read at all.
+// Strict reading of a TOML file into a struct with `fields` (config/fields.hpp). A file with any error is
+// rejected as a whole.
 //
 //   double, float       a finite number, integer or not, within its Range
 //   integers            an integer within its Range and its type
@@ -14,12 +14,12 @@
 //   std::optional<X>    as X, and may be left out
 //
 // A struct may also have `template <class Report> void check(Report&& report) const` for rules between its
-// keys: it calls report("key", "expected …, got …"), where the key may lie deeper ("motor[1].can_id"). It is
-// called when every key of that table is right by itself.
+// keys. It calls report("key", "expected …, got …"); the key may be nested ("motor[1].can_id"). It is called
+// only if every key of the table is valid by itself.
 namespace sandhopper {
 
-// Throw ConfigError with everything that is wrong. With MissingKeys::use_default an absent key keeps its
-// value in `base`; unknown keys remain errors.
+// Throw ConfigError with all errors. With MissingKeys::use_default a missing key keeps its value in `base`;
+// unknown keys remain errors.
 template <HasFields T>
 T load_document(const ConfigDocument& document, MissingKeys missing = MissingKeys::error, T base = {}) {
   ConfigReader reader(document.name, missing);
@@ -33,7 +33,7 @@ T load_file(const std::string& path, MissingKeys missing = MissingKeys::error, T
   return load_document<T>(parse_config_file(path), missing, std::move(base));
 }
 
-// `name` stands for the file in messages.
+// `name` is the file's name in messages.
 template <HasFields T>
 T load_text(std::string name, std::string_view text, MissingKeys missing = MissingKeys::error, T base = {}) {
   return load_document<T>(parse_config_text(std::move(name), text), missing, std::move(base));

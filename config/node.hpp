@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-// A TOML document as a plain tree, with the place of every key, so that neither the strict loader nor its
-// users see the parser's headers.
+// A TOML document as a plain tree with the position of every key, so that the strict loader and its users do
+// not need the parser's headers.
 namespace sandhopper {
 
-// Both count from 1.
+// Line and column count from 1.
 struct ConfigPosition {
   std::uint32_t line = 1;
   std::uint32_t column = 1;
@@ -34,17 +34,17 @@ struct ConfigNode {
   }
 };
 
-// Name for messages and the tree of its text.
+// Name of a document for messages, and the tree of its text.
 struct ConfigDocument {
   std::string name;
   ConfigNode root;
 };
 
-// The node of a key below this table, which may lie deeper ("motor[1].can_id"); where the document has no
-// such key, the nearest table above it.
+// Node of a key below this table; the key may be nested ("motor[1].can_id"). If there is no such key, the
+// nearest table above it.
 const ConfigNode& nearest_node(const ConfigNode& table, std::string_view key);
 
-// Both throw ConfigError: a file that cannot be read, a syntax error or a key given twice (with its line).
+// Both throw ConfigError for a file that cannot be read, a syntax error or a duplicate key (with its line).
 ConfigDocument parse_config_text(std::string name, std::string_view text);
 ConfigDocument parse_config_file(const std::string& path);
 

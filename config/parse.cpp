@@ -29,7 +29,7 @@ ConfigNode convert(const toml::node& node) {
       for (const auto& [key, value] : *node.as_table()) {
         out.children.push_back(convert(value));
         out.children.back().key = key.str();
-        // A table's key may have been named first by the header of one of its own tables.
+        // The header of a sub-table may have named this table first.
         if (!value.is_table()) out.children.back().key_position = position_of(key.source());
       }
       break;
@@ -59,7 +59,7 @@ ConfigNode convert(const toml::node& node) {
   return out;
 }
 
-// The parser's wording, said to someone who edits a file.
+// Rewords the parser's message for a user who edits a file.
 std::string explain(std::string_view description) {
   constexpr std::string_view kTwice = "cannot redefine existing ";
   if (const auto at = description.find(kTwice); at != std::string_view::npos) {

@@ -7,19 +7,19 @@
 
 namespace sandhopper {
 
-// One thing wrong with a configuration. Line 0: the file as a whole.
+// One error in a configuration. Line 0 means the file as a whole.
 struct ConfigProblem {
   std::string file;
   ConfigPosition position;
   std::string key;       // full path, "motor[1].can_id"; empty for the file as a whole
-  std::string text;      // what is wrong, what was expected, what was found, and the cure
-  bool missing = false;  // a key that is not there
+  std::string text;      // the error, the expected and the actual value, and the cure
+  bool missing = false;  // true if the key is missing
 };
 
 // "file:line:column: text"
 std::string to_string(const ConfigProblem& problem);
 
-// Everything that is wrong, in the order of the file; what() has one line each.
+// All errors in the order of the file; what() has one line for each.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(const std::vector<ConfigProblem>& problems);

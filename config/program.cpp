@@ -7,7 +7,7 @@ namespace sandhopper {
 std::filesystem::path find_program(const std::string& name) {
   namespace fs = std::filesystem;
   const auto here = fs::read_symlink("/proc/self/exe").parent_path();
-  // From bin/ and from libexec/sandhopper/.
+  // Relative to bin/ and to libexec/sandhopper/.
   for (const auto* folder : {".", "../libexec/sandhopper", "../../bin"}) {
     const auto program = (here / folder / name).lexically_normal();
     if (fs::exists(program)) return program;

@@ -43,7 +43,7 @@ std::string what_it_is(const ConfigNode& node) {
   return "?";
 }
 
-// The last key of a path, without the index of an element: what carries the unit.
+// Last key of a path, without an element's index. This key carries the unit.
 std::string_view last_key(std::string_view path) {
   if (const auto bracket = path.find_last_of('['); bracket != std::string_view::npos && path.back() == ']')
     path = path.substr(0, bracket);
@@ -52,7 +52,7 @@ std::string_view last_key(std::string_view path) {
 }
 
 std::string interval(Range range) {
-  constexpr double kHuge = 1e15;  // beyond it a limit is that of the type and says nothing
+  constexpr double kHuge = 1e15;  // larger limits are those of the type and are not shown
   const bool low = range.low > -kHuge, high = range.high < kHuge;
   if (low && high) return fmt::format(" from {} to {}", range.low, range.high);
   if (low) return fmt::format(" of at least {}", range.low);
@@ -64,7 +64,7 @@ std::string header_of(const std::string& path) {
   return path.empty() ? "the top of the file" : fmt::format("[{}]", path);
 }
 
-// Numbers given as text are the commonest slip.
+// Numbers in quotes are the most common error.
 std::string_view cure_for_type(const ConfigNode& node, std::string_view expected) {
   const bool wants_number = expected.starts_with("a number") || expected.starts_with("an integer");
   if (node.kind == Kind::text && wants_number) return ": write the number alone, without quotes or unit";
@@ -199,7 +199,7 @@ void ConfigReader::missing(const ConfigNode& table, const std::string& path, std
 void ConfigReader::unknown_keys(const ConfigNode& table, const std::string& path,
                                 std::span<const std::string> known) {
   std::vector<std::string> candidates(known.begin(), known.end());
-  // A key that is not in the file yet is the likelier one to have been meant.
+  // Try keys that are not in the file yet first, because one of them was probably meant.
   std::stable_partition(candidates.begin(), candidates.end(), [&](auto& key) { return !table.find(key); });
   for (const auto& child : table.children) {
     if (std::find(known.begin(), known.end(), child.key) != known.end()) continue;
@@ -213,7 +213,7 @@ void ConfigReader::unknown_keys(const ConfigNode& table, const std::string& path
   }
 }
 
-// A key that is spelt wrong is also missing; said once is enough.
+// A misspelt key is also missing. Report it only once.
 void ConfigReader::forget_missing_named_in(std::string_view cure, const std::string& path,
                                            std::span<const std::string> known) {
   for (const auto& key : known) {

@@ -15,8 +15,7 @@
 #include "config/node.hpp"
 #include "config/problem.hpp"
 
-// Walks the fields of a struct and a document side by side and collects everything that does not fit. Users
-// include config/load.hpp.
+// Compares the fields of a struct with a document and collects every mismatch. Users include config/load.hpp.
 namespace sandhopper {
 
 enum class MissingKeys { error, use_default };
@@ -28,7 +27,7 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-// Written below headers of their own.
+// True for types that are written as tables with headers of their own.
 template <class T>
 inline constexpr bool is_tabular = HasFields<T>;
 template <class T, std::size_t N>
@@ -111,7 +110,7 @@ class ConfigReader {
   static std::string join(const std::string& path, std::string_view key);
   static std::string element(const std::string& path, std::size_t index);
 
-  // What a missing key should hold.
+  // Description of the expected content of a missing key.
   template <class T>
   static std::string expected(const std::string& path, const T& by_default, Range range) {
     if constexpr (HasFields<T>) {

@@ -36,7 +36,7 @@ std::optional<Leg> check_leg(const Report& report, const LegParameters& paramete
   }
 }
 
-// Every length the leg is asked to take lies where its angle limits let it go.
+// The leg must reach every configured length within its angle limits.
 void check_reach(const Report& report, const RobotConfig& c, const Leg& leg) {
   const double longest_m = leg.kinematics(c.limits.leg_angle_min_rad).length_m;
   const double shortest_m = leg.kinematics(c.limits.leg_angle_max_rad).length_m;
@@ -51,8 +51,8 @@ void check_reach(const Report& report, const RobotConfig& c, const Leg& leg) {
   }
 }
 
-// The torque that proves motor mode at arming: below the motors' limit, and several steps of the drives'
-// torque field, or its reply cannot show it.
+// The torque that confirms motor mode at arming must be below the motors' limit and at least four steps of
+// the drives' torque field. Otherwise a reply cannot show it.
 void check_confirm_torque(const Report& report, const RobotConfig& c) {
   const double torque_Nm = c.arming.confirm_torque_Nm;
   if (torque_Nm > c.limits.motor_torque_Nm)

@@ -12,8 +12,8 @@
 
 namespace sandhopper {
 
-// The robot's file, config/robot.toml: one table a role. Each role's keys, units and ranges stand in its own
-// struct.
+// The robot's file, config/robot.toml: one table per role. The struct of each role defines its keys, units
+// and ranges.
 struct RobotConfig {
   LegParameters robot{};
   MotorConfigs motor = CanConfig{}.motor;  // left, right
@@ -48,7 +48,7 @@ struct RobotConfig {
   void check(const std::function<void(std::string_view key, const std::string& text)>& report) const;
 };
 
-// What the cycle needs of it.
+// Part of the configuration that the cycle needs.
 CycleConfig cycle_config(const RobotConfig& config);
 
 }  // namespace sandhopper

@@ -8,10 +8,11 @@ namespace sandhopper {
 namespace {
 
 constexpr double kCycle_s = 1e-3;
-// Explicit steps of the thermal model stay within 5 % of a time constant.
+// The thermal model's explicit steps must stay within 5 % of a time constant.
 constexpr double kThermalSteps = 20.0;
 
-// The MIT fields of a drive against what the cycle commands and supervises, both on the drive's side.
+// Checks that the MIT fields of a drive can represent everything that the cycle commands and supervises, on
+// the drive's side.
 void check_mit_fields(ContradictionList& list, const CubeMarsConfig& m, const std::string& key,
                       const RobotConfig& c) {
   const auto& limits = c.limits;
@@ -149,7 +150,7 @@ void check_detectors(ContradictionList& list, const RobotConfig& c) {
                   l.strides, s.hop_count));
 }
 
-// Ages that the slowest rate which is still called right can keep: one period and the cycle that looks.
+// Checks that a sensor at the lowest accepted rate can keep the age limit: one period plus one cycle.
 void check_ages(ContradictionList& list, const RobotConfig& c) {
   struct Sensor {
     const char* age_key;
@@ -176,7 +177,7 @@ void check_ages(ContradictionList& list, const RobotConfig& c) {
 
 void check_thermal_model(ContradictionList& list, const RobotConfig& c) {
   const auto& s = c.supervision;
-  const double step_s = kCycle_s * (s.cycle_gap + 1);  // the longest that is not a fault
+  const double step_s = kCycle_s * (s.cycle_gap + 1);  // longest step that is not a fault
   const auto check = [&](const std::string& part, double resistance, double capacity) {
     list.carries({"supervision." + part + "_capacity_J_per_K",
                   fmt::format("{:g} with {}_resistance_K_per_W = {:g}", capacity, part, resistance),

@@ -21,8 +21,8 @@ inline std::int64_t clock_ns(clockid_t clock) noexcept {
 
 inline std::int64_t monotonic_ns() noexcept { return clock_ns(CLOCK_MONOTONIC); }
 
-// CLOCK_REALTIME minus CLOCK_MONOTONIC at this moment, for stamps the kernel gives in real time. Of three
-// tries the one that was interrupted least.
+// CLOCK_REALTIME minus CLOCK_MONOTONIC now, for kernel time stamps in real time. Uses the shortest of up to
+// three readings, because an interrupted reading is inaccurate.
 inline std::int64_t realtime_offset_ns() noexcept {
   std::int64_t offset = 0;
   std::int64_t shortest = std::numeric_limits<std::int64_t>::max();

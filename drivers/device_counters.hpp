@@ -4,10 +4,11 @@
 
 namespace sandhopper {
 
-// What went wrong on a slow bus since start. Counted by its thread, read by any.
+// Error counts of a device on a slow bus since start. Its own thread counts, any thread may read.
 struct DeviceCounters {
   std::atomic<std::uint32_t> failed_transfers{0};
-  std::atomic<std::uint32_t> missed_edges{0};  // samples found, or missing, without their data-ready edge
+  std::atomic<std::uint32_t> missed_edges{0};  // a sample without its data-ready edge, or an edge that did
+                                               // not come
   std::atomic<std::uint32_t> invalid{0};       // frames or values that could not be used
 };
 

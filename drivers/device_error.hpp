@@ -5,7 +5,7 @@
 
 namespace sandhopper {
 
-// A device that cannot be used, found when starting: which one, what went wrong, and what to do about it.
+// A device that cannot be used at start: which device, the cause, and the cure for the user.
 class DeviceError : public std::runtime_error {
  public:
   DeviceError(std::string_view device, std::string_view cause, std::string_view cure);
@@ -17,7 +17,7 @@ class DeviceError : public std::runtime_error {
   std::string cure_;
 };
 
-// "cannot open: No such file or directory" from the present errno.
+// The action and the text of the current errno, such as "cannot open: No such file or directory".
 std::string errno_cause(std::string_view action);
 
 }  // namespace sandhopper

@@ -9,8 +9,8 @@ namespace sandhopper {
 // Hands the newest value from one writer thread to one reader thread; older ones not yet taken are dropped.
 //
 // Three slots: the writer owns one, the reader owns one, and the third is exchanged through one atomic index.
-// Both sides are wait-free and never touch the same slot, so a cycle that interrupts its writer on the same
-// processor cannot get stuck, as the reader of a sequence lock would.
+// Both sides are wait-free and never touch the same slot. So a cycle that interrupts its writer on the same
+// processor cannot block, as the reader of a sequence lock would.
 template <class T>
 class Latest {
   static_assert(std::is_trivially_copyable_v<T>);

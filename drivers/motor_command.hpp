@@ -6,21 +6,20 @@
 
 namespace sandhopper {
 
-// What the drives are asked to be: off (left motor mode), enable (entering motor mode with zero gains), or
-// run.
+// Request to the drives: off (leave motor mode), enable (enter motor mode with zero gains), or run.
 enum class DriveRequest : std::uint8_t { off, enable, run };
 template <>
 struct EnumNames<DriveRequest> {
   static constexpr std::array<std::string_view, 3> value{"off", "enable", "run"};
 };
 
-// Oldest motor sample from which the host may work out position or velocity gains itself, for a drive that
-// has no such law (servo dialect). Such a drive sends its status every 2 to 2.5 ms: two lost in a row are
-// bridged, three are not.
+// Largest age of a motor sample from which the host may compute position or velocity gains, for a drive
+// without such a law (servo dialect). Such a drive sends its status every 2 to 2.5 ms, so two lost frames in
+// a row are tolerated and three are not.
 inline constexpr double kHostLawAge_s = 0.006;
 
-// Law inside the drive: torque = kp (position - measured) + kd (velocity - measured) + torque. Link side,
-// signs of MotorSample.
+// Law inside the drive: torque = kp (position_rad - measured) + kd (velocity_radps - measured) + torque_Nm.
+// Values are on the link side, with the signs of MotorSample.
 struct MotorCommand {
   double position_rad = 0.0;
   double velocity_radps = 0.0;

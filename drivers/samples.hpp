@@ -6,8 +6,8 @@
 #include "config/fields.hpp"
 #include "drivers/transmit_guard/rule.hpp"
 
-// What the devices deliver, in SI units and in the robot's frame (z up), each with the time at which it was
-// measured: nanoseconds of CLOCK_MONOTONIC. `fresh` is true in the one cycle that first sees the sample.
+// Samples of the devices in SI units and in the robot's frame (z up). `time_ns` is the time of measurement in
+// nanoseconds of CLOCK_MONOTONIC. `fresh` is true only in the cycle that first sees the sample.
 namespace sandhopper {
 
 // A difference of two times of samples, in seconds.
@@ -18,9 +18,9 @@ inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 enum class Side : std::uint8_t { left, right };
 inline constexpr std::size_t kMotorCount = 2;
 
-// One drive's reply. Angle of the upper link from straight down, growing as the leg shortens; torque = torque
-// constant x current, positive when it shortens the leg. `time_ns` is the instant of the state in the reply
-// (that of the command it answers), not of its arrival.
+// One drive's reply. The angle is that of the upper link from straight down and grows as the leg shortens.
+// Torque = torque constant x current; it is positive when it shortens the leg. `time_ns` is the instant of
+// the measured state (that of the command it answers), not of the reply's arrival.
 struct MotorSample {
   std::int64_t time_ns = 0;
   double position_rad = 0.0;
@@ -44,8 +44,8 @@ struct MotorSample {
   }
 };
 
-// Specific force (+9.81 m/s^2 along z at rest) and angular rate. `samples` counts what the sensor delivered
-// since start: the sensor is faster than the cycle, so it grows by 1 or 2 per cycle at 1666 Hz.
+// Specific force (+9.81 m/s^2 along z at rest) and angular rate. `samples` counts the sensor's samples since
+// start. At 1666 Hz the sensor is faster than the cycle, so it grows by 1 or 2 per cycle.
 struct ImuSample {
   std::int64_t time_ns = 0;
   std::array<double, 3> accel_mps2{};
@@ -83,7 +83,7 @@ struct TofSample {
   }
 };
 
-// Compression of the foot's load cell, positive; tare not yet removed.
+// Compression of the foot's load cell is positive. The tare is not removed.
 struct LoadCellSample {
   std::int64_t time_ns = 0;
   double force_N = 0.0;
@@ -99,15 +99,15 @@ struct LoadCellSample {
   }
 };
 
-// What the CAN controller says of itself (ISO 11898-1 fault confinement).
+// State that the CAN controller reports (ISO 11898-1 fault confinement).
 enum class BusState : std::uint8_t { active, warning, passive, off };
 template <>
 struct EnumNames<BusState> {
   static constexpr std::array<std::string_view, 4> value{"active", "warning", "passive", "off"};
 };
 
-// The motors' bus; counts are cumulative since start. `rejected`: frames with a drive's identifier that do
-// not look like its dialect. `unsolicited`: answers with no command outstanding.
+// State of the motors' bus; counts are cumulative since start. `rejected`: frames with a drive's identifier
+// that do not match its dialect. `unsolicited`: answers with no command outstanding.
 struct BusSample {
   BusState state = BusState::active;
   std::uint32_t send_failures = 0;  // commands the kernel did not take, or that had not left after a cycle

@@ -5,7 +5,7 @@
 namespace sandhopper {
 namespace {
 
-// The joint row's coefficients at one angle.
+// Coefficients of the phi row of the equation of motion (joint_force.hpp) at one angle.
 struct JointRow {
   double dlength_m_per_rad;   // L'
   double inertia_kg_m2;       // h

@@ -24,14 +24,14 @@ void KalmanFilter::predict(const BodyFootAccel& accel, double dt_s) noexcept {
   x_(2) += dt_s * x_(3) + half * accel.foot_mps2;
   x_(3) += dt_s * accel.foot_mps2;
 
-  // P <- A P A^T + Q, with A = I + T on the two superdiagonal places, done in place.
+  // P <- A P A^T + Q in place. A = I + dt on the two superdiagonal elements that couple height and speed.
   p_.row(0) += dt_s * p_.row(1);
   p_.row(2) += dt_s * p_.row(3);
   p_.col(0) += dt_s * p_.col(1);
   p_.col(2) += dt_s * p_.col(3);
   const double qb = config_.body_accel_noise_mps2 * config_.body_accel_noise_mps2;
-  // A saturated reading lacks about as much as it shows: then the leg's
-  // encoders tell the foot's speed.
+  // At the end of its range the accelerometer may miss as much as it reads. Use the reading as its noise, so
+  // that the leg's encoders determine the foot's speed.
   const double foot_noise = accel.foot_at_range ? std::abs(accel.foot_mps2) : config_.foot_accel_noise_mps2;
   const double qf = foot_noise * foot_noise;
   const auto add_noise = [&](Eigen::Index i, double q) {
@@ -56,7 +56,8 @@ KalmanFilter::Lookback KalmanFilter::look_back(double age_s) const noexcept {
     const double dt = std::min(step.dt_s, remaining);
     const std::array<double, 2> accel{step.accel.body_mps2, step.accel.foot_mps2};
     for (std::size_t m = 0; m < 2; ++m) {
-      // z(t-a-dt) = z(t-a) - dt v(t-a) + a dt^2/2 with v(t-a) = v - speed
+      // One step further back from age s: z(t-s-dt) = z(t-s) - dt v(t-s) + accel dt^2/2 with v(t-s) = v(t) -
+      // speed.
       back.displacement_m[m] += dt * back.speed_mps[m] + accel[m] * dt * dt / 2.0;
       back.speed_mps[m] += accel[m] * dt;
     }

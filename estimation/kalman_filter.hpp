@@ -9,9 +9,9 @@
 //   x = [z_b, v_b, z_f, v_f],  u = [a_b, a_f] (IMU specific force minus gravity and bias)
 //   x+ = A x + B u,  A = blkdiag([1 T; 0 1]) twice,  B = blkdiag([T^2/2; T]) twice,  Q = B diag(sigma_a^2)
 //   B^T y = [ToF height; leg length + foot height; leg rate],  H = [1 0 0 0; 1 0 -1 0; 0 1 0 -1]
-// Each measurement is used once, when it is fresh, and at its own age: the row is that of the state `age`
-// earlier, obtained by inverting the very prediction steps made since (z(t-a) = z - a v + displacement of the
-// known input).
+// Each measurement is used once, when it is fresh, and at its own age: its row is that of the state `age`
+// earlier. That state follows by inverting the prediction steps made since: z(t-a) = z - a v + displacement
+// caused by the known input.
 namespace sandhopper {
 
 struct KalmanConfig {
@@ -20,7 +20,7 @@ struct KalmanConfig {
   double tof_noise_m = 0.006;
   double leg_length_noise_m = 1.0e-4;
   double leg_rate_noise_mps = 0.03;
-  double tof_gate_sigma = 6.0;  // a ToF reading farther off than this is not used
+  double tof_gate_sigma = 6.0;  // a ToF reading with a larger normalised innovation is rejected
   double initial_height_noise_m = 0.01;
   double initial_speed_noise_mps = 0.01;
 
@@ -47,10 +47,11 @@ struct BodyFootState {
 struct BodyFootAccel {
   double body_mps2;
   double foot_mps2;
-  bool foot_at_range = false;  // the sensor is at the end of its range: the true one is anything beyond
+  bool foot_at_range = false;  // the sensor is at the end of its range: the true value may be larger
 };
 
-// What came of one measurement: innovation and its normalised square (NaN when it was not used or gated out).
+// Result of one measurement update: the innovation and its normalised square. Both are NaN if the measurement
+// was not used.
 struct Innovation {
   double value;
   double normalised_squared;
@@ -59,7 +60,7 @@ struct Innovation {
 
 class KalmanFilter {
  public:
-  static constexpr std::size_t kHistory = 16;  // prediction steps a measurement may lie back
+  static constexpr std::size_t kHistory = 16;  // largest age of a measurement [prediction steps]
 
   explicit KalmanFilter(const KalmanConfig& config) noexcept;
   void reset(const BodyFootState& state) noexcept;
@@ -67,18 +68,20 @@ class KalmanFilter {
   // One step of dt_s with the acceleration of that step.
   void predict(const BodyFootAccel& accel, double dt_s) noexcept;
 
+  // Each update takes a measurement of this age. Height of the body over the ground's zero [m].
   Innovation update_body_height(double height_m, double age_s) noexcept;
   // Hip-to-sole distance, i.e. leg length plus foot height.
   Innovation update_leg_length(double distance_m, double age_s) noexcept;
   Innovation update_leg_rate(double rate_mps, double age_s) noexcept;
 
   BodyFootState state() const noexcept;
-  // The state `age_s` ago according to all that is known now; ages beyond the history are cut to it.
+  // Estimate of the state `age_s` ago from all data up to now. An age beyond the history is limited to it.
   BodyFootState state_before(double age_s) const noexcept;
   const Eigen::Matrix4d& covariance() const noexcept { return p_; }
 
  private:
-  // What the inputs of the last age_s did: z(t-a) = z - a v + dz, v(t-a) = v - dv, per mass.
+  // Displacement dz and speed change dv that the inputs of the last age_s caused, per mass: z(t-a) = z - a v
+  // + dz, v(t-a) = v - dv.
   struct Lookback {
     double age_s;
     std::array<double, 2> displacement_m;

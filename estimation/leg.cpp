@@ -22,7 +22,8 @@ Leg::Leg(const LegParameters& parameters)
 
 namespace {
 
-// Sines and cosines of both links and psi (lower link from vertical) with its derivatives in phi.
+// Sines and cosines of both links, and the lower link's angle psi from the vertical with its derivatives in
+// phi.
 struct LinkAngles {
   double s, c, sin_psi, cos_psi, dpsi, d2psi;
 };

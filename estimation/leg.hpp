@@ -15,8 +15,8 @@ namespace sandhopper {
 
 inline constexpr double kGravity_mps2 = 9.81;
 
-// Geometry and inertia. Link figures are per link, rotor figures per motor (motor side). The default is the
-// robot of the 80 mm foot; one motor drives both sides when motor_count is 1.
+// Geometry and inertia. Link values are per link, rotor values per motor (motor side). The default is the
+// robot with the 80 mm foot. With motor_count = 1 one motor drives both sides.
 struct LegParameters {
   double body_mass_kg = 1.60;
   double foot_mass_kg = 0.55;
@@ -79,8 +79,8 @@ struct LegDynamics {
 
 class Leg {
  public:
-  // Throws std::invalid_argument where lengths do not make a leg (the lower link must outreach upper link
-  // plus hip offset) or the mass matrix would be singular.
+  // Throws std::invalid_argument if the lengths do not form a leg (the lower link must be longer than upper
+  // link plus hip offset) or if the mass matrix would be singular.
   explicit Leg(const LegParameters& parameters);
 
   LegKinematics kinematics(double angle_rad) const noexcept;
@@ -100,8 +100,8 @@ class Leg {
   double rotor_inertia_total_kg_m2_;  // motor_count * Jr * N^2, on the link side
 };
 
-// Kinetic plus gravitational energy of the moving parts [J], zero height at x_f = 0 and the foot counted at
-// its sole.
+// Kinetic plus gravitational energy of the moving parts [J]. Height is zero at x_f = 0; the foot's mass
+// counts at the height of its sole.
 double mechanical_energy_J(const Leg& leg, double foot_z_m, double foot_velocity_mps, double angle_rad,
                            double angular_velocity_radps) noexcept;
 

@@ -11,11 +11,11 @@ struct LocalDerivatives {
   double acceleration;
 };
 
-// Cubic fitted around every sample to those within half_width_s, weighted with (1 - |dt/half_width|^3)^3
-// (Cleveland's tricube): derivatives of an angle that was sampled at irregular times. It looks ahead by
-// half_width_s, so it is for work after the trial. Times [s] grow strictly, NaN values are left out and have
-// NaN results; where a gap leaves fewer than six samples the degree falls, down to a constant with zero
-// derivatives.
+// Derivatives of an angle that was sampled at irregular times: a cubic is fitted around every sample to those
+// within half_width_s, with the weights (1 - |dt/half_width|^3)^3 (Cleveland's tricube). It uses samples up
+// to half_width_s ahead, so it is for evaluation after the trial. Times [s] must strictly increase. NaN
+// values are skipped and have NaN results. With fewer than six samples in the window the degree is reduced,
+// down to a constant with zero derivatives.
 std::vector<LocalDerivatives> local_polynomial(std::span<const double> t_s, std::span<const double> values,
                                                double half_width_s);
 

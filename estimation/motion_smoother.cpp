@@ -13,7 +13,7 @@ using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kUnmeasuredAccel_mps2 = 30.0;  // per step, where no accelerometer was there
+constexpr double kUnmeasuredAccel_mps2 = 30.0;  // process noise of one step if there is no accelerometer
 constexpr double kStartSpeed_mps = 3.0;
 
 struct Step {
@@ -110,7 +110,7 @@ class Smoother {
     return out;
   }
 
-  // Without an accelerometer: the slope of the smoothed velocity.
+  // Without an accelerometer the acceleration is the slope of the smoothed velocity.
   void differentiate(SmoothMotion& out) const {
     const std::size_t n = t_s_.size();
     for (std::size_t i = 0; i < n; ++i) {

@@ -11,10 +11,9 @@
 
 namespace sandhopper {
 
-// The check made at every start while the robot hangs still: every drive must be in motor mode
-// (DriveConfirmation), then both encoders must read the angle of the hanging pose and agree with each other,
-// nothing may move, and every sensor must deliver. The means of the same window give IMU bias, load-cell tare
-// and body height.
+// Check at every start while the robot hangs still. Every drive must be in motor mode (DriveConfirmation).
+// Then both encoders must read the angle of the hanging pose and agree, nothing may move, and every sensor
+// must deliver. The means of the same window give IMU bias, load-cell tare and body height.
 class Arming {
  public:
   Arming(const CycleConfig& config, const Leg& leg) noexcept;
@@ -24,13 +23,13 @@ class Arming {
   struct Verdict {
     bool passed;
     Reason reason;
-    std::array<double, 4> values;  // as Event::values of zero_check and arming_refused
+    std::array<double, 4> values;  // Event::values of zero_check or arming_refused
     StaticCalibration calibration;
   };
-  // Nothing until the drives are confirmed and window_s has passed, or until they are not.
+  // Empty until the drives are confirmed and window_s has passed, or until they are refused.
   std::optional<Verdict> update(const SensorFrame& frame) noexcept;
 
-  // What the drives are to do until then.
+  // Writes the drives' command during the check.
   void write(Command& command) const noexcept;
 
  private:

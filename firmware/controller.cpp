@@ -12,8 +12,8 @@ bool hopping(State state) noexcept {
   return state == State::flight || state == State::compression || state == State::extension;
 }
 
-// A body that accelerates less than this is carried by its leg. Its estimated speed would not do: an impact
-// beyond the accelerometers' range leaves it wrong by half a metre a second.
+// A body that accelerates less than this is carried by its leg. The estimated speed cannot be used instead:
+// after an impact beyond the accelerometers' range it is wrong by about 0.5 m/s.
 constexpr double kSupported_mps2 = 3.0;
 
 }  // namespace
@@ -62,7 +62,7 @@ double Controller::time_in_state_s(const SensorFrame& frame) const noexcept {
   return to_s(frame.time_ns - state_since_ns_);
 }
 
-// A soft stop takes as long as settling and the ramp do, besides.
+// A soft stop may also take the time for settling and for the ramp.
 double Controller::phase_time_s(const SensorFrame& frame) const noexcept {
   if (hopping(out_.state)) return time_in_state_s(frame);
   if (out_.state != State::soft_stop) return 0.0;
@@ -126,7 +126,7 @@ bool Controller::serve_request(const SensorFrame& frame) noexcept {
 
 bool Controller::disarm(const SensorFrame& frame) noexcept {
   if (out_.state != State::fault && out_.state != State::armed && out_.state != State::idle) return false;
-  // The restart that such a fault asks for has taken place.
+  // A fault of the last run may have asked for a restart. That restart has taken place.
   const Latch latch = fault_of_last_run_ ? Latch::until_disarmed : entry_of(out_.fault).latch;
   if (latch == Latch::until_restart || (latch == Latch::until_released && frame.emergency_stop)) {
     emit(EventKind::disarm_refused, Reason::fault, {fault_values_[0], fault_values_[1], 0.0, 0.0});
@@ -152,8 +152,7 @@ void Controller::supervise(const SensorFrame& frame) noexcept {
   if (found.fault != Fault::none) raise(found, frame);
 }
 
-// A harsher fault takes the place of a gentler one. One that is harsher by its latch alone leaves the
-// reaction as it runs.
+// A harsher fault replaces a gentler one. If only its latch is harsher, the running reaction continues.
 void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexcept {
   const Reaction reaction = entry_of(found.fault).reaction;
   if (out_.fault != Fault::none && !is_harsher(found.fault, out_.fault)) return;
@@ -169,7 +168,8 @@ void Controller::raise(const FaultFound& found, const SensorFrame& frame) noexce
     return;
   }
   if (reacting) return;
-  // Before the check at arming has passed the drives make at most its small torque: nothing is to be damped.
+  // Before the check at arming has passed, the drives produce at most its small torque. Then nothing needs
+  // damping.
   const bool energised = out_.command.drive == DriveRequest::run && (out_.state != State::armed || ready_);
   if (out_.state != State::fault) reaction_.begin(frame, energised);
   ready_ = false;
@@ -212,7 +212,8 @@ void Controller::step_hop(const SensorFrame& frame) noexcept {
     apply(*transition, frame);
     return;
   }
-  // Too little energy to lift off again: on the ground and at rest. Nothing is broken; the hop is over.
+  // With too little energy to lift off again the robot rests on the ground. This is no fault; the hop is
+  // over.
   if (out_.state == State::flight || !still()) still_since_ns_ = frame.time_ns;
   if (to_s(frame.time_ns - still_since_ns_) <= config_.limits.settle_s) return;
   const auto& e = out_.estimate;
@@ -275,7 +276,7 @@ void Controller::write_command(const SensorFrame& frame) noexcept {
   out_.command.drive = DriveRequest::run;
   auto law = spring_law(out_.state, config_.controller);
   if (out_.state == State::soft_stop) {
-    // The spring fades while the damping stays: the robot sits down instead of dropping.
+    // The spring fades while the damping stays, so that the robot lowers itself instead of dropping.
     const double ramped_s = to_s(frame.time_ns - still_since_ns_) - config_.limits.settle_s;
     law.stiffness_N_per_m *= std::clamp(1.0 - ramped_s / config_.limits.ramp_down_s, 0.0, 1.0);
   }

@@ -20,13 +20,12 @@ namespace sandhopper {
 // and gives the same bits for the same frames.
 //
 //   idle --arm--> armed (zero check) --free fall--> flight --> compression --> extension --> flight --> ...
-//   after limits.strides liftoffs, or on request, the next touchdown is a soft stop, then idle; a stance that
-//   comes to rest, too; any fault, in
-//   any state: fault state, by way of the reaction that the fault's entry names, left only by `disarm` and
-//   only where the entry's latching rule allows it.
+// After limits.strides liftoffs, or on request, the next touchdown begins a soft stop, then idle. A stance
+// that comes to rest also ends so. A fault in any state leads through the reaction in its entry to the fault
+// state. Only `disarm` leaves it, and only if the entry's latch allows it.
 class Controller {
  public:
-  // Throws std::invalid_argument where the configuration describes no leg.
+  // Throws std::invalid_argument if the configuration does not describe a leg.
   explicit Controller(const CycleConfig& config);
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
@@ -35,22 +34,22 @@ class Controller {
 
   // Events of the last step, oldest first.
   std::span<const Event> events() const noexcept { return {events_.data(), event_count_}; }
-  // Whether the last step finished a stride; its sums then.
+  // True if the last step finished a stride. Its sums are then in stride_sums().
   bool stride_finished() const noexcept { return stride_finished_; }
   const StrideSums& stride_sums() const noexcept { return recorder_.sums(); }
-  // True where the foot has just left its crater: what the ground did to it in the stride before is complete.
+  // True if the foot has just left its crater: the ground events of the previous stride are complete.
   bool ground_events_complete() const noexcept { return recorder_.foot_is_clear() && hopping_; }
-  // Estimated depth of the foot on new ground in the present stride; zero before it is reached.
+  // Estimated depth of the foot on new ground in this stride; 0 before it reaches new ground.
   double new_ground_m() const noexcept { return recorder_.new_ground_m(); }
   const GroundEventSums& ground_event_sums() const noexcept { return recorder_.event_sums(); }
-  // Whether the last step's request meant anything in the state the robot was in.
+  // True if the last step's request had an effect in the robot's state.
   bool request_had_effect() const noexcept { return request_had_effect_; }
   const CycleConfig& config() const noexcept { return config_; }
   const ThermalModel& thermal(std::size_t motor) const noexcept { return supervisor_.thermal(motor); }
-  // Since the leg was inspected, earlier runs included.
+  // Number since the leg was inspected, including earlier runs.
   std::uint32_t touchdowns() const noexcept { return config_.start.touchdowns + recorder_.strides_begun(); }
 
-  // For tests of the tests: without this fault's detector.
+  // Removes this fault's detector. For tests that prove that the fault matrix notices a missing detector.
   void switch_off(Fault detector) noexcept { supervisor_.switch_off(detector); }
 
  private:
@@ -84,12 +83,13 @@ class Controller {
   std::int64_t state_since_ns_ = 0;
   std::int64_t still_since_ns_ = 0;
   int free_fall_count_ = 0;
-  double body_bias_mps2_ = 0.0;  // of the body's accelerometer, measured while arming
+  double body_bias_mps2_ = 0.0;  // bias of the body's accelerometer, measured while arming
   bool ready_ = false;           // armed and checked
   bool stop_requested_ = false;
   bool stride_finished_ = false;
-  bool hopping_ = false;  // in the last step the recorder was updated
+  bool hopping_ = false;  // the recorder was updated in the last step
   bool request_had_effect_ = false;
+  // The latched fault was restored from the last run's memory.
   bool fault_of_last_run_ = false;
   std::array<double, 2> fault_values_{};
 };

@@ -9,7 +9,7 @@
 #include "firmware/supervision/supervision_config.hpp"
 #include "terrain/stiffness_fit.hpp"
 
-// What the cycle is told: one struct a role.
+// Configuration of the cycle: one struct per role.
 namespace sandhopper {
 
 struct EstimatorConfig {
@@ -25,8 +25,8 @@ struct EstimatorConfig {
   }
 };
 
-// Virtual spring along the leg, F = K (L0 - L) - B dL/dt, tau = F L' over both motors, and when phases
-// change.
+// Virtual spring along the leg, F = K (L0 - L) - B dL/dt, tau = F L' over both motors, and the thresholds of
+// the phase changes.
 struct ControllerConfig {
   double compression_stiffness_N_per_m = 375.0;
   double extension_stiffness_N_per_m = 500.0;
@@ -38,7 +38,8 @@ struct ControllerConfig {
   double soft_stop_damping_N_s_per_m = 80.0;
   double touchdown_deflection_m = 0.002;
   double touchdown_rate_mps = 0.05;
-  double touchdown_height_margin_m = 0.015;  // how far over the expected ground touchdown is believed
+  double touchdown_height_margin_m = 0.015;  // touchdown is accepted only up to this far above the expected
+                                             // ground
   double compression_end_min_deflection_m = 0.004;
   double liftoff_margin_m = 0.0005;
 
@@ -60,9 +61,9 @@ struct ControllerConfig {
   }
 };
 
-// What happens between the request to arm and being ready: drives on with zero gains, a small torque that
-// each drive's current must follow (`drive_confirmation.hpp`), then everything held still for `window_s`
-// while both encoders are checked against the pose and IMU bias, load-cell tare and height are measured.
+// From the request to arm until ready: drives on with zero gains; a small torque that each drive's current
+// must follow (`drive_confirmation.hpp`); then everything at rest for `window_s`, while both encoders are
+// checked against the pose and IMU bias, load-cell tare and height are measured.
 struct ArmingConfig {
   double enable_s = 0.03;
   double confirm_torque_Nm = 0.1;
@@ -72,7 +73,7 @@ struct ArmingConfig {
   double zero_pose_length_m = 0.30;  // hip-to-toe length in which the robot hangs when armed
   double zero_tolerance_rad = 0.03;
   double still_range_rad = 0.005;     // largest minus smallest angle in the window
-  double free_fall_accel_mps2 = 5.0;  // body specific force below this means released
+  double free_fall_accel_mps2 = 5.0;  // a smaller specific force of the body means that it was released
   int free_fall_cycles = 3;
 
   template <class Self, class Visitor>
@@ -146,9 +147,10 @@ struct CycleConfig {
   StiffnessConfig stiffness{};
   LimitsConfig limits{};
   SupervisionConfig supervision{};
-  // Answers a second that a drive owes: one a command, or the rate at which it sends its status by itself.
+  // Replies per second that a drive must send: one per command, or its configured status rate.
   std::array<double, kMotorCount> motor_reply_rate_Hz{1000.0, 1000.0};
-  // The drive works out gains itself; else the host does, from the newest sample (`kHostLawAge_s`).
+  // True if the drive computes the gains itself. Otherwise the host does, from the newest sample
+  // (`kHostLawAge_s`).
   std::array<bool, kMotorCount> law_in_drive{true, true};
   StartState start{};
 };

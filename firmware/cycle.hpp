@@ -37,10 +37,10 @@ struct TrialTopics {
   LogTopic<GroundEvents> ground_events;
 };
 
-// What happens beside the cycle: solves finished strides, logs them, and tells a listener of events and
-// results. Fed by the cycle through rings; `serve` runs on a thread of ordinary priority (start) or wherever
-// it is called (simulation).
-class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
+// Work outside the cycle: solves finished strides, logs them, and passes events and results to a listener.
+// The cycle feeds it through rings. `serve` runs on a thread of ordinary priority (after start()) or is
+// called directly (simulation).
+class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): padding of the rings
  public:
   struct Listener {
     std::function<void(const Event&)> event{};
@@ -56,7 +56,7 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   void stop();
   void serve();
 
-  // From the cycle.
+  // Called by the cycle.
   void offer(const Event& event) noexcept { events_.push(event); }
   void offer(const StrideSums& sums) noexcept { strides_.push(sums); }
   void offer(const GroundEventSums& sums) noexcept { stances_.push(sums); }
@@ -76,8 +76,8 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): the ring
   std::atomic<bool> stopping_{false};
 };
 
-// One turn of the cycle: read, step, write, log. Everything a turn does is bounded, waits for nothing and
-// allocates nothing.
+// One turn of the cycle: read, step, write, log. Every step is bounded, waits for nothing and allocates
+// nothing.
 class Cycle {
  public:
   struct Parts {
@@ -99,7 +99,7 @@ class Cycle {
     Request request = Request::none;
   };
   const StepOutput& run(const Turn& turn) noexcept;
-  // What the last turn consumed.
+  // Sensor frame of the last turn.
   const SensorFrame& frame() const noexcept { return frame_; }
 
  private:

@@ -3,7 +3,7 @@
 namespace sandhopper {
 namespace {
 
-// The motors act against each other.
+// The two motors get opposite torques, so that the leg does not move.
 double direction_of(std::size_t motor) noexcept { return motor == 0 ? 1.0 : -1.0; }
 
 }  // namespace

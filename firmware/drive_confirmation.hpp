@@ -15,15 +15,15 @@ inline bool torque_follows(double measured_Nm, double commanded_Nm) noexcept {
   return std::abs(measured_Nm - commanded_Nm) <= 0.5 * std::abs(commanded_Nm);
 }
 
-// Proves while the robot hangs still that every drive is in motor mode. No dialect reports that in its
-// replies, so the drive's behaviour has to show it:
+// Confirms, while the robot hangs still, that every drive is in motor mode. No dialect reports motor mode in
+// its replies, so it is tested by the drive's behaviour:
 //   1. arming.enable_s: the drives enter motor mode with zero gains.
 //   2. arming.confirm_s: +-arming.confirm_torque_Nm, half of the time with each sign. The two motors act
 //      against each other, so that the leg stays where it is. Measured torque = torque constant x half the
 //      difference of the mean currents under both signs, which removes a current sensor's offset. The first
 //      4 ms after each change are left out: a reply is up to 2 ms old, and the current needs time.
-//   3. Where a motor's torque does not follow: the drives off for kOff_s, which makes the driver send zero
-//      and leave, and all of it again, arming.confirm_tries times in total.
+//   3. If a motor's torque does not follow: drives off for kOff_s, so that the driver sends zero and leave
+//      frames. Then all steps again, arming.confirm_tries times in total.
 // Part of the cycle: reads no clock, allocates and throws nothing.
 class DriveConfirmation {
  public:
@@ -35,12 +35,12 @@ class DriveConfirmation {
   enum class Result : std::uint8_t { pending, confirmed, refused };
   Result update(const SensorFrame& frame) noexcept;
 
-  // What the drives are to do next.
+  // Request to the drives for the next cycle.
   DriveRequest drive() const noexcept;
   double torque_Nm(std::size_t motor) const noexcept;
 
-  // Torque measured in the last try [N m]: positive when it follows the command; NaN for a motor that is not
-  // there.
+  // Torque measured in the last try [N m], positive if it follows the command. NaN for a motor that does not
+  // exist.
   const std::array<double, kMotorCount>& measured_Nm() const noexcept { return measured_Nm_; }
   int tries() const noexcept { return tries_; }
 

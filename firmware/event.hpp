@@ -30,7 +30,7 @@ struct EnumNames<EventKind> {
       "arming_refused", "disarm_refused", "clock_stepped"};
 };
 
-// Why an event came, i.e. which condition was met.
+// Condition that caused an event.
 enum class Reason : std::uint8_t {
   operator_request,
   free_fall,
@@ -71,15 +71,14 @@ struct EnumNames<Reason> {
                                                           "drives_not_confirmed"};
 };
 
-// Something that happened, with the values that triggered it. Their meaning by kind:
+// An event with the values that triggered it. Meaning of the values by kind:
 //   zero_check, arming_refused: left angle, right angle, expected angle [rad], largest range [rad]
-//   arming_refused for drives_not_confirmed: torque measured left, right (NaN: no such motor), torque
-//   commanded
-//     [N m], tries; which motor failed: `torque_follows` (drive_confirmation.hpp)
+//   arming_refused for drives_not_confirmed: measured torque left, right (NaN: no such motor), commanded
+//     torque [N m], tries; torque_follows() (drive_confirmation.hpp) finds the motor that failed
 //   released: body specific force [m/s^2], foot height [m], body height [m], 0
 //   touchdown, stance_switch, liftoff: leg length [m], leg rate [m/s], foot height [m], foot velocity [m/s]
-//   fault_raised, disarm_refused: the two values the fault's entry names, 0, 0
-//   clock_stepped: by how much CLOCK_REALTIME jumped [s], 0, 0, 0
+//   fault_raised, disarm_refused: the two values that the fault's check names (fault_checks.hpp), 0, 0
+//   clock_stepped: jump of CLOCK_REALTIME [s], 0, 0, 0
 struct Event {
   std::int64_t time_ns = 0;
   EventKind kind = EventKind::armed;

@@ -5,12 +5,12 @@
 
 #include "config/fields.hpp"
 
-// Every fault the robot can name, in one place: number, name, reaction, what ends it, how soon it is seen,
-// meaning and cure. `hop explain`, the log, the report and the fault matrix (tools/faults) all read this
+// Table of all faults: number, name, reaction, latch, detection delay, meaning and cure. `hop explain`, the
+// log, the report and the fault matrix (tools/faults) all read this table.
 // table.
 namespace sandhopper {
 
-// The number is what `hop explain` and the log show: new faults go to the end.
+// `hop explain` and the log show the number, so new faults go to the end.
 enum class Fault : std::uint8_t {
   none,
   emergency_stop,
@@ -68,10 +68,10 @@ enum class Fault : std::uint8_t {
 
 inline constexpr std::size_t kFaultCount = 52;
 
-// What the robot does about a fault, gentlest first; a harsher one replaces a gentler one.
+// Reaction of the robot to a fault, gentlest first. A harsher reaction replaces a gentler one.
 //   stop: the next touchdown, or the present stance, becomes a soft stop
-//   hold: the drives' own law keeps the leg where it is, then damp
-//   damp: the drives' own law makes the leg viscous until it is still, then limp
+//   hold: the drives' own law keeps the leg at its position, then damp
+//   damp: the drives' own law damps the leg until fault_damp_s is over, then limp
 //   limp: zero torque at once, drives off
 enum class Reaction : std::uint8_t { none, stop, hold, damp, limp };
 template <>
@@ -79,7 +79,7 @@ struct EnumNames<Reaction> {
   static constexpr std::array<std::string_view, 5> value{"none", "stop", "hold", "damp", "limp"};
 };
 
-// What ends a fault; until then the robot cannot be armed.
+// Condition that ends a fault. The robot cannot be armed before.
 //   until_disarmed: the operator's `disarm`
 //   until_released: `disarm`, which is refused while the e-stop line still reads open
 //   until_restart: `disarm` is refused; hopperd must be started again
@@ -95,8 +95,8 @@ struct FaultEntry {
   std::string_view name;
   Reaction reaction;
   Latch latch;
-  int cycles;  // at most, with the limits of config/robot.toml, from the first cycle that could show it to
-               // the reaction
+  int cycles;  // largest delay [cycles] from the first cycle that could show the fault to the reaction, with
+               // the limits of config/robot.toml
   std::string_view meaning;
   std::string_view cure;
 };

@@ -36,7 +36,8 @@ std::string device_name(FaultDevice device, double number) {
   return "";
 }
 
-// Two checks have more than one limit: which one it is depends on the device.
+// The limit of sensor_intermittent depends on the sensor. imu_implausible compares the pair of IMUs (device
+// 2) or the angular rate of one IMU.
 FaultCheck for_device(FaultCheck check, double device) {
   if (check.fault == Fault::sensor_intermittent && device == 2.0) check.limit = "supervision.tof_rate_Hz";
   if (check.fault == Fault::sensor_intermittent && device == 3.0)

@@ -9,28 +9,28 @@
 
 namespace sandhopper {
 
-// Kind of device whose number stands first in a fault's event.
+// Kind of device whose number is the first value of a fault's event.
 enum class FaultDevice : std::uint8_t { none, motor, sensor, imu_pair };
 
 // Meaning of the two values of a fault's event (the calls of Findings::add in firmware/supervision).
 struct FaultCheck {
   Fault fault = Fault::none;
   FaultDevice device = FaultDevice::none;
-  std::size_t value_at = 0;     // of Event::values: what was seen
-  std::string_view quantity{};  // in words
+  std::size_t value_at = 0;     // index into Event::values of the measured value
+  std::string_view quantity{};  // name of that value in words
   std::string_view unit{};      // "" for counts and states
-  std::string_view limit{};     // key of robot.toml, or two as "low|high"; empty: the rule says all
-  std::string_view rule{};      // what a sound robot keeps to: "at most", completed by the limit's number
-  std::string_view channels{};  // of the explanation's plots: those that show the quantity
-  bool is_plotted = false;      // a plot shows this very quantity, so the limit is drawn in it
+  std::string_view limit{};     // key of robot.toml, or two as "low|high"; empty: `rule` is complete
+  std::string_view rule{};      // condition of a sound robot, such as "at most"; the limit's number follows
+  std::string_view channels{};  // channels of the explanation's plots that show the quantity
+  bool is_plotted = false;      // a plot shows exactly this quantity, so the limit is drawn in it
 };
 
 bool has_check(Fault fault);
-// A fault without an entry of its own gets one that names the first value plainly.
+// A fault without an entry of its own gets a general one that names the first value.
 const FaultCheck& check_of(Fault fault);
 
 struct FaultReading {
-  std::string device;    // "left motor"; "" where the check is of no one device
+  std::string device;    // "left motor"; "" if the check concerns no single device
   std::string quantity;  // "winding temperature"
   std::string unit;
   double value = 0.0;
@@ -42,9 +42,9 @@ struct FaultReading {
   std::vector<double> lines;  // limits to draw in the plots of `channels`
 };
 
-// `robot` is the configuration that the log carries; null: the limits' numbers are not known.
+// `robot` is the configuration in the log. If it is null the limits' numbers are unknown.
 FaultReading read_fault(const Event& event, const ConfigNode* robot);
-// "left motor: speed: 31.2 rad/s; allowed: between plus and minus 30 rad/s (limits.motor_speed_radps)"
+// One sentence, e.g. "left motor: speed: 31.2 rad/s; allowed: between plus and minus 30 rad/s (...)".
 std::string in_words(const FaultReading& reading);
 
 // The number under a dotted key, "estimator.kalman.tof_gate_sigma".

@@ -3,7 +3,8 @@
 
 #include "firmware/fault_check.hpp"
 
-// One entry a fault: what its check compares with what. A new fault adds a line; a test demands it.
+// One entry per fault: the quantity that its check compares, and the limit. A test requires an entry for
+// every fault.
 namespace sandhopper {
 
 inline constexpr std::string_view kEitherWay = "between plus and minus";

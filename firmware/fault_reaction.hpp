@@ -8,25 +8,24 @@
 
 namespace sandhopper {
 
-// The commands of a fault's reaction, hold -> damp -> limp, and what each needs. It is checked every cycle;
-// without it the next safer reaction is taken.
-//   hold: each motor's position at the fault, not older than kHostLawAge_s then, and what damp needs. Once
-//   one
-//         motor cannot hold, none holds any more: a spring that came back would jerk.
-//   damp: the drive's own law, or, where the host works it out (servo dialect), a velocity not older than
-//         kHostLawAge_s. Each motor by itself: one without it makes no torque.
-//   limp: nothing. When no motor can damp, the drives go off and stay off.
-// The gentlest reaction, stop, is a hop's last stance: it needs every input of the estimate, and each of them
-// has a fault of its own, with a harsher reaction, when it is old.
+// Commands of a fault's reaction, hold -> damp -> limp. The inputs that a reaction needs are checked every
+// cycle. Without them the next safer reaction is taken.
+//   hold: needs each motor's position at the fault, then no older than kHostLawAge_s, and the inputs of damp.
+//         Once one motor cannot hold, none holds again: a returning spring would jerk.
+//   damp: needs the drive's own law, or, if the host computes it (servo dialect), a velocity no older than
+//         kHostLawAge_s. This is decided per motor: a motor without it gets no torque.
+//   limp: needs nothing. When no motor can damp, the drives go off and stay off.
+// The gentlest reaction, stop, is the last stance of a hop. It needs every input of the estimate. Each input
+// has its own fault with a harsher reaction if it is too old.
 class FaultReaction {
  public:
   // `config` must outlive it.
   explicit FaultReaction(const CycleConfig& config) noexcept : config_(config) {}
 
-  // `energised`: the drives made torque when the fault came; else they are switched off at once.
+  // `energised`: the drives produced torque when the fault came. Otherwise they are switched off at once.
   void begin(const SensorFrame& frame, bool energised) noexcept;
 
-  // `command.motor` must be zero.
+  // Fills `command` for the time `time_s` since the fault. `command.motor` must be zero before.
   void write(const SensorFrame& frame, Reaction reaction, double time_s, Command& command) noexcept;
 
  private:

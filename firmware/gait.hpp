@@ -5,16 +5,16 @@
 #include "firmware/event.hpp"
 #include "firmware/records.hpp"
 
-// The hop's phases (Raibert's stance/flight machine with a stiffness step) and the leg's force law in each.
+// Phases of the hop (Raibert's stance/flight machine with a stiffness step) and the leg's force law in each.
 namespace sandhopper {
 
-// What the phase decisions look at; heights over the undisturbed surface.
+// Inputs of the phase decisions. Heights are over the undisturbed surface.
 struct LegObservation {
   double leg_length_m;
   double leg_rate_mps;
   double foot_z_m;
   double body_velocity_mps;
-  double surface_z_m;  // where the foot is expected to meet the ground
+  double surface_z_m;  // expected height of the ground
 };
 
 struct Transition {
@@ -23,7 +23,7 @@ struct Transition {
   Reason reason;
 };
 
-// flight -> compression when, falling and near the ground, the leg is shortened or being shortened;
+// flight -> compression if the foot is near the ground, the body falls, and the leg is shortened or shortens;
 // compression -> extension when a leg that was compressed begins to lengthen;
 // extension -> flight when the leg has reached its extension length.
 std::optional<Transition> next_phase(State state, const LegObservation& leg,

@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// The robot as the planner of the next stride takes it: two masses, the lengths and the stiffness of the leg,
-// and what its motors can push.
+// Model of the robot for planning the next stride: two masses, lengths and stiffness of the leg, and the
+// largest push of its motors.
 HopModel hop_model_of(const CycleConfig& cycle);
 
 }  // namespace sandhopper

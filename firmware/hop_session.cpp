@@ -8,11 +8,11 @@
 namespace sandhopper {
 namespace {
 
-// Cycles after the drives are off, so that their last commands are sent and logged.
+// Cycles after the drives went off, so that their last commands are sent and logged.
 constexpr std::uint64_t kTail_cycles = 20;
-// After a fault, so that its freeze frame has the second that follows it.
+// Cycles after a fault, so that its freeze frame contains the second after it.
 constexpr std::uint64_t kFrozen_cycles = kFreezeAfter_ns / kCyclePeriod_ns + 1;
-// A robot that cannot come to rest is not waited for longer than this.
+// Longest wait for the robot to come to rest.
 constexpr std::uint64_t kPatience_cycles = 15'000;
 
 CycleConfig started_from(CycleConfig config, const StartState& start) {
@@ -104,7 +104,7 @@ void HopSession::turn_until_quit(World& world, Cycle& cycle, CycleClock& clock, 
   }
 }
 
-// A quit is served whatever the state is: the session ends by it.
+// A quit is always served, because it ends the session in every state.
 void HopSession::tell_answers(std::span<RequestRecord> answers, const StepOutput& output) noexcept {
   for (auto& answer : answers) {
     answer.state = output.state;
@@ -115,7 +115,7 @@ void HopSession::tell_answers(std::span<RequestRecord> answers, const StepOutput
   }
 }
 
-// Words that came while the last cycle ran. No cycle will serve them.
+// Answers the words that came during the last cycle. No cycle will serve them.
 void HopSession::answer_the_rest(World& world, std::int64_t now_ns, const StepOutput& output) noexcept {
   for (auto taken = world.requests.take(now_ns, world.quit); !taken.answers.empty();
        taken = world.requests.take(now_ns, world.quit)) {

@@ -20,23 +20,23 @@ struct SessionResult {
   std::uint32_t overruns = 0;
   std::uint64_t lost_records = 0;
   std::uint64_t lost_can_frames = 0;
-  std::uint32_t clock_steps = 0;  // of the date
+  std::uint32_t clock_steps = 0;  // number of steps of CLOCK_REALTIME
   std::uint32_t watchdog_trips = 0;
-  double longest_stall_s = 0.0;  // as the watchdog saw it
-  std::string log_error;         // the log's first trouble with its disk; empty: none
+  double longest_stall_s = 0.0;  // measured by the watchdog
+  std::string log_error;         // the log's first disk error; empty: none
   LatencyHistogram latency{};
   State last_state = State::idle;
   Fault last_fault = Fault::none;
 };
 
-// The cycle in real time: sleeps to the grid, takes the operator's request, runs a turn; until `quit`. What
-// becomes of each word goes into the log (topic /request) and to the listener.
+// Runs the cycle in real time until `quit`: sleeps to the time grid, takes the operator's request, runs a
+// turn. The outcome of each word goes into the log (topic /request) and to the listener.
 class HopSession {
  public:
   HopSession(const RobotConfig& robot, Board& board, TrialLogger& logger, Aftermath::Listener listener,
              const StartState& start = {});
 
-  // What a run stands between. The defaults are the real ones.
+  // Environment of a run. The defaults are the real clocks.
   struct World {
     const std::atomic<Quit>& quit;
     RequestBox& requests;
@@ -44,11 +44,12 @@ class HopSession {
     std::function<void(const std::string&)> say;  // warnings, before the first cycle
     TimeSource& time = monotonic_time();
     WallClock wall_clock{};
-    Latest<LiveStatus>* status = nullptr;  // who watches the cycle, if anyone does
-    FreezeRing* freeze = nullptr;          // with it, a soft end waits for the second after a fault
-    Latest<StateSample>* state = nullptr;  // who keeps the robot's state, if anyone does
+    Latest<LiveStatus>* status = nullptr;  // may be null
+    FreezeRing* freeze = nullptr;          // may be null; if set, a soft end waits for the second after a
+                                           // fault
+    Latest<StateSample>* state = nullptr;  // samples for the state keeper; may be null
   };
-  // On the calling thread, which is made real-time.
+  // Runs on the calling thread, which becomes real-time.
   SessionResult run(World world);
 
  private:

@@ -43,7 +43,7 @@ struct Options {
   std::string device_file;
   std::string log_file = "hopperd.mcap";
   std::string board = "linux";
-  std::optional<int> segment_MB;  // in place of the robot file's
+  std::optional<int> segment_MB;  // overrides the robot file
   std::optional<int> quota_MB;
   int status_Hz = 0;
   std::string sheet_file;
@@ -100,7 +100,7 @@ void add_options(CLI::App& app, Options& options) {
       "missing,\nanother hopperd runs these motors, or the log's disk failed.");
 }
 
-// The robot's devices, their CAN traffic in the log.
+// The robot's devices; their CAN traffic goes to the log.
 struct RealRobot {
   RealRobot(const LinuxBoardConfig& config, const WatchdogConfig& watchdog, Heartbeat& heart,
             TrialLogger& logger, LastAct* last_act)
@@ -113,7 +113,7 @@ struct RealRobot {
   RealRobot(const RealRobot&) = delete;
   RealRobot& operator=(const RealRobot&) = delete;
 
-  // What is to be told; empty: every drive has confirmed that it is off.
+  // Message for the operator. Empty if every drive has confirmed that it is off.
   std::string shut_down() {
     const auto motors = board.shut_down();
     if (motors.empty()) return {};
@@ -127,8 +127,8 @@ struct RealRobot {
         CubeMarsDrives::kShutDown_ns / 1'000'000, motors);
   }
   CanLogTap tap;
-  // Ready after the board, which says what is wrong with the bus, and there until it has shut the drives
-  // down.
+  // Created after the board, whose errors name problems of the bus, and destroyed after the board has shut
+  // the drives down.
   std::optional<TorqueCut> cut;
   std::optional<GuardProcess> guard;
   LinuxBoard board;
@@ -142,7 +142,7 @@ struct SimulatedRobot {
   SimBoard board;
 };
 
-// What runs beside the cycle, and ends before the devices are closed.
+// Everything that runs besides the cycle and ends before the devices are closed.
 struct Session {
   const RobotConfig& robot;
   Board& board;
@@ -150,10 +150,10 @@ struct Session {
   OperatorChannel& channel;
   Heartbeat& heart;
   std::function<void()> cut;
-  std::function<bool()> guarded;  // the guard process lives, or there is none to live
+  std::function<bool()> guarded;  // true if the guard process lives or there is none
   FreezeRing* freeze;
   const StartState& start;
-  StateKeeper* keeper;  // null: nothing is kept
+  StateKeeper* keeper;  // null: the state is not kept
 };
 
 SessionResult run_session(const Session& s) {
@@ -204,7 +204,7 @@ SessionResult run_session(const Session& s) {
   return result;
 }
 
-// What the command line says goes before the robot file, and the same rules hold for both together.
+// Options of the command line override the robot file. The same rules are checked for both together.
 void override_log(LogConfig& log, const Options& options) {
   log.segment_MB = options.segment_MB.value_or(log.segment_MB);
   log.quota_MB = options.quota_MB.value_or(log.quota_MB);
@@ -246,7 +246,7 @@ FreezeOptions freeze_options(const LogConfig& config, const TrialLogOptions& log
           .told = [&channel](const auto& frame) { channel.tell_text("freeze_frame", frame.string()); }};
 }
 
-// Reads the robot's memory and tells the operator of it.
+// Reads the robot's state from the last run and reports it to the operator.
 StartState remembered_start(const Options& options, const StatePlaces& places, const RobotConfig& robot,
                             OperatorChannel& channel) {
   auto memory =
@@ -272,7 +272,7 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto file = [&](const std::string& given, const char* name) {
     return given.empty() ? (directory / name).string() : given;
   };
-  // All of the configuration before the first file or device.
+  // Load the whole configuration before opening the first file or device.
   const bool simulate = options.board == "sim";
   auto robot = load_robot_file(file(options.robot_file, "robot.toml"));
   override_log(robot.log, options);
@@ -282,7 +282,7 @@ int run(const Options& options, OperatorChannel& channel) {
   const auto sheet = options.sheet_file.empty()
                          ? std::optional<TrialSheet>()
                          : load_file<TrialSheet>(options.sheet_file, MissingKeys::use_default);
-  // Before the log: another hopperd may be writing it.
+  // Lock before opening the log, because another hopperd may be writing it.
   const auto lock = simulate ? nullptr : std::make_unique<InstanceLock>(devices.can.interface);
   const auto places = state_places(options.state_directory);
   const auto start = simulate ? StartState{} : remembered_start(options, places, robot, channel);
@@ -294,7 +294,7 @@ int run(const Options& options, OperatorChannel& channel) {
     describe_start(logger, start);
   }
   if (sheet) add_sheet(logger, *sheet);
-  const Shared<Heartbeat> heart;  // with the guard process
+  const Shared<Heartbeat> heart;  // shared with the guard process
   FreezeRecorder freeze(freeze_options(robot.log, log, logger.description(), channel));
   std::unique_ptr<SimulatedRobot> simulated;
   std::unique_ptr<RealRobot> real;
@@ -311,7 +311,7 @@ int run(const Options& options, OperatorChannel& channel) {
     };
     guarded = [&real] { return real->guard->alive(); };
   } else {
-    robot.watchdog.device.clear();  // a simulation that hangs is no reason to reset a computer
+    robot.watchdog.device.clear();  // a simulation that hangs must not reset a computer
   }
   Board& board = simulated ? static_cast<Board&>(simulated->board) : real->board;
   std::optional<StateKeeper> keeper;
@@ -329,7 +329,7 @@ int run(const Options& options, OperatorChannel& channel) {
   logger.close();
   result.log_error = logger.error();
   channel.tell(result);
-  // A log that is not whole comes first: what it says of a fault may be what is missing.
+  // An incomplete log takes precedence over a fault, because its missing part may contain the fault.
   if (!result.log_error.empty() || !still_on.empty()) return 3;
   return result.last_fault != Fault::none ? 1 : 0;
 }

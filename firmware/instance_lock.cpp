@@ -16,13 +16,14 @@
 namespace sandhopper {
 namespace {
 
-// An interface can have several names (ip link property add dev can0 altname leg): all have its index.
+// An interface can have several names (ip link property add dev can0 altname leg). All of them have its
+// index.
 std::string identity(const std::string& interface) {
   const auto index = ::if_nametoindex(interface.c_str());
   return index == 0 ? interface : "#" + std::to_string(index);
 }
 
-// Abstract: the name begins with a zero and has no end but its length.
+// Abstract socket address: the name begins with a zero byte and is delimited only by its length.
 struct Address {
   explicit Address(const std::string& interface) {
     socket.sun_family = AF_UNIX;
@@ -40,7 +41,7 @@ UniqueFd stream_socket() {
   return UniqueFd(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-// The process that listens at the address, or 0.
+// Process that listens at the address, or 0.
 pid_t holder(const Address& address) {
   const auto fd = stream_socket();
   ucred peer{};

@@ -5,12 +5,12 @@
 
 namespace sandhopper {
 
-// One hopperd a CAN interface, whichever of its names each uses. The lock is a listening Unix socket with an
-// abstract name, so it goes with the process however that ends, needs no folder that every user may write,
-// and is seen exactly where the interface is: both belong to the network namespace.
+// Allows one hopperd per CAN interface, under any of the interface's names. The lock is a listening Unix
+// socket with an abstract name. So it ends with the process in every case, needs no folder writable by all
+// users, and has the interface's scope: both belong to the network namespace.
 class InstanceLock {
  public:
-  // Throws DeviceError, which names the process that holds it.
+  // Throws DeviceError, which names the process that holds the lock.
   explicit InstanceLock(const std::string& interface);
 
  private:

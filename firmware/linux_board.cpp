@@ -29,7 +29,7 @@ struct LinuxBoardDevices {
   std::unique_ptr<LoadCellReader> load_cell;
   std::unique_ptr<AfbrS50> tof;
   std::unique_ptr<CubeMarsDrives> drives;
-  GuardedPort* guard = nullptr;  // the drives own it
+  GuardedPort* guard = nullptr;  // owned by `drives`
 };
 
 struct LinuxBoard::Acquisition {
@@ -37,16 +37,16 @@ struct LinuxBoard::Acquisition {
   Latest<ImuSample> imu_foot;
   Latest<LoadCellSample> load_cell;
   Latest<TofSample> tof;
-  // Last, so that the threads end before what they write to.
+  // Last, so that the threads end before the members that they write to are destroyed.
   std::vector<std::unique_ptr<AcquisitionThread>> threads;
 };
 
 namespace {
 
-// From power to the first answer of a drive. No manual states it.
+// Wait from power-on to a drive's first answer. No manual states it.
 constexpr std::int64_t kDriveBoot_ns = 2'000'000'000;
 
-// Opens device after device and keeps what was wrong, so that one start shows every fault.
+// Opens the devices one after another and collects the errors, so that one start shows all of them.
 class Opening {
  public:
   template <class Device, class... Args>
@@ -70,7 +70,7 @@ class Opening {
   std::vector<DeviceReport> reports_;
 };
 
-// Before the drives: without their supply they do not answer.
+// Open this before the drives: without their supply they do not answer.
 void open_drive_enable(Opening& opening, const LineConfig& config, LinuxBoardDevices& d) {
   opening.open("drive_enable", d.drive_enable_line, "drive_enable", config, true);
   if (d.drive_enable_line == nullptr) return;
@@ -79,7 +79,7 @@ void open_drive_enable(Opening& opening, const LineConfig& config, LinuxBoardDev
   sleep_ns(kDriveBoot_ns);
 }
 
-// The driver reaches the bus through the transmit guard only.
+// The driver reaches the bus only through the transmit guard.
 void open_drives(const LinuxBoardConfig& config, LinuxBoardDevices& d) {
   auto socket = std::make_unique<CanSocket>(config.can.interface, CubeMarsBus(config.can).filters());
   auto guard = std::make_unique<GuardedPort>(std::move(socket), transmit_limits(config.can, config.limits));
@@ -147,7 +147,8 @@ void LinuxBoard::cut_supply() noexcept {
   if (devices_->drive_enable) devices_->drive_enable->drop();
 }
 
-// The relay opens as soon as it is in the cycle; then the frames go on until the drives answer or time is up.
+// The relay opens at the same delay as in the cycle. After that frames are sent until the drives confirm or
+// time is up.
 std::string LinuxBoard::shut_down() {
   if (shut_down_) return *shut_down_;
   shut_down_.emplace();
@@ -162,7 +163,7 @@ std::string LinuxBoard::shut_down() {
     if (!drives.may_be_on(side)) continue;
     *shut_down_ += (shut_down_->empty() ? "" : ", ") + drives.bus().codec(side).config().name;
   }
-  if (shut_down_->empty()) *shut_down_ = "unknown";  // replied, but frames still wait to leave
+  if (shut_down_->empty()) *shut_down_ = "unknown";  // all confirmed, but a sent frame may still leave
   return *shut_down_;
 }
 
@@ -179,7 +180,7 @@ void LinuxBoard::read(SensorFrame& frame) noexcept {
   take(a.tof, frame.tof);
   frame.bus = d.drives->bus_sample();
   frame.bus.refused = d.guard->refused();
-  // A press that is over before the next cycle leaves an edge; a lost edge leaves the level.
+  // A short press that ends before this read leaves an edge. If the edge was lost the level shows the press.
   const bool pressed = d.estop->wait(0).has_value();
   frame.emergency_stop = emergency_stop_ = d.estop->active() || pressed;
 }

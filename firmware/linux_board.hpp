@@ -14,7 +14,7 @@
 
 namespace sandhopper {
 
-// What the buses of the Linux board have to say about themselves; all cumulative since start.
+// Status of the Linux board's buses; all counts are cumulative since start.
 struct LinuxBoardStatus {
   struct SlowBus {
     std::uint32_t failed_transfers = 0;
@@ -53,11 +53,11 @@ struct LinuxBoardDevices;
 // and the CAN replies, and waits for nothing.
 //
 // The constructor opens every device, asks each drive for its state and throws DeviceError with one line for
-// each device that is not right; until then no drive gets anything but "leave motor mode". The destructor
-// shuts the drives down.
+// each device that failed. Until then the drives get only "leave motor mode". The destructor shuts the drives
+// down.
 class LinuxBoard : public Board {
  public:
-  // `tap`, if any, sees every CAN frame both ways.
+  // `tap`, if given, gets every CAN frame in both directions.
   explicit LinuxBoard(const LinuxBoardConfig& config, CanTap* tap = nullptr);
   ~LinuxBoard() override;
   LinuxBoard(const LinuxBoard&) = delete;
@@ -67,19 +67,20 @@ class LinuxBoard : public Board {
   void note_fault(Fault latched) noexcept override { latched_ = latched; }
   void write(const Command& command) noexcept override;
 
-  // From now on what was worked out before a trip of the cycle's watchdog is not sent. `heart` must outlive
-  // the board.
+  // After a trip of the cycle's watchdog the board does not send a command that was computed before it.
+  // `heart` must outlive the board.
   void heed(const Heartbeat& heart) noexcept { heart_ = &heart; }
 
   LinuxBoardStatus status() const noexcept;
 
-  // Opens the relay in the drives' supply, where there is one. Any thread; waits for nothing.
+  // Opens the relay in the drives' supply, if there is one. Any thread; never waits.
   void cut_supply() noexcept;
 
-  // Takes torque and motor mode away until every drive has confirmed it, for at most
-  // CubeMarsDrives::kShutDown_ns; where a drive does not, opens the relay, too. The names of the motors that
-  // did not confirm: they may still make their last torque, and the guard process must not be dismissed.
-  // Empty: all have. Not for the cycle; afterwards nothing is to be written. Done once.
+  // Removes torque and leaves motor mode until every drive has confirmed it, for at most
+  // CubeMarsDrives::kShutDown_ns. If a drive does not confirm, it also opens the relay. Returns the names of
+  // the motors that did not confirm: they may still produce their last torque, and the guard process must not
+  // be dismissed. Empty if all confirmed. Not for the cycle; write nothing afterwards. Later calls return the
+  // first result.
   std::string shut_down();
 
  private:
@@ -88,12 +89,12 @@ class LinuxBoard : public Board {
   std::unique_ptr<LinuxBoardDevices> devices_;
   std::unique_ptr<Acquisition> acquisition_;
   const Heartbeat* heart_ = nullptr;
-  std::optional<std::string> shut_down_;  // its result
+  std::optional<std::string> shut_down_;  // result of shut_down()
   Fault latched_ = Fault::none;
-  bool emergency_stop_ = true;  // as last read
+  bool emergency_stop_ = true;  // last reading of the line
 };
 
-// One line per device: what a start would say of it. Empty text: right. Energises nothing and starts no
+// One line per device: the error that a start would report, empty if none. Energises nothing and starts no
 // thread.
 struct DeviceReport {
   std::string device;

@@ -17,15 +17,14 @@ struct LinuxBoardConfig {
   ImuConfig imu_foot{.device = "/dev/spidev0.1", .data_ready = {.chip = "", .line = "IMU_FOOT_DRDY"}};
   LoadCellConfig load_cell{.ready = {.chip = "", .line = "ADC_RDY", .active_low = true}};
   TofConfig tof{};
-  // Active is stop. Normally closed switch to the supply with a pull to ground: a cut wire stops.
+  // Active means stop. Normally closed switch to the supply with a pull-down: a cut wire stops.
   LineConfig estop{.chip = "", .line = "ESTOP", .active_low = true, .bias = Bias::pull_down};
-  // Active holds the body, inactive lets go. Line empty: no catch.
+  // Active holds the body, inactive releases it. Line empty: no catch.
   LineConfig body_catch{.chip = "", .line = "CATCH"};
   // Active closes a relay in the drives' supply (DriveEnable). Line empty: no relay.
   LineConfig drive_enable{.chip = "", .line = "", .bias = Bias::as_is};
   std::optional<BoardCalibrations> calibration{};
-  // Not keys here, like the motors of `can`: the robot's limits, which the transmit guard holds frames
-  // against.
+  // Not a key of this table, like the motors of `can`: the robot's limits, which the transmit guard checks.
   LimitsConfig limits{};
 
   template <class Self, class Visitor>

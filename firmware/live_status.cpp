@@ -14,7 +14,7 @@ LiveStatus live_status(const SensorFrame& frame, const StepOutput& output,
   s.drives_on = output.command.drive != DriveRequest::off;
   s.emergency_stop = frame.emergency_stop;
   s.bus = frame.bus.state;
-  // The estimator's newest force is at most a few cycles old while it runs.
+  // While the estimator runs its newest force is at most a few cycles old.
   constexpr std::int64_t kForceAge_ns = 20'000'000;
   s.estimating = e.force_time_ns != 0 && output.time_ns - e.force_time_ns < kForceAge_ns;
   s.leg_length_m = e.leg_length_m;

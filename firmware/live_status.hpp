@@ -10,10 +10,10 @@
 
 namespace sandhopper {
 
-// What an operator watches of a running cycle. The cycle's thread publishes one each turn through
-// Latest<LiveStatus> (a copy, no wait); whoever shows it takes the newest and turns it into text.
-// `estimating` is false while the estimator rests (idle, zero check): its heights and forces are then of
-// earlier. `load_cell_N` is the sample itself, its tare not removed.
+// Values of a running cycle for an operator's display. The cycle's thread publishes one each turn through
+// Latest<LiveStatus> (a copy, no wait). `estimating` is false while the estimator is off (idle, zero check):
+// heights and forces are then old values. While `estimating`, the tare is removed from `load_cell_N`;
+// otherwise it is the raw sample.
 struct LiveStatus {
   std::int64_t time_ns = 0;
   std::uint64_t cycle = 0;
@@ -35,9 +35,9 @@ struct LiveStatus {
   std::array<double, kMotorCount> motor_temperature_C{};
   std::array<double, kMotorCount> bus_voltage_V{};
   std::uint32_t overruns = 0;
-  double late_us = 0.0;  // this cycle's wake-up
+  double late_us = 0.0;  // lateness of this cycle's wake-up
   double worst_us = 0.0;
-  std::array<std::uint64_t, LatencyHistogram::kOctaves> late_octaves{};  // cycles, by lateness
+  std::array<std::uint64_t, LatencyHistogram::kOctaves> late_octaves{};  // histogram of the cycles' lateness
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -67,7 +67,7 @@ struct LiveStatus {
   }
 };
 
-// From what a turn of the cycle consumed and made, and how late its thread woke.
+// Made from the input and output of a turn of the cycle and the wake-up latencies.
 LiveStatus live_status(const SensorFrame& frame, const StepOutput& output,
                        const LatencyHistogram& latency) noexcept;
 

@@ -26,7 +26,7 @@ std::optional<long> number(std::string_view text) {
   return value;
 }
 
-// proc(5), PID/stat: "41 (irq/24-can0) S 2 0 …". The name may hold spaces and brackets.
+// Parses proc(5), PID/stat: "41 (irq/24-can0) S 2 0 …". The name may contain spaces and brackets.
 std::optional<KernelThread> parse_stat(std::string_view line) {
   constexpr long kKernelThread = 0x00200000;                       // PF_KTHREAD of the kernel's sched.h
   constexpr std::size_t kFlags = 6, kPriority = 37, kPolicy = 38;  // fields 9, 40, 41, counted from the third
@@ -43,7 +43,7 @@ std::optional<KernelThread> parse_stat(std::string_view line) {
                       static_cast<int>(*policy), static_cast<int>(*priority)};
 }
 
-// The last part of where a link of sysfs leads; empty where there is no such link.
+// File name of the target of a sysfs link; empty if there is no such link.
 std::string target_name(const fs::path& link) {
   std::error_code error;
   const auto target = fs::canonical(link, error);
@@ -54,15 +54,15 @@ void add(std::vector<std::string>& names, const std::string& name) {
   if (!name.empty()) names.push_back(name);
 }
 
-// A bus controller: its number ("spi1", also the thread that sends its queue) and its device
-// ("fe204000.spi").
+// Names of a bus controller: its number ("spi1", also the name of the thread that sends its queue) and its
+// device ("fe204000.spi").
 std::vector<std::string> controller_names(const fs::path& class_folder, const std::string& controller) {
   const auto device = target_name(class_folder / controller / "device");
   if (device.empty()) return {};
   return {controller, device};
 }
 
-// "1" of "spi1.0", of "/dev/spidev1.0", of "/dev/i2c-1".
+// Bus number: "1" for "spi1.0", "/dev/spidev1.0" and "/dev/i2c-1".
 std::string bus_number(const std::string& name) {
   const auto begin = name.find_last_not_of("0123456789.") + 1;
   return name.substr(begin, name.find('.', begin) - begin);
@@ -87,7 +87,7 @@ std::vector<std::string> interrupt_names_of_can(const fs::path& root, const std:
   if (name.empty()) return {};
   std::vector<std::string> names{interface, name};
   add(names, target_name(device / "driver"));
-  // A controller on SPI is "spi1.0"; its frames also wait for the interrupts of the bus.
+  // A CAN controller on SPI has the device name "spi1.0". Its frames also wait for the bus's interrupts.
   if (name.starts_with("spi")) {
     for (const auto& bus : controller_names(root / "sys/class/spi_master", "spi" + bus_number(name)))
       names.push_back(bus);
@@ -130,7 +130,7 @@ CpuIsolation cpu_isolation(const fs::path& root, int cpu) {
   const auto folder = root / "sys/devices/system/cpu";
   CpuIsolation isolation{cpu_list_holds(first_line(folder / "isolated"), cpu),
                          cpu_list_holds(first_line(folder / "nohz_full"), cpu), false};
-  // The kernel shows rcu_nocbs nowhere else. nohz_full includes it.
+  // The kernel shows rcu_nocbs only on its command line. nohz_full includes it.
   std::istringstream words(first_line(root / "proc/cmdline"));
   constexpr std::string_view kKey = "rcu_nocbs=";
   for (std::string word; words >> word;)

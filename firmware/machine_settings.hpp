@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-// How this computer is set up for real time, read from /proc and /sys. `root` stands in for "/" in tests.
-// These functions leave out files that they cannot read, and throw nothing.
+// Real-time settings of this computer, read from /proc and /sys. Tests replace "/" by `root`. The functions
+// skip files that they cannot read and throw nothing.
 namespace sandhopper {
 
 struct KernelThread {
@@ -16,24 +16,24 @@ struct KernelThread {
   int priority = 0;  // 1 to 99; 0 with an ordinary policy
 };
 
-// The kernel's own threads.
+// Threads of the kernel itself.
 std::vector<KernelThread> kernel_threads(const std::filesystem::path& root);
 
-// Names under which the kernel registers the interrupts and message threads of a device: its own name, its
-// controller's, its driver's. Empty where the device has none, as a virtual bus.
+// Names under which the kernel registers the interrupts and message threads of a device: the device's own
+// name, its controller's, its driver's. Empty if the device has none, such as a virtual bus.
 std::vector<std::string> interrupt_names_of_can(const std::filesystem::path& root,
                                                 const std::string& interface);
 std::vector<std::string> interrupt_names_of_spi(const std::filesystem::path& root, const std::string& device);
 std::vector<std::string> interrupt_names_of_i2c(const std::filesystem::path& root, const std::string& device);
 
-// Does this thread serve one of `names`: irq/NUMBER-NAME, irq/NUMBER-s-NAME (a second handler), or NAME
-// itself?
+// True if this thread serves one of `names`: irq/NUMBER-NAME, irq/NUMBER-s-NAME (a second handler), or NAME
+// itself.
 bool serves(const KernelThread& thread, const std::vector<std::string>& names);
 
-// "0-2,6" holds 1. An empty or unreadable list holds nothing.
+// True if a list such as "0-2,6" contains the CPU. An empty or unreadable list contains none.
 bool cpu_list_holds(std::string_view list, int cpu);
 
-// Work that the kernel was told not to do on a processor, by its command line.
+// Work that the kernel's command line keeps away from a processor.
 struct CpuIsolation {
   bool scheduler = false;  // isolcpus: other programs
   bool tick = false;       // nohz_full: the periodic timer interrupt, while one thread runs
@@ -41,7 +41,7 @@ struct CpuIsolation {
 };
 CpuIsolation cpu_isolation(const std::filesystem::path& root, int cpu);
 
-// Share of a processor that real-time threads may take, kernel.sched_rt_*_us.
+// Share of a processor that real-time threads may use, kernel.sched_rt_*_us.
 struct RealTimeLimit {
   long runtime_us = 0;  // -1: no limit; 0: no real-time thread runs
   long period_us = 0;

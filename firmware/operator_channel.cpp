@@ -17,7 +17,7 @@
 namespace sandhopper {
 namespace {
 
-// Never gentler than it was asked before.
+// Raises the urgency of the quit request; never lowers it.
 void ask_to(Quit how, std::atomic<Quit>& quit) {
   if (quit.load() < how) quit.store(how);
 }
@@ -47,10 +47,10 @@ OperatorChannel::OperatorChannel() {
   sigaddset(&set, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGHUP, SIG_DFL);  // also under nohup: a robot is not left to itself
+  std::signal(SIGHUP, SIG_DFL);  // handle it also under nohup, because the robot must not run unattended
   signal_fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_fd_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
-  outbox_.emplace(STDOUT_FILENO);  // its thread has the signals blocked, too
+  outbox_.emplace(STDOUT_FILENO);  // created last, so that its thread has the signals blocked, too
 }
 
 OperatorChannel::~OperatorChannel() { close(signal_fd_); }
@@ -84,8 +84,8 @@ void OperatorChannel::take_signal(RequestBox& requests, std::atomic<Quit>& quit)
   }
 }
 
-// Words of one read belong together: a stop in it overrules an arm or release in it (RequestBox). False at
-// the end of input.
+// The words of one read are posted together: a stop among them overrules an arm or release (RequestBox).
+// Returns false at the end of input.
 bool OperatorChannel::read_lines(RequestBox& requests, std::atomic<Quit>& quit) {
   std::array<char, 4096> buffer{};
   const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());

@@ -11,26 +11,25 @@
 
 namespace sandhopper {
 
-// Hands the words of one read to the cycle. A quit among them is asked for first, so the cycle cannot serve
-// one of the others without seeing it; a second quit or signal means at once. received_ns: CLOCK_MONOTONIC,
-// or 0 where the cycle runs on another clock.
+// Passes the words of one read to the cycle. A quit among them sets `quit` first, so that the cycle cannot
+// serve another word without seeing it. A second quit or signal means at once. received_ns is
+// CLOCK_MONOTONIC, or 0 if the cycle uses another clock.
 void post_words(std::span<const Word> words, std::int64_t received_ns, RequestBox& requests,
                 std::atomic<Quit>& quit);
 
-// hopperd's conversation with its operator: one word a line on standard input (arm, release, stop, disarm,
-// quit; WordReader), one JSON object a line on standard output, an answer to each word among them
-// (RequestBox). An unknown word stops the robot softly. End of input, SIGINT, SIGTERM and SIGHUP, a lost
-// terminal, mean quit; a second `quit` or signal means at once. A reader who does not read holds nobody up
-// (Outbox).
+// hopperd's interface to its operator: one word per line on standard input (arm, release, stop, disarm, quit;
+// WordReader), one JSON object per line on standard output, including an answer to each word (RequestBox). An
+// unknown word stops the robot softly. End of input, SIGINT, SIGTERM and SIGHUP (lost terminal) mean quit; a
+// second `quit` or signal means at once. A reader that does not read blocks nothing (Outbox).
 class OperatorChannel {
  public:
-  // Takes these signals over for the whole process: construct before any thread starts.
+  // Takes these signals over for the whole process, so construct it before any thread starts.
   OperatorChannel();
   ~OperatorChannel();
   OperatorChannel(const OperatorChannel&) = delete;
   OperatorChannel& operator=(const OperatorChannel&) = delete;
 
-  // Where the cycle publishes how it stands, and how often that is told; 0: never.
+  // The cycle publishes its status here. rate_Hz is the rate of the status lines; 0: none.
   Latest<LiveStatus>& status() { return status_; }
   void tell_status_at(int rate_Hz) { status_Hz_ = rate_Hz; }
 

@@ -14,10 +14,10 @@ std::string json_string(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// JSON has no NaN.
+// JSON has no NaN: write null.
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-// "release: overruled by stop"
+// Text such as "release: overruled by stop".
 std::string in_words(const RequestRecord& r) {
   const auto word = name_of(r.word);
   switch (r.outcome) {

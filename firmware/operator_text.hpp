@@ -3,10 +3,11 @@
 
 #include "firmware/hop_session.hpp"
 
-// What hopperd says, one JSON object a line; without the line's end. Bytes that are no UTF-8 become U+FFFD.
+// Lines of hopperd's output: one JSON object each, without a line end. Bytes that are not UTF-8 become
+// U+FFFD.
 namespace sandhopper {
 
-std::string operator_text(const Event& event);  // with "text" where arming was refused because of a drive
+std::string operator_text(const Event& event);  // has "text" if arming was refused because of a drive
 std::string operator_text(const StrideResult& result);
 std::string operator_text(const StrengthProfile& profile, const GroundSummary& ground);
 std::string operator_text(const GroundEvents& found);

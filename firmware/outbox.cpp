@@ -46,7 +46,7 @@ void Outbox::put_status(std::string line) {
   changed_.notify_one();
 }
 
-// What happened comes before how things stand. False: nothing is left and nothing will come.
+// Takes the next line; other lines come before the status. False if nothing is left and nothing will come.
 bool Outbox::next(std::string& line) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ending_ || !lines_.empty() || !status_.empty(); });
@@ -61,7 +61,7 @@ bool Outbox::next(std::string& line) {
   return !line.empty();
 }
 
-// A pipe or terminal that can be written to takes PIPE_BUF bytes without waiting.
+// A pipe or terminal that is ready for writing accepts PIPE_BUF bytes without blocking.
 bool Outbox::write_all(const std::string& line) {
   std::size_t done = 0;
   while (done < line.size()) {
@@ -80,7 +80,7 @@ bool Outbox::write_all(const std::string& line) {
   return true;
 }
 
-// Whoever makes it may be a thread of the cycle's priority, which threads inherit.
+// The creating thread may have the cycle's priority, which threads inherit: return to ordinary scheduling.
 void Outbox::run() {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);

@@ -8,16 +8,15 @@
 
 namespace sandhopper {
 
-// Lines on their way to a reader who may be slow, stopped or gone: whoever says something never waits for
-// him. A thread of its own writes them to the descriptor, and only as much as it takes at once. Of the status
-// only the newest is kept; of other lines, the first kMost that are not yet read, the rest is counted and the
-// number told in their place.
+// Output queue for a reader that may be slow, stopped or gone: the caller never waits for it. A thread of its
+// own writes to the descriptor only as much as it accepts. Only the newest status line is kept. The first
+// kMost other unread lines are kept; the rest is dropped, and a line reports their number.
 class Outbox {
  public:
   static constexpr std::size_t kMost = 4096;
 
   explicit Outbox(int fd);
-  // Gives the reader `patience` to take what is left, then leaves it.
+  // Gives the reader up to kPatience_ms to take the remaining lines.
   ~Outbox();
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;

@@ -21,7 +21,7 @@ namespace {
 
 std::string why(int error) { return std::strerror(error); }
 
-// Touches the stack the thread may use, so that no page of it is missing later.
+// Touches the stack that the thread may use, so that no page of it is missing later.
 __attribute__((noinline)) void touch_stack(std::size_t bytes) {
   volatile char* const page = static_cast<volatile char*>(__builtin_alloca(bytes));
   for (std::size_t i = 0; i < bytes; i += 4096) page[i] = 0;

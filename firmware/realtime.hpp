@@ -8,8 +8,8 @@
 
 namespace sandhopper {
 
-// How the cycle's thread is set up. Priorities: the cycle at `priority`, acquisition threads below it, kernel
-// threads of the buses above where they serve it.
+// Scheduling of the cycle's thread. Priorities: the cycle at `priority`, acquisition threads below it, kernel
+// threads of the buses that serve it above it.
 struct RealTimeConfig {
   int priority = 80;        // SCHED_FIFO; 0: ordinary scheduling
   int cpu = -1;             // pinned to this CPU; -1: any
@@ -27,8 +27,8 @@ struct RealTimeConfig {
   }
 };
 
-// Makes the calling thread real-time as configured, until the object goes. What the machine does not grant is
-// listed in warnings(), each with its cure, and the thread goes on without it.
+// Makes the calling thread real-time as configured, until the object is destroyed. Settings that the computer
+// does not permit are listed in warnings(), each with its cure; the thread continues without them.
 class RealTimeThread {
  public:
   explicit RealTimeThread(const RealTimeConfig& config);
@@ -42,20 +42,21 @@ class RealTimeThread {
   int latency_fd_ = -1;
 };
 
-// How late the cycle woke, in 1 us bins up to 1 ms and one for all beyond. Counting allocates nothing.
+// Histogram of the cycle's wake-up latency, in 1 us bins up to 1 ms and one bin for the rest. Allocates
+// nothing.
 class LatencyHistogram {
  public:
   static constexpr std::size_t kBins = 1001;
-  // Coarse bins for a quick look: below 1 us, below 2, below 4, … below 1024 us, and all beyond.
+  // Coarse bins for a quick overview: below 1 us, below 2, below 4, … below 1024 us, and the rest.
   static constexpr std::size_t kOctaves = 12;
   void add(std::int64_t late_ns) noexcept;
   std::uint64_t count() const noexcept { return count_; }
   double largest_us() const noexcept { return static_cast<double>(largest_ns_) * 1e-3; }
   double last_us() const noexcept { return static_cast<double>(last_ns_) * 1e-3; }
   const std::array<std::uint64_t, kOctaves>& octaves() const noexcept { return octaves_; }
-  // Upper edge of the bin that holds this share of the counts.
+  // Upper edge [us] of the bin in which the cumulative share of the counts reaches `share`.
   double quantile_us(double share) const noexcept;
-  // [[n, cycles], …] of the bins that are not empty; bin n counts n-1 to n us, the last one all beyond.
+  // [[n, cycles], …] of the non-empty bins; bin n counts n-1 to n us, the last one everything above.
   std::string as_json() const;
 
  private:
@@ -66,7 +67,7 @@ class LatencyHistogram {
   std::int64_t largest_ns_ = 0;
 };
 
-// What the cycle's grid stands on: CLOCK_MONOTONIC, or a test's time.
+// Clock of the cycle's time grid: CLOCK_MONOTONIC, or a test's time.
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
@@ -75,8 +76,8 @@ class TimeSource {
 };
 TimeSource& monotonic_time() noexcept;
 
-// The cycle's grid on CLOCK_MONOTONIC: whole multiples of the period. A grid point that has passed when the
-// cycle ends is counted as an overrun and skipped, never caught up by a burst.
+// The cycle's time grid on CLOCK_MONOTONIC: whole multiples of the period. A grid point that has passed when
+// the cycle ends counts as an overrun and is skipped. Missed cycles are not made up for.
 class CycleClock {
  public:
   explicit CycleClock(std::int64_t period_ns, TimeSource& time = monotonic_time());

@@ -9,7 +9,7 @@
 #include "terrain/profile_sums.hpp"
 #include "terrain/stiffness_fit.hpp"
 
-// What a cycle and a stride produce; together with SensorFrame and Event these are the log's records.
+// Results of a cycle and of a stride. With SensorFrame and Event they are the log's records.
 namespace sandhopper {
 
 enum class State : std::uint8_t { idle, armed, flight, compression, extension, soft_stop, fault };
@@ -19,8 +19,9 @@ struct EnumNames<State> {
                                                          "extension", "soft_stop", "fault"};
 };
 
-// Heights over the undisturbed surface, z up. The filter's state belongs to the cycle's own time; forces, and
-// the depth and speed paired with them, to `force_time_ns`, the instant of the newest motor reply.
+// Heights are over the undisturbed surface, z up. The filter's state belongs to the cycle's own time. Forces,
+// and the depth and speed that go with them, belong to `force_time_ns`, the instant of the newest motor
+// reply.
 struct Estimate {
   double body_z_m = 0.0;
   double body_velocity_mps = 0.0;
@@ -36,12 +37,12 @@ struct Estimate {
   std::int64_t force_time_ns = 0;
   double force_depth_m = 0.0;       // -foot height at force_time_ns
   double force_velocity_mps = 0.0;  // downward
-  double contact_force_N = 0.0;     // momentum observer
-  double direct_force_N = 0.0;      // from the foot's acceleration, unfiltered; marks the first contact
+  double contact_force_N = 0.0;     // from the momentum observer
+  double direct_force_N = 0.0;      // from the foot's acceleration, unfiltered; detects the first contact
   double quasi_static_force_N = 0.0;
   double load_cell_force_N = 0.0;      // tare removed
-  double weighting_accel_mps2 = 0.0;   // |zdd| of the weights: low-passed foot IMU
-  double surface_z_m = 0.0;            // where the foot will meet the ground: 0, later the crater's floor
+  double weighting_accel_mps2 = 0.0;   // |zdd| for the sample weights: low-passed foot IMU
+  double surface_z_m = 0.0;            // expected height of the ground: 0, later the crater's floor
   std::array<double, 3> innovation{};  // ToF [m], leg length [m], leg rate [m/s]; NaN when not fresh
   std::array<double, 3> normalised_innovation_squared{};
 
@@ -72,7 +73,7 @@ struct Estimate {
   }
 };
 
-// The cycle's whole result: what is sent, and what was believed.
+// The cycle's whole result: command and estimate.
 struct StepOutput {
   std::int64_t time_ns = 0;
   std::uint64_t cycle = 0;
@@ -94,18 +95,18 @@ struct StepOutput {
   }
 };
 
-// Times and extremes of one stance, as the cycle saw them. Times of CLOCK_MONOTONIC.
+// Times (CLOCK_MONOTONIC) and extremes of one stance, as the cycle estimated them.
 struct StrideSummary {
-  std::uint32_t stride = 0;  // 1 is the first
+  std::uint32_t stride = 0;  // 1 for the first stride
   std::int64_t release_ns = 0;
-  std::int64_t contact_ns = 0;    // foot meets the ground
-  std::int64_t touchdown_ns = 0;  // the controller notices, some milliseconds later
+  std::int64_t contact_ns = 0;    // the foot meets the ground
+  std::int64_t touchdown_ns = 0;  // the controller detects it, some milliseconds later
   std::int64_t switch_ns = 0;
   std::int64_t liftoff_ns = 0;
   double touchdown_speed_mps = 0.0;  // foot, downward, at contact
   double peak_force_N = 0.0;         // momentum observer
   double peak_quasi_static_N = 0.0;
-  double max_depth_m = 0.0;     // below where the first stride met the surface
+  double max_depth_m = 0.0;     // below the point where the first stride met the surface
   double crater_depth_m = 0.0;  // deepest point before this stride
   double liftoff_depth_m = 0.0;
 
@@ -126,7 +127,7 @@ struct StrideSummary {
   }
 };
 
-// All that the stiffness of a stride is solved from: what the cycle hands to the solving thread.
+// Sums from which a stride's stiffness is solved. The cycle passes them to the solving thread.
 struct StrideSums {
   StrideSummary summary{};
   RegressionSums quasi_static_ols{};

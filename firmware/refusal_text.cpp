@@ -15,7 +15,8 @@ std::string refusal_text(const Event& event) {
   const double commanded_Nm = event.values[2];
   std::string motors;
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    const double measured_Nm = std::abs(event.values[i]) < 0.005 ? 0.0 : event.values[i];  // never "-0.00"
+    const double measured_Nm = std::abs(event.values[i]) < 0.005 ? 0.0 : event.values[i];  // avoids "-0.00"
+                                                                                           // in the text
     if (std::isnan(measured_Nm) || torque_follows(measured_Nm, commanded_Nm)) continue;
     motors += fmt::format("{}{} motor: {:.2f} N m commanded, {:.2f} N m measured", motors.empty() ? "" : "; ",
                           kNames[i], commanded_Nm, measured_Nm);

@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// For the operator, of an event arming_refused with the reason drives_not_confirmed: which motor did not make
-// the commanded torque, and what to do. Empty for every other event.
+// Message to the operator for an event arming_refused with the reason drives_not_confirmed: which motor did
+// not produce the commanded torque, and the cure. Empty for every other event.
 std::string refusal_text(const Event& event);
 
 }  // namespace sandhopper

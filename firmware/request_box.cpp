@@ -4,7 +4,7 @@
 
 namespace sandhopper {
 
-// Urgent words first, then disarm: a cycle that sees a release of this read has then seen its stop, too.
+// Urgent words first, then disarm: a cycle that sees a release of this read has then also seen its stop.
 void RequestBox::post(std::span<const Word> words, std::int64_t received_ns) {
   const std::lock_guard lock(posters_);
   ++batches_;

@@ -14,12 +14,12 @@
 
 namespace sandhopper {
 
-// How to end. softly: stop the robot, wait until its drives are off. at_once: do not wait for that; the owner
-// of the drives switches them off.
+// Way of ending. softly: stop the robot and wait until its drives are off. at_once: do not wait; the owner of
+// the drives switches them off.
 enum class Quit : std::uint8_t { no, softly, at_once };
 
-// Words of the operator. The first five stop the robot: a word that nobody knows may have been meant as
-// `stop`.
+// Words of the operator. The first five stop the robot. An unknown word is one of them, because it may have
+// been meant as `stop`.
 enum class Word : std::uint8_t { quit, end_of_input, signal, stop, unknown, disarm, arm, release };
 template <>
 struct EnumNames<Word> {
@@ -35,27 +35,28 @@ constexpr Request request_of(Word word) noexcept {
   return word == Word::arm ? Request::arm : Request::release;
 }
 
+// Outcome of a word:
 //   served: the cycle acted on it
-//   no_effect: the cycle took it, but it means nothing in the state the robot is in
+//   no_effect: the cycle took it, but it has no meaning in the robot's present state
 //   overruled: a more urgent word came before it was served
-//   refused: more words wait than there is room for
+//   refused: too many words are waiting
 enum class RequestOutcome : std::uint8_t { served, no_effect, overruled, refused };
 template <>
 struct EnumNames<RequestOutcome> {
   static constexpr std::array<std::string_view, 4> value{"served", "no_effect", "overruled", "refused"};
 };
 
-// A word of the operator and what became of it; topic /request of the log. A record only: the cycle's input
+// A word of the operator and its outcome; topic /request of the log. It is only a record: the cycle's input
 // is SensorFrame::request.
 struct RequestRecord {
-  std::int64_t time_ns = 0;      // of the cycle that served, overruled or refused it, CLOCK_MONOTONIC
-  std::int64_t received_ns = 0;  // when the line was read, CLOCK_MONOTONIC
-  std::uint32_t number = 0;      // words since start, this one included
-  std::uint32_t count = 1;       // words this record stands for: more than 1 only when refused
+  std::int64_t time_ns = 0;      // time of the cycle that served, overruled or refused it, CLOCK_MONOTONIC
+  std::int64_t received_ns = 0;  // time at which the line was read, CLOCK_MONOTONIC
+  std::uint32_t number = 0;      // number of the word since start, from 1
+  std::uint32_t count = 1;       // number of words that this record covers; more than 1 only if refused
   Word word = Word::stop;
   RequestOutcome outcome = RequestOutcome::served;
   Word overruled_by = Word::stop;  // only if overruled
-  State state = State::idle;       // of the robot, after that cycle
+  State state = State::idle;       // of the robot after that cycle
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -70,37 +71,37 @@ struct RequestRecord {
   }
 };
 
-// The operator's words on their way to the cycle. Every word that is posted is answered once.
+// Queue of the operator's words to the cycle. Every posted word is answered once.
 //
 //   quit, stop and unknown words are served in the next cycle, all together. They overrule every arm and
-//   release that is not yet served, and those that were posted with them, before or behind.
-//   disarm comes next, one a cycle. It overrules arm and release that were posted before it.
-//   arm and release follow in their order, one a cycle; after a quit they are overruled.
+//   release that is not yet served or was posted with them, before or after.
+//   disarm comes next, one per cycle. It overrules arm and release that were posted before it.
+//   arm and release follow in their order, one per cycle; after a quit they are overruled.
 //
-// Two bounded rings lead to the cycle, one for the urgent words, so a flood of others cannot block a stop.
-// The cycle's side locks, waits and allocates nothing. Posters exclude each other by a mutex that the cycle
-// never takes.
+// Two bounded rings lead to the cycle, one of them for urgent words only, so that other words cannot block a
+// stop. The cycle's side locks, waits and allocates nothing. Posters exclude each other by a mutex that the
+// cycle never takes.
 class RequestBox {
  public:
-  static constexpr std::size_t kMost = 256;  // words of each kind that wait
+  static constexpr std::size_t kMost = 256;  // most words of each kind that wait
 
-  // The words of one read, in their order. received_ns: 0 where the poster cannot read the cycle's clock; the
-  // record then has the cycle's time.
+  // Posts the words of one read in their order. received_ns is 0 if the poster cannot read the cycle's clock;
+  // the record then gets the cycle's time.
   void post(std::span<const Word> words, std::int64_t received_ns);
 
   struct Taken {
     Request request = Request::none;     // for this cycle
-    std::span<RequestRecord> answers{};  // valid until the next take(); `state` is the caller's to fill in
+    std::span<RequestRecord> answers{};  // valid until the next take(); the caller sets `state`
   };
-  // The cycle's, once a turn. The first one after `quit` was set gives a stop; a quit that was set before the
-  // words were posted is seen with them.
+  // Called by the cycle once per turn. The first call after `quit` was set gives a stop. A quit that was set
+  // before the words were posted is seen together with them.
   Taken take(std::int64_t now_ns, const std::atomic<Quit>& quit) noexcept;
 
  private:
   struct Posted {
     std::int64_t received_ns = 0;
     std::uint32_t number = 0;
-    std::uint32_t batch = 0;  // words of one read share it
+    std::uint32_t batch = 0;  // equal for the words of one read
     Word word = Word::stop;
   };
 
@@ -114,7 +115,7 @@ class RequestBox {
   std::optional<Word> overruler_of(const Posted& posted) const noexcept;
   void drop_overruled(std::int64_t now_ns) noexcept;
 
-  // Posters.
+  // State of the posting side.
   std::mutex posters_;
   std::uint32_t posted_ = 0;
   std::uint32_t batches_ = 0;
@@ -124,16 +125,16 @@ class RequestBox {
   std::atomic<std::uint32_t> refused_{0};
   std::atomic<Word> last_refused_{Word::arm};
 
-  // The cycle.
+  // State of the cycle's side.
   std::array<Posted, kMost> waiting_{};
   std::size_t waiting_count_ = 0;
   std::array<RequestRecord, 2 * kMost + 1> answers_{};
   std::size_t answer_count_ = 0;
   bool quitting_ = false;
-  bool stopping_ = false;            // in this cycle
+  bool stopping_ = false;            // a stop was served in this cycle
   Word stopped_by_ = Word::stop;     // the most urgent word of the newest stop
-  std::uint32_t stopped_batch_ = 0;  // up to this one, arm and release are overruled
-  std::uint32_t disarm_number_ = 0;  // of the newest disarm that was served
+  std::uint32_t stopped_batch_ = 0;  // up to this batch arm and release are overruled
+  std::uint32_t disarm_number_ = 0;  // number of the newest disarm that was served
 };
 
 }  // namespace sandhopper

@@ -90,7 +90,7 @@ void RobotEstimator::update_leg(const SensorFrame& frame, Estimate& estimate) no
     estimate.normalised_innovation_squared[2] = rate.normalised_squared;
     update_force(frame, leg, d, estimate);
   }
-  // What the leg does now: the reply carried forward over its age.
+  // Present state of the leg: the reply extrapolated over its age.
   const auto state = filter_.state();
   estimate.leg_angle_rad = leg.angle_rad + leg.rate_radps * age;
   estimate.leg_length_m = leg_.kinematics(estimate.leg_angle_rad).length_m;

@@ -11,7 +11,7 @@
 
 namespace sandhopper {
 
-// What is measured while the robot hangs still before a hop.
+// Values measured while the robot hangs still before a hop.
 struct StaticCalibration {
   double body_bias_mps2 = 0.0;
   double foot_bias_mps2 = 0.0;
@@ -28,18 +28,19 @@ struct LegMeasurement {
 };
 LegMeasurement leg_measurement(const SensorFrame& frame, const CycleConfig& config) noexcept;
 
-// Body, foot and ground force from one frame after the other. Kalman state at the cycle's time; forces at the
-// instant of the newest motor reply, with the Kalman state carried back to that instant, so that force, depth
-// and speed belong together.
+// Estimates body, foot and ground force frame by frame. The Kalman state belongs to the cycle's time. Forces
+// belong to the instant of the newest motor reply, and the Kalman state is carried back to that instant, so
+// that force, depth and speed match.
 class RobotEstimator {
  public:
   RobotEstimator(const CycleConfig& config, const Leg& leg) noexcept;
 
   // Starts at rest in the hanging pose.
   void start(const StaticCalibration& calibration, const SensorFrame& frame) noexcept;
-  // While the body hangs the ground's force is known to be zero.
+  // True while the body hangs: then the ground force is known to be zero.
   void hold_force_at_zero(bool hold) noexcept { hold_force_ = hold; }
 
+  // Processes one frame and fills `estimate`.
   void update(const SensorFrame& frame, Estimate& estimate) noexcept;
 
  private:

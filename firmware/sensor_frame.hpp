@@ -7,18 +7,17 @@
 
 namespace sandhopper {
 
-// What the operator asks for; part of the frame so that a replay sees it too. Held for one cycle.
+// Request of the operator. It is part of the frame so that a replay has it, too. Valid for one cycle.
 enum class Request : std::uint8_t { none, arm, release, stop, disarm };
 template <>
 struct EnumNames<Request> {
   static constexpr std::array<std::string_view, 5> value{"none", "arm", "release", "stop", "disarm"};
 };
 
-// Everything one cycle consumes, and therefore everything that is logged of the world: replaying frames gives
-// the same bits.
+// All inputs of one cycle. They are logged, so replaying the frames gives the same bits.
 struct SensorFrame {
-  std::int64_t time_ns = 0;  // the cycle's place on the 1 ms grid, CLOCK_MONOTONIC
-  std::uint64_t cycle = 0;   // counts grid points since start, so a skipped one shows
+  std::int64_t time_ns = 0;  // time of the cycle on the 1 ms grid, CLOCK_MONOTONIC
+  std::uint64_t cycle = 0;   // number of the grid point since start; a skipped one leaves a gap
   std::array<MotorSample, kMotorCount> motor{};
   ImuSample imu_body{};
   ImuSample imu_foot{};
@@ -26,8 +25,9 @@ struct SensorFrame {
   LoadCellSample load_cell{};
   BusSample bus{};
   std::uint32_t overruns = 0;   // cumulative
-  bool emergency_stop = false;  // the e-stop's line stops now or did since the last cycle; a cut wire does
-  // The cycle stood still for this long and the watchdog took the torque away; 0: it did not.
+  bool emergency_stop = false;  // the e-stop line is open or was open since the last cycle; a cut wire counts
+                                // as open
+  // Time for which the cycle stood still, so that the watchdog took the torque away; 0: it did not.
   std::int64_t watchdog_stall_ns = 0;
   std::int64_t wall_clock_step_ns =
       0;  // CLOCK_REALTIME jumped by this since the last cycle; nothing depends on it

@@ -29,11 +29,13 @@ void StrideRecorder::begin_flight(std::int64_t release_ns) noexcept {
   restart_sums();
 }
 
-// The foot meets its crater's floor where it left it: on the unloading line, without force. That is known
-// better than the height after a flight. A contact that was long before the touchdown was a swing of the leg.
+// The foot meets its crater's floor at the depth at which it left it: on the unloading line at zero force.
+// This depth is known better than the estimated height after a flight. A contact long before the touchdown
+// was a swing of the leg.
 void StrideRecorder::take_crater_floor(std::int64_t now_ns) noexcept {
   constexpr std::int64_t kContactToTouchdown_ns = 10'000'000;
-  constexpr double kUnloadingRatio = 30.0;  // of the unloading line over the virgin bed (terrain/bed.hpp)
+  constexpr double kUnloadingRatio = 30.0;  // slope of the unloading line over that of the virgin bed
+                                            // (terrain/bed.hpp)
   if (now_ns - current_.contact_ns > kContactToTouchdown_ns) return;
   const double line_N_per_m = kUnloadingRatio * config_.profile_or_default().believed_stiffness_N_per_m;
   datum_m_ = contact_depth_m_ - (crater_depth_m_ - crater_force_N_ / line_N_per_m);
@@ -64,7 +66,7 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   events_.close(current_.stride, now_ns);
   leaving_ = true;
   rises_ = false;
-  // A foot on new ground is at its deepest point, although the estimated depth may be less than the crater's.
+  // A foot on new ground is at its greatest depth, even if the estimated depth is less than the crater's.
   if (new_deepest_m_ > 0.0) crater_depth_m_ = new_deepest_m_;
   deepest_m_ = crater_depth_m_;
   crater_force_N_ = deepest_force_N_;
@@ -109,7 +111,7 @@ void StrideRecorder::begin_events(const Estimate& e) noexcept {
   events_.restart(crater_depth_m_);
 }
 
-// After the liftoff the ground still acts on the foot until it is above the surface, or falls again.
+// After liftoff the ground still acts on the foot until the foot is above the surface or falls again.
 void StrideRecorder::follow_leaving_foot(const Estimate& e) noexcept {
   const double depth_m = e.force_depth_m - datum_m_;
   rises_ = rises_ || e.force_velocity_mps < -config_.min_speed_mps;
@@ -122,9 +124,10 @@ double StrideRecorder::event_time_s() const noexcept {
   return static_cast<double>(last_force_time_ns_ - event_contact_ns_) * 1e-9;
 }
 
-// What the foot's accelerometer feels beyond the leg's own forces is the ground: that marks the surface
-// within a fraction of a millimetre, free of the height sensor's offset and of the observer's lag. A later
-// flight begins in the crater with the leg swinging back; there the greatest downward speed marks contact.
+// Detects contact. In the first flight the foot's accelerometer shows the ground's force as the part beyond
+// the leg's own forces. This gives the surface within a fraction of a millimetre, without the height sensor's
+// offset and the observer's lag. A later flight begins in the crater while the leg swings back; there the
+// greatest downward speed marks contact.
 bool StrideRecorder::still_falling(const Estimate& e) const noexcept {
   if (current_.stride == 0) return e.direct_force_N < config_.contact_force_N;
   return e.force_velocity_mps > current_.touchdown_speed_mps;
@@ -142,7 +145,7 @@ bool StrideRecorder::counts(const Estimate& e, double depth_m) const noexcept {
 }
 
 void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
-  // In the old crater the ground answers with its unloading line, which says nothing about the virgin bed.
+  // In the old crater the ground follows its unloading line, which gives no information on the virgin bed.
   const bool virgin = depth_m > 0.0 && depth_m >= crater_depth_m_;
   const bool through_stance =
       config_.window == SampleWindow::whole_stance || config_.window == SampleWindow::compression;
@@ -154,7 +157,8 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   }
   const JointSample sample = joint_sample(e, depth_m, current_.contact_ns);
   const bool settled = profile_.watch(sample);
-  // While the foot rests or unloads, drift of the estimated depth can pass for a new depth; its speed tells.
+  // While the foot rests or unloads, drift of the estimated depth can look like new depth. So require a
+  // downward speed.
   if (e.force_velocity_mps <= config_.min_speed_mps) return;
   if (settled && depth_m > new_deepest_m_ && on_new_ground(sample)) {
     profile_.add(sample, e.quasi_static_force_N);
@@ -164,7 +168,7 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   if (depth_m <= deepest_m_) return;
   if (virgin) {
     joint_.add(sample);
-    // Of samples that do not count, those at the accelerometer's range are still to be told.
+    // profile_ does not use this sample, but it counts those at the accelerometer's range.
     if (!settled && on_new_ground(sample)) profile_.add(sample, e.quasi_static_force_N);
   }
   deepest_m_ = depth_m;
@@ -182,8 +186,8 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
           .duration_s = sample_duration_s_};
 }
 
-// Near the old crater the estimated depth does not tell on which line the ground answers: a force greater
-// than that at its deepest point does. A test of the depth alone would select landings whose depth is
+// Near the old crater the estimated depth does not show whether the ground is new. A force at least as large
+// as that at the crater's deepest point does. A test of the depth alone would select landings whose depth is
 // overestimated.
 bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
   constexpr double kDeviations = 2.0;

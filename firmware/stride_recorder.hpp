@@ -6,14 +6,13 @@
 
 namespace sandhopper {
 
-// Accumulates a stride's regressions in the cycle. Sums are committed each time a new greatest depth is
-// reached, so that what is handed over ends at the end of penetration without knowing in advance when that
-// is.
+// Accumulates a stride's regressions in the cycle. The sums are committed whenever a new greatest depth is
+// reached. So the result ends at the end of penetration, although that instant is not known in advance.
 class StrideRecorder {
  public:
   struct Foot {
     double radius_m;
-    double reduced_mass_kg;  // with its leg, in flight
+    double reduced_mass_kg;  // of foot and leg in flight
   };
   StrideRecorder(const StiffnessConfig& config, const Foot& foot);
 
@@ -26,14 +25,14 @@ class StrideRecorder {
   void update(const Estimate& estimate, State state) noexcept;
 
   const StrideSums& sums() const noexcept { return done_; }
-  // True for one update: the foot has left its crater, and the samples of that stance are complete. They stay
-  // until the next contact.
+  // True for one update: the foot has left its crater and the samples of that stance are complete. They
+  // remain until the next contact.
   bool foot_is_clear() const noexcept { return clear_; }
   const GroundEventSums& event_sums() const noexcept { return events_.sums(); }
   std::uint32_t strides_begun() const noexcept { return current_.stride; }
-  // Deepest point of the present stride on new ground; zero before it is reached.
+  // Greatest depth of the present stride on new ground; 0 before it reaches new ground.
   double new_ground_m() const noexcept { return new_deepest_m_; }
-  // Where the foot should meet the ground next: the surface at first, then the floor of its own crater.
+  // Expected height of the ground: at first the surface, then the floor of the foot's own crater.
   double surface_z_m() const noexcept { return surface_z_m_; }
 
  private:
@@ -62,20 +61,20 @@ class StrideRecorder {
   StrideSummary current_{};
   StrideSums committed_{};
   StrideSums done_{};
-  double datum_m_ = 0.0;          // what the filter calls depth where the first stride met the surface
-  double deepest_m_ = 0.0;        // of this and all former strides, below that datum
-  double new_deepest_m_ = 0.0;    // of this stride, on new ground; zero before it is reached
-  double crater_depth_m_ = 0.0;   // of former strides
-  double deepest_force_N_ = 0.0;  // without drag and added mass, at the deepest point
-  double crater_force_N_ = 0.0;   // the same, of former strides
-  double contact_depth_m_ = 0.0;  // what the filter calls depth at the contact
+  double datum_m_ = 0.0;          // depth estimated by the filter at which the first stride met the surface
+  double deepest_m_ = 0.0;        // of this and all earlier strides, below that datum
+  double new_deepest_m_ = 0.0;    // of this stride on new ground; 0 before it reaches new ground
+  double crater_depth_m_ = 0.0;   // of earlier strides
+  double deepest_force_N_ = 0.0;  // force without drag and added mass at the deepest point
+  double crater_force_N_ = 0.0;   // the same for earlier strides
+  double contact_depth_m_ = 0.0;  // depth estimated by the filter at contact
   double surface_z_m_ = 0.0;
   double last_foot_z_m_ = 0.0;
   std::int64_t last_force_time_ns_ = 0;
   double sample_duration_s_ = 0.0;
-  bool touched_ = false;  // contact of this stride has been noticed
+  bool touched_ = false;  // contact of this stride was detected
   std::int64_t event_contact_ns_ = 0;
-  bool leaving_ = false;  // after the liftoff, until the foot is clear of its crater
+  bool leaving_ = false;  // after liftoff, until the foot is clear of its crater
   bool rises_ = false;
   bool clear_ = false;
 };

@@ -22,8 +22,9 @@ transmit::Dialect guarded_dialect(Dialect dialect) noexcept {
 }
 
 transmit::MotorLimits motor_limits(const CubeMarsConfig& motor, const LimitsConfig& limits) noexcept {
-  // motor_reply_misses cycles without a reply are a fault and end the torque; one more is for a reply on its
-  // way. Servo's status frames come more rarely, and its damping, worked out from them, goes on for a moment.
+  // After motor_reply_misses cycles without a reply the fault ends the torque; one more frame is for a reply
+  // that is on its way. Servo status frames come less often, and the damping computed from them continues for
+  // a short time, so servo allows more frames.
   const int misses = limits.motor_reply_misses + 1;
   const bool servo = motor.dialect == Dialect::servo;
   const auto cycles_per_reply = static_cast<int>(std::ceil(kCyclesPerSecond / replies_per_s(motor)));

@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// The robot's configuration as the transmit guard takes it.
+// Converts the robot's configuration to the transmit guard's limits.
 transmit::Limits transmit_limits(const CanConfig& can, const LimitsConfig& limits) noexcept;
 
 // Commands that the latched fault's reaction still allows.

@@ -8,15 +8,15 @@
 
 namespace sandhopper {
 
-// Notices when the date jumps: somebody set it, or the computer slept. Nothing in the cycle depends on it;
-// it is recorded so that dates in other programs' files can be put beside the log's.
+// Detects a jump of CLOCK_REALTIME: somebody set the date, or the computer slept. The cycle does not depend
+// on it. It is logged so that dates in other programs' files can be compared with the log's.
 class WallClock {
  public:
   // CLOCK_REALTIME minus CLOCK_MONOTONIC [ns].
   explicit WallClock(std::function<std::int64_t()> offset_ns = realtime_offset_ns)
       : read_(std::move(offset_ns)), last_ns_(read_()) {}
 
-  // The jump since the last call, 0 for none. NTP's slewing (at most 0.5 ms/s) is none.
+  // Jump since the last call [ns], 0 for none. NTP's slewing (at most 0.5 ms/s) does not count.
   std::int64_t step_ns() noexcept {
     const auto now_ns = read_();
     const auto step_ns = now_ns - last_ns_;

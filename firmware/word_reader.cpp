@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text;
 }
 
-// Of ASCII alone: the locale has no say.
+// ASCII only, independent of the locale.
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 using Believed = std::vector<bool>;
 
-// Sample-to-sample noise: second differences see neither level nor slope of the signal.
+// Standard deviation of the sample-to-sample noise. Second differences remove the signal's level and slope.
 double noise_of(std::span<const double> values, const Believed& believed) {
   std::vector<double> differences;
   for (std::size_t i = 1; i + 1 < values.size(); ++i)
@@ -21,8 +21,8 @@ double noise_of(std::span<const double> values, const Believed& believed) {
   return *middle / (0.6745 * std::sqrt(6.0));
 }
 
-// Runs near an end of what the sensor ever read, in which it shows far less noise than anywhere else, and
-// what lies within the guard of them.
+// False for saturated samples: runs near an extreme of the whole record with far less noise than elsewhere,
+// and the guard samples around them.
 Believed away_from_saturation(std::span<const double> values, const FusionOptions& options,
                               AccelerometerCalibration& calibration) {
   Believed believed(values.size(), true);
@@ -55,7 +55,7 @@ Believed away_from_saturation(std::span<const double> values, const FusionOption
   return believed;
 }
 
-// reference = scale x channel + bias on the averaged signals.
+// Regression reference = scale x channel + bias on the averaged signals.
 void regress(std::span<const double> channel, std::span<const double> reference, const Believed& believed,
              AccelerometerCalibration& out) {
   double n = 0.0, sx = 0.0, sy = 0.0;

@@ -7,7 +7,8 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kDampingRamp_N = 5.0;  // damping fades with the elastic force, so leaving is not a step
+constexpr double kDampingRamp_N = 5.0;  // damping fades with the elastic force, so that liftoff has no force
+                                        // step
 constexpr double kExponentDepth_m =
     0.01;  // depth at which the power law has the stiffness of its coefficient
 

@@ -5,24 +5,24 @@
 #include "config/fields.hpp"
 #include "terrain/bed_family.hpp"
 
-// Vertical force of a granular bed on a flat round foot, given depth, speed and the deepest point so far: an
-// elastic- plastic depth law with the inertial terms of a stagnant cone of grains that grows under the foot.
+// Vertical force of a granular bed on a flat round foot, from depth, speed and the deepest point so far: an
+// elastic-plastic depth law with the inertial terms of a stagnant cone of grains that grows under the foot.
 //
-//   F_d(z) = k [z + z0 (1 - exp(-z/dz0))]                                      quasi-static, z depth of the
-//   sole m_a(z) = c_g rho nu pi / (3 kap) [R^3 - (R - kap z)^3],  kap = nu / tan(theta), constant beyond z =
-//   R/kap virgin bed (z >= z_max, v > 0, down positive):
+//   F_d(z) = k [z + z0 (1 - exp(-z/dz0))]              quasi-static force, z depth of the sole
+//   m_a(z) = c_g rho nu pi / (3 kap) [R^3 - (R - kap z)^3],  kap = nu / tan(theta), constant beyond z = R/kap
+//   On the virgin bed (z >= z_max, v > 0, down positive):
 //     F = F_d + c_d dm_a/dz v^2 + lambda rho pi R^2 v^2 - s m_a a,  s = clip(v / v_switch, 0, 1), a upward
-//   elsewhere in the crater: with E = F_d(z_max) - r k (z_max - z) and c_u = 2 zeta sqrt(r k M),
-//     F = E + c_u v clip(E / 5 N, 0, 1) where E > 0, else 0
-//   and never below 0: dry grains cannot pull.
-// A bed of another family (terrain/bed_family.hpp) has its own F_d and, where it is wet, pulls a foot that
-// leaves; everything else is the same.
+//   Elsewhere in the crater, with E = F_d(z_max) - r k (z_max - z) and c_u = 2 zeta sqrt(r k M):
+//     F = E + c_u v clip(E / 5 N, 0, 1) for E > 0, otherwise 0
+//   F is never below 0: dry grains cannot pull.
+// A bed of another family (terrain/bed_family.hpp) has its own F_d, and a wet one pulls a foot that leaves;
+// the rest is the same.
 //
 // Sources: Kang et al. 2018 (depth law), Aguilar & Goldman 2016 (cone), Katsuragi & Durian 2013 (steady
 // drag).
 namespace sandhopper {
 
-// `stiffness_per_area_N_per_m3` K with `exponent` n, where K > 0, replaces the depth law: F_d = K A z (z / 1
+// If `stiffness_per_area_N_per_m3` K > 0, it replaces the depth law, with `exponent` n: F_d = K A z (z / 1
 // cm)^(n-1).
 struct BedParameters {
   double stiffness_N_per_m = 1500.0;
@@ -39,7 +39,7 @@ struct BedParameters {
   double added_mass_switch_speed_mps = 0.005;
   double stiffness_per_area_N_per_m3 = 0.0;
   double exponent = 1.0;
-  bool rigid = false;  // the foot stands still in stance; read by the plant, not by Bed
+  bool rigid = false;  // the foot does not move in stance; used by the plant, not by Bed
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -61,8 +61,8 @@ struct BedParameters {
   }
 };
 
-// How the bed's strength varies along the depth of one trial: F_d is multiplied by 1 + relative * u(z), u of
-// unit variance everywhere, interpolated between independent knots one `spacing_m` apart.
+// Variation of the bed's strength along the depth of one trial: F_d is multiplied by 1 + relative * u(z). u
+// has unit variance everywhere and is interpolated between independent knots at a distance of `spacing_m`.
 struct BedFluctuation {
   static constexpr std::size_t kKnots = 128;
   double relative = 0.0;
@@ -73,19 +73,20 @@ struct BedFluctuation {
 };
 
 struct BedContact {
-  double depth_m;           // of the sole under the undisturbed surface
+  double depth_m;           // depth of the sole under the undisturbed surface
   double speed_mps;         // downward
-  double max_depth_m;       // deepest point the foot has reached, of the present and earlier strides
-  double damping_mass_kg;   // M in c_u: what swings on the unloading line; 0 for prescribed motion
-  double deepest_N = -1.0;  // curve_N(max_depth_m) where it is known: it stays as long as the foot unloads
+  double max_depth_m;       // deepest point of the foot in this and earlier strides
+  double damping_mass_kg;   // M in c_u: mass that oscillates on the unloading line; 0 for prescribed motion
+  double deepest_N = -1.0;  // curve_N(max_depth_m) if it is already known, because it is constant while the
+                            // foot unloads; negative: unknown
 };
 
-// The force is affine in the foot's own acceleration, so that it can be solved together with the foot's
-// equation of motion: F = max(0, force_N - added_mass_kg * a), a the foot's acceleration upward.
+// The force is affine in the foot's acceleration, so that it can be solved together with the foot's equation
+// of motion: F = max(least_N, force_N - added_mass_kg * a), with a the foot's acceleration upward.
 struct BedReaction {
   double force_N = 0.0;
   double added_mass_kg = 0.0;
-  double least_N = 0.0;  // negative only where an extension lets grains pull
+  double least_N = 0.0;  // negative if a wet bed or an extension lets grains pull
 
   double at_acceleration(double foot_accel_mps2) const noexcept {
     const double force = force_N - added_mass_kg * foot_accel_mps2;
@@ -93,16 +94,16 @@ struct BedReaction {
   }
 };
 
-// Further laws of a bed that the one above does not have; see tools/diagnose.
+// Additional laws of a bed; see tools/diagnose.
 class BedExtension {
  public:
   virtual ~BedExtension() = default;
-  // What becomes of the quasi-static force, on the virgin curve and where an unloading line starts from it.
+  // Changes the quasi-static force, on the virgin curve and at the start of an unloading line.
   virtual double quasi_static_N(double curve_N, double depth_m) const = 0;
-  // Multiplies the stiffness of that line.
+  // Multiplies the stiffness of the unloading line.
   virtual double unloading_factor() const = 0;
-  // Added where the foot is below the undisturbed surface. `bearing_N`: what the bed bears there by itself,
-  // at rest; `virgin`: at new depth and going down.
+  // Force added while the foot is below the undisturbed surface. `bearing_N`: the bed's own force there at
+  // rest; `virgin`: at new depth and moving down.
   virtual BedReaction added(const BedContact& contact, double quasi_static_N, double bearing_N,
                             bool virgin) const = 0;
 };
@@ -112,22 +113,23 @@ class Bed {
   Bed(const BedParameters& parameters, double foot_radius_m, const BedFluctuation& fluctuation = {},
       const BedFamilyParameters& family = {});
 
-  // `extension` must outlive this bed; null for none.
+  // `extension` must outlive this bed; null removes it.
   void extend(const BedExtension* extension) noexcept { extension_ = extension; }
 
   double quasi_static_force_N(double depth_m) const noexcept;
-  double curve_N(double depth_m) const noexcept;  // the same without an extension
+  double curve_N(double depth_m) const noexcept;  // quasi-static force without an extension
   double added_mass_kg(double depth_m) const noexcept;
   double added_mass_gradient_kg_per_m(double depth_m) const noexcept;
+  // Force law for this contact, including an extension.
   BedReaction reaction(const BedContact& contact) const noexcept;
 
-  // Slope of the curve between 0.1 mm and this depth where it is greatest, over steps of 0.1 mm.
+  // Largest slope of the curve between 0.1 mm and this depth, over steps of 0.1 mm.
   double greatest_stiffness_N_per_m(double to_depth_m) const noexcept;
   double unloading_line_N_per_m() const noexcept;
-  // Largest pull of a wet bed on the foot, reached where the crater is deep enough; 0 for a dry bed.
+  // Largest pull of a wet bed on the foot, reached if the crater is deep enough; 0 for a dry bed.
   double greatest_suction_N() const noexcept { return family_.parameters().suction_Pa * area_m2_; }
 
-  // Depth at which a foot that unloads from `max_depth_m` at rest loses contact: the crater's floor.
+  // Depth at which a foot that unloads slowly from `max_depth_m` loses contact: the crater's floor.
   double crater_floor_m(double max_depth_m) const noexcept;
 
   const BedParameters& parameters() const noexcept { return p_; }
@@ -138,7 +140,8 @@ class Bed {
   double plain_curve_N(double depth_m) const noexcept;  // without family and fluctuation
   double suction_N(const BedContact& contact, double above_floor_m) const noexcept;
   double stiffness_N_per_m() const noexcept;
-  // Without an extension's laws, but for what `bears_N` holds of them: the quasi-static force at the depth.
+  // Reaction at new depth, without an extension's added force. `bears_N` is the quasi-static force at the
+  // depth.
   BedReaction going_deeper(const BedContact& contact, double bears_N) const noexcept;
   BedReaction unloading(const BedContact& contact) const noexcept;
   double extended_N(double curve_N, double depth_m) const noexcept;

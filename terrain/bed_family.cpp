@@ -17,7 +17,7 @@ BedFamilyParameters bed_family_of(BedFamily family) noexcept {
   switch (family) {
     case BedFamily::line:
       break;
-    case BedFamily::power_law:  // 0.8 to 1.8 within three standard deviations, to which draws are limited
+    case BedFamily::power_law:  // draws within three standard deviations give 0.8 to 1.8
       p.exponent = 1.3;
       p.exponent_spread = 0.5 / 3.0;
       break;
@@ -41,21 +41,21 @@ BedFamilyParameters bed_family_of(BedFamily family) noexcept {
       p.depth_spread_m = 0.002;
       break;
     case BedFamily::compacted:
-      // Packing 0.63 in place of 0.585: void ratio 0.59 in place of 0.71, for which Hardin and Richart 1963,
-      // (2.17 - e)^2 / (1 + e), give 1.26 times the elastic stiffness.
+      // Packing 0.63 instead of 0.585: void ratio 0.59 instead of 0.71. By (2.17 - e)^2 / (1 + e) (Hardin and
+      // Richart 1963) the elastic stiffness is 1.26 times as large.
       p.strength_factor = 2.4;
       p.density_factor = 1.08;
       p.unloading_stiffness_factor = 1.26;
       break;
     case BedFamily::wet:
       // 500 Pa: capillary cohesion of wet sand and beads (Richefeu et al. 2006; Mitarai and Nori 2006).
-      // Pores of a share of 0.4, two thirds full: 1450 + 270 kg/m3.
+      // Porosity 0.4, two thirds filled with water: 1450 + 270 kg/m3.
       p.density_factor = 1.19;
       p.cohesion_Pa = 500.0;
       p.suction_Pa = 2000.0;
       p.strength_spread_relative = 0.15;
       break;
-    case BedFamily::gradually_denser:  // 1000 N/m at the surface, towards 3600 N/m
+    case BedFamily::gradually_denser:  // 1000 N/m at the surface, approaching 3600 N/m
       p.strength_factor = 1.0 / 1.5;
       p.deep_strength_ratio = 3.6;
       p.densification_depth_m = 0.040;
@@ -104,7 +104,7 @@ double BedFamilyCurve::force_N(double plain_N, double depth_m) const noexcept {
 }
 
 double BedFamilyCurve::suction_N(double above_floor_m, double floor_m) const noexcept {
-  // A crater shallower than the length releases the foot at the surface.
+  // A crater shallower than suction_distance_m releases the foot at the surface.
   const double length_m = std::min(p_.suction_distance_m, floor_m);
   if (p_.suction_Pa == 0.0 || above_floor_m <= 0.0 || above_floor_m >= length_m) return 0.0;
   const double u = above_floor_m / length_m;

@@ -13,12 +13,12 @@
 //   B   the plain curve; in the power-law family F_p(z_r) (z/z_r)^n, which equals it at z_r.
 //       Bekker's pressure-sinkage law p = k z^n; n is 0.5 for clay, 0.7 for loam, 1.1 for dry sand, 1.6 for
 //       snow (Wong, Theory of Ground Vehicles, table 2.3); 1.3 for plates in glass beads (Hill 2005).
-//   w   the share of the deep material: 1 / (1 + exp((h - z)/b)), less its value at the surface, for a
+//   w   the share of the deep material: 1 / (1 + exp((h - z)/b)), minus its value at the surface, for a
 //       boundary at depth h; 1 - exp(-z/l) for a bed that becomes denser with depth.
-//       The resistance of grains is a factor of friction times overburden (Kang et al. 2018), so the factor
-//       goes over from s to s q. It does so over a length, not at once: the grains that yield reach ahead of
-//       the foot. A bearing failure ahead of the boundary makes F fall in a stiff layer over a soft one:
-//       punch- through (Meyerhof 1974; Teh et al. 2010).
+//       The resistance of grains is a friction factor times overburden (Kang et al. 2018), so the factor
+//       changes from s to s q. It changes over a length, because the yielding grains extend ahead of the
+//       foot. A bearing failure ahead of the boundary makes F fall in a stiff layer over a soft one:
+//       punch-through (Meyerhof 1974; Teh et al. 2010).
 //   F_c a brittle crust, thickness t, top at z_t: shear on the rim of the plug that the foot punches out,
 //       2 pi R t tau at the rupture (Meyerhof 1974). It rises linearly over the deflection d, and then decays
 //       as exp(-(z - z_t - d)/l_c). Strength of dried soil crusts: 20 to 150 kPa (Richards 1953).
@@ -26,12 +26,12 @@
 //   c   capillary cohesion, bearing-capacity factor N_c = 6.2 of a round shallow foot (Skempton 1951),
 //       mobilised over z_c (Vesic 1973: 5 to 10 % of the foot's diameter).
 //
-// A wet bed also holds the foot while it leaves. With u the height over the crater's floor (the depth at
-// which the unloading line reaches zero), while the foot moves up and u < L:
+// A wet bed also holds the foot while it leaves. Let u be the height over the crater's floor (the depth at
+// which the unloading line reaches zero). While the foot moves up and u < L:
 //   F = -sigma A (27/4) (u/L) (1 - u/L)^2,  peak sigma A at u = L/3
-// sigma is the capillary suction, 2 kPa for 0.3 mm grains (height of capillary rise about 0.2 m); L the
+// sigma is the capillary suction, 2 kPa for 0.3 mm grains (height of capillary rise about 0.2 m). L is the
 // length over which air enters from the rim. The bed has no state, so it also pulls a foot that turns between
-// the floor and L; a foot that moves down is not pulled.
+// the floor and L. It does not pull a foot that moves down.
 namespace sandhopper {
 
 enum class BedFamily : std::uint8_t {
@@ -52,9 +52,9 @@ struct EnumNames<BedFamily> {
       "compacted", "wet",       "gradually_denser"};
 };
 
-// `family` selects the power law; every other effect is there where its parameter is not neutral. The values
-// of a family come from bed_family_of(). `spread`: one standard deviation from trial to trial, relative for
-// strengths.
+// `family` selects the power law; every other effect exists if its parameter is not neutral. bed_family_of()
+// gives the values of a family. The `spread` values are one standard deviation from trial to trial, relative
+// for strengths.
 struct BedFamilyParameters {
   BedFamily family = BedFamily::line;
   double strength_factor = 1.0;  // s
@@ -77,8 +77,8 @@ struct BedFamilyParameters {
   double floor_stiffness_N_per_m = 40e3;    // k_f
   double suction_Pa = 0.0;                  // sigma
   double suction_distance_m = 0.006;        // L
-  double strength_spread_relative = 0.0;    // of q - 1, tau, c and sigma
-  double depth_spread_m = 0.0;              // of h, z_t and z_f
+  double strength_spread_relative = 0.0;    // spread of q - 1, tau, c and sigma
+  double depth_spread_m = 0.0;              // spread of h, z_t and z_f
   double exponent_spread = 0.0;
 
   template <class Self, class Visitor>
@@ -109,29 +109,29 @@ struct BedFamilyParameters {
     visit("exponent_spread", self.exponent_spread, Range{0.0, 0.5});
   }
 
-  // Depth at which the crust breaks under a slow foot; meaningful where it has a strength.
+  // Depth at which the crust breaks under a slow foot. Meaningful only if the crust has a strength.
   double rupture_depth_m() const noexcept { return crust_depth_m + crust_deflection_m; }
 };
 
-// The values of a family, for the default bed of 1500 N/m under an 80 mm foot. Loose glass beads of 0.3 mm
-// have 1000 to 2400 N/m, compacted ones 3600.
+// Values of a family, for the default bed of 1500 N/m under an 80 mm foot. Loose glass beads of 0.3 mm have
+// 1000 to 2400 N/m, compacted ones 3600.
 BedFamilyParameters bed_family_of(BedFamily family) noexcept;
 
-// The curve of one bed. `plain_reference_N`: the plain curve at reference_depth_m.
+// Force curve of one bed. `plain_reference_N` is the plain curve at reference_depth_m.
 class BedFamilyCurve {
  public:
   BedFamilyCurve() = default;
   BedFamilyCurve(const BedFamilyParameters& parameters, double foot_radius_m, double plain_reference_N);
 
-  // True where nothing differs from the plain bed.
+  // True if nothing differs from the plain bed.
   bool plain() const noexcept { return plain_; }
   const BedFamilyParameters& parameters() const noexcept { return p_; }
 
-  // F(z) for depths above zero, from the plain curve there [N].
+  // F(z) [N] for z > 0, from the plain curve's value at z.
   double force_N(double plain_N, double depth_m) const noexcept;
-  // The pull of a wet bed at the height u above the crater's floor, for a foot that moves up [N >= 0].
+  // Pull of a wet bed [N, >= 0] at this height over the crater's floor, for a foot that moves up.
   double suction_N(double above_floor_m, double floor_m) const noexcept;
-  // The crust's share of force_N.
+  // The crust's part of force_N.
   double crust_N(double depth_m) const noexcept;
 
  private:

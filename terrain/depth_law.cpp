@@ -11,7 +11,7 @@ namespace sandhopper {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Mean over the plate of the confined layer's stress, relative to that at the rim.
+// Mean stress of the confined layer over the plate, relative to the stress at the rim.
 double friction_hill(double x) {
   if (x < 1e-3) return 1.0 + x / 3.0;
   return 2.0 * (std::expm1(x) - x) / (x * x);
@@ -43,7 +43,7 @@ double confinement_of(const DepthLawOptions& options) {
 
 double area_m2(double diameter_m) { return std::numbers::pi * diameter_m * diameter_m / 4.0; }
 
-// Best K at one shape.
+// Best K for a given shape.
 DepthLawFit at_shape(DepthLaw law, double shape, std::span<const DepthTrial> trials,
                      const DepthLawOptions& options) {
   const double confinement = confinement_of(options);
@@ -69,7 +69,7 @@ struct Bracket {
   double low, high;
 };
 
-// Shapes worth trying for samples this deep.
+// Search range of the shape for this depth of the samples.
 Bracket shapes(DepthLaw law, double deepest_m) {
   switch (law) {
     case DepthLaw::power:
@@ -128,7 +128,8 @@ double depth_law_force_N(const DepthLawFit& fit, double depth_m, double diameter
     return scale_N_per_m * shape_m(fit.law, fit.shape, true_depth_m, diameter_m, confinement);
   };
   if (options.compliance_m_per_N <= 0.0 || depth_m <= 0.0) return at(depth_m);
-  double low_m = 0.0, high_m = depth_m;  // true depth + compliance x force grows with the true depth
+  double low_m = 0.0, high_m = depth_m;  // the recorded depth (true depth + compliance x force) increases
+                                         // with the true depth
   for (int i = 0; i < 60; ++i) {
     const double middle_m = 0.5 * (low_m + high_m);
     (middle_m + options.compliance_m_per_N * at(middle_m) > depth_m ? high_m : low_m) = middle_m;

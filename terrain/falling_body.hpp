@@ -3,36 +3,38 @@
 #include <span>
 #include <vector>
 
-// Motion and forces of a body that falls through a fluid into a bed, from its specific force f = h'' + g
-// alone (h height, v = -h' speed downwards). In the fluid, with mass m, displaced volume V, frontal area A,
+// Motion and forces of a body that falls through a fluid into a bed, determined from its specific force f =
+// h'' + g alone (h height, v = -h' downward speed). In the fluid, with mass m, displaced volume V, frontal
+// area A,
 //   (m + C_m rho V) h'' = -(m - rho V) g + 1/2 rho A C_d v^2,  i.e.  v' = alpha g - kappa v^2,
 //   alpha = (m - rho V)/(m + C_m rho V),  kappa = 1/2 rho A C_d/(m + C_m rho V).
-// alpha and kappa need no mass; what the bed adds is known per moving mass, m + C_m rho V = (m - rho
-// V)/alpha:
+// alpha and kappa can be found without the mass. The bed's force is known per moving mass m + C_m rho V = (m
+// - rho V)/alpha:
 //   r = h'' + alpha g - kappa v^2   [m/s^2],   R = (m - rho V)/alpha r   [N].
 namespace sandhopper {
 
 struct FallingMotion {
   std::vector<double> speed_mps;  // downwards
-  std::size_t rest_row = 0;       // first row of the rest that the integration starts from
-  double bias_mps2 = 0.0;         // added to f so that it is rest_specific_force at rest
+  std::size_t rest_row = 0;       // first row of the rest from which the integration starts
+  double bias_mps2 = 0.0;         // added to f so that f equals rest_specific_force_mps2 at rest
 };
 
-// Integrates f back in time from the rest after the impact, where the speed is zero: the accelerometer's bias
-// is known there, and over the tenths of a second of the impact nothing is left of it. rest_row: the first
-// row from which f stays within its noise of its last value; rest_specific_force_mps2 is g cos(tilt).
+// Integrates f back in time from the rest after the impact. There the speed is zero and the accelerometer's
+// bias is known, and during the tenths of a second of the impact the bias causes no noticeable error.
+// rest_row: first row from which f stays within its noise of its last value. rest_specific_force_mps2 is g
+// cos(tilt).
 FallingMotion speed_from_rest(std::span<const double> t_s, std::span<const double> specific_force_mps2,
                               double rest_specific_force_mps2, std::size_t rest_row);
 
 // First row of the rest at the record's end: from there on the average over average_samples stays within
-// tolerance_mps2 of the mean of the last rest_samples. The number of rows when the record does not end at
-// rest.
+// tolerance_mps2 of the mean of the last rest_samples. Returns the number of rows if the record does not end
+// at rest.
 std::size_t find_rest(std::span<const double> specific_force_mps2, std::size_t average_samples,
                       std::size_t rest_samples, double tolerance_mps2);
 
-// Row of the first contact with the bed: the last before the greatest f at which the averaged f is less than
-// sigmas standard deviations above the straight line through the second half of `before_s` that ends
-// before_s / 3 ahead of the peak.
+// Row of the first contact with the bed: the last row before the peak of f at which the averaged f is less
+// than `sigmas` standard deviations above a straight line. The line is fitted to the second half of
+// `before_s`, an interval that ends before_s / 3 before the peak.
 struct Touchdown {
   std::size_t row = 0;
   std::size_t peak_row = 0;
@@ -41,17 +43,18 @@ Touchdown find_touchdown(std::span<const double> t_s, std::span<const double> sp
                          std::size_t average_samples, double before_s, double sigmas);
 
 struct FluidFit {
-  double alpha = 0.0;  // share of g a body at rest in the fluid falls with
+  double alpha = 0.0;  // share of g with which a body starts to fall in the fluid
   double kappa_per_m = 0.0;
   double rms_mps2 = 0.0;
-  double condition = 0.0;  // of the two scaled regressors; large: the fall tells one combination only
+  double condition = 0.0;  // condition number of the two scaled regressors; if it is large the fall
+                           // determines only one combination
   std::size_t samples = 0;
 };
-// Least squares of v' = alpha g - kappa v^2 over the rows of the fall. NaN with fewer than ten.
+// Least squares of v' = alpha g - kappa v^2 over the rows of the fall. NaN for fewer than ten rows.
 FluidFit fit_fluid(std::span<const double> speed_mps, std::span<const double> specific_force_mps2,
                    double gravity_mps2);
 
-// Hydrodynamic coefficients that go with one value of the mass, which the fall itself cannot tell.
+// Hydrodynamic coefficients for a given mass, which the fall itself cannot determine.
 struct FluidBody {
   double mass_kg, volume_m3, frontal_area_m2, density_kg_per_m3;
 };

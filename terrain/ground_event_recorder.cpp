@@ -7,7 +7,8 @@ namespace sandhopper {
 namespace {
 
 constexpr double kUnknown_m = -1.0;
-constexpr double kLeastStep_m = 1e-6;  // beyond the deepest point, past the rounding of its single precision
+constexpr double kLeastStep_m = 1e-6;  // step beyond the deepest point, larger than the rounding of its
+                                       // single precision
 
 void put(DepthBins& bins, const JointSample& s, double inertia_N, double friction) noexcept {
   const double place = s.depth_m / DepthBins::kWidth_m;
@@ -48,8 +49,8 @@ double GroundEventRecorder::inertia_N(const JointSample& s) const noexcept {
          cone_.added_mass_kg(s.depth_m) * s.accel_mps2;
 }
 
-// The foot that stood there shows what the ground bore at its deepest point, where it bore more than on the
-// last new ground before the pause. A crust that breaks at the end of a pause shows itself by that alone.
+// Adds the resting foot as a sample at the deepest point, if the ground bore more there than on the last new
+// ground before the pause. This is the only sample that shows a crust that breaks at the end of a pause.
 void GroundEventRecorder::keep_bearing(const JointSample& s, double deepest_m) noexcept {
   if (!(bearing_N_ > pause_N_per_m_ * deepest_m)) return;
   const JointSample rest{.depth_m = deepest_m,

@@ -32,7 +32,8 @@ std::vector<Point> points_of(const DepthBins& bins) {
 }
 
 constexpr int kSmoothTerms = 8;
-constexpr double kDiffuse = 100.0;  // prior standard deviation of X b over the greatest force: says nothing
+constexpr double kDiffuse = 100.0;  // prior standard deviation of X b relative to the greatest force:
+                                    // uninformative
 constexpr std::size_t kLeastPoints = kSmoothTerms + 4;
 
 double greatest_force_N(std::span<const Point> points) {
@@ -51,7 +52,7 @@ struct Smoothness {
   double relative;
 };
 
-// Slope of force over depth, from the neighbours [N/m].
+// Slope of force over depth from the neighbouring points [N/m].
 double slope_at(std::span<const Point> points, std::size_t i) {
   const auto& before = points[i == 0 ? 0 : i - 1];
   const auto& after = points[std::min(i + 1, points.size() - 1)];
@@ -95,7 +96,7 @@ NormalTest smooth_bed(const Stance& stance, const GroundEventConfig& config, con
   return test;
 }
 
-// The best of many templates.
+// Finds the best of many templates.
 class Search {
  public:
   Search(const NormalTest& test, std::span<const Point> points)
@@ -116,7 +117,7 @@ class Search {
     best_shape_ = shape_;
   }
 
-  // The best one where it exceeds the threshold; else one of no kind.
+  // The best event if it exceeds the threshold, otherwise one of kind `none`.
   GroundEvent event(double false_alarm_probability, bool either_sign) const {
     GroundEvent event = best_;
     const double sides = either_sign ? 1.0 : 2.0;
@@ -139,7 +140,7 @@ class Search {
   int templates_ = 0;
 };
 
-constexpr double kPlaces_m = 1e-3;  // apart
+constexpr double kPlaces_m = 1e-3;  // distance between tried places
 constexpr double kFirstBoundary_m = 0.003;
 constexpr std::array kRises_m{0.001, 0.002, 0.004};
 constexpr std::array kDecays_m{0.0005, 0.0015};
@@ -148,14 +149,14 @@ constexpr std::array kWidths_m{0.001, 0.002, 0.004};
 struct Rupture {
   double place_m, rise_m, decay_m;
   double operator()(double z) const {
-    constexpr double kGone = 8.0;  // exp(-8) = 3e-4: zero, so that the test is that much shorter
+    constexpr double kGone = 8.0;  // exp(-8) = 3e-4 counts as zero, which shortens the test
     if (z <= place_m) return std::max(0.0, 1.0 - (place_m - z) / rise_m);
     const double decayed = (z - place_m) / decay_m;
     return decayed < kGone ? std::exp(-decayed) : 0.0;
   }
 };
 
-// Mean force without the added mass's between two depths; NaN where there is no point.
+// Mean force minus added-mass force between two depths; NaN if there is no point.
 double mean_force_N(std::span<const Point> points, double from_m, double to_m) {
   double sum = 0.0, count = 0.0;
   for (const auto& p : points)
@@ -166,7 +167,7 @@ double mean_force_N(std::span<const Point> points, double from_m, double to_m) {
   return sum / count;
 }
 
-// True where the end of a reloading's damping explains a fall of the force.
+// True if the end of a reloading's damping explains the fall of the force.
 bool resumes_at(const Stance& stance, double place_m) {
   constexpr double kResumes_m = 0.001, kAfter_m = 0.004;
   return std::ranges::any_of(stance.resumed, [&](const GroundEventSums::Resumption& resumed) {
@@ -176,7 +177,7 @@ bool resumes_at(const Stance& stance, double place_m) {
   });
 }
 
-// A rupture is a fall of the force: a steep rise at the end of the stance is none.
+// A rupture is a fall of the force; a steep rise at the end of the stance is none.
 bool falls_after(std::span<const Point> points, const Point& p) {
   constexpr double kAfter_m = 0.004;
   return mean_force_N(points, p.depth_m, p.depth_m + kAfter_m) < p.force_N - p.inertia_N;
@@ -201,7 +202,8 @@ void offer_boundaries(Search& search, double deepest_m) {
   }
 }
 
-// The shape of what was found becomes part of the null; a rupture with every rise and decay that was tried.
+// Adds the shape of the event found to the null hypothesis; for a rupture, every rise and decay that was
+// tried.
 void absorb(NormalTest& test, std::span<const Point> points, const GroundEvent& event,
             std::span<const double> shape) {
   const double sd = kDiffuse * greatest_force_N(points);
@@ -211,8 +213,8 @@ void absorb(NormalTest& test, std::span<const Point> points, const GroundEvent& 
     test.add_term(sd / greatest, [&](std::size_t i) { return shape[i]; });
     return;
   }
-  // Its place is known to about one step of the search: within it the shapes of both neighbours belong to the
-  // null.
+  // The place of a rupture is known to about one step of the search, so the shapes of both neighbours are
+  // added, too.
   for (const double beside_m : {-kPlaces_m, 0.0, kPlaces_m})
     for (const double rise_m : kRises_m)
       for (const double decay_m : kDecays_m)
@@ -244,16 +246,17 @@ GroundEvent find_boundary(const Stance& stance, const GroundEventConfig& config,
   return search.event(config.false_alarm_probability, true);
 }
 
-constexpr double kFloorBelow_m = 0.004;  // the pull begins that near to where the load ended
+constexpr double kFloorBelow_m = 0.004;  // the suction begins within this distance of the depth at which the
+                                         // load ended
 
-// From the first depth at which the foot no longer bears a load upwards.
+// Uses the points from the first depth at which the foot no longer bears an upward load.
 GroundEvent find_suction(const DepthBins& up, const GroundEventConfig& config) {
   auto points = points_of(up);
   const double free_N = 2.0 * config.noise.force_noise_N;
   const auto loaded =
       std::find_if(points.rbegin(), points.rend(), [&](const Point& p) { return p.force_N < free_N; });
   points.erase(loaded.base(), points.end());
-  // The ground cannot push a foot that leaves: a greater force is that of the leg at its end stop.
+  // The ground cannot push a foot that leaves. A greater force comes from the leg at its end stop.
   const double most_N = 5.0 * std::hypot(config.noise.force_noise_N, config.offset_sd_N);
   const auto pushed =
       std::find_if(points.rbegin(), points.rend(), [&](const Point& p) { return p.force_N > most_N; });

@@ -6,36 +6,38 @@
 #include "config/fields.hpp"
 #include "terrain/joint_fit.hpp"
 
-// Sudden changes of the ground in one stance: rupture of a crust, boundary of two layers, floor of the box,
-// and suction while the foot leaves. Each is a generalised likelihood-ratio test of a smooth bed against a
-// smooth bed plus one template h of unknown place and size A.
+// Detects sudden changes of the ground in one stance: rupture of a crust, boundary of two layers, floor of
+// the box, and suction while the foot leaves. Each is a generalised likelihood-ratio test of a smooth bed
+// against a smooth bed plus one template h of unknown place and size A.
 //
 // Null, for the force y_i at the depths z_i where the foot reached new ground:
 //   y = X b + s(z) + (e F) u(z) + n,   all normal with mean zero
 //   X   1, z, z^2, 1 - exp(-z/dz0), the cone's drag and added mass, joint friction, time
-//   s   what is smooth beyond that: squared-exponential covariance with one length
+//   s   the smooth remainder: squared-exponential covariance with one length
 //   u   the bed's fluctuation, triangular covariance over its length; n sensor noise
 // With S their covariance, a template's log-likelihood ratio is L(h) = (h' S^-1 y)^2 / (2 h' S^-1 h), and
 //   T(h) = v log(1 + 2 L / (v r)),  r = max(1, (y' S^-1 y - 2 L) / v)
-// is twice its logarithm with the scale of S estimated too, v the number of depths less that of the terms of
-// X. Under the null T is chi-squared with one degree of freedom. An event is reported where the largest T of
-// all templates exceeds u: M P(chi^2_1 > u) = false_alarm_probability for M templates (Bonferroni's bound;
-// half of it where only one sign is an event).
+// is twice the log-likelihood ratio with the scale of S estimated, too. v is the number of depths minus the
+// number of terms of X. Under the null T is chi-squared with one degree of freedom. An event is reported if
+// the largest T of all templates exceeds u: M P(chi^2_1 > u) = false_alarm_probability for M templates
+// (Bonferroni's bound; half of it if only one sign is an event).
 //   rupture   h rises linearly over a length to its place and then decays; A > 0
 //   boundary  h = z / (1 + exp((c - z)/w)), either sign
 //   floor     h = max(0, z - c); A > 0
 //   suction   h = -(27/4) u (1 - u)^2 above the crater's floor, on the samples of the foot that leaves; A > 0
-// All templates compete: a rupture is reported where none of the others is likelier. What was found belongs
-// to the null of what is looked for next, a rupture with its place in doubt by one step of the search.
+// All templates compete: a rupture is reported only if no other template is more likely. An event that was
+// found becomes part of the null of the next search; for a rupture its place is uncertain by one step of the
+// search.
 //
-// A foot that stopped meets its reloading line first, and its estimated depth drifts meanwhile. After a
-// pause, new ground begins where the force is again what it was at the deepest point, which is then the
-// present depth; or where the depth is greater than before by two standard deviations of that drift. The
-// damping of the reloading ends there, which looks like a rupture: within 1 mm of it a rupture must leave
-// less force, 1 to 4 mm deeper, than the ground bore under the resting foot in the pause.
+// A foot that stopped first follows its reloading line, and meanwhile its estimated depth drifts. After a
+// pause new ground begins when the force has returned to its value at the deepest point; that point then
+// defines the present depth. It also begins when the estimated depth exceeds the deepest point by two
+// standard deviations of the drift. The damping of the reloading ends there, which looks like a rupture. So
+// within 1 mm of it a rupture is accepted only if the force 1 to 4 mm deeper is less than the ground bore
+// under the resting foot in the pause.
 //
-// Sources: the statistic is Davies 1977 (a nuisance parameter that exists only under the alternative);
-// templates as in terrain/bed_family.hpp.
+// Sources: the statistic is that of Davies 1977 (a nuisance parameter that exists only under the
+// alternative); the templates are as in terrain/bed_family.hpp.
 namespace sandhopper {
 
 enum class GroundEventKind : std::uint8_t { none, crust_rupture, layer_boundary, box_floor, suction };
@@ -46,24 +48,25 @@ struct EnumNames<GroundEventKind> {
 };
 
 struct GroundEventConfig {
-  double false_alarm_probability = 0.002;  // of each kind, per stride on a smooth bed
-  double smooth_length_m = 0.020;          // of s, for boundary and floor
-  double smooth_relative = 0.10;           // standard deviation of s over the greatest force
-  double rupture_smooth_length_m = 0.005;  // of s, for a rupture: a bed without one has no shorter feature
+  double false_alarm_probability = 0.002;  // for each kind, per stride on a smooth bed
+  double smooth_length_m = 0.020;          // correlation length of s, for boundary and floor
+  double smooth_relative = 0.10;           // standard deviation of s relative to the greatest force
+  double rupture_smooth_length_m = 0.005;  // correlation length of s for a rupture; a bed without a rupture
+                                           // has no shorter feature
   double rupture_smooth_relative = 0.10;
-  double depth_noise_m = 1e-4;  // scatter of the estimated depth; a steep bed makes force of it
-  double offset_sd_N = 1.0;     // of the force on a foot in the air, constant and smooth
-  // After a change of the stance's phase the torque is another one at once, and the foot's acceleration
-  // follows it by the age of a reading, one cycle, and three time constants of the IMU's low-pass of 400 Hz:
-  // three samples that do not count.
+  double depth_noise_m = 1e-4;  // scatter of the estimated depth; on a steep bed it causes force noise
+  double offset_sd_N = 1.0;     // error of the force on a foot in the air: constant part and smooth part
+  // Settling time after a change of the stance's phase. The torque steps, and the measured foot acceleration
+  // follows it after the age of a reading, one cycle, and three time constants of the IMU's 400 Hz low-pass.
+  // Three samples are not used.
   double settling_time_s = 0.003;
   JointConfig noise{};  // force_noise_N, fluctuation and its length, dz0, friction
-  // A foot is taken to move beyond two standard deviations of its estimated speed, and beyond what its
-  // acceleration changes in one cycle and one time constant of the IMU's low-pass.
+  // The foot counts as moving above two standard deviations of its estimated speed plus the change of speed
+  // within speed_lag_s (one cycle and one time constant of the IMU's low-pass).
   double min_speed_mps = 0.06;
   double speed_lag_s = 0.0014;
-  // A resting foot accelerates by less than three standard deviations of its accelerometer under load. One
-  // that accelerates may be held by damping that is no strength of the ground.
+  // Largest acceleration of a resting foot: three standard deviations of its accelerometer under load. A foot
+  // that accelerates more may be held by damping, which is no strength of the ground.
   double rest_accel_mps2 = 0.9;
 
   template <class Self, class Visitor>
@@ -85,10 +88,10 @@ struct GroundEventConfig {
 
 struct GroundEvent {
   GroundEventKind kind = GroundEventKind::none;
-  double depth_m = 0.0;    // under the surface
-  double force_N = 0.0;    // on the foot there
-  double speed_mps = 0.0;  // of the foot there, down positive
-  double size = 0.0;       // A: N; N/m for a boundary and a floor
+  double depth_m = 0.0;    // below the surface
+  double force_N = 0.0;    // force on the foot at this depth
+  double speed_mps = 0.0;  // speed of the foot there, downward positive
+  double size = 0.0;       // A [N]; for a boundary or a floor [N/m]
   double size_sd = 0.0;
   double statistic = 0.0;  // T
   double threshold = 0.0;  // u
@@ -106,10 +109,10 @@ struct GroundEvent {
   }
 };
 
-// Means of force and what explains it over bins of depth, of one way of the foot.
+// Sums of the force and its regressors over bins of depth, for one direction of the foot's motion.
 struct DepthBins {
   static constexpr std::size_t kBins = 160;
-  static constexpr double kWidth_m = 5e-4;  // 80 mm altogether; deeper samples are left out and counted
+  static constexpr double kWidth_m = 5e-4;  // 80 mm in total; deeper samples are left out and counted
   struct Bin {
     float samples = 0.0F, depth_m = 0.0F, force_N = 0.0F, inertia_N = 0.0F, friction = 0.0F, time_s = 0.0F,
           speed_mps = 0.0F;  // sums
@@ -118,33 +121,35 @@ struct DepthBins {
   std::int32_t out_of_range = 0;
 };
 
-// The samples of one stance that the cycle keeps: bounded, copied as it is to the thread that searches.
+// Samples of one stance that the cycle stores. Of bounded size; copied to the thread that searches.
 struct GroundEventSums {
-  DepthBins down;  // new ground
-  DepthBins up;    // the foot leaves
+  DepthBins down;  // foot moving down on new ground
+  DepthBins up;    // foot leaving
   std::uint32_t stride = 0;
   std::int64_t liftoff_ns = 0;
   float deepest_m = 0.0F;
   float crater_depth_m = 0.0F;  // of earlier strides
   struct Resumption {
-    float depth_m = -1.0F;   // where new ground began after a pause; negative: none
-    float bearing_N = 0.0F;  // greatest force of the foot at rest in that pause: what the ground bore there
+    float depth_m = -1.0F;   // depth at which new ground began after a pause; negative: none
+    float bearing_N = 0.0F;  // greatest force on the resting foot in that pause: a lower bound of the
+                             // ground's strength there
   };
-  std::array<Resumption, 2> resumed{};  // the last one first
+  std::array<Resumption, 2> resumed{};  // the latest first
 };
 
-// Accumulates the samples of a stance, and those after liftoff until the foot is clear. Never allocates.
+// Accumulates the samples of a stance and those after liftoff until the foot is clear of its crater. Never
+// allocates.
 class GroundEventRecorder {
  public:
   GroundEventRecorder(const GroundEventConfig& config, double foot_radius_m);
-  // A new stride: the deepest point of the earlier ones.
+  // Starts a new stride. crater_depth_m is the deepest point of the earlier ones.
   void restart(double crater_depth_m) noexcept;
-  // The liftoff: the number and time of the stride that these samples belong to.
+  // Called at liftoff with the number and time of the stride that these samples belong to.
   void close(std::uint32_t stride, std::int64_t liftoff_ns) noexcept {
     sums_.stride = stride;
     sums_.liftoff_ns = liftoff_ns;
   }
-  // The stance switch or the liftoff, between the samples before and after it.
+  // Called at the stance switch and at liftoff, between the samples before and after it.
   void on_phase_change(double since_contact_s) noexcept {
     settled_s_ = since_contact_s + config_.settling_time_s;
   }
@@ -160,19 +165,19 @@ class GroundEventRecorder {
   Bed cone_;  // added mass at factor 1
   GroundEventSums sums_{};
   double settled_s_ = 0.0;
-  double paused_s_ = -1.0;  // since when the foot has not gone down; negative: it does
+  double paused_s_ = -1.0;  // time since contact at which the foot stopped going down; negative: it goes down
   double pause_N_per_m_ =
-      0.0;  // force without the added mass's, over depth, on the last new ground before the pause
-  double bearing_N_ = 0.0;   // greatest force of the foot at rest since then
-  double new_from_m_ = 0.0;  // where new ground begins at the latest after the pause
-  double shift_m_ = 0.0;     // added to the estimated depth since then
-  bool leaves_ = false;      // sums_.up has samples
+      0.0;  // force without added-mass force divided by depth, on the last new ground before the pause
+  double bearing_N_ = 0.0;   // greatest force on the resting foot since the pause began
+  double new_from_m_ = 0.0;  // depth beyond which the ground counts as new after the pause
+  double shift_m_ = 0.0;     // correction of the estimated depth since the last pause
+  bool leaves_ = false;      // sums_.up contains samples
 };
 
 struct GroundEvents {
   std::uint32_t stride = 0;
-  GroundEvent rupture{};   // kind none: not found; its statistic is the largest there was
-  GroundEvent boundary{};  // or floor
+  GroundEvent rupture{};   // kind none: not found; `statistic` is then the largest value
+  GroundEvent boundary{};  // layer boundary or floor
   GroundEvent suction{};
 
   template <class Self, class Visitor>
@@ -184,11 +189,11 @@ struct GroundEvents {
   }
 };
 
-// The search with the noise of the joint fit.
+// Default configuration with the noise of the joint fit.
 GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept;
 
-// Not for the cycle: some ten milliseconds for a whole foot of depth, and it allocates. The same sums give
-// the same bits.
+// Not for the cycle: it takes some ten milliseconds for the full range of depth, and it allocates. Equal sums
+// give equal bits.
 GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config);
 
 // u with P(chi^2_1 > u) = probability.

@@ -11,16 +11,16 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kShape = 4;       // parameters of a model
-constexpr std::size_t kDepartures = 4;  // at most
+constexpr std::size_t kDepartures = 4;  // largest number
 constexpr std::size_t kOthers = 3;      // intercept, added mass, force scale
 constexpr std::size_t kColumns = kShape + kOthers + kDepartures;
 constexpr double kPinned = 1e12;
 constexpr double kFree = 1e-9;
-constexpr std::size_t kAt = kShape;  // of the intercept; added mass and force scale follow
+constexpr std::size_t kAt = kShape;  // column of the intercept; added mass and force scale follow
 
 using Direction = std::array<double, ProfileSolver::kShared>;
 
-// Least squares of a few directions of the profile, from `offset`.
+// Least squares over a few directions of the profile, starting from `offset`.
 struct Model {
   Direction offset{};
   std::array<Direction, kColumns> direction{};
@@ -43,7 +43,7 @@ struct Model {
 struct Fit {
   std::array<double, kColumns> value{};
   std::array<double, kColumns * kColumns> covariance{};
-  double gain = 0.0;  // of the log likelihood over the offset, with the priors
+  double gain = 0.0;  // gain of the log-likelihood over the offset, including the priors
 };
 
 Fit solve(const ProfileSolver& solver, const Model& model) {
@@ -71,7 +71,7 @@ Fit solve(const ProfileSolver& solver, const Model& model) {
   return fit;
 }
 
-// Wald's statistic of the departures.
+// Wald statistic of the departures.
 ModelCheck check(const Fit& fit, std::size_t departures) {
   constexpr std::size_t first = kShape + kOthers;
   std::array<double, kDepartures * kDepartures> covariance{};
@@ -173,7 +173,7 @@ class Summariser {
             0.0, kFree);
   }
 
-  // The intercept depth and the added mass cannot be negative: such values are held at zero.
+  // Intercept depth and added mass cannot be negative; negative values are set to zero.
   void hold(Model& m, const Fit& fit) const {
     if (fit.value[kAt] < -joint_.intercept_depth_m) m.pin(kAt, -joint_.intercept_depth_m);
     if (fit.value[kAt + 1] < 0.0) m.pin(kAt + 1, 0.0);
@@ -192,7 +192,7 @@ class Summariser {
     s.line = check(solve(solver_, m), 4);
   }
 
-  // F = A z^n around the present A and n, by Gauss and Newton.
+  // Gauss-Newton fit of F = A z^n, linearised around the present A and n.
   void power_law(GroundSummary& s) const {
     double log_a = std::log(believed_ * 0.02), n = 1.0;  // force at 20 mm
     Model m = model();
@@ -209,7 +209,7 @@ class Summariser {
         return tangent(j, 0.0, 0.0) - solver_.believed_N_per_m(j) +
                joint_.intercept_depth_m * solver_.intercept_N_per_m(j);
       });
-      // The believed bed's intercept is taken away; its shape within a cell, too.
+      // Remove the believed bed's intercept, also its shape within a cell.
       m.offset[ProfileSolver::kIntercept] = -joint_.intercept_depth_m;
       m.pin(kAt, 0.0);
       m.use(0, cells([&](std::size_t j) { return (tangent(j, kStep, 0.0) - tangent(j, 0.0, 0.0)) / kStep; }),
@@ -227,7 +227,7 @@ class Summariser {
     s.power_law = check(solve(solver_, m), 3);
   }
 
-  // Two stiffnesses and two cells of transition between them, at the place that fits best.
+  // Two stiffnesses with two transition cells between them; the place with the best fit is chosen.
   void layers(GroundSummary& s) const {
     double best = -1e300;
     Model best_model;

@@ -5,10 +5,11 @@
 #include "config/fields.hpp"
 #include "terrain/strength_profile.hpp"
 
-// One number for a strength profile, and whether it may be used: is the bed a line, a power law, two layers?
-// Each model is a linear family of profiles; beside it stand smooth departures from it (Legendre polynomials
-// of the tangent stiffness over the depths visited). Under the model their estimate divided by its covariance
-// is chi-squared distributed (Wald's test); the model is rejected at a level of 1 %.
+// Summary numbers of a strength profile, with a test of their model: is the bed a line, a power law, or two
+// layers? Each model is a linear family of profiles. Smooth departures from it are added (Legendre
+// polynomials of the tangent stiffness over the depths visited). Under the model their Wald statistic
+// (estimate weighted with its covariance) is chi-squared distributed. The model is rejected at a level of 1
+// %.
 namespace sandhopper {
 
 enum class GroundShape : std::uint8_t { unknown, line, power_law, crusted, layered, other };
@@ -20,7 +21,7 @@ struct EnumNames<GroundShape> {
 
 struct ModelCheck {
   double statistic = 0.0;  // chi-squared
-  double limit = 0.0;      // exceeded with a probability of 1 % where the model is right
+  double limit = 0.0;      // exceeded with a probability of 1 % if the model is right
   bool holds() const noexcept { return limit > 0.0 && statistic <= limit; }
 
   template <class Self, class Visitor>
@@ -44,13 +45,13 @@ struct SummaryValue {
 struct GroundSummary {
   std::uint32_t stride = 0;
   GroundShape shape = GroundShape::unknown;
-  double from_m = 0.0, to_m = 0.0;  // depths that the numbers are about
+  double from_m = 0.0, to_m = 0.0;  // depth range of the numbers
   SummaryValue line_N_per_m{};      // slope of the line k (z + z0 (1 - exp(-z/dz0)))
   SummaryValue secant_20mm_N_per_m{};
   SummaryValue exponent{};  // of a power law
   ModelCheck line{}, power_law{}, layered{};
-  // Stiffness of the line on which the foot leaves its crater and returns (reloading.hpp); the upper end is
-  // infinite where the data allow a rigid ground, and all three are zero where there are none.
+  // Stiffness of the line on which the foot leaves its crater and returns (reloading.hpp). The upper end is
+  // infinite if the data are consistent with rigid ground. All three are zero without data.
   SummaryValue reloading_N_per_m{};
   bool line_valid = false;
 

@@ -3,23 +3,24 @@
 
 namespace sandhopper {
 
-// Priors and noise of the joint fit (joint_fit.hpp names the symbols).
+// Priors and noise of the joint fit; joint_fit.hpp defines the symbols.
 struct JointConfig {
   double force_noise_N = 0.5;
   double force_scale_relative = 0.02;       // e
   double fluctuation_relative = 0.02;       // epsilon
   double fluctuation_length_m = 0.002;      // ell
   double intercept_growth_depth_m = 0.003;  // dz0
-  double intercept_depth_m = 0.003;         // prior mean and sd of z0
+  double intercept_depth_m = 0.003;         // prior mean of z0, then its standard deviation
   double intercept_depth_sd_m = 0.010;
-  double added_mass_factor = 1.0;  // prior mean and sd of c
+  double added_mass_factor = 1.0;  // prior mean of c, then its standard deviation
   double added_mass_factor_sd = 1.5;
   double surface_sd_m = 0.0007;
   double depth_drift_sd_mps = 0.005;
   double joint_friction_sd_N = 0.4;
   double friction_switch_speed_mps = 0.02;  // v_s
-  double accel_range_mps2 = 142.0;          // beyond it a sample is saturated: 97 % of 16 g, less gravity
-  int min_observations = 6;                 // independent ones
+  double accel_range_mps2 = 142.0;          // larger accelerations count as saturated: 97 % of 16 g, minus
+                                            // gravity
+  int min_observations = 6;                 // least number of independent observations
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {

@@ -61,7 +61,7 @@ struct Prior {
   Vector precision;
 };
 
-// What is a length or a speed in the priors is a force in the equations: times the stiffness.
+// The priors of lengths and speeds are multiplied by the stiffness, because the equations contain forces.
 Prior prior_at(const JointConfig& c, double stiffness_N_per_m) {
   const double k = stiffness_N_per_m;
   Prior prior{Vector::Zero(), Vector::Zero()};
@@ -82,8 +82,8 @@ struct Solution {
   Matrix covariance;
 };
 
-// Inverse of a positive definite matrix by Gauss-Jordan elimination, in plain loops: Eigen's inverse adds in
-// an order that depends on the processor, and a log has to replay to the same bits on another one.
+// Inverse of a positive definite matrix by Gauss-Jordan elimination in plain loops. Eigen's inverse sums in
+// an order that depends on the processor, and a replay of a log must give the same bits on every processor.
 Matrix inverse_of(Matrix m) {
   for (Eigen::Index k = 0; k < m.rows(); ++k) {
     const double pivot = m(k, k);
@@ -99,7 +99,7 @@ Matrix inverse_of(Matrix m) {
   return m;
 }
 
-// A term that physics forbids to be negative and that comes out so is held at zero.
+// A term that must not be negative and comes out negative is set to zero.
 Solution solve_with(const Matrix& normal, const Vector& moment, Prior prior) {
   constexpr double kHeld = 1e12;
   Solution solution;
@@ -177,7 +177,8 @@ JointEstimate solve_joint(const JointSums& sums, const StiffnessConfig& config) 
 PooledStiffness pool_strides(std::span<const JointEstimate> strides, const JointConfig& config) {
   double w = 0.0, wk = 0.0, wkk = 0.0, ww = 0.0;
   PooledStiffness pooled;
-  // The common part of the interval, the force scale, is taken out here and put back at the end.
+  // The force-scale error is common to all strides. Remove it from each variance here and add it again at the
+  // end.
   const auto own_variance = [&](const JointEstimate& e) {
     const double scale = config.force_scale_relative * e.value_N_per_m;
     const double se = e.standard_error_N_per_m;

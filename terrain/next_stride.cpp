@@ -8,17 +8,17 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kStep_s = 1e-3;  // the cycle's
+constexpr double kStep_s = 1e-3;  // time step, equal to the cycle's
 constexpr double kGravity_mps2 = 9.80665;
 constexpr int kLongest_steps = 800;
-constexpr int kFirst_steps = 10;  // before the leg may turn
+constexpr int kFirst_steps = 10;  // least number of steps before the leg extends
 constexpr double kPitch_m = 0.0025;
 // Gauss-Hermite quadrature of three points for a standard normal variable.
 constexpr std::array<double, 3> kDeviations{-1.7320508, 0.0, 1.7320508};
 constexpr std::array<double, 3> kWeights{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 
 struct Hop {
-  // Down positive; the body's from its height at contact.
+  // Downward positive. body_m counts from the body's height at contact.
   double depth_m = 0.0, foot_mps = 0.0, body_m = 0.0, body_mps = 0.0;
   bool extends = false;
 
@@ -61,9 +61,10 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
     const double push_N = robot.foot_mass_kg * kGravity_mps2 + leg_N;
     const double added_kg = c * cone.added_mass_kg(hop.depth_m);
     double accel = (push_N - virgin_N - drag_N) / (robot.foot_mass_kg + added_kg);
-    if (hop.foot_mps <= 0.0 && accel < 0.0) accel = 0.0;  // it stands
+    if (hop.foot_mps <= 0.0 && accel < 0.0) accel = 0.0;  // the foot rests
     if (hop.foot_mps > config.min_speed_mps && hop.depth_m > deepest_m)
-      // The values are those of the mean: what the band narrows by must not depend on the deviation.
+      // A sample has the mean's values, so that the predicted narrowing of the band does not depend on the
+      // deviation.
       regression.add(
           {hop.depth_m, hop.foot_mps, accel, std::max(curve.value, 0.0) + drag_N + added_kg * accel,
            hop.leg_mps(), i * kStep_s, kStep_s},

@@ -32,7 +32,7 @@ void NormalTest::invert() const {
 
 NormalTest::Result NormalTest::test(std::span<const double> shape) const {
   if (inverse_.empty()) invert();
-  std::size_t first = 0, last = n_;  // a template is zero almost everywhere
+  std::size_t first = 0, last = n_;  // a template is zero at most depths
   while (first < last && shape[first] == 0.0) ++first;
   while (last > first && shape[last - 1] == 0.0) --last;
   double along = 0.0, length = 0.0;

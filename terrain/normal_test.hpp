@@ -3,20 +3,20 @@
 #include <span>
 #include <vector>
 
-// Likelihood-ratio tests of y ~ N(0, r S) against y ~ N(A h, r S) for given shapes h and unknown A and r
-// >= 1. S is built from a covariance of the observations and from terms with a normal prior. Plain loops in a
-// fixed order: the same observations give the same bits on every processor.
+// Likelihood-ratio tests of y ~ N(0, r S) against y ~ N(A h, r S) for given shapes h and unknown A and r >=
+// 1. S is the sum of a covariance of the observations and of terms with a normal prior. Plain loops in a
+// fixed order: equal observations give equal bits on every processor.
 namespace sandhopper {
 
 class NormalTest {
  public:
-  // `terms`: parameters that the observations have to pay for besides A.
+  // `terms`: number of further parameters, which reduces the degrees of freedom.
   NormalTest(std::size_t observations, int terms)
       : n_(observations), terms_(terms), value_(observations), covariance_(observations * observations) {}
 
   void observe(std::size_t i, double value) { value_[i] = value; }
 
-  // Both before the first test.
+  // Call add_covariance and add_term before the first test.
   template <class Covariance>
   void add_covariance(const Covariance& covariance) {
     for (std::size_t i = 0; i < n_; ++i)
@@ -31,7 +31,7 @@ class NormalTest {
 
   struct Result {
     double size = 0.0;     // A
-    double size_sd = 0.0;  // with r
+    double size_sd = 0.0;  // standard deviation of A, including r
     double statistic = 0.0;
   };
   Result test(std::span<const double> shape) const;

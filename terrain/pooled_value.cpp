@@ -15,13 +15,14 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 using Values = std::vector<TrialValue>;
 
-// The posterior given one tau, and that tau's weight.
+// Posterior of mu for one tau, and the weight of that tau.
 struct Component {
   double tau = 0.0, mean = 0.0, variance = 0.0, weight = 0.0;
 };
 using Mixture = std::array<Component, kTauGrid>;
 
-// Logarithm of the posterior of tau, mu integrated out. A grid of equal steps of ln(tau) adds one factor tau.
+// log_weight: logarithm of the posterior of tau with mu integrated out. The grid has equal steps of ln(tau),
+// which adds a factor tau.
 Component component_at(const Values& trials, double tau, double& log_weight) {
   Component c{.tau = tau};
   double total = 0.0, squares = 0.0, log_density = 0.0;
@@ -42,7 +43,8 @@ Component component_at(const Values& trials, double tau, double& log_weight) {
   return c;
 }
 
-// From far below to far above all that separates the trials or their errors; the tail of two trials is long.
+// The grid of tau extends four decades below and above `scale`, because the tail of the posterior is long for
+// two trials.
 Mixture posterior_of(const Values& trials, double scale) {
   constexpr double kDecades = 4.0;
   Mixture mixture;
@@ -58,7 +60,7 @@ Mixture posterior_of(const Values& trials, double scale) {
   return mixture;
 }
 
-// Share of the mixture below x; `further`: of one new trial.
+// Probability of the mixture below x, for the mean or (`further`) for a new trial.
 double below(const Mixture& mixture, double x, bool further) {
   double sum = 0.0;
   for (const auto& c : mixture) {
@@ -87,7 +89,7 @@ double median_tau(const Mixture& mixture) {
   return mixture.back().tau;
 }
 
-// Spread of the values and the greatest error, whichever is greater.
+// Range of the values or largest error, whichever is greater.
 double scale_of(const Values& trials) {
   const auto [low, high] = std::ranges::minmax_element(trials, {}, &TrialValue::value);
   double scale = high->value - low->value;

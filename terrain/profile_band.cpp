@@ -24,7 +24,7 @@ ProfilePoint ProfileSolver::tangent_N_per_m(std::size_t cell) const noexcept {
           std::sqrt(std::max(variance, 0.0))};
 }
 
-// Expected square of the change of slope across a cell, beyond the believed bed's.
+// Expected square of the change of slope across a cell, relative to the believed bed.
 double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
   const std::size_t a = cell > 0 ? cell - 1 : 0, b = std::min(cell + 1, kProfileCells - 1);
   const double scale = 1.0 / static_cast<double>(b - a);
@@ -51,11 +51,13 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
     variance += row * x[j];
     gain += row * response_[cell][j];
   }
-  // The bed's fluctuation is part of its curve. The estimate follows it by `gain`, which the variance counts
-  // as an error: f^2 (1 - gain)^2 instead of variance + f^2, of which the variance already has (gain f)^2.
+  // The bed's fluctuation f is part of its curve. The estimate follows it by the factor `gain`, and
+  // `variance` already contains (gain f)^2 as an error. The correct error is f^2 (1 - gain)^2, so add f^2 (1
+  // - 2 gain).
   const double fluctuation = config_.joint.fluctuation_relative * point.value;
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
-  // Variance of the curve within a cell: its scatter there, and the change of slope between its neighbours.
+  // Variance of the curve within a cell: the cell's unresolved scatter, and the change of slope between its
+  // neighbours.
   const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kProfileCells - 1);
   const double nearer = std::abs(share - 0.5);
   const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);
@@ -66,7 +68,8 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   return point;
 }
 
-// Strides of one trial are on one bed: they differ by their noise. The torque constant's error is common.
+// All strides of one trial are on one bed, so they differ only by noise. The error of the torque constant is
+// common to all.
 void ProfileSolver::take_line(const ProfileSums& sums) noexcept {
   const auto joint = solve_joint(joint_sums_of(sums, config_), config_);
   const double scale_N_per_m = config_.joint.force_scale_relative * joint.value_N_per_m;

@@ -5,21 +5,21 @@ namespace sandhopper {
 
 // Prior of the strength profile (strength_profile.hpp); noise and nuisances are those of the joint fit.
 struct ProfileConfig {
-  // Tangent stiffness of the bed that is expected, and the standard deviation of the real one relative to it:
-  // the credible range of loose to compacted glass beads is 1000 to 3600 N/m.
+  // Expected tangent stiffness of the bed, and the standard deviation of the real one relative to it. The
+  // credible range of loose to compacted glass beads is 1000 to 3600 N/m.
   double believed_stiffness_N_per_m = 1500.0;
   double stiffness_spread_relative = 0.7;
-  // Error of the time between force and depth, as a depth error in proportion to speed: half a cycle.
+  // Error of the time between force and depth: half a cycle. It acts as a depth error proportional to speed.
   double depth_lag_sd_s = 0.0005;
   // Error of the estimated depth that is neither an offset nor a drift.
   double depth_noise_m = 0.0003;
-  // A foot that lands in its crater meets its floor, and the depth begins there again: with the error that
-  // the crater's depth has, and with this one. Root mean square of simulated landings on nine families of
-  // beds, 0.8 to 1.0 mm (`hop experiment beds`, column `landing`).
+  // Error of the depth when a foot lands in its crater, in addition to the error of the crater's depth. It is
+  // the root mean square of simulated landings on nine families of beds, 0.8 to 1.0 mm (`hop experiment
+  // beds`, column `landing`).
   double landing_depth_sd_m = 0.0009;
 
-  // Noise of one sample of the foot's accelerometer while the foot is loaded, and its bias after the static
-  // zero; for the line on which the foot leaves its crater (reloading.hpp).
+  // Noise of one sample of the foot's accelerometer under load, and its remaining bias after the zero at
+  // arming. Used for the line on which the foot leaves its crater (reloading.hpp).
   double foot_accel_noise_mps2 = 0.3;
   double foot_accel_bias_mps2 = 0.1;
 

@@ -4,7 +4,7 @@
 #include "terrain/small_gaussian.hpp"
 #include "terrain/strength_profile.hpp"
 
-// From one stride of a trial to the next: what is kept, and what the landing adds.
+// Information kept from one stride of a trial to the next, and the depth error that a landing adds.
 namespace sandhopper {
 
 void ProfileSolver::add_stride_prior(Information& info) const noexcept {
@@ -19,7 +19,7 @@ void ProfileSolver::add_stride_prior(Information& info) const noexcept {
   }
 }
 
-// Change of the moment by one newton more in every sample of a cell.
+// Change of the moment if every sample of a cell increases by one newton.
 void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
   using F = ProfileFeature;
   for (std::size_t s = 0; s < kProfileCells; ++s) {
@@ -38,8 +38,7 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
   }
 }
 
-// Keeps D = d + r T in the place of d, and integrates out what belongs to this stride alone: a Schur
-// complement.
+// Replaces d by D = d + r T and integrates out the terms of this stride alone (Schur complement).
 void ProfileSolver::keep(Information info, double last_s) noexcept {
   last_s_ = last_s;
   for (std::size_t i = 0; i < kTerms; ++i)
@@ -76,9 +75,9 @@ void ProfileSolver::keep(Information info, double last_s) noexcept {
   }
 }
 
-// From D of the strides before to d = D + N(0, landing^2) of the next. With A the information on D alone,
-// integrating D out takes q times the products of its row from what was kept, q = landing^2 / (1 + A
-// landing^2). Responses are moments and change like them.
+// Transition from D of the previous strides to d = D + N(0, landing^2) of the next. Let A be the information
+// on D alone. Integrating D out subtracts q times the products of its row from the kept information, with q =
+// landing^2 / (1 + A landing^2). The responses are moments and change in the same way.
 void ProfileSolver::land(double landing_m) noexcept {
   const double variance = landing_m * landing_m;
   const double q = variance / (1.0 + kept_normal_[kSurface * kKept + kSurface] * variance);

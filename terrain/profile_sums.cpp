@@ -91,7 +91,8 @@ void ProfileRegression::reset() noexcept {
 }
 
 bool ProfileRegression::watch(const JointSample& s) noexcept {
-  // One cycle and three time constants of the IMU's low-pass of 400 Hz still hold what was cut off.
+  // A saturated sample affects the signal for one cycle plus three time constants of the IMU's 400 Hz
+  // low-pass.
   constexpr double kSettling_s = 0.003;
   if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2))
     settled_s_ = s.since_contact_s + kSettling_s;

@@ -7,26 +7,26 @@
 namespace sandhopper {
 namespace {
 
-// An unloading foot accelerates by less than twice gravity; an impact by more.
+// An unloading foot accelerates by less than about twice gravity, an impact by more.
 constexpr double kImpact_mps2 = 20.0;
-// From 95 % of the greatest force, so that noise at the peak ends nothing; to a tenth of it, where the foot
-// begins to leave.
+// The trace begins at 95 % of the largest force, so that noise at the peak does not restart it. It ends at a
+// tenth of that force, where the foot begins to leave.
 constexpr double kBegins = 0.95, kEnds = 0.1;
 constexpr double kLeastForce_N = 5.0;
 constexpr std::int32_t kLeastPairs = 10;
 constexpr double kPair_s = 0.002;
-// Grid of the stiffness over the believed bed's: the credible ratio of unloading to loading is 10 to 100, of
-// beds that are up to 2.4 times as stiff.
+// Range of the stiffness grid relative to the believed bed. The credible ratio of unloading to loading
+// stiffness is 10 to 100, on beds up to 2.4 times as stiff as the believed one.
 constexpr double kLeastRatio = 3.0, kGreatestRatio = 600.0;
-// On a steeper line the foot moves by less than the accelerometer's noise hides: rigid ground gives 90 to 190
-// kN/m there (strength_profile_test), so that nothing beyond is an upper end.
+// Above this ratio the foot's motion is smaller than the accelerometer's noise can resolve: rigid ground
+// gives 90 to 190 kN/m (strength_profile_test). So a larger value is no upper end of the interval.
 constexpr double kResolvedRatio = 100.0;
-// Damping ratio: uniform from none to nearly critical. The likelihood's logarithm is a parabola in it,
+// Damping ratio with a uniform prior from none to nearly critical. The log-likelihood is a parabola in it,
 // because the force is linear in the damping.
 constexpr std::array<double, 3> kDampingRatios{0.0, 0.45, 0.9};
 constexpr int kDampingSteps = 36;
-// Prior at the start of the trace, as a force and its rate: a foot on a steeper line moves by less. The rate
-// is 60 N in 30 ms.
+// Prior at the start of the trace, given as a force and a force rate, because the foot moves less on a
+// steeper line. The rate is 60 N in 30 ms.
 constexpr double kForce_N = 10.0, kForceRate_N_per_s = 2000.0;
 
 }  // namespace
@@ -87,7 +87,7 @@ double ReloadingPosterior::stiffness_N_per_m(double place) const noexcept {
 
 double ReloadingPosterior::log_likelihood(const UnloadingTrace& t, double k, double c) const noexcept {
   constexpr double dt = kPair_s, h = 0.5 * dt * dt;
-  // Standard deviation of the mean of two samples.
+  // Variance of the mean of two samples.
   const double noise2 = 0.5 * force_noise_N_ * force_noise_N_;
   const double walk = 0.5 * config_.foot_accel_noise_mps2 * config_.foot_accel_noise_mps2 * dt * dt;
   double z = t.force_N[0] / k, v = 0.0, b = 0.0, sum = 0.0;
@@ -145,8 +145,8 @@ void ReloadingPosterior::add(const UnloadingTrace& trace, double foot_kg) noexce
   }
 }
 
-// The likelihood of a good trace is narrower than the grid. Its logarithm is smooth: a cubic through four
-// points.
+// A good trace has a likelihood narrower than the grid. Its logarithm is smooth, so a cubic through four
+// points is used.
 double ReloadingPosterior::log_likelihood_at(double place) const noexcept {
   const auto first = static_cast<std::size_t>(std::clamp(place - 1.0, 0.0, static_cast<double>(kGrid - 4)));
   double sum = 0.0;
@@ -180,7 +180,8 @@ ReloadingLine ReloadingPosterior::line() const noexcept {
     }
     return stiffness_N_per_m(static_cast<double>(kGrid));
   };
-  // The torque constant's error is common to all strides and no noise; it is independent of theirs.
+  // The error of the torque constant is common to all strides and independent of their noise, so it is added
+  // here.
   const double scale = 1.959964 * force_scale_relative_;
   const double middle = quantile(0.5);
   const auto beyond = [&](double end) { return std::exp(std::hypot(std::log(end / middle), scale)); };

@@ -5,20 +5,19 @@
 #include "terrain/joint_fit.hpp"
 #include "terrain/profile_config.hpp"
 
-// Stiffness k of the line on which a foot leaves its crater and on which it returns. The foot moves by a
-// millimetre there, and the estimated depth drifts by as much in the same time. But the foot's accelerometer
-// feels the change of speed when the force begins to fall, and when it has fallen. While the foot unloads,
+// Stiffness k of the line on which a foot leaves its crater and returns. The foot moves by only a millimetre
+// there, and the estimated depth drifts by as much. But the foot's accelerometer measures the change of speed
+// when the force begins to fall and when it has fallen. While the foot unloads,
 //   F = k z + c v + noise,   dz/dt = v,   dv/dt = a - b + noise
 // with F the force and a the acceleration as measured, b the accelerometer's bias and c = 2 zeta sqrt(k M)
-// the damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b; zeta
-// is integrated out, and the posterior of k has a log-uniform prior. Between the points of a grid the
-// likelihood's logarithm is interpolated, by a cubic in log k and a parabola in zeta. Strides of
-// one trial multiply their likelihoods. Where the line is too steep for the sensors the answer is a lower
-// bound. Sources: the line and its damping as in bed.hpp; likelihood of a linear state-space model by
-// prediction errors (Schweppe 1965).
+// the damping (bed.hpp). For given k and zeta the likelihood is that of a Kalman filter of z, v and b. zeta
+// is integrated out, and k has a log-uniform prior. Between the points of a grid the log-likelihood is
+// interpolated by a cubic in log k and a parabola in zeta. The likelihoods of the strides of one trial are
+// multiplied. If the line is too steep for the sensors the result is a lower bound. Sources: the line and its
+// damping as in bed.hpp; likelihood of a linear state-space model by prediction errors (Schweppe 1965).
 namespace sandhopper {
 
-// Samples of the last unloading of a stance, two and two as their means.
+// Samples of the last unloading of a stance, as means of two samples each.
 struct UnloadingTrace {
   static constexpr std::size_t kPairs = 128;
   std::array<float, kPairs> force_N{};
@@ -26,8 +25,8 @@ struct UnloadingTrace {
   std::int32_t pairs = 0;
 };
 
-// Keeps the samples from the greatest force to a tenth of it, in the cycle. Impacts and samples on which the
-// foot goes down are no unloading. Never allocates.
+// Stores, in the cycle, the samples from the largest force down to a tenth of it. Impacts and samples with
+// the foot moving down are excluded. Never allocates.
 class UnloadingRecorder {
  public:
   explicit UnloadingRecorder(double min_speed_mps) : min_speed_mps_(min_speed_mps) {}
@@ -43,23 +42,24 @@ class UnloadingRecorder {
   UnloadingTrace current_{}, kept_{};
   double peak_N_ = 0.0;
   float half_force_N_ = 0.0F, half_accel_mps2_ = 0.0F;
-  bool half_ = false;  // one sample of a pair is there
+  bool half_ = false;  // one sample of a pair has arrived
   bool open_ = false;
 };
 
 struct ReloadingLine {
-  double value_N_per_m = 0.0;  // all three are zero where nothing is known
+  double value_N_per_m = 0.0;  // all three are zero if nothing is known
   double ci95_low_N_per_m = 0.0;
-  double ci95_high_N_per_m = 0.0;  // infinite: a lower bound alone
+  double ci95_high_N_per_m = 0.0;  // infinite if only a lower bound is known
 };
 
 class ReloadingPosterior {
  public:
   static constexpr std::size_t kGrid = 24;
 
-  // `foot_kg`: M, what swings on the line. `force_scale_relative`: error of the torque constant.
+  // `force_scale_relative` is the relative error of the torque constant.
   ReloadingPosterior(const ProfileConfig& config, double force_noise_N, double force_scale_relative);
   void restart() noexcept;
+  // `foot_kg` is M, the mass that oscillates on the line.
   void add(const UnloadingTrace& trace, double foot_kg) noexcept;
   ReloadingLine line() const noexcept;
 

@@ -19,7 +19,7 @@ bool has_rate(ResistanceLaw law) {
 
 bool counts(const ResistanceSample& sample) { return sample.depth_m > 0.0 && sample.speed_mps > 0.0; }
 
-// Best strength of one penetration and its mean square residual.
+// Best strength of one penetration and its mean squared residual.
 struct OwnStrength {
   double strength, mean_square;
 };
@@ -47,7 +47,7 @@ struct Shape {
   double exponent = 1.0, rate = 0.0, mean_square = std::numeric_limits<double>::infinity();
 };
 
-// Grid that closes in on its best point; two dimensions at most and a smooth surface.
+// Grid search that narrows around its best point. Sufficient for at most two dimensions and a smooth surface.
 Shape search(ResistanceLaw law, std::span<const Penetration> all) {
   const bool power_rate = law == ResistanceLaw::depth_power_rate;
   Shape best;

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <cstddef>
 
-// Square root of a small positive definite matrix, in plain loops and without allocation: Eigen adds in an
-// order that depends on the processor, and a log has to replay to the same bits on another one.
+// Cholesky decomposition of a small positive definite matrix, in plain loops and without allocation. Eigen
+// sums in an order that depends on the processor, and a replay of a log must give the same bits on every
+// processor.
 namespace sandhopper {
 
-// M = L L^T, row by row. A pivot that is not positive (rounding) is replaced by a tiny one.
+// M = L L^T, row by row. A pivot that is not positive because of rounding is replaced by a tiny one.
 template <std::size_t N>
 class Cholesky {
  public:

@@ -36,7 +36,7 @@ void RecursiveRegression::add(const FitSample& sample) noexcept {
 
 namespace {
 
-// -(1/n) sum_ij |i - j| (row . a_i)(row . a_j): the variance of the sum of the scores that `row` picks.
+// -(1/n) sum_ij |i - j| (row . a_i)(row . a_j): the variance of the sum of the scores row . a_i.
 double score_variance(const RegressionSums& sums, const std::array<double, 5>& row) {
   double total = 0.0;
   for (std::size_t i = 0; i < 5; ++i)
@@ -56,7 +56,7 @@ Line solve_free(const RegressionSums& s) {
   const double intercept = (s.wzz * s.wf - s.wz * s.wzf) / det;
   const std::array<double, 5> first{1.0, -intercept, -slope, 0.0, 0.0};
   const std::array<double, 5> second{0.0, 0.0, -intercept, 1.0, -slope};
-  // The inverse normal matrix's row that belongs to the slope.
+  // Row of the inverse normal matrix that belongs to the slope.
   const double a = -s.wz / det;
   const double b = s.w / det;
   std::array<double, 5> row{};

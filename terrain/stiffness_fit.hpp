@@ -7,16 +7,16 @@
 #include "terrain/joint_config.hpp"
 #include "terrain/profile_config.hpp"
 
-// Stiffness of the ground from force and depth: F = F0 + k z by (weighted) least squares, accumulated
-// recursively in bounded memory so that the cycle can do it, solved afterwards. The standard error respects
-// the residuals' autocorrelation without choosing a bandwidth: with scores s_i = w_i x_i e_i, which sum to
+// Stiffness of the ground from force and depth: F = F0 + k z by (weighted) least squares. The cycle
+// accumulates it recursively in bounded memory; it is solved afterwards. The standard error accounts for the
+// residuals' autocorrelation without choosing a bandwidth. With the scores s_i = w_i x_i e_i, whose sum is
 // zero,
-//   S = -(1/n) sum_ij |i - j| s_i s_j^T   (Bartlett kernel over the whole sample; Kiefer, Vogelsang & Bunzel
-//   2000),
-// and the interval uses that statistic's own distribution instead of the normal one.
+//   S = -(1/n) sum_ij |i - j| s_i s_j^T
+// (Bartlett kernel over the whole sample; Kiefer, Vogelsang & Bunzel 2000), and the interval uses that
+// statistic's own distribution instead of the normal one.
 namespace sandhopper {
 
-// Which samples of a stance count.
+// Samples of a stance that are used.
 enum class SampleWindow : std::uint8_t {
   penetrating,   // contact to greatest depth, foot faster than min_speed downward
   new_depth,     // only samples at a depth never reached before
@@ -35,7 +35,7 @@ struct EnumNames<SampleWindow> {
 struct WeightConfig {
   double sigma_good_N = 1.0;
   double sigma_bad_N = 10.0;
-  double threshold_mps2 = 6.0;  // a0: s = 1/2 there
+  double threshold_mps2 = 6.0;  // a0, at which s = 1/2
   double slope_s2_per_m = 1.0;  // k
 
   template <class Self, class Visitor>
@@ -53,13 +53,13 @@ struct StiffnessConfig {
   SampleWindow window = SampleWindow::penetrating;
   bool free_intercept = true;
   double min_speed_mps = 0.03;
-  double contact_force_N = 1.5;  // direct force that marks the first contact
+  double contact_force_N = 1.5;  // direct force above which first contact is detected
   int min_samples = 30;
   double min_depth_span_m = 0.005;
-  double max_depth_m = 0.050;  // the foot's own height: deeper, sand flows over it
+  double max_depth_m = 0.050;  // height of the foot: if it is deeper, sand flows over it
   WeightConfig weights{};
   JointConfig joint{};
-  std::optional<ProfileConfig> profile{};  // its defaults where it is left out
+  std::optional<ProfileConfig> profile{};  // defaults if it is left out
 
   ProfileConfig profile_or_default() const noexcept { return profile ? *profile : ProfileConfig{}; }
 
@@ -78,8 +78,8 @@ struct StiffnessConfig {
   }
 };
 
-// Sums of one regression. Every residual score is built from the five products a = w [F, 1, z, z F, z^2];
-// `spread` is sum_i a_i (sum_{j<i} (i - j) a_j)^T.
+// Sums of one regression. Every residual score is a combination of the five products a = w [F, 1, z, z F,
+// z^2]; `spread` is sum_i a_i (sum_{j<i} (i - j) a_j)^T.
 struct RegressionSums {
   double w = 0.0, wz = 0.0, wzz = 0.0, wf = 0.0, wzf = 0.0;
   double depth_min_m = 0.0, depth_max_m = 0.0;
@@ -93,7 +93,7 @@ struct FitSample {
   double weight;
 };
 
-// Adds samples to sums, each at the same small cost. Never allocates.
+// Adds samples to the sums at constant cost. Never allocates.
 class RecursiveRegression {
  public:
   void add(const FitSample& sample) noexcept;
@@ -107,7 +107,7 @@ class RecursiveRegression {
   Products distance_{};  // sum_{j<i} (i - j) a_j
 };
 
-// Why a stiffness must not be used; `valid` when nothing speaks against it.
+// Reason why a stiffness must not be used; `valid` if there is none.
 enum class Validity : std::uint8_t {
   valid,
   no_new_penetration,
@@ -148,10 +148,10 @@ struct StiffnessEstimate {
   }
 };
 
-// Two-sided 95 % critical value of |k_est - k| / standard error, with and without an intercept, for a depth
-// that grows steadily through the sample and residuals correlated over 1/15 of it, as those of a stance are
-// at least (simulated, 40,000 runs; white residuals would need 5.84 and 5.75, a normal statistic 1.96). The
-// unit test repeats it.
+// Two-sided 95 % critical value of |k_est - k| / standard error, with and without an intercept. It holds for
+// a depth that increases steadily through the sample and residuals correlated over 1/15 of the sample, which
+// is the least correlation in a stance. From a simulation of 40,000 runs, which the unit test repeats. White
+// residuals would need 5.84 and 5.75, a normal statistic 1.96.
 inline constexpr double kCriticalValueFreeIntercept = 8.11;
 inline constexpr double kCriticalValueThroughOrigin = 8.00;
 

@@ -11,14 +11,15 @@ namespace {
 
 constexpr std::size_t kN = kProfileCells;
 
-// Grid of the smoothness length and the spread: half a cell to several times the profile; the stated spread
-// and up to eight times it, which a crust needs.
+// Grid of the smoothness length, from one cell to several times the profile's depth, and of the spread, from
+// half to six times the stated one. A crust needs the large spread.
 constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
 constexpr double kUnknown_m = 1e3;
-constexpr double kDegrees = 1.0;  // of Student's distribution: Cauchy
+constexpr double kDegrees = 1.0;  // degrees of freedom of Student's distribution; 1 is the Cauchy
+                                  // distribution
 
 // Cell of the shallowest sample.
 std::size_t first_observed(const ProfileSums& sums) noexcept {
@@ -66,8 +67,8 @@ void ProfileSolver::restart() noexcept {
   line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
-// Normal equations of a stride with the slopes of the posterior before. A sample in cell s sees every cell
-// above it in full and its own up to its place.
+// Normal equations of a stride, with the slopes of the previous posterior. A sample in cell s contains every
+// cell above s in full, and its own cell up to its position.
 ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums) const noexcept {
   using F = ProfileFeature;
   Information info;
@@ -106,15 +107,16 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
   return info;
 }
 
-// Change of kappa from a cell to the next, in units of the prior: here * kappa_j + above * kappa_j-1.
+// Coefficients of the innovation of kappa from one cell to the next, in units of the prior: here * kappa_j +
+// above * kappa_j-1.
 ProfileSolver::Innovation ProfileSolver::innovation(std::size_t j, double keep, double fresh,
                                                     double spread) const noexcept {
   if (j == 0) return {1.0 / (spread * believed_N_per_m_[0]), 0.0};
   return {1.0 / (fresh * spread * believed_N_per_m_[j]), -keep / (fresh * spread * believed_N_per_m_[j - 1])};
 }
 
-// Expectation maximisation for innovations with Student's distribution: E[1/precision] of each given its
-// square.
+// One step of expectation maximisation for innovations with Student's distribution: the variance of each
+// innovation given its expected square.
 void ProfileSolver::take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
                                const Vector<kTerms>& mean) noexcept {
   const double keep = std::exp(-kProfileCell_m / smoothness_m);
@@ -132,7 +134,7 @@ void ProfileSolver::take_jumps(double smoothness_m, double spread, const Matrix<
   }
 }
 
-// Prior of kappa, c and e at one point of the grid; returns the logarithm of its determinant's root.
+// Adds the prior of kappa, c and e at one grid point. Returns half the logarithm of its determinant.
 double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, double spread) const noexcept {
   const double keep = std::exp(-kProfileCell_m / smoothness_m);
   const double fresh = std::sqrt(1.0 - keep * keep);
@@ -158,7 +160,8 @@ double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, d
   return log_root;
 }
 
-// Mean at one point of the grid, its precision in place of its covariance; returns the log evidence.
+// Solves at one grid point. p.covariance receives the precision, not the covariance. Returns the log
+// evidence.
 double ProfileSolver::solve_at(std::size_t point, const Information& data, Posterior& p) const noexcept {
   Information info = data;
   p.smoothness_m = kSmoothness_m[point / kSpreadFactor.size()];
@@ -172,7 +175,7 @@ double ProfileSolver::solve_at(std::size_t point, const Information& data, Poste
   return log_prior - root.half_log_determinant() + 0.5 * fit;
 }
 
-// Posterior over the grid as one mean and, in the last pass, one covariance.
+// Combines the posterior over the grid into one mean and, in the last pass, one covariance.
 void ProfileSolver::integrate(const Information& data, bool last) noexcept {
   constexpr double kNegligible = 0.01;
   std::array<Vector<kTerms>, kGrid> means{};
@@ -221,7 +224,7 @@ void ProfileSolver::take_slopes() noexcept {
         0.0, believed_N_per_m_[j] + posterior_.mean[j] + intercept_N_per_m_[j] * posterior_.mean[kIntercept]);
 }
 
-// Coefficients by which a cell's features give what the posterior mean leaves of the force.
+// Coefficients of a cell's features whose combination is the residual of the posterior mean.
 std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_t s) const noexcept {
   const auto& m = posterior_.mean;
   const double slope = slope_N_per_m_[s];
@@ -238,7 +241,7 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
           1.0};
 }
 
-// Sum of the weighted squares of what the posterior mean leaves in a cell.
+// Sum of the weighted squared residuals of the posterior mean in a cell.
 double ProfileSolver::residual_squared(const ProfileSums& sums, std::size_t s) const noexcept {
   const auto x = residual_features(s);
   double sum = 0.0;
@@ -246,7 +249,7 @@ double ProfileSolver::residual_squared(const ProfileSums& sums, std::size_t s) c
   return std::max(sum, 0.0);
 }
 
-// The same beside the best straight line through the cell's own residuals.
+// The same, after removing the best straight line through the cell's own residuals.
 double ProfileSolver::scatter_squared(const ProfileSums& sums, std::size_t s) const noexcept {
   const ProfileCell& cell = sums.cells[s];
   const auto x = residual_features(s);
@@ -261,7 +264,7 @@ double ProfileSolver::scatter_squared(const ProfileSums& sums, std::size_t s) co
   return std::max(residual_squared(sums, s) - line, 0.0);
 }
 
-// Variance that the weights give a sample of this cell.
+// Variance of a sample in this cell according to its weight.
 double ProfileSolver::cell_variance_N2(const ProfileSums& sums, std::size_t s) const noexcept {
   const double n = sums.cells[s].observations;
   const double force_N = n > 0.0 ? sums.cells[s].weighted_force / n : 0.0;
@@ -275,10 +278,11 @@ double chi_squared_quantile(double degrees, double normal_quantile) noexcept {
   return n * root * root * root;
 }
 
-// Errors of the depth become errors of the force by the slope. What is left beyond them, at a level of 1 %,
-// is what the curve does within a cell.
+// Depth errors become force errors through the slope. If the residuals exceed these errors at a level of 1 %,
+// the excess is attributed to the curve within the cell.
 void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
-  constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles of 1 % and 1 % / 28
+  constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles for 1 % and for 1 % / 28 (all
+                                                        // cells together)
   broken_cells_ = 0;
   const double depth_variance = posterior_.covariance[kSurface * kTerms + kSurface];
   for (std::size_t s = 0; s < kN; ++s) {
@@ -290,7 +294,8 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
     unresolved_N2_[s] = n * found > chi_squared_quantile(n, k99) * expected ? found - expected : 0.0;
     broken_cells_ += n * found > chi_squared_quantile(n, kAllCells99) * expected;
-    // The depth's error times the slope's: beyond the linear model, and common to all samples of a cell.
+    // Product of the errors of depth and slope. It is beyond the linear model and common to all samples of a
+    // cell.
     const double slope_sd = tangent_N_per_m(s).sd;
     const double product = n * depth_variance * slope_sd * slope_sd;
     noise_factor_[s] = (expected + unresolved_N2_[s] + product) / own;
@@ -301,18 +306,18 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   if (stride == 1) restart();
   reloading_.add(sums.unloading, sums.reduced_mass_kg);
   take_line(sums);
-  if (sums.samples == 0 && stride > 1) {  // no new ground: what is known stays
+  if (sums.samples == 0 && stride > 1) {  // without new ground the estimate stays
     report(sums, stride);
     return;
   }
-  if (stride == kFreshGround) {  // nothing is known of the surface's height
+  if (stride == kFreshGround) {  // the surface's height is unknown
     land(kUnknown_m);
     kept_normal_.back() += 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
   }
   if (stride > 1) land(prior_.landing_depth_sd_m);
   noise_factor_.fill(1.0);
-  // Expectation maximisation begins again below the strides before. Continued everywhere from stride to
-  // stride it would narrow the band although nothing new was measured.
+  // Restart expectation maximisation only below the depth of the previous strides. If it continued everywhere
+  // from stride to stride, it would narrow the band without new measurements.
   first_cell_ = stride > 1 ? first_observed(sums) : 0;
   std::fill(jump_.begin() + static_cast<std::ptrdiff_t>(first_cell_), jump_.end(), 1.0);
   Information info;

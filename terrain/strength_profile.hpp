@@ -6,51 +6,54 @@
 #include "terrain/profile_sums.hpp"
 
 // Quasi-static force of the ground over depth, F(z), from the strides of one trial, with a pointwise 95 %
-// band. The curve starts at zero and is linear in cells of 2.5 mm, beside the believed bed's own shape m(z):
+// band. The curve starts at zero. It is the believed bed's own curve m(z) plus a part that is linear in cells
+// of 2.5 mm:
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
 //   force = F(z) + (d + r t + l v) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
 // with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
-// torque constant and l a lag between force and depth. The smoothness length L and the spread s are
-// integrated over a grid by their marginal likelihood, so the band knows that they are not known (Rasmussen &
-// Williams 2006, section 5.2). The depth is in error itself: F' is that of the posterior before, three times.
-// A measured force and the acceleration beside it are one measurement, F = M_f (a + g) + ..., so the
-// likelihood of c has the Jacobian prod (1 + c m_a / M_f): without it a rough curve would pass for little
-// added mass. A boundary is a jump of kappa, a crust an outlier: innovations of kappa have Student's
-// distribution (their variances by expectation maximisation), and a cell that the curve does not fit at a
-// level of 1 % counts less and has a wider band. The band holds the bed's own fluctuation and the depth's
-// noise. Between strides the information on kappa, c, e and b is kept and r, l and f are integrated out: the
+// torque constant, and l a lag between force and depth.
+// The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
+// band includes their uncertainty (Rasmussen & Williams 2006, section 5.2). The depth has errors, too; F' is
+// taken from the previous posterior, in three passes.
+// The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
+// the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
+// A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
+// distribution (variances by expectation maximisation), and a cell that the curve does not fit at a level of
+// 1 % gets less weight and a wider band. The band includes the bed's own fluctuation and the depth's noise.
+// Between strides the information on kappa, c, e and b is kept, and r, l and f are integrated out: the
 // posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
-// the stride before ended, so that their depths have an error in common: the depth error D at the crater's
-// deepest point is kept too,
+// the previous stride ended, so both depths share an error. Therefore the depth error D at the crater's
+// deepest point is also kept,
 //   D = d + r T, T the time from contact to the deepest point;  d of the next stride = D + N(0, landing^2)
-// Everything is bounded; nothing is allocated.
+// All memory is bounded and nothing is allocated.
 namespace sandhopper {
 
-// Points of a reported curve: half-way through every cell and at its end.
+// Points of a reported curve: the middle and the end of every cell.
 inline constexpr std::size_t kProfilePoints = 2 * kProfileCells;
 inline constexpr double kProfilePoint_m = 0.5 * kProfileCell_m;
 
 struct StrengthProfile {
-  std::uint32_t stride = 0;  // the last that is in it; 0: none
-  std::int32_t samples = 0;  // of this stride
-  double depth_min_m = 0.0;  // visited by the trial so far
+  std::uint32_t stride = 0;  // the last stride included; 0: none
+  std::int32_t samples = 0;  // number of samples of this stride
+  double depth_min_m = 0.0;  // depths visited by the trial so far
   double depth_max_m = 0.0;
   std::array<float, kProfilePoints> force_N{};  // at 1.25 mm, 2.5 mm, ...
   std::array<float, kProfilePoints> force_sd_N{};
   std::array<float, kProfileCells> tangent_N_per_m{};  // mean over each cell
   std::array<float, kProfileCells> tangent_sd_N_per_m{};
-  std::array<float, kProfileCells> observations{};  // independent ones in each cell, all strides
+  std::array<float, kProfileCells> observations{};  // number of independent observations in each cell, all
+                                                    // strides
   double added_mass_factor = 0.0;
   double added_mass_factor_sd = 0.0;
   double smoothness_m = 0.0;     // posterior mean of L
-  double spread_relative = 0.0;  // and of s
+  double spread_relative = 0.0;  // posterior mean of s
   double surface_m = 0.0;        // d
   double depth_drift_mps = 0.0;  // r
   double depth_lag_s = 0.0;
   double joint_friction_N = 0.0;
-  double chi_squared = 0.0;  // per independent observation
+  double chi_squared = 0.0;  // chi-squared per independent observation
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -75,7 +78,7 @@ struct StrengthProfile {
   }
 };
 
-// Chi-squared that a normal quantile's probability is not exceeded with (Wilson & Hilferty 1931).
+// Chi-squared value with the same cumulative probability as this normal quantile (Wilson & Hilferty 1931).
 double chi_squared_quantile(double degrees, double normal_quantile) noexcept;
 
 // A value and its standard deviation.
@@ -86,17 +89,18 @@ struct ProfilePoint {
   double high() const noexcept { return value + 1.959964 * sd; }
 };
 
-// Linear between the points; NaN beyond the last.
+// Force at a depth, linear between the points; NaN beyond the last.
 ProfilePoint force_at(const StrengthProfile& profile, double depth_m) noexcept;
-// Index of the cell that holds this depth.
+// Tangent stiffness of the cell that contains this depth; NaN beyond the last.
 ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept;
 
-// Everything that the strides of a trial have shown so far.
+// Estimates the profile from all strides of a trial so far.
 class ProfileSolver {
  public:
   static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
-  static constexpr std::size_t kTerms = kShared + 4;         // d, r, l, f
-  static constexpr std::size_t kKept = kShared + 1;          // and D, in the place of d
+  static constexpr std::size_t kTerms = kShared + 4;         // and d, r, l, f
+  static constexpr std::size_t kKept = kShared + 1;          // kappa, c, e, z0 and D, which takes the place
+                                                             // of d
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
                                kIntercept = kProfileCells + 2, kSurface = kProfileCells + 3,
@@ -110,28 +114,28 @@ class ProfileSolver {
 
   explicit ProfileSolver(const StiffnessConfig& config);
 
-  void restart() noexcept;  // a new trial on other ground
-  // `stride`: its number in the trial, from 1, which starts anew; kFreshGround for a first stride of another
-  // trial on ground that was prepared alike.
+  void restart() noexcept;  // starts a new trial on other ground
+  // `stride` is its number in the trial, from 1, which restarts the solver. kFreshGround means the first
+  // stride of another trial on ground prepared alike.
   static constexpr std::uint32_t kFreshGround = 0;
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
-  // Information of the strides on kappa, c, e and b, without their prior.
+  // Information of the strides on kappa, c, e and b, without its prior.
   const Matrix<kShared>& normal() const noexcept { return shared_normal_; }
   const Vector<kShared>& moment() const noexcept { return shared_moment_; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
   double intercept_N_per_m(std::size_t cell) const noexcept { return intercept_N_per_m_[cell]; }
-  // The joint fit's line, of the strides that have one; NaN where none has.
+  // Line of the joint fit over all strides that have one; NaN if none has.
   struct Line {
     double value_N_per_m, ci95_low_N_per_m, ci95_high_N_per_m;
   };
   Line line() const noexcept;
   const ReloadingPosterior& reloading() const noexcept { return reloading_; }
-  // Cells of the last stride that no curve fits, at a level of 1 % for all of them together.
+  // Number of cells of the last stride that no curve fits, at a level of 1 % for all cells together.
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
-  // NaN beyond the last cell.
+  // Force at a depth; NaN beyond the last cell.
   ProfilePoint force_N(double depth_m) const noexcept;
 
  private:
@@ -173,23 +177,25 @@ class ProfileSolver {
   ProfileConfig prior_;
   std::array<double, kProfileCells> believed_N_per_m_{};   // mean tangent stiffness of each cell
   std::array<double, kProfileCells> intercept_N_per_m_{};  // slope of k (1 - exp(-z/dz0))
-  std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the posterior before
-  std::array<double, kProfileCells> noise_factor_{};   // variance of a cell's samples, of the weights' own
-  std::array<double, kProfileCells> unresolved_N2_{};  // what the curve does within a cell
-  std::array<double, kProfileCells> jump_{};           // variance of each innovation, of the prior's
+  std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the previous posterior
+  std::array<double, kProfileCells> noise_factor_{};       // variance of a cell's samples relative to that of
+                                                           // their weights
+  std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
+                                                       // cell
+  std::array<double, kProfileCells> jump_{};           // variance of each innovation relative to its prior
   std::array<Vector<kTerms>, kProfileCells> response_{};
-  Matrix<kKept> kept_normal_{};  // with the prior of D
+  Matrix<kKept> kept_normal_{};  // includes the prior of D
   Vector<kKept> kept_moment_{};
-  // Change of the kept moments when r, l and f are integrated out, for one unit of the moment of each; T
-  // below.
+  // Change of the kept moments for a unit change of the moments of r, l and f, which are integrated out.
+  // last_s_ is T.
   std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
   double last_s_ = 0.0;
   Matrix<kShared> shared_normal_{};
   Vector<kShared> shared_moment_{};
   std::size_t broken_cells_ = 0;
-  std::size_t first_cell_ = 0;  // of the last stride's new ground
+  std::size_t first_cell_ = 0;  // first cell of the last stride's new ground
   ReloadingPosterior reloading_;
-  double line_weight_ = 0.0, line_sum_ = 0.0, line_degrees_ = 0.0;  // of the strides' joint fits
+  double line_weight_ = 0.0, line_sum_ = 0.0, line_degrees_ = 0.0;  // sums over the strides' joint fits
   Posterior posterior_{};
   StrengthProfile profile_{};
 };

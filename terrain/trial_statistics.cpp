@@ -13,7 +13,8 @@ double student_t95(std::size_t degrees_of_freedom) {
   constexpr std::array kTable{kInfinity, 12.7062, 4.3027, 3.1824, 2.7764,
                               2.5706,    2.4469,  2.3646, 2.3060, 2.2622};
   if (degrees_of_freedom < kTable.size()) return kTable[degrees_of_freedom];
-  // Expansion about the normal quantile (Abramowitz & Stegun 26.7.5), five figures from 10 degrees on.
+  // Expansion about the normal quantile (Abramowitz & Stegun 26.7.5), accurate to five digits from 10 degrees
+  // of freedom on.
   constexpr double z = 1.959964;
   const double n = static_cast<double>(degrees_of_freedom);
   const double g1 = (z * z * z + z) / 4.0;

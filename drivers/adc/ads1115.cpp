@@ -8,7 +8,7 @@
 namespace sandhopper {
 
 namespace {
-constexpr unsigned kStateBit = 0x8000;  // of the config register: reads as "idle", not as written
+constexpr unsigned kStateBit = 0x8000;  // of the config register: reads 1 while idle, whatever was written
 }
 
 std::uint16_t ads1115_config_word(const LoadCellConfig& c) noexcept {
@@ -39,7 +39,8 @@ Ads1115::Ads1115(std::string role, I2cBus& bus, const LoadCellConfig& config)
       address_(static_cast<std::uint8_t>(config.address)) {}
 
 void Ads1115::start() {
-  // High bit of the high threshold set and of the low one clear: the pin signals "ready", not a limit.
+  // Setting the high bit of the high threshold and clearing that of the low one makes the pin signal "ready",
+  // not a limit.
   write_register(kAds1115HighThreshold, 0x8000);
   write_register(kAds1115LowThreshold, 0x0000);
   const auto word = ads1115_config_word(config_);

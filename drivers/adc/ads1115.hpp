@@ -30,7 +30,8 @@ class Ads1115 {
   // DeviceError.
   void start();
 
-  // The newest conversion: two bytes, the pointer stays where start() put it.
+  // Reads the newest conversion (two bytes); the pointer stays at the conversion register. False if it
+  // failed.
   bool read(std::int16_t& counts) noexcept;
 
  private:

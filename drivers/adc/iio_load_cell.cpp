@@ -14,7 +14,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kRetry_ns = 10'000'000;
-// A read that does not wait, as of a file, must not make the thread spin.
+// A read that returns at once (device is a plain file) must not make the thread spin: wait this long.
 constexpr std::int64_t kLeastRead_ns = 1'000'000;
 constexpr double kVoltsPerMillivolt = 1e-3;
 

@@ -9,15 +9,15 @@
 
 namespace sandhopper {
 
-// A load cell on a converter that the kernel drives as an IIO device: HX711 (10 or 80 values a second) and
-// NAU7802 (10 to 320) sit directly on the bridge. Force = sign scale (voltage - zero).
+// A load cell on a converter that the kernel drives as an IIO device. The HX711 (10 or 80 values a second)
+// and the NAU7802 (10 to 320) connect directly to the bridge. Force = sign scale (voltage - zero).
 struct IioLoadCellConfig {
   std::string device = "/sys/bus/iio/devices/iio:device0";
   int channel = 0;
   double scale_N_per_V = 1.0e5;  // bridges give a few millivolts
   double zero_V = 0.0;
   int sign = 1;
-  double latency_s = 0.05;  // from the middle of a conversion until its value has been read
+  double latency_s = 0.05;  // from the middle of a conversion until its value was read
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -39,10 +39,10 @@ struct IioLoadCellConfig {
 // (Documentation/ABI/testing/sysfs-bus-iio). For a thread of its own.
 class IioLoadCell {
  public:
-  // Throws DeviceError: no such device, no such channel, not to be read.
+  // Throws DeviceError if the device or channel does not exist or cannot be read.
   explicit IioLoadCell(const IioLoadCellConfig& config);
 
-  // The next conversion. False, after a pause of 10 ms, where it cannot be read.
+  // Waits for the next conversion. Returns false after a pause of 10 ms if it cannot be read.
   bool acquire(LoadCellSample& sample) noexcept;
 
   const DeviceCounters& counters() const noexcept { return counters_; }

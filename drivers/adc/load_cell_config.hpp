@@ -8,7 +8,7 @@
 
 namespace sandhopper {
 
-// Inputs of the ADS1115 that are measured, in the order of its MUX field.
+// Measured inputs of the ADS1115, in the order of its MUX field.
 enum class AdcInput : std::uint8_t { a0_a1, a0_a3, a1_a3, a2_a3, a0, a1, a2, a3 };
 template <>
 struct EnumNames<AdcInput> {
@@ -16,7 +16,7 @@ struct EnumNames<AdcInput> {
                                                          "a0",    "a1",    "a2",    "a3"};
 };
 
-// Full scale, in the order of the PGA field. Inputs must stay within the supply whatever this says.
+// Full scale, in the order of the PGA field. The inputs must stay within the supply voltage at every range.
 enum class AdcRange : std::uint8_t { v6_144, v4_096, v2_048, v1_024, v0_512, v0_256 };
 template <>
 struct EnumNames<AdcRange> {
@@ -42,9 +42,9 @@ struct LoadCellConfig {
   AdcRate rate = AdcRate::sps860;
   double scale_N_per_V = 100.0;
   double zero_V = 0.0;
-  int sign = 1;  // so that compression is positive
-  // From the middle of what a value averages to its ready edge: half a conversion, plus the amplifier's
-  // delay.
+  int sign = 1;  // chosen so that compression is positive
+  // From the middle of a conversion's averaging time to its ready edge: half a conversion plus the
+  // amplifier's delay.
   double latency_s = 0.00058;
   int thread_priority = 55;  // SCHED_FIFO; 0: ordinary scheduling
 

@@ -7,7 +7,7 @@
 namespace sandhopper {
 
 namespace {
-// Two conversions at the slowest rates, so that only an edge that failed to come is counted.
+// Two conversions at the slowest rates, so that only an edge that failed to come is counted. At least 50 ms.
 std::int64_t edge_timeout_ns(const LoadCellConfig& config) {
   return std::max(to_ns(2.0 * ads1115_period_s(config.rate)), std::int64_t{50'000'000});
 }
@@ -23,7 +23,7 @@ LoadCellReader::LoadCellReader(const LoadCellConfig& config)
       converter_(role_of(config), bus_, config),
       edges_("load_cell ready", config.ready) {
   converter_.start();
-  edges_.wait(0);  // of the time before
+  edges_.wait(0);  // discard edges from before the start
 }
 
 bool LoadCellReader::acquire(LoadCellSample& sample) noexcept {

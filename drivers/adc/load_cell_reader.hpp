@@ -15,8 +15,8 @@ class LoadCellReader {
  public:
   explicit LoadCellReader(const LoadCellConfig& config);
 
-  // Waits (50 ms; at the slowest rates two conversions) for the next conversion. Stamp: its ready edge less
-  // `latency_s`.
+  // Waits for the next conversion: 50 ms, or two conversions at the slowest rates. Its time is the ready edge
+  // minus `latency_s`.
   bool acquire(LoadCellSample& sample) noexcept;
 
   const DeviceCounters& counters() const noexcept { return counters_; }

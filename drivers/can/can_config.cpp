@@ -5,7 +5,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kBitsPerCycle = 1000.0;  // 1 Mbit/s, 1 ms
+constexpr double kBitsPerCycle = 1000.0;  // 1 Mbit/s times 1 ms
 
 constexpr int standard_bits(int bytes) { return 55 + 10 * bytes; }
 constexpr int extended_bits(int bytes) { return 80 + 10 * bytes; }

@@ -9,10 +9,10 @@
 
 namespace sandhopper {
 
-// Which of the three incompatible CubeMars protocols a drive speaks. Sending the wrong one can damage the
-// board, so it is named per motor, and a drive whose frames look otherwise is not energised.
+// Dialect of a CubeMars drive: one of three incompatible protocols. Sending the wrong one can damage the
+// board. So it is configured per motor, and a drive whose frames do not match it is not energised.
 //   mit: board V1/V2 in MIT mode, standard identifiers
-//   servo: board V1/V2 in servo mode, extended identifiers, status sent by itself; torque by current
+//   servo: board V1/V2 in servo mode, extended identifiers, unasked status frames; torque by current
 //   v3: board V3, MIT as mode 8 of extended identifiers, every command answered by a status frame
 enum class Dialect : std::uint8_t { mit, servo, v3 };
 template <>
@@ -35,16 +35,17 @@ struct CubeMarsConfig {
   int sign = 1;             // +1 or -1: drive positive shortens the leg, or lengthens it
   double gear_ratio = 1.0;  // between the drive's output and the link; the drive's own gearbox is not counted
   double zero_offset_rad = 0.0;  // link angle at the drive's zero
-  // Output torque per q-axis ampere: as calibrated, and as the drive's firmware believes when it turns its
-  // torque field into current. Nameplates are off by 13-20 %.
+  // Torque at the output per q-axis ampere: the calibrated value, and the value with which the drive's
+  // firmware converts its torque field into current. Nameplates are off by 13-20 %.
   double torque_constant_Nm_per_A = 0.0868;
   double drive_torque_constant_Nm_per_A = 0.0868;
-  // From the hand-over of a command to the kernel until the drive takes the state it replies with: the
-  // command's time on the wire (0.11-0.14 ms at 1 Mbit/s; twice that for the second motor of a bus).
+  // Time from handing a command to the kernel until the drive samples the state of its reply: the command's
+  // time on the wire (0.11-0.14 ms at 1 Mbit/s; twice that for the second motor of a bus).
   double state_delay_s = 0.0;
-  // Of a status frame (servo, v3): its speed counts electrical turns of the motor, its position the output's.
+  // Scaling of a status frame (servo, v3): its speed counts electrical turns of the motor, its position those
+  // of the output.
   int pole_pairs = 21;
-  double drive_reduction = 1.0;   // of the drive's own gearbox: motor turns per turn of its output
+  double drive_reduction = 1.0;   // gearbox inside the drive: motor turns per turn of its output
   double status_rate_Hz = 500.0;  // servo: as set in the drive (1 to 500)
 
   template <class Self, class Visitor>
@@ -70,7 +71,7 @@ struct CubeMarsConfig {
     visit("status_rate_Hz", self.status_rate_Hz, Range{1.0, 500.0});
   }
 
-  // Rules the ranges above do not express: problem(key, what is wrong and what to do).
+  // Rules the ranges above do not express: problem(key, error and remedy).
   template <class Problem>
   void check(Problem&& problem) const {
     if (dialect == Dialect::servo && status_rate_Hz < 400.0)
@@ -82,25 +83,25 @@ struct CubeMarsConfig {
   }
 };
 
-// Answers a second that this drive owes to a 1 kHz cycle.
+// Replies per second that this drive must send in a 1 kHz cycle.
 constexpr double replies_per_s(const CubeMarsConfig& motor) noexcept {
   return motor.dialect == Dialect::servo ? motor.status_rate_Hz : 1000.0;
 }
 
-// Facts of the protocols (AK Series Module Driver User Manual V1.0.18) that limits of the robot are held
-// against, too.
-inline constexpr double kServoCurrentRange_A = 60.0;  // of a current command, servo dialect
+// Constants of the protocols (AK Series Module Driver User Manual V1.0.18). The robot's limits are checked
+// against them, too.
+inline constexpr double kServoCurrentRange_A = 60.0;  // largest current command, servo dialect
 inline constexpr double kBusVoltageRange_V = 40.0;    // full scale of reply = "bus_voltage"
-// Part of the position range beyond which a reply counts as near its end: 11 rad of 12.5.
+// Share of the position range above which a reply counts as near the range's end: 11 rad of 12.5 rad.
 inline constexpr double kUsablePositionShare = 0.88;
 
-// The drive works out position and velocity gains itself, from what it measures at that instant; else the
-// host does, from the newest sample.
+// True if the drive computes the torque of position and velocity gains itself, from its own measurement.
+// Otherwise the host computes it from the newest sample.
 constexpr bool law_in_drive(const CubeMarsConfig& motor) noexcept { return motor.dialect != Dialect::servo; }
 
 using MotorConfigs = std::array<CubeMarsConfig, kMotorCount>;
 
-// Rules between the motors of one bus.
+// Checks that concern both motors of one bus.
 template <class Problem>
 void check_motors(const MotorConfigs& motor, Problem&& problem) {
   if (motor[0].can_id == motor[1].can_id)
@@ -112,8 +113,9 @@ void check_motors(const MotorConfigs& motor, Problem&& problem) {
               "one motor's master_id is the other's can_id: replies would collide with commands");
 }
 
-// Worst-case share of a 1 Mbit/s bus at 1 kHz: every frame with all its stuff bits and the intermission, 55 +
-// 10 n bits with a standard identifier and n bytes, 80 + 10 n with an extended one (ISO 11898-1).
+// Worst-case share of a 1 Mbit/s bus at 1 kHz. Every frame counts with all its stuff bits and the
+// intermission: 55 + 10 n bits with a standard identifier and n bytes, 80 + 10 n with an extended one (ISO
+// 11898-1).
 struct CanConfig;
 double bus_load(const CanConfig& config) noexcept;
 int in_percent(double share) noexcept;
@@ -123,15 +125,16 @@ void check_bus_load(const CanConfig& config, Problem&& problem);
 
 struct CanConfig {
   std::string interface = "can0";
-  // While the drives are off every cycle sends a command without gains and torque, which asks for the state
-  // and energises nothing, and every so many cycles a leave frame in its place.
+  // Period [cycles] of leave frames while the drives are off. The other cycles send a command without gains
+  // and torque, which asks for the state and energises nothing.
   int idle_query_cycles = 10;
-  // Share of the bus that other nodes take, 0 to 1.
+  // Share of the bus that other nodes use, 0 to 1.
   double other_load = 0.0;
-  // Not keys here: the motors stand in the robot's file and are the same on every bus (config/files.hpp). A
-  // leg whose single motor drives both sides has only the first.
+  // These are not keys of this table: the motors are in the robot's file and are the same on every bus
+  // (config/files.hpp). If a single motor drives both sides only the first is used.
   int motor_count = kMotorCount;
-  // Of one motor, from the robot's limits: bounds the law of a drive that takes a current only.
+  // Torque limit of one motor, from the robot's limits. It bounds the torque that the host computes
+  // (host_law.hpp).
   double motor_torque_Nm = 1e9;
   MotorConfigs motor{CubeMarsConfig{.name = "left", .can_id = 1, .master_id = 0x11},
                      CubeMarsConfig{.name = "right", .can_id = 2, .master_id = 0x12}};

@@ -28,7 +28,7 @@ std::optional<T> value_of(Bytes bytes) {
   return value;
 }
 
-// Calls visit(type, payload) for each attribute of a row of them.
+// Calls visit(type, payload) for each attribute in a sequence of netlink attributes.
 template <class Visit>
 void each_attribute(Bytes bytes, Visit&& visit) {
   while (const auto header = value_of<rtattr>(bytes)) {

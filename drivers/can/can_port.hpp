@@ -9,7 +9,8 @@
 
 namespace sandhopper {
 
-// Sees every frame of a port, both ways, in the thread that sends or receives; must not block.
+// Observer of every frame of a port, in both directions. Runs in the thread that sends or receives; must not
+// block.
 class CanTap {
  public:
   virtual ~CanTap() = default;
@@ -26,12 +27,12 @@ struct ReceivedFrame {
 struct CanCounters {
   std::uint32_t sent = 0;
   std::uint32_t received = 0;           // data frames
-  std::uint32_t send_failures = 0;      // not taken by the kernel, or held back: never tried again
-  std::uint32_t receive_overflows = 0;  // dropped because nobody read (SO_RXQ_OVFL), or by the controller
-  std::uint32_t error_frames = 0;       // all of the following
+  std::uint32_t send_failures = 0;      // refused by the kernel or held back; not tried again
+  std::uint32_t receive_overflows = 0;  // dropped because unread (SO_RXQ_OVFL), or by the controller
+  std::uint32_t error_frames = 0;       // sum of all error frames, including those below
   std::uint32_t no_acknowledge = 0;
   std::uint32_t errors = 0;           // protocol, transceiver, transmit time-out or overflow
-  BusState state = BusState::active;  // off is latched
+  BusState state = BusState::active;  // off is latched until the program restarts
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -46,38 +47,39 @@ struct CanCounters {
   }
 };
 
-// What an error frame (CAN_ERR_FLAG) says, into the counters: linux/can/error.h. Bus-off stays until the
-// program is started again; the interface is never restarted by it.
+// Counts an error frame (CAN_ERR_FLAG, linux/can/error.h). Bus-off stays until the program is restarted; the
+// program never restarts the interface.
 void count_error_frame(const can_frame& frame, CanCounters& counters) noexcept;
 
-// A place on a CAN bus for a 1 kHz cycle: nothing here waits, except pause().
+// Access to a CAN bus for a 1 kHz cycle: no function waits, except pause() and wait().
 class CanPort {
  public:
   virtual ~CanPort() = default;
 
-  // Before a cycle's frames. If frames of the cycle before have not left yet, none of this cycle is taken: at
-  // most one cycle's frames ever wait in the queue, so that a bus that heals does not let out a row of old
-  // torques.
+  // Call it before a cycle's frames. If frames of the previous cycle have not left yet, send() takes no frame
+  // of this cycle. So at most one cycle's frames wait in the queue, and a bus that recovers does not send a
+  // series of old torques.
   virtual void begin_cycle() noexcept = 0;
 
-  // The time of sending, or nothing when the frame was not taken. It is counted and not tried again.
+  // Returns the time of sending, or nothing if the frame was not taken. A refused frame is counted and not
+  // tried again.
   virtual std::optional<std::int64_t> send(const can_frame& frame) noexcept = 0;
 
-  // Up to one batch of what has arrived, oldest first; `more` is false when the port is empty.
+  // Returns up to one batch of received frames, oldest first; `more` is false when the port is empty.
   virtual std::span<const ReceivedFrame> receive(bool& more) noexcept = 0;
 
-  // Nothing that was sent waits to leave any more, as far as the port can tell.
+  // True if no sent frame is still waiting to leave, as far as the port can tell.
   virtual bool settled() const noexcept { return true; }
 
-  // Not for the cycle: lets time pass; and waits until something can be read, false if nothing came.
+  // Outside the cycle only. pause() sleeps. wait() waits until a frame can be read; false if none came.
   virtual void pause(std::int64_t duration_ns) noexcept = 0;
   virtual bool wait(std::int64_t timeout_ns) noexcept = 0;
 
   virtual const CanCounters& counters() const noexcept = 0;
   virtual void set_tap(CanTap* tap) noexcept = 0;
 
-  // Everything that has arrived: on_frame(const ReceivedFrame&). Ends when the port is empty, or after
-  // kMaxBatches so that a babbling node cannot hold the cycle.
+  // Calls on_frame(const ReceivedFrame&) for every received frame. Ends when the port is empty, or after
+  // kMaxBatches, so that a node that floods the bus cannot delay the cycle.
   template <class OnFrame>
   void drain(OnFrame&& on_frame) noexcept {
     bool more = true;

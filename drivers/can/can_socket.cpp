@@ -32,7 +32,8 @@ void set_option(int fd, int level, int name, const T& value, const std::string& 
                       "The kernel lacks a SocketCAN feature: use 5.10 or later");
 }
 
-// Lost arbitration is ordinary traffic; bus errors one by one would flood a bus whose cable is off.
+// Not subscribed: lost arbitration is normal, and one frame per bus error would flood the socket if a cable
+// is off.
 constexpr can_err_mask_t kErrorClasses = CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_PROT | CAN_ERR_TRX |
                                          CAN_ERR_ACK | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 
@@ -62,7 +63,7 @@ can_filter exact_extended_id(canid_t id) noexcept {
   return {id | CAN_EFF_FLAG, CAN_EFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
 }
 
-// Buffers of one recvmmsg call, laid out once.
+// Buffers of one recvmmsg call, prepared once.
 struct CanSocket::Batch {
   Batch() {
     for (std::size_t i = 0; i < kBatchSize; ++i) {
@@ -109,8 +110,9 @@ CanSocket::CanSocket(const std::string& interface, std::span<const can_filter> f
 
 CanSocket::~CanSocket() = default;
 
-// Frames that wait in the queue are charged to the socket until the driver takes them (getsockopt SO_MEMINFO,
-// Linux 4.12): an error here says nothing, so the cycle goes on. What the driver has taken, the ledger knows.
+// The kernel charges queued frames to the socket until the driver takes them (getsockopt SO_MEMINFO, Linux
+// 4.12). If the call fails the queue is unknown and the cycle continues. The ledger tracks frames that the
+// driver has taken.
 void CanSocket::begin_cycle() noexcept {
   std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
   socklen_t size = sizeof memory;
@@ -164,7 +166,8 @@ std::span<const ReceivedFrame> CanSocket::receive(bool& more) noexcept {
         kernel_drops_ = drops;
       }
     }
-    // The kernel stamps in CLOCK_REALTIME: one that was set since gives times at which nothing can have come.
+    // The kernel stamps in CLOCK_REALTIME. If that clock was set since, a stamp can lie outside the possible
+    // interval: clamp it.
     if (time_ns == 0) time_ns = now_ns;
     time_ns = std::clamp(time_ns, earliest_ns, now_ns + kStampSlack_ns);
     if (b.headers[i].msg_len != sizeof(can_frame)) continue;

@@ -14,13 +14,14 @@
 
 namespace sandhopper {
 
-// Passes exactly one data-frame identifier: extended and remote frames of the same number do not match.
+// Filter that passes exactly one data-frame identifier. Extended and remote frames of the same number do not
+// match.
 can_filter exact_standard_id(canid_t id) noexcept;
 can_filter exact_extended_id(canid_t id) noexcept;
 
-// A raw SocketCAN socket: non-blocking, own frames received as echoes only, which say that they have left
-// (pass their identifiers, too; with no filters at all there are none), loopback on so that candump sees
-// them, error frames of the controller received and counted.
+// A raw, non-blocking SocketCAN socket. Own frames come back only as echoes, which show that they have left:
+// pass the identifiers of own frames in `filters`, too. Without any filter there are no echoes. Loopback is
+// on, so candump sees own frames. Error frames of the controller are received and counted.
 class CanSocket : public CanPort {
  public:
   // Throws DeviceError when the interface is missing or down.
@@ -43,11 +44,11 @@ class CanSocket : public CanPort {
   UniqueFd fd_;
   CanTap* tap_ = nullptr;
   CanCounters counters_{};
-  std::uint32_t kernel_drops_ = 0;  // as the kernel counts them
-  std::int64_t emptied_ns_;         // when it was last seen that nothing waits
+  std::uint32_t kernel_drops_ = 0;  // kernel's count of dropped frames
+  std::int64_t emptied_ns_;         // time at which the receive queue was last empty
   std::unique_ptr<Batch> batch_;
-  bool echoes_;           // of own frames are received
-  bool holding_ = false;  // frames of the cycle before have not left
+  bool echoes_;           // the socket receives echoes of own frames
+  bool holding_ = false;  // frames of the previous cycle have not left
   DepartureLedger ledger_;
 };
 

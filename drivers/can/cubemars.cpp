@@ -13,9 +13,9 @@ namespace sandhopper {
 
 namespace {
 
-// Kernel stamps of vcan and of the clock read before sending may swap within this.
+// On vcan a reply's kernel time stamp may precede the clock reading before sending by up to this much.
 constexpr std::int64_t kReplyStampSlack_ns = 1000;
-// A reply that has not come after one and a half cycles is lost.
+// A reply that has not come within one and a half cycles is lost.
 constexpr std::int64_t kPatience_ns = 1'500'000;
 
 bool finite(const MotorCommand& c) noexcept {
@@ -139,7 +139,7 @@ std::optional<can_frame> CubeMarsCodec::frame(DriveAction action, const MotorCom
     if (action == DriveAction::leave) return special_frame(kMitLeave);
     return command_frame(wanted);
   }
-  // No frames to enter or leave: zero current frees the motor.
+  // Servo and v3 have no enter and leave frames. In servo mode zero current frees the motor.
   if (action == DriveAction::leave && config_.dialect == Dialect::servo)
     return current_frame(ServoMode::current, 0.0);
   if (config_.dialect == Dialect::v3) {
@@ -151,7 +151,7 @@ std::optional<can_frame> CubeMarsCodec::frame(DriveAction action, const MotorCom
   }
   if (!finite(wanted)) return current_frame(ServoMode::current, 0.0);
   double torque_Nm = wanted.torque_Nm;
-  if (newest.time_ns != 0)  // without a state there is no law
+  if (newest.time_ns != 0)  // without a measured state only the feed-forward torque is sent
     torque_Nm += wanted.kp_Nm_per_rad * (wanted.position_rad - newest.position_rad) +
                  wanted.kd_Nm_s_per_rad * (wanted.velocity_radps - newest.velocity_radps);
   const double current_A = config_.sign * torque_Nm / (config_.gear_ratio * config_.torque_constant_Nm_per_A);
@@ -163,7 +163,8 @@ void CubeMarsCodec::add_filters(std::vector<can_filter>& filters) const {
   for (const canid_t standard : {canid_t{0}, id, static_cast<canid_t>(config_.master_id)})
     filters.push_back(exact_standard_id(standard));
   filters.push_back(exact_extended_id(kServoStatus | id));
-  // The echo of a command says that it has left; those of the MIT dialect are among the above.
+  // The echo of a command shows that it has left. The filters above already pass the commands of the MIT
+  // dialect.
   if (config_.dialect != Dialect::mit) {
     const auto mode = config_.dialect == Dialect::servo ? ServoMode::current : ServoMode::mit;
     filters.push_back(exact_extended_id(servo_id(mode, config_.can_id) & CAN_EFF_MASK));
@@ -224,8 +225,8 @@ void CubeMarsBus::command_sent(Side side, std::int64_t time_ns) noexcept {
   o = {true, o.waiting, time_ns, o.sent_ns};
 }
 
-// A reply stamped by the kernel before the newest command left answers the one before it: this process was
-// late, not the drive.
+// A reply that the kernel stamped before the newest command left answers the previous command. Then this
+// process was late, not the drive.
 std::int64_t CubeMarsBus::state_time(std::size_t i, std::int64_t time_ns) noexcept {
   if (!codecs_[i].answers_commands()) return time_ns;
   auto& o = outstanding_[i];

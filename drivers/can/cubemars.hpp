@@ -15,15 +15,15 @@
 
 namespace sandhopper {
 
-// Put in MotorSample::error_code beside the drive's own 0..7: the position field nears the end of its range,
-// where it saturates or wraps.
+// Value of MotorSample::error_code besides the drive's own 0 to 7: the position field is near the end of its
+// range, where it saturates or wraps.
 inline constexpr std::uint8_t kErrorPositionNearRangeEnd = 100;
 
 // One motor's conversion between link side (MotorSample, MotorCommand) and drive side (MIT fields):
 //   position_link = zero_offset + sign p / gear,  torque_drive = sign torque_link / gear . K_drive / K,
-// gains likewise by 1 / gear^2; current = sign torque_drive / K_drive with K_drive the drive's own torque
-// constant. Status frames of servo and v3 carry the current itself. Throws std::invalid_argument for a
-// configuration that is not right.
+// and gains likewise by 1 / gear^2; current = sign torque_drive / K_drive, with K_drive the torque constant
+// that the drive uses. Status frames of servo and v3 carry the current itself. Throws std::invalid_argument
+// for an invalid configuration.
 class CubeMarsCodec {
  public:
   explicit CubeMarsCodec(const CubeMarsConfig& config);
@@ -36,30 +36,31 @@ class CubeMarsCodec {
 
   MotorSample to_sample(const ServoStatus& status, std::int64_t time_ns) const noexcept;
 
-  // MIT dialect.
+  // MIT dialect only.
   can_frame command_frame(const MotorCommand& command) const noexcept;
   can_frame special_frame(const MitPayload& payload) const noexcept;
 
-  // What an action is in this drive's dialect; nothing for DriveAction::none. Servo mode knows no gains: the
-  // law is then worked out here on the newest sample, and without one only the feed-forward torque is sent.
+  // Frame of an action in this drive's dialect; empty for DriveAction::none. Servo mode has no gains: the
+  // torque is computed here from `newest`. Without a newest sample only the feed-forward torque is sent.
   std::optional<can_frame> frame(DriveAction action, const MotorCommand& command,
                                  const MotorSample& newest) const noexcept;
 
-  // Which frames of the bus this drive may send.
+  // Appends filters for the frames that this drive may send and for the echoes of its commands.
   void add_filters(std::vector<can_filter>& filters) const;
 
-  // foreign: of this drive, in another dialect; malformed: in its own, but not as it should be.
+  // foreign: a frame of this drive in another dialect. malformed: in its own dialect, but with a wrong
+  // length.
   enum class Match : std::uint8_t { other, reply, malformed, foreign };
   Match match(const can_frame& frame) const noexcept;
 
-  // Identifier, with its flags, of commands to this drive in its dialect: servo has modes 0 to 6. In the MIT
-  // dialect a drive may answer on it, too.
+  // True if `id`, with its flags, is that of a command to this drive in its dialect. Servo accepts modes 0 to
+  // 6. In the MIT dialect a drive may also answer on this identifier.
   bool is_command_id(canid_t id) const noexcept;
 
-  // Of a frame that is a reply.
+  // Decodes a frame for which match() gave Match::reply.
   MotorSample sample_of(const can_frame& frame, std::int64_t time_ns) const noexcept;
 
-  // Each command is answered by one frame; else the drive sends its status by itself.
+  // True if the drive answers each command with one frame. Otherwise it sends its status by itself.
   bool answers_commands() const noexcept { return config_.dialect != Dialect::servo; }
 
   const CubeMarsConfig& config() const noexcept { return config_; }
@@ -75,10 +76,11 @@ class CubeMarsCodec {
 
 struct CubeMarsCounters {
   std::uint32_t replies = 0;
-  std::uint32_t missed = 0;       // commands that were not answered before the next one
-  std::uint32_t unsolicited = 0;  // replies with no command outstanding: two drives with one id, or a trace
-  std::uint32_t rejected = 0;     // frames that do not look like the dialect
-  std::uint32_t foreign = 0;      // of those, frames of another dialect: the drive is in another mode
+  std::uint32_t missed = 0;       // commands without an answer before the next command
+  std::uint32_t unsolicited = 0;  // replies without a command outstanding: two drives with one id, or a
+                                  // recorded trace
+  std::uint32_t rejected = 0;     // frames that do not match the dialect
+  std::uint32_t foreign = 0;      // rejected frames of another dialect: the drive is in another mode
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -95,8 +97,8 @@ struct MotorReading {
   MotorSample sample{};
 };
 
-// The drives of one bus without the bus: which motor a frame belongs to and which command it answers. A drive
-// takes its state when the command arrives, so a reply carries the command's time.
+// Decoder for the drives of one bus, without I/O. It finds the motor that a frame belongs to and the command
+// that it answers. A drive samples its state when the command arrives, so a reply gets the command's time.
 class CubeMarsBus {
  public:
   // Throws std::invalid_argument when two drives cannot be told apart or a dialect is not implemented.
@@ -111,10 +113,10 @@ class CubeMarsBus {
   // A command for this motor went out at `time_ns`; one still unanswered counts as missed.
   void command_sent(Side side, std::int64_t time_ns) noexcept;
 
-  // A frame that arrived at `time_ns`. Nothing when it is no reply of these drives.
+  // A frame that arrived at `time_ns`. Empty if it is no reply of these drives.
   std::optional<MotorReading> receive(const can_frame& frame, std::int64_t time_ns) noexcept;
 
-  // The last command has not been answered, and may still be: none should follow it yet.
+  // True while the last command may still be answered. No other command should follow until then.
   bool outstanding(Side side, std::int64_t now_ns) const noexcept;
 
   const CubeMarsCounters& counters(Side side) const noexcept { return counters_[index(side)]; }
@@ -140,15 +142,15 @@ class CubeMarsBus {
   std::uint32_t strangers_ = 0;
 };
 
-// Reads a recorded trace: commands and replies of both motors in the order of the bus.
+// Decoder of a recorded trace: commands and replies of both motors in the order of the bus.
 enum class FrameDirection : std::uint8_t { unknown, sent, received };
 
 class CanTraceDecoder {
  public:
   explicit CanTraceDecoder(const CanConfig& config) : bus_(config) {}
 
-  // A reply gives a reading; a command sets the time of the reply to come. Without a direction, a frame on a
-  // motor's command identifier is a reply only if byte 0 is that identifier, as in every reply.
+  // A reply gives a reading; a command sets the time of the next reply. If the direction is unknown, a frame
+  // on a motor's command identifier is a reply only if byte 0 is that identifier, as in every reply.
   std::optional<MotorReading> decode(const can_frame& frame, std::int64_t time_ns,
                                      FrameDirection direction = FrameDirection::unknown) noexcept;
 

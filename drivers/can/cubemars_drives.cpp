@@ -15,10 +15,11 @@ namespace {
 constexpr int kProbeTries = 10;
 constexpr std::int64_t kProbeWait_ns = 10'000'000;
 constexpr std::int64_t kListen_ns = 100'000'000;
-constexpr double kRateShare = 0.7;  // of the configured status rate, at least
+constexpr double kRateShare = 0.7;  // least share of status_rate_Hz that a servo drive must send during
+                                    // probe()
 constexpr std::int64_t kShutDownStep_ns = 1'000'000;
-// Motor mode is entered below this speed: well over the noise of a drive's velocity at rest, and a leg at
-// this speed turns 0.5 mrad in a cycle. A drive that is entered at speed jumps.
+// Motor mode is entered below this speed, because a drive that is entered at speed jumps. The value is well
+// above the velocity noise of a drive at rest. A leg at this speed turns 0.5 mrad in a cycle.
 constexpr double kStill_radps = 0.5;
 
 constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
@@ -33,7 +34,7 @@ CubeMarsDrives::CubeMarsDrives(const CanConfig& config, std::unique_ptr<CanPort>
 }
 
 void CubeMarsDrives::probe() {
-  // Silent first: a drive that speaks unasked is in servo mode, whatever it answers later.
+  // Listen before sending: a drive that sends unasked is in servo mode, whatever it answers later.
   port_->pause(kListen_ns);
   drain([](const MotorReading&) {});
   std::array<std::uint32_t, kMotorCount> unasked{};
@@ -116,7 +117,8 @@ bool CubeMarsDrives::may_be_on(Side side) const noexcept {
   return sequence_.energised() && !left_[index(side)].confirmed();
 }
 
-// Once a drive spoke another dialect it gets no torque: what it would make of a command is not known.
+// A drive that sent a frame that does not match its dialect gets no torque: its reaction to a command is
+// unknown.
 bool CubeMarsDrives::right_dialect() const noexcept {
   return std::ranges::all_of(
       sides_, [&](Side side) { return bus_.counters(side).rejected == rejected_at_probe_[index(side)]; });
@@ -131,8 +133,8 @@ void CubeMarsDrives::command(const std::array<MotorCommand, kMotorCount>& comman
   for (const Side side : sides_) {
     auto& left = left_[index(side)];
     if (!sequence_.leaving()) left.restart();
-    // One command outstanding: a drive that answers late would otherwise be taken for one that answers in
-    // time. What takes torque away goes out regardless.
+    // Only one command may be outstanding. Otherwise a late answer to one command would pass for an answer in
+    // time to the next. Frames that take torque away are sent regardless.
     const bool waits = bus_.outstanding(side, now_ns);
     if (waits && (action == DriveAction::run || !sequence_.energised())) continue;
     const auto& newest = newest_[index(side)];

@@ -11,26 +11,26 @@
 
 namespace sandhopper {
 
-// Both drives on their bus. One command a cycle and motor, never a second try: a stale torque must not be
-// sent. After bus-off only "off" is sent, until a restart.
+// Both drives on their bus. Sends one command per cycle and motor and never retries, because a stale torque
+// must not be sent. After bus-off only "off" is sent, until a restart.
 class CubeMarsDrives {
  public:
   // Throws DeviceError (interface) or std::invalid_argument (configuration). Sends nothing.
   explicit CubeMarsDrives(const CanConfig& config);
-  // On another port than the interface of the configuration.
+  // Uses this port instead of the interface in the configuration.
   CubeMarsDrives(const CanConfig& config, std::unique_ptr<CanPort> port);
 
   void set_tap(CanTap* tap) noexcept { port_->set_tap(tap); }
 
   // Listens, then asks each drive for its state with a leave frame, which energises nothing. Throws
-  // DeviceError unless each identifier is answered by exactly one drive that speaks the configured dialect.
+  // DeviceError unless each identifier is answered by exactly one drive that uses the configured dialect.
   void probe();
 
-  // This cycle's frames, left then right; `now_ns` is the port's time.
+  // Sends this cycle's frames, left then right; `now_ns` is the port's time.
   void command(const std::array<MotorCommand, kMotorCount>& command, DriveRequest request,
                std::int64_t now_ns) noexcept;
 
-  // Everything that has arrived: on_reading(const MotorReading&). Never waits.
+  // Calls on_reading(const MotorReading&) for everything that has arrived. Never waits.
   template <class OnReading>
   void drain(OnReading&& on_reading) noexcept {
     port_->drain([&](const ReceivedFrame& received) {
@@ -43,19 +43,20 @@ class CubeMarsDrives {
 
   bool wait(std::int64_t timeout_ns) noexcept { return port_->wait(timeout_ns); }
 
-  // Zero torque, then out of motor mode, again and again until every drive has confirmed it; takes some
-  // milliseconds. False when the bus is off, or when it was not confirmed within `patience_ns`: then a drive
-  // may still make its last torque. May be called again to go on. Not for the cycle.
+  // Sends zero torque, then leave frames, until every drive has confirmed that it left motor mode; takes some
+  // milliseconds. Returns false if the bus is off or a drive has not confirmed within `patience_ns`: that
+  // drive may still produce its last torque. Call it again to continue. Not for the cycle.
   bool shut_down(std::int64_t patience_ns = kShutDown_ns) noexcept;
   static constexpr std::int64_t kShutDown_ns = 500'000'000;
 
-  // Motor mode is being left since more than kLeaveOverdue cycles and a drive has not confirmed it.
+  // True if the drives have been leaving motor mode for more than kLeaveOverdue cycles without confirmation
+  // by all.
   bool leave_overdue() const noexcept { return leaving_cycles_ > kLeaveOverdue; }
   static constexpr int kLeaveOverdue = 50;
-  // This drive has not confirmed that it left motor mode.
+  // True if this drive has not confirmed that it left motor mode.
   bool may_be_on(Side side) const noexcept;
 
-  // For the cycle's frame.
+  // Bus state and counters for the cycle's SensorFrame.
   BusSample bus_sample() const noexcept;
 
   const CubeMarsBus& bus() const noexcept { return bus_; }

@@ -7,11 +7,12 @@
 
 namespace sandhopper {
 
-// Which frames have left for the bus. A controller may hold several cycles' frames that the kernel no longer
-// counts; each comes back as an echo when it was sent (CAN_RAW_RECV_OWN_MSGS), and while one is overdue none
-// should follow. A later frame's echo settles the earlier ones: a one-shot controller drops what lost
-// arbitration. After kGiveUp_ns an echo is not waited for any more: by then the cycle has found its commands
-// refused and sends only what takes the torque away, which is to stand right behind what is held.
+// Records which sent frames have left for the bus. A controller may hold frames of several cycles, which the
+// kernel no longer counts. Each frame comes back as an echo after it was sent (CAN_RAW_RECV_OWN_MSGS). While
+// an echo is overdue no frame should follow. An echo also settles all earlier frames, because a one-shot
+// controller drops a frame that lost arbitration. After kGiveUp_ns the ledger stops waiting for an echo. By
+// then the cycle has seen its commands refused and sends only frames that take the torque away; these should
+// be queued right behind the held frames.
 class DepartureLedger {
  public:
   static constexpr std::int64_t kPatience_ns = 1'500'000;  // a cycle and a half
@@ -28,13 +29,13 @@ class DepartureLedger {
         return forget(i + 1);
       }
   }
-  // Whether a frame sent earlier is overdue, so that none should follow it.
+  // True if a frame sent earlier is overdue, so that none should follow it.
   bool holds(std::int64_t now_ns) noexcept {
     while (waiting_ > 0 && now_ns - entries_[0].sent_ns > kGiveUp_ns) give_up_oldest();
     return waiting_ > 0 && now_ns - entries_[0].sent_ns > kPatience_ns;
   }
   std::size_t waiting() const noexcept { return waiting_; }
-  // Every frame sent has left, or one sent after it has: nothing old can still leave.
+  // True if every sent frame, or a frame sent after it, has left: no old frame can still leave.
   bool settled() const noexcept { return waiting_ == 0 && !given_up_; }
 
  private:
@@ -53,7 +54,7 @@ class DepartureLedger {
 
   std::array<Entry, 16> entries_{};  // oldest first
   std::size_t waiting_ = 0;
-  bool given_up_ = false;  // on an echo, and none of a later frame has come since
+  bool given_up_ = false;  // stopped waiting for an echo, and no echo of a later frame has come since
 };
 
 }  // namespace sandhopper

@@ -6,9 +6,10 @@
 
 namespace sandhopper {
 
-// The law of a drive that takes a current only (servo), worked out from the newest status frame, as a torque
-// within the robot's limit, which the damping of a hard landing would pass. Gains without a status frame of
-// the last kHostLawAge_s make no torque: with an old speed they would drive the leg.
+// Law of gains for a drive that takes a current only (servo), computed by the host from the newest status
+// frame. The torque is limited to the robot's limit, which the damping of a hard landing would exceed. If the
+// command has gains and the status frame is older than kHostLawAge_s the command is zero: gains times an old
+// speed would drive the leg.
 inline MotorCommand host_law(const MotorCommand& command, const MotorSample& state, std::int64_t now_ns,
                              double limit_Nm) noexcept {
   const bool gains = command.kp_Nm_per_rad != 0.0 || command.kd_Nm_s_per_rad != 0.0;

@@ -6,16 +6,15 @@
 
 namespace sandhopper {
 
-// Confirms that a drive has left motor mode, by its frames after the first leave frame. A reply is as
-// old as the command it answers, so replies from the time of the first leave frame on answer leave frames:
-// the drive has received them. Servo drives answer nothing; there the status is from after the first one.
-// Confirmed after kQuiet such samples in a row without torque. No dialect reports the mode itself, so a drive
-// that acknowledges a leave frame and ignores it cannot be told from one that left: its torque is zero, too,
-// because zero commands go before.
+// Confirms from a drive's frames that it has left motor mode. A reply has the time of the command it answers.
+// So a reply stamped at or after the first leave frame answers a leave frame: the drive has received one.
+// Servo drives answer nothing; there a status frame after the first leave frame counts. kQuiet such samples
+// in a row without torque confirm it. No dialect reports motor mode. So a drive that acknowledges a leave
+// frame but ignores it cannot be recognised: its torque is zero, too, because zero commands were sent before.
 class LeaveConfirmation {
  public:
   static constexpr int kQuiet = 3;
-  // A current sensor's offset and noise stay below this; it moves no leg.
+  // Above a current sensor's offset and noise, and too small to move the leg.
   static constexpr double kNoTorque_Nm = 0.2;
 
   void restart() noexcept { *this = {}; }
@@ -30,7 +29,7 @@ class LeaveConfirmation {
   bool confirmed() const noexcept { return quiet_ >= kQuiet; }
 
  private:
-  std::int64_t first_ns_ = 0;  // when the first leave frame left; 0: none has
+  std::int64_t first_ns_ = 0;  // time at which the first leave frame left; 0: none has
   int quiet_ = 0;
 };
 

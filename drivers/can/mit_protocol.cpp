@@ -45,7 +45,8 @@ MitPayload pack_mit_command(const MitRanges& r, const MitCommand& c) noexcept {
                  low_byte(kd >> 4U),
                  low_byte(((kd & 0xFU) << 4U) | (t >> 8U)),
                  low_byte(t)};
-  // Only with every field at full scale do the bytes spell enter, leave or zero: take one count off kp.
+  // If every field is at full scale the bytes equal the enter, leave or set-zero frame. Then take one count
+  // off kp.
   if (is_special(out)) out[4] = 0xFE;
   return out;
 }
@@ -79,14 +80,14 @@ MitCommand unpack_mit_command(const MitRanges& r, const MitPayload& b) noexcept 
 }
 
 MitPayload pack_mit_reply(const MitRanges& r, ReplyFlavour flavour, const MitReply& reply) noexcept {
-  // Half a count added: a drive reports the nearest count of what it measured.
+  // Add half a count: a drive reports the nearest count, while encode() truncates.
   const auto nearest = [](const Field& f, double value) {
     return encode(f, value + 0.5 * (f.high - f.low) / f.max);
   };
   const auto p = nearest(symmetric(r.position_rad, k16), reply.position_rad);
   const auto v = nearest(symmetric(r.velocity_radps, k12), reply.velocity_radps);
   const auto t = nearest(symmetric(r.torque_Nm, k12), reply.torque_Nm);
-  // 0 for what was not measured (NaN).
+  // NaN (not measured) becomes 0.
   const auto raw_byte = [](double value) {
     return value > 0.0 ? low_byte(static_cast<std::uint32_t>(std::min(value + 0.5, 255.0))) : low_byte(0);
   };

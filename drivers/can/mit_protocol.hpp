@@ -34,8 +34,8 @@ struct MitCommand {
   double torque_Nm = 0.0;
 };
 
-// Byte 6 of a reply, where there is one: nothing of interest, temperature as raw - 40 (manuals), temperature
-// as raw (some drives), or bus voltage over 0..40 V (KATZ).
+// Content of byte 6 of a reply, if the reply has it: not used (plain), temperature as raw - 40 (manuals),
+// temperature as raw (some drives), or bus voltage over 0..40 V (KATZ).
 enum class ReplyFlavour : std::uint8_t { plain, temperature_offset_40, temperature, bus_voltage };
 template <>
 struct EnumNames<ReplyFlavour> {
@@ -54,15 +54,15 @@ struct MitReply {
       0;  // 0 none, 1 motor hot, 2 current, 3 over-, 4 under-voltage, 5 encoder, 6 hot, 7 stall
 };
 
-// Eight bytes that cannot be mistaken for a special frame; values are clamped to the ranges, fractions of a
-// count truncated. A value that is not a number becomes the low end of its range: check before.
+// Packs eight bytes that never equal a special frame. Values are clamped to the ranges; fractions of a count
+// are truncated. NaN becomes the low end of its range, so check before.
 MitPayload pack_mit_command(const MitRanges& ranges, const MitCommand& command) noexcept;
 
-// Nothing for a length other than 6, 7 or 8 bytes. A short reply lacks the fields of bytes 6 and 7.
+// Empty for a length other than 6, 7 or 8 bytes. A short reply lacks the fields of bytes 6 and 7.
 std::optional<MitReply> unpack_mit_reply(const MitRanges& ranges, ReplyFlavour flavour,
                                          std::span<const std::uint8_t> payload) noexcept;
 
-// The drive's side of the two above, for emulators and for reading a recorded trace. `length` 6, 7 or 8.
+// Inverse functions, for emulators and recorded traces.
 MitCommand unpack_mit_command(const MitRanges& ranges, const MitPayload& payload) noexcept;
 MitPayload pack_mit_reply(const MitRanges& ranges, ReplyFlavour flavour, const MitReply& reply) noexcept;
 

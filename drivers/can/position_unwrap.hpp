@@ -2,8 +2,8 @@
 
 namespace sandhopper {
 
-// A position that comes within -range..+range and wraps at its ends, made continuous: a step of more than
-// half the span from one sample to the next is a wrap, because no motor turns that far in between.
+// Unwraps a position that lies within -range..+range and wraps at the ends. A step of more than half the span
+// between two samples is a wrap, because no motor turns that far in that time.
 class PositionUnwrap {
  public:
   double unwrap(double position_rad, double range_rad) noexcept {

@@ -20,7 +20,7 @@ std::array<std::uint8_t, 4> pack_servo_current(double current_A) noexcept {
   return {low_byte(milli >> 24U), low_byte(milli >> 16U), low_byte(milli >> 8U), low_byte(milli)};
 }
 
-// The same fields as pack_mit_command makes, put in their other places.
+// v3 has the fields of pack_mit_command in another order.
 MitPayload pack_v3_command(const MitRanges& ranges, const MitCommand& command) noexcept {
   const auto b = pack_mit_command(ranges, command);
   const std::uint32_t p = static_cast<std::uint32_t>(b[0]) << 8U | b[1];

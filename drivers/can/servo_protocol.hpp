@@ -15,20 +15,21 @@ namespace sandhopper {
 
 enum class ServoMode : std::uint8_t { duty = 0, current = 1, current_brake = 2, mit = 8 };
 
-// 0x2900 | drive; sent by the drive.
+// Identifier 0x2900 | drive of the status frame, which the drive sends.
 inline constexpr canid_t kServoStatus = 0x2900;
 
 constexpr canid_t servo_id(ServoMode mode, int drive) noexcept {
   return CAN_EFF_FLAG | static_cast<canid_t>(mode) << 8U | static_cast<canid_t>(drive);
 }
 
-// Current or brake current [A], clamped to +-60 A, in thousandths.
+// Current or brake current [A], clamped to +-60 A, sent in milliamperes.
 std::array<std::uint8_t, 4> pack_servo_current(double current_A) noexcept;
 
-// Mode 8: the fields of MIT mode in another order, Kp Kd P V T.
+// Payload of mode 8: the fields of MIT mode in the order Kp Kd P V T.
 MitPayload pack_v3_command(const MitRanges& ranges, const MitCommand& command) noexcept;
 
-// Of the drive's output: position in 0.1 deg, speed in 10 electrical turns a minute, current in 0.01 A.
+// Content of a status frame. Resolution: position of the output 0.1 deg, speed 10 electrical turns a minute,
+// current 0.01 A.
 struct ServoStatus {
   double position_rad = 0.0;
   double electrical_radps = 0.0;
@@ -37,7 +38,7 @@ struct ServoStatus {
   std::uint8_t error_code = 0;
 };
 
-// Nothing for a length other than 8 bytes.
+// Empty for a length other than 8 bytes.
 std::optional<ServoStatus> unpack_servo_status(std::span<const std::uint8_t> payload) noexcept;
 
 }  // namespace sandhopper

@@ -9,11 +9,12 @@
 
 namespace sandhopper {
 
-// The frames that take the torque from every drive, each in its own dialect: a command without gains and
-// torque to all, then, where the dialect has it, leave motor mode to all. They need no state of the drives.
+// Frames that take the torque from every drive, each in its own dialect: first a command without gains and
+// torque to all, then leave motor mode to all drives whose dialect has it. They do not depend on the drives'
+// state.
 std::vector<can_frame> torque_cut_frames(const CanConfig& config);
 
-// Takes the torque away from beside the cycle: frames made beforehand, over a socket of its own that receives
+// Takes the torque away from outside the cycle: sends prepared frames over its own socket, which receives
 // nothing. Any one thread, or a signal handler, may call cut().
 class TorqueCut {
  public:

@@ -35,8 +35,8 @@ DeviceError cannot_open(const std::string& device) {
           "gpiodetect lists the chips; access needs root or the group that owns /dev/gpiochip*"};
 }
 
-// Sorted, so that two chips with a line of the same name always give the same one. Links are other names of a
-// chip.
+// Sorted, so that of two chips with a line of the same name always the same one is found. Symbolic links are
+// skipped.
 std::vector<std::string> chip_paths() {
   std::vector<std::string> paths;
   std::error_code ignored;
@@ -52,8 +52,8 @@ struct FoundLine {
   unsigned number;
 };
 
-// The first chip that `fits`. Null when there is none; errno is then 0, or says why a chip could not be
-// opened.
+// First chip for which `fits` is true. Null if there is none: then errno is 0, or the reason why a chip
+// could not be opened.
 template <class Fits>
 std::unique_ptr<GpioChip> find_chip(Fits&& fits) {
   int error = 0;
@@ -68,8 +68,8 @@ std::unique_ptr<GpioChip> find_chip(Fits&& fits) {
   return nullptr;
 }
 
-// `name` is a number, a path, a label or the device's name. A label goes before a device's name, as in
-// release 1.6.
+// `name` is a number, a path, a label or a device name. A label takes precedence over a device name, as in
+// libgpiod 1.6.
 std::unique_ptr<GpioChip> open_chip(const std::string& name) {
   if (const auto number = as_number(name)) return GpioChip::open("/dev/gpiochip" + std::to_string(*number));
   if (name.starts_with('/')) return GpioChip::open(name);
@@ -77,7 +77,9 @@ std::unique_ptr<GpioChip> open_chip(const std::string& name) {
   if (chip != nullptr) return chip;
   const int unreadable = errno;
   chip = GpioChip::open("/dev/" + name);
-  if (chip == nullptr && unreadable != 0) errno = unreadable;  // that chip may be the one with this label
+  if (chip == nullptr && unreadable != 0)
+    errno = unreadable;  // the chip that could not be opened may have
+                         // this label
   return chip;
 }
 
@@ -121,7 +123,7 @@ GpioInput::GpioInput(std::string_view role, const LineConfig& config)
 GpioInput::~GpioInput() = default;
 GpioInput::GpioInput(GpioInput&&) noexcept = default;
 
-// 0 is the only answer that means "not active": -1 is a line that cannot be read.
+// Only 0 means "not active". -1 (cannot be read) counts as active.
 bool GpioInput::active() noexcept { return line_->value() != 0; }
 
 bool GpioEdges::active() noexcept { return line_->value() != 0; }
@@ -151,7 +153,7 @@ std::optional<GpioEdges::Edge> GpioEdges::wait(std::int64_t timeout_ns) noexcept
     const int count = line_->take_edges(timeout, time_ns);
     if (count == 0) return newest;
     if (count < 0) {
-      sleep_ns(timeout_ns);  // a line that has gone must not make its reader spin
+      sleep_ns(timeout_ns);  // if the line has failed, sleep so that the reader does not spin
       return newest;
     }
     newest = Edge{time_ns, (newest ? newest->count : 0) + static_cast<std::uint32_t>(count)};

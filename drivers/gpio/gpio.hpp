@@ -13,8 +13,8 @@ namespace sandhopper {
 
 class GpioLine;
 
-// A level to be read each cycle, such as the e-stop. `active_low` with a normally closed switch and a pull
-// towards ground: a cut wire reads active, and so does a line that cannot be read any more.
+// A level that is read each cycle, such as the e-stop. With `active_low`, a normally closed switch and a
+// pull-down, a cut wire reads active. A line that cannot be read also reads active.
 class GpioInput {
  public:
   GpioInput(std::string_view role, const LineConfig& config);
@@ -31,7 +31,7 @@ class GpioOutput {
   GpioOutput(std::string_view role, const LineConfig& config, bool initially_active);
   ~GpioOutput();
   GpioOutput(GpioOutput&&) noexcept;
-  // Writes only a change; false when it could not.
+  // Writes only if the level changes; false if the write failed.
   bool set(bool active) noexcept;
 
  private:
@@ -43,17 +43,17 @@ class GpioOutput {
 class GpioEdges {
  public:
   struct Edge {
-    std::int64_t time_ns;  // of the newest
-    std::uint32_t count;   // waiting edges that were taken with it
+    std::int64_t time_ns;  // time of the newest edge
+    std::uint32_t count;   // number of edges taken from the queue
   };
 
-  // Edges from inactive to active.
+  // Reports edges from inactive to active.
   GpioEdges(std::string_view role, const LineConfig& config);
   ~GpioEdges();
   GpioEdges(GpioEdges&&) noexcept;
 
-  // Waits for an edge, then empties the queue. The kernel keeps 16; of more it drops the newest with
-  // libgpiod 1.x and the oldest with 2.x.
+  // Waits for an edge, then empties the queue. The kernel keeps 16 edges. On overflow it drops the newest
+  // with libgpiod 1.x and the oldest with 2.x.
   std::optional<Edge> wait(std::int64_t timeout_ns) noexcept;
 
   // The level now; true when it cannot be read.
@@ -63,7 +63,8 @@ class GpioEdges {
   std::unique_ptr<GpioLine> line_;
 };
 
-// Who holds the line, empty when nobody does. Looks without taking it or changing its direction.
+// Name of the process that holds the line, empty if none does. Does not take the line or change its
+// direction.
 std::string user_of_gpio_line(std::string_view role, const LineConfig& config);
 
 }  // namespace sandhopper

@@ -6,17 +6,17 @@
 
 #include "drivers/gpio/line_config.hpp"
 
-// The seam between gpio.cpp and libgpiod. libgpiod1.cpp implements it with releases 1.x, libgpiod2.cpp
+// Interface between gpio.cpp and libgpiod. libgpiod1.cpp implements it with releases 1.x, libgpiod2.cpp
 // with 2.x; CMake compiles the one whose library is installed. Both use the C library: the C++ layers
 // allocate for every level they read, and the e-stop is read in the cycle.
 namespace sandhopper {
 
 enum class LineUse : std::uint8_t { input, output_inactive, output_active, rising_edges };
 
-// Name under which our lines appear in gpioinfo.
+// Consumer name of our lines in gpioinfo.
 inline constexpr const char* kConsumer = "sandhopper";
 
-// The kernel keeps this many edges of a line that nobody reads. Release 1.x has no way to ask for more.
+// Number of edges that the kernel keeps for a line. Release 1.x cannot ask for more.
 inline constexpr std::size_t kEdgeCapacity = 16;
 
 // A requested line. Its functions allocate nothing.
@@ -33,17 +33,17 @@ class GpioLine {
 
 class GpioChip {
  public:
-  // Null when `path` cannot be opened or is no GPIO chip; errno has the reason.
+  // Null if `path` cannot be opened or is no GPIO chip; errno has the reason.
   static std::unique_ptr<GpioChip> open(const std::string& path);
   virtual ~GpioChip() = default;
 
   virtual std::string label() = 0;
   virtual unsigned line_count() = 0;
-  // The first line of that name.
+  // First line with that name.
   virtual std::optional<unsigned> line_named(const std::string& name) = 0;
-  // Empty when nobody holds the line.
+  // Consumer that holds the line; empty if there is none.
   virtual std::string user_of(unsigned line) = 0;
-  // Null when refused; errno has the reason. The line outlives the chip.
+  // Null if refused; errno has the reason. The line stays valid after the chip is destroyed.
   virtual std::unique_ptr<GpioLine> request(unsigned line, const LineConfig& config, LineUse use) = 0;
 };
 

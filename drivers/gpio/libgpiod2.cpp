@@ -36,7 +36,7 @@ gpiod_line_bias bias_of(const LineConfig& config) {
   return GPIOD_LINE_BIAS_AS_IS;
 }
 
-// Active-low is applied by the kernel to levels and edges alike.
+// The kernel applies active-low to both levels and edges.
 bool describe(gpiod_line_settings* settings, const LineConfig& config, LineUse use) {
   const bool output = use == LineUse::output_inactive || use == LineUse::output_active;
   ::gpiod_line_settings_set_active_low(settings, config.active_low);

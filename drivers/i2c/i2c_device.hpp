@@ -6,8 +6,8 @@
 
 namespace sandhopper {
 
-// An i2c-dev node, by I2C_RDWR, with short time-out and no retries: a stuck bus must not hold its thread.
-// Throws DeviceError, also when a kernel driver owns `address`.
+// An i2c-dev node, used with I2C_RDWR, a short timeout and no retries, so that a stuck bus does not block its
+// thread. Throws DeviceError, also if a kernel driver owns `address`.
 class I2cDevice : public I2cBus {
  public:
   I2cDevice(const std::string& path, std::uint8_t address);

@@ -13,7 +13,7 @@ namespace sandhopper {
 struct ImuConfig {
   std::string device = "/dev/spidev0.0";
   int spi_speed_Hz = 8'000'000;
-  // Rising on every new sample (INT1). Not fitted: the status register is asked every poll_period_s.
+  // INT1, rising on every new sample. If it is not fitted the status register is polled every poll_period_s.
   LineConfig data_ready{};
   double poll_period_s = 0.0003;
   int rate_Hz = 1666;             // 416, 833, 1666, 3332 or 6667; there is no 1000
@@ -21,10 +21,10 @@ struct ImuConfig {
   int gyro_range_dps = 2000;      // 125, 250, 500, 1000, 2000 or 4000
   int accel_lowpass_divisor = 4;  // LPF2 at rate/4, 10, 20, 45, 100, 200, 400 or 800; 2: LPF1 alone
   int gyro_lowpass_code = 0;  // FTYPE of LPF1; at 1666 Hz 0: 304, 1: 221, 2: 167, 3: 453, 4: 100, 5: 50 Hz
-  // Rows: x, y, z of the robot (z up) in the sensor's axes. A rotation.
+  // Rotation matrix: its rows are the robot's x, y and z axes (z up) in the sensor's axes.
   std::array<double, 9> mount{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  // Along the sensor's own axes, before the mounting: specific force = accel_scale (as delivered -
-  // accel_bias_mps2), rate = as delivered - gyro_bias_radps.
+  // Calibration along the sensor's own axes, before the mounting: specific force = accel_scale (raw -
+  // accel_bias_mps2), rate = raw - gyro_bias_radps.
   std::array<double, 3> accel_scale{1, 1, 1};
   std::array<double, 3> accel_bias_mps2{0, 0, 0};
   std::array<double, 3> gyro_bias_radps{0, 0, 0};

@@ -14,7 +14,7 @@ ImuReader::ImuReader(const std::string& role, const ImuConfig& config)
       sensor_(role + " (" + config.device + ")", bus_, config) {
   if (config.data_ready.fitted()) edges_.emplace(role + " data-ready", config.data_ready);
   sensor_.start();
-  if (edges_) edges_->wait(0);  // of the time before
+  if (edges_) edges_->wait(0);  // discard edges from before the start
 }
 
 bool ImuReader::acquire(ImuSample& sample) noexcept {
@@ -41,7 +41,7 @@ bool ImuReader::acquire_by_polling(ImuSample& sample) noexcept {
 bool ImuReader::read(ism330dhcx::Burst& burst) noexcept {
   if (sensor_.read(burst)) return true;
   ++counters_.failed_transfers;
-  sleep_ns(kEdgeTimeout_ns);  // a bus that has gone must not make its thread spin
+  sleep_ns(kEdgeTimeout_ns);  // if the bus has failed, sleep so that the thread does not spin
   return false;
 }
 

@@ -14,8 +14,8 @@ class ImuReader {
  public:
   ImuReader(const std::string& role, const ImuConfig& config);
 
-  // Waits (at most 20 ms) for the next sample. Stamp: its data-ready edge, or without that line the time at
-  // which the status register showed it, less `latency_s`.
+  // Waits at most 20 ms for the next sample. Its time is that of the data-ready edge minus `latency_s`.
+  // Without that line it is the time at which the status register showed the sample, minus `latency_s`.
   bool acquire(ImuSample& sample) noexcept;
 
   const DeviceCounters& counters() const noexcept { return counters_; }

@@ -16,8 +16,8 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kResetWait_ns = 50 * kMillisecond_ns;
 constexpr std::int64_t kSettle_ns = 100 * kMillisecond_ns;
 constexpr int kResetTries = 20;
-// After power comes on the chip answers within 10 ms (datasheet, power-on): its identity is read once a
-// millisecond.
+// The chip answers within 10 ms after power-on (datasheet). Its identity is read once per millisecond until
+// then.
 constexpr int kIdentityTries = 10;
 
 bool no_answer(std::uint8_t identity) { return identity == 0x00 || identity == 0xFF; }
@@ -56,7 +56,7 @@ std::uint8_t Ism330dhcx::read_identity() {
   return who;
 }
 
-// A restart of the host or of the supply may leave the chip in a state that answers nothing but a reset.
+// After a restart of the host or the supply the chip may answer only to a reset.
 void Ism330dhcx::identify() {
   auto who = read_identity();
   if (no_answer(who)) {

@@ -36,7 +36,8 @@ std::int16_t word(std::span<const std::uint8_t, kBurstSize> bytes, std::size_t a
 
 using Vector = std::array<double, 3>;
 
-// Rows of the mounting are the robot's axes in the sensor's: it leads to the robot, its transpose back.
+// The rows of `mount` are the robot's axes in the sensor's frame: the matrix transforms sensor to robot, its
+// transpose robot to sensor.
 Vector to_robot(const std::array<double, 9>& mount, const Vector& sensor) noexcept {
   Vector out{};
   for (std::size_t i = 0; i < 3; ++i)

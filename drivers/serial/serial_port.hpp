@@ -12,9 +12,9 @@ class SerialPort {
  public:
   SerialPort(const std::string& path, int baud);
 
-  // True when there are bytes, or the line has gone.
+  // True if there are bytes to read or the line has failed.
   bool wait(std::int64_t timeout_ns) const noexcept;
-  // How many bytes were there; 0 also when the line has gone.
+  // Returns the number of bytes read; 0 also if the line has failed.
   std::size_t read(std::span<std::uint8_t> bytes) noexcept;
   bool write(std::span<const std::uint8_t> bytes) noexcept;
   void discard_input() noexcept;

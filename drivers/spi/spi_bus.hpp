@@ -8,7 +8,8 @@ namespace sandhopper {
 class SpiBus {
  public:
   virtual ~SpiBus() = default;
-  // Full duplex with the chip selected throughout; both of one length. False when the transfer failed.
+  // Full-duplex transfer with the chip selected throughout. Both spans have the same length. False if it
+  // failed.
   virtual bool transfer(std::span<const std::uint8_t> out, std::span<std::uint8_t> in) noexcept = 0;
 };
 

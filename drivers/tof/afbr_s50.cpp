@@ -14,8 +14,8 @@ namespace {
 constexpr std::int64_t kByteWait_ns = 50'000'000;
 constexpr std::int64_t kAnswerWait_ns = 300'000'000;
 constexpr int kTries = 3;
-// Quality of a result [%]. 1: the sensor's own verdict that it is invalid; PX4's driver drops these, too.
-// 0: firmware that gives no quality. The values above are logged and not judged.
+// Quality of a result [%]. The sensor marks an invalid result with 1; PX4's driver drops these, too. 0 means
+// that the firmware gives no quality. Higher values are logged and not used.
 constexpr std::uint8_t kInvalidQuality = 1;
 
 std::string device_of(const TofConfig& config) {
@@ -45,7 +45,7 @@ TofSample to_sample(const SciMeasurement& m, const TofConfig& config, std::int64
 
 AfbrS50::AfbrS50(const TofConfig& config) : config_(config), port_(config.device, config.baud) {
   port_.discard_input();
-  request(SciCommand::stop);  // it may still be measuring for somebody before us
+  request(SciCommand::stop);  // it may still be measuring for an earlier user
   request(SciCommand::ping);
   const auto flag = [](bool on) {
     return std::array<std::uint8_t, 1>{static_cast<std::uint8_t>(on ? 1 : 0)};
@@ -109,7 +109,7 @@ bool AfbrS50::acquire(TofSample& sample) noexcept {
   const auto count = port_.read(bytes);
   if (count == 0) {
     ++counters_.failed_transfers;
-    sleep_ns(kByteWait_ns);  // a line that has gone must not make its thread spin
+    sleep_ns(kByteWait_ns);  // if the line has failed, sleep so that the thread does not spin
     return false;
   }
   bool found = false;

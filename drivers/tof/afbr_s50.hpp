@@ -10,20 +10,19 @@
 
 namespace sandhopper {
 
-// Height, or no measurement for a status other than 0, a negative range, or one outside the configured
-// limits.
+// Height. A status other than 0, a negative range or one outside the configured limits gives no measurement.
 TofSample to_sample(const SciMeasurement& measurement, const TofConfig& config,
                     std::int64_t time_ns) noexcept;
 
-// The sensor behind its companion controller on a serial line, for a thread of its own. The constructor holds
-// the start-up conversation (stop, ping, 1-D output, modes, frame time, start; each must be acknowledged) and
-// throws DeviceError.
+// The sensor behind its companion controller on a serial line; it needs a thread of its own. The constructor
+// runs the start-up sequence (stop, ping, 1-D output, modes, frame time, start), each acknowledged by the
+// controller. Throws DeviceError.
 class AfbrS50 {
  public:
   explicit AfbrS50(const TofConfig& config);
   ~AfbrS50();
 
-  // Waits (at most 50 ms) for bytes; true when they completed a measurement, the newest of which is given.
+  // Waits at most 50 ms for bytes. True if they completed a measurement; `sample` is then the newest one.
   bool acquire(TofSample& sample) noexcept;
 
   const DeviceCounters& counters() const noexcept { return counters_; }

@@ -4,12 +4,12 @@
 
 namespace sandhopper {
 
-// Maps the companion's clock onto ours. Arrival minus device time is the offset of the clocks plus a delay
-// that varies; its least value is followed, and may rise by 200 ppm so that a clock that runs slow is
-// followed too.
+// Maps the companion controller's clock to ours. Arrival minus device time is the offset of the clocks plus a
+// varying delay. The estimate is the smallest such difference. It may rise by 200 ppm, so that it also
+// follows a companion clock that runs slow.
 class CompanionClock {
  public:
-  // Device time on our clock as if every frame took the shortest way.
+  // Device time on our clock, as if every frame had the shortest delay.
   std::int64_t map(std::int64_t device_ns, std::int64_t arrival_ns) noexcept {
     const auto offset = arrival_ns - device_ns;
     if (!known_ || device_ns < last_device_ns_) {

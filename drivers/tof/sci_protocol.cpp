@@ -14,7 +14,7 @@ constexpr double kAmplitudePerCount = 1.0 / 16.0;   // UQ12.4
 constexpr std::int64_t kTickPerSecond_ns = 1'000'000'000;
 constexpr std::int64_t kTick_ns = 16'000;
 
-// Big-endian fields taken off the front.
+// Takes big-endian fields from the front of the bytes.
 class Fields {
  public:
   explicit Fields(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

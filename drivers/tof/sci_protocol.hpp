@@ -42,7 +42,7 @@ std::uint8_t sci_crc(std::span<const std::uint8_t> bytes) noexcept;
 std::vector<std::uint8_t> sci_encode(SciCommand command, std::span<const std::uint8_t> payload = {},
                                      std::optional<std::uint8_t> address = std::nullopt);
 
-// Byte by byte; finds its way back at the next start byte after noise, a lost byte or a broken frame.
+// Parses byte by byte. After noise, a lost byte or a broken frame it synchronises at the next start byte.
 class SciParser {
  public:
   // The frame that this byte completes, if any.
@@ -65,7 +65,7 @@ class SciParser {
 // A range measurement. status 0: good, > 0 warning, < 0 error.
 struct SciMeasurement {
   std::int16_t status = 0;
-  std::int64_t device_time_ns = 0;  // of the companion's clock, in steps of 16 us
+  std::int64_t device_time_ns = 0;  // time on the companion's clock, in steps of 16 us
   double range_m = 0.0;
   double amplitude = 0.0;
   std::uint8_t quality = 0;

@@ -7,7 +7,7 @@
 
 namespace sandhopper {
 
-// Where a sample's time comes from: the arrival of its frame, or the companion's clock mapped onto ours.
+// Source of a sample's time: the arrival of its frame, or the companion's clock mapped to ours.
 enum class TofClock : std::uint8_t { arrival, companion };
 template <>
 struct EnumNames<TofClock> {
@@ -19,12 +19,12 @@ struct TofConfig {
   std::string device = "/dev/ttyACM0";
   int baud = 1'000'000;
   double frame_time_s = 0.002;
-  bool dual_frequency_mode = false;  // adds frames of delay and errors on fast changes
+  bool dual_frequency_mode = false;  // adds frames of delay, and errors during fast changes
   bool smart_power_save = false;
   TofClock clock = TofClock::arrival;
   double latency_s = 0.002;     // from the measurement to the arrival of its frame
-  double mount_offset_m = 0.0;  // of the hip axis over the sensor's reference plane
-  double range_min_m = 0.02;    // outside: no measurement
+  double mount_offset_m = 0.0;  // height of the hip axis over the sensor's reference plane
+  double range_min_m = 0.02;    // a range outside gives no measurement
   double range_max_m = 3.0;
   int thread_priority = 50;  // SCHED_FIFO; 0: ordinary scheduling
 

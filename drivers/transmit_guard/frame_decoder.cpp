@@ -11,7 +11,7 @@ constexpr std::uint32_t kMost16 = 0xFFFF, kMost12 = 0xFFF;
 constexpr std::uint32_t kServoCurrent = 0x100, kV3Mit = 0x800, kStatus = 0x2900;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// All eight bytes, the first one highest.
+// All eight bytes; the first one is the most significant.
 std::uint64_t big_endian(const can_frame& frame) noexcept {
   std::uint64_t bits = 0;
   for (const std::uint8_t byte : frame.data) bits = bits << 8 | byte;
@@ -26,7 +26,7 @@ bool middle(std::uint32_t code, std::uint32_t most) noexcept {
   return code == most / 2 || code == most / 2 + 1;
 }
 
-// -1 to 1.
+// Maps the codes 0 to `most` to -1 to 1.
 double centred(std::uint32_t code, std::uint32_t most) noexcept { return (2.0 * code - most) / most; }
 
 double signed16(const can_frame& frame, std::size_t byte) noexcept {
@@ -39,7 +39,7 @@ std::uint32_t command_id_of(const MotorLimits& motor) noexcept {
   return CAN_EFF_FLAG | mode | motor.can_id;
 }
 
-// Codes nearest to zero: position 7FFF, velocity 7FF, torque 7FF in the order of the dialect; servo: 0 mA.
+// Codes nearest to zero: position 7FFF, velocity 7FF, torque 7FF, in the order of the dialect. Servo: 0 mA.
 std::array<std::uint8_t, 8> zero_bytes(Dialect dialect) noexcept {
   if (dialect == Dialect::mit) return {0x7F, 0xFF, 0x7F, 0xF0, 0x00, 0x00, 0x07, 0xFF};
   if (dialect == Dialect::v3) return {0x00, 0x00, 0x00, 0x7F, 0xFF, 0x7F, 0xF7, 0xFF};
@@ -56,7 +56,7 @@ FrameDecoder::FrameDecoder(const MotorLimits& motor) noexcept
       zero_offset_rad_(motor.zero_offset_rad) {
   const double to_link = motor.sign / motor.gear_ratio;
   const double sign_and_gear = motor.sign * motor.gear_ratio;
-  // Torque and gains of the drive's law are fields of torque: the current is field / believed constant.
+  // The drive divides torque and gains by the constant that it believes to get a current.
   const double believed = motor.torque_constant_Nm_per_A / motor.drive_torque_constant_Nm_per_A;
   const double gain_to_link = motor.gear_ratio * motor.gear_ratio * believed;
   half_range_rad_ = motor.position_range_rad * to_link;
@@ -75,7 +75,7 @@ FrameDecoder::FrameDecoder(const MotorLimits& motor) noexcept
     state_count_ = {.position_rad = 0.1 * kDegree / motor.gear_ratio,
                     .velocity_radps = radps_per_speed_ * motor.sign};
   if (dialect_ == Dialect::servo) {
-    half_range_Nm_ = 1e-3 * motor.torque_constant_Nm_per_A * sign_and_gear;  // of one milliampere
+    half_range_Nm_ = 1e-3 * motor.torque_constant_Nm_per_A * sign_and_gear;  // torque of one milliampere
     count_ = {};
     count_.torque_Nm = half_range_Nm_ * motor.sign;
   }

@@ -10,17 +10,17 @@ namespace sandhopper::transmit {
 
 // Effect of a frame on the drive that receives it.
 enum class Meaning : std::uint8_t {
-  zero,     // a command without torque and gains: answered, and energises nothing
-  damping,  // only a damping gain: the drive's own law takes energy out
+  zero,     // a command without torque and gains: it is answered and energises nothing
+  damping,  // only a damping gain: the drive's own law dissipates energy
   law,      // torque, stiffness or velocity set-point
   current,  // servo: a current other than zero
   enter,    // motor mode (mit)
   leave,
   set_zero,  // present position becomes zero (mit): no replies for 0.5 to 1.5 s
-  no_frame   // not eight bytes (servo: four) of the drive's dialect
+  no_frame   // length does not match the drive's dialect (eight bytes; servo: four)
 };
 
-// A frame as the drive would take it, at the link. Without the law's fields for enter, leave and set_zero.
+// A frame as the drive would interpret it, at the link. enter, leave and set_zero have no law fields.
 struct Decoded {
   Meaning meaning = Meaning::no_frame;
   double position_rad = 0.0;
@@ -38,27 +38,27 @@ struct State {
 
 // Frames to and from one drive, decoded from the drives' manuals alone (AK Series Module
 // Driver User Manual V1.0.18 and V3.0.1), without the driver's code: x = lo + u (hi - lo) / (2^n - 1).
-// Zero is no code of a signed field; the two codes beside the middle count as zero.
+// A signed field has no code for zero, so the two codes next to the middle count as zero.
 class FrameDecoder {
  public:
   explicit FrameDecoder(const MotorLimits& motor) noexcept;
 
-  // Identifier with its flags of the commands that this drive gets in its dialect.
+  // Identifier, with its flags, of commands to this drive in its dialect.
   std::uint32_t command_id() const noexcept { return command_id_; }
   Decoded command(const can_frame& frame) const noexcept;
 
   // Empty for a frame that is not this drive's answer in its dialect.
   std::optional<State> reply(const can_frame& frame) const noexcept;
 
-  // One count of each field, at the link: the tolerance of every limit.
+  // Resolution (one count) of each command field, at the link. It is the tolerance of every limit.
   struct Counts {
     double position_rad, velocity_radps, kp_Nm_per_rad, kd_Nm_s_per_rad, torque_Nm;
   };
   const Counts& count() const noexcept { return count_; }
-  // The same of a reply's fields.
+  // Resolution of a reply's fields.
   const State& state_count() const noexcept { return state_count_; }
 
-  // The command that takes torque and gains away.
+  // The command without torque and gains.
   const can_frame& zero_frame() const noexcept { return zero_; }
 
  private:

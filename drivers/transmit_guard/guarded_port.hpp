@@ -6,14 +6,14 @@
 
 namespace sandhopper {
 
-// A port behind the transmit guard: a frame that breaks a rule does not reach the port. The motor it was for
-// gets a command without torque in its place at once, unless the frame was one to enter motor mode. The
-// sender finds its frame not taken; the port's own counters do not count it.
+// A port behind the transmit guard. A frame that breaks a rule does not reach the port. Its motor immediately
+// gets a command without torque instead, unless the refused frame was an enter frame. send() returns nothing
+// for the refused frame, and the port's own counters do not count it.
 class GuardedPort final : public CanPort {
  public:
   GuardedPort(std::unique_ptr<CanPort> port, const transmit::Limits& limits) noexcept;
 
-  // Before each cycle's frames. Until the first one only frames without torque and gains pass.
+  // Call it before each cycle's frames. Before the first call only frames without torque and gains pass.
   void begin(const transmit::CycleState& state) noexcept { guard_.begin(state); }
 
   const RefusedFrames& refused() const noexcept { return refused_; }

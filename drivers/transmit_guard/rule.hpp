@@ -8,26 +8,26 @@ namespace sandhopper {
 
 namespace transmit {
 
-// Why the transmit guard refused a frame. The number is logged: new rules go to the end.
+// Reason why the transmit guard refused a frame. The number is logged, so new rules go to the end.
 enum class Rule : std::uint8_t {
   none,
-  identifier,     // no command identifier of a configured motor in its dialect
-  length,         // not the dialect's
+  identifier,     // not a command identifier of a configured motor in its dialect
+  length,         // not a length of the dialect
   set_zero,       // the drive would not answer for a second
   torque,         // above the limit
   stiffness,      // above the limit
-  damping,        // above the limit; servo: a current that is not damping's while only damping may pass
+  damping,        // above the limit; servo: a current that does not damp while only damping may pass
   speed,          // velocity set-point above the limit
   angle,          // position set-point with stiffness outside the leg's angles
-  stiffness_far,  // stiffness begins so far from the measured angle that its torque is above the limit
-  not_confirmed,  // torque or gains, and the drive was not seen to be in motor mode
-  unanswered,     // torque or stiffness, and the drive has not answered for too long
-  enter_loaded,   // enter motor mode, and the last command had torque or gains: the drive would remember it
-  restricted,     // more than the latched fault's reaction allows
+  stiffness_far,  // stiffness begins so far from the measured angle that its torque would exceed the limit
+  not_confirmed,  // torque or gains, but the drive was not seen to be in motor mode
+  unanswered,     // torque or stiffness, but the drive has not answered for too long
+  enter_loaded,   // enter motor mode, but the last command had torque or gains: the drive would remember it
+  restricted,     // not allowed by the latched fault's reaction
   stopped,        // the e-stop is open
   second_frame,   // of one motor in one cycle
-  outstanding,    // the command before may still be answered
-  bus_load,       // more than the bus may carry
+  outstanding,    // the previous command may still be answered
+  bus_load,       // more bits than the bus may carry
   latched         // a frame was refused before
 };
 
@@ -41,8 +41,8 @@ struct EnumNames<transmit::Rule> {
       "stopped", "second_frame", "outstanding",   "bus_load",      "latched"};
 };
 
-// Frames that the transmit guard refused since start, and the first of them. What follows the first is its
-// consequence.
+// Number of frames that the transmit guard refused since start, and the first of them. Later refusals follow
+// from the first.
 struct RefusedFrames {
   std::uint32_t count = 0;
   transmit::Rule rule = transmit::Rule::none;

@@ -6,13 +6,14 @@
 namespace sandhopper::transmit {
 namespace {
 
-// A command takes 135 to 160 us on the wire, its reply as long, the other motor's frame may stand before it:
-// 55 + 10 n bits at 1 Mbit/s, 80 + 10 n with an extended identifier. Later than this it was lost.
+// Time after which a reply counts as lost. A command takes 135 to 160 us on the wire (55 + 10 n bits at 1
+// Mbit/s, 80 + 10 n with an extended identifier), its reply as long, and the other motor's frame may be sent
+// before.
 constexpr std::int64_t kReplyTime_ns = 500'000;
-// Two cycles of a full bus: what may gather where one cycle is late and the next is not.
+// Two cycles of a full bus: frames accumulate this much if one cycle is late and the next is not.
 constexpr double kMostWaiting_bits = 2000.0;
-constexpr double kTakesAwayFactor = 2.0;  // for frames that take torque away
-constexpr int kMostFrames = 4;            // the same, of one motor in one cycle
+constexpr double kTakesAwayFactor = 2.0;  // factor on kMostWaiting_bits for frames that take torque away
+constexpr int kMostFrames = 4;            // frames that take torque away, per motor and cycle
 constexpr int kRepliesToConfirm = 2;
 constexpr double kRounding = 1e-9;
 
@@ -21,12 +22,12 @@ bool energises(Meaning meaning) noexcept {
   return meaning == Meaning::damping || meaning == Meaning::law || meaning == Meaning::current;
 }
 
-// False for what is not a number, too.
+// False for NaN.
 bool within(double value, double limit, double count) noexcept {
   return std::abs(value) <= limit * (1.0 + kRounding) + count;
 }
 
-// With the most stuff bits and the intermission (ISO 11898-1).
+// Frame length with the most stuff bits and the intermission (ISO 11898-1).
 double standard_bits(int bytes) noexcept { return 55.0 + 10.0 * bytes; }
 double extended_bits(int bytes) noexcept { return 80.0 + 10.0 * bytes; }
 
@@ -77,7 +78,7 @@ TransmitGuard::Verdict TransmitGuard::judge(const can_frame& frame) const noexce
   return out;
 }
 
-// The frame by itself.
+// Checks the frame alone: length and limits.
 Rule TransmitGuard::within_limits(const Motor& motor, const FrameDecoder& decoder,
                                   const Decoded& d) const noexcept {
   if (d.meaning == Meaning::no_frame) return Rule::length;
@@ -88,7 +89,7 @@ Rule TransmitGuard::within_limits(const Motor& motor, const FrameDecoder& decode
   if (!within(d.kp_Nm_per_rad, limit.kp_Nm_per_rad, count.kp_Nm_per_rad)) return Rule::stiffness;
   if (!within(d.kd_Nm_s_per_rad, limit.kd_Nm_s_per_rad, count.kd_Nm_s_per_rad)) return Rule::damping;
   if (!within(d.velocity_radps, limit.speed_radps, count.velocity_radps)) return Rule::speed;
-  // The law's torque that does not depend on the motor's motion.
+  // Torque of the drive's law without the terms that depend on the motor's motion.
   const double forward = d.torque_Nm + d.kd_Nm_s_per_rad * d.velocity_radps;
   const double counts = count.torque_Nm + d.kd_Nm_s_per_rad * count.velocity_radps;
   if (!within(d.torque_Nm, limit.torque_Nm, count.torque_Nm) || !within(forward, limit.torque_Nm, counts))
@@ -99,7 +100,7 @@ Rule TransmitGuard::within_limits(const Motor& motor, const FrameDecoder& decode
   return inside ? Rule::none : Rule::angle;
 }
 
-// The frame against what the drive is known to do, and what is allowed at all.
+// Checks the frame against the drive's state and against the present restrictions.
 Rule TransmitGuard::allowed(const Motor& motor, const FrameDecoder& decoder,
                             const Decoded& d) const noexcept {
   if (takes_away(d.meaning)) return Rule::none;
@@ -116,7 +117,7 @@ Rule TransmitGuard::energise(const Motor& motor, const FrameDecoder& decoder,
                              const Decoded& d) const noexcept {
   if (allowance_ == Allowance::no_torque) return Rule::restricted;
   if (!motor.entered || motor.replies < kRepliesToConfirm) return Rule::not_confirmed;
-  if (d.meaning == Meaning::damping) return Rule::none;  // the drive's own law needs no reply here
+  if (d.meaning == Meaning::damping) return Rule::none;  // the drive damps by itself, without a reply
   if (motor.unanswered > motor.limit.most_unanswered) return Rule::unanswered;
   if (d.meaning == Meaning::current)
     return allowance_ != Allowance::damping || damps(motor, decoder, d) ? Rule::none : Rule::damping;
@@ -133,7 +134,7 @@ Rule TransmitGuard::energise(const Motor& motor, const FrameDecoder& decoder,
   return near ? Rule::none : Rule::stiffness_far;
 }
 
-// Servo: a current against the measured motion, no larger than the damping's.
+// Servo: true if the current opposes the measured motion and does not exceed the damping limit.
 bool TransmitGuard::damps(const Motor& motor, const FrameDecoder& decoder, const Decoded& d) const noexcept {
   const double speed = motor.state.velocity_radps;
   const double counts =
@@ -142,7 +143,7 @@ bool TransmitGuard::damps(const Motor& motor, const FrameDecoder& decoder, const
   return d.torque_Nm * speed <= 0.0 || within(d.torque_Nm, 0.0, counts);
 }
 
-// The frame among the others.
+// Checks the frame against the other frames of the cycle and the bus load.
 Rule TransmitGuard::in_order(const Motor& motor, const Decoded& d) const noexcept {
   const bool away = takes_away(d.meaning);
   if (motor.frames >= (away ? kMostFrames : 1)) return Rule::second_frame;

@@ -16,7 +16,7 @@ struct FreezeCycle {
   SensorFrame frame{};
   StepOutput output{};
   std::uint32_t event_count = 0;
-  std::array<Event, 8> events{};  // as many as a cycle can have (Controller::events)
+  std::array<Event, 8> events{};  // the most that a cycle can have (Controller::events)
 
   std::span<const Event> seen_events() const noexcept {
     return {events.data(), std::min<std::size_t>(event_count, events.size())};

@@ -10,24 +10,24 @@
 
 namespace sandhopper {
 
-// The guard process's part: when hopperd was killed or stands still, the ring goes to the disk as it is. The
-// file is made and its room on the disk taken beforehand, under a hidden name; run() gives it its own.
+// Copy of the ring on disk, written by the guard process when hopperd was killed or stands still. The file is
+// created and its disk space allocated beforehand under a hidden name. run() gives it its final name.
 class FreezeDump final : public LastAct {
  public:
-  // Makes `folder`. Throws std::system_error when the file cannot be made or the disk has no room for it.
+  // Creates `folder`. Throws std::system_error if the file cannot be created or the disk has no room for it.
   FreezeDump(FreezeRing& ring, const std::filesystem::path& folder);
   FreezeDump(const FreezeDump&) = delete;
   FreezeDump& operator=(const FreezeDump&) = delete;
 
-  // Async-signal-safe: write, fdatasync and rename only. Where the disk does not take it, the ring's own file
-  // in memory is still there.
+  // Async-signal-safe: write, fdatasync and rename only. If the disk does not accept the data, the ring's own
+  // file in memory remains.
   void run() noexcept override;
   std::span<const int> descriptors() const noexcept override { return {&descriptor_, 1}; }
 
-  // In hopperd, which stood still, let the guard act, and goes on: the file is hidden again, for the next
-  // time. The standstill's picture is the freeze frame of watchdog_tripped.
+  // For use after a standstill in which the guard wrote the file and hopperd then continued. Hides the file,
+  // so that the next standstill can publish it. The freeze frame of watchdog_tripped records this one.
   void take_back() noexcept;
-  // Takes both names away: hopperd ended in order.
+  // Removes both names after hopperd ended in order.
   void remove() noexcept;
 
  private:

@@ -10,13 +10,13 @@
 namespace sandhopper {
 namespace {
 
-// The number of the first cycle at or after `time_ns`. Times grow with the numbers.
+// Number of the first cycle at or after `time_ns`. Times increase with the numbers.
 std::uint64_t first_at(const FreezeReader& ring, std::int64_t time_ns) {
   std::uint64_t low = ring.oldest(), high = ring.count() + 1;
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
     const auto cycle = ring.cycle(middle);
-    // A cycle that is gone was older than all that are there.
+    // A cycle that was overwritten was older than all remaining ones.
     if (!cycle || cycle->frame.time_ns < time_ns)
       low = middle + 1;
     else

@@ -15,7 +15,7 @@ class Leftovers {
   Leftovers(const std::filesystem::path& folder, const std::function<void(const std::string&)>& warn)
       : folder_(folder), warn_(warn) {}
 
-  // All frames of a ring, then its file goes.
+  // Writes all frames of a ring, then removes the ring's file.
   void write(const std::filesystem::path& ring_file) {
     try {
       const MappedFile file(ring_file);
@@ -68,7 +68,8 @@ std::vector<std::filesystem::path> write_leftovers(const std::filesystem::path& 
     if (memory == folder) continue;
     for (const auto& frame : freeze::files_in(memory, freeze::kFrameEnding)) leftovers.move(frame);
   }
-  // Of the same ring these name the same frames, which are there already.
+  // A dump of a ring above would give the same frame names; those frames exist already and are left as they
+  // are.
   for (const auto& dump : freeze::files_in(folder, freeze::kDumpEnding)) leftovers.write(dump);
   return leftovers.frames;
 }

@@ -52,7 +52,7 @@ void FreezeRecorder::start() {
   if (ring_) thread_ = std::thread([this] { run(); });
 }
 
-// The maker of this thread may run under SCHED_FIFO, which threads inherit.
+// The creating thread may run under SCHED_FIFO, which threads inherit: return to ordinary scheduling.
 void FreezeRecorder::run() {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);

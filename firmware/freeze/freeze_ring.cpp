@@ -29,8 +29,8 @@ std::string text_in(const std::array<char, N>& field) {
           static_cast<std::size_t>(std::find(field.begin(), field.end(), '\0') - field.begin())};
 }
 
-// Texts one after the other, each behind its length. A text for which there is no room is left out, and so
-// are all that follow it.
+// Writes texts one after the other, each after its length. A text without enough room is left out, and so are
+// all that follow it.
 class TextWriter {
  public:
   explicit TextWriter(std::span<char> room) : room_(room) {}
@@ -68,7 +68,8 @@ class TextReader {
   std::string_view rest_;
 };
 
-// An attachment is "A", name, media type, text; a metadata entry "M", name, key, value. Whole ones only.
+// An attachment is "A", name, media type, text; a metadata entry is "M", name, key, value. Only whole entries
+// count.
 std::size_t write_description(const LogDescription& description, std::span<char> room) {
   TextWriter out(room);
   std::size_t whole = 0;
@@ -81,7 +82,8 @@ std::size_t write_description(const LogDescription& description, std::span<char>
   return whole;
 }
 
-// A new file, all of its memory reserved, so that a full tmpfs is an error here and no SIGBUS in the cycle.
+// Creates a file with all of its memory reserved. So a full tmpfs is an error here and not a SIGBUS in the
+// cycle.
 UniqueFd make_file(const std::filesystem::path& path) {
   const auto fail = [&](int error, const char* what) -> UniqueFd {
     throw std::system_error(error, std::generic_category(), path.string() + ": " + what);
@@ -119,7 +121,7 @@ FreezeRing::FreezeRing(const Options& options) : file_(options.file), lock_(make
     remove();
     throw std::system_error(error, std::generic_category(), file_.string() + ": cannot be mapped");
   }
-  ::mlock(memory, sizeof(freeze::Block));  // where it is not granted the pages may be swapped out
+  ::mlock(memory, sizeof(freeze::Block));  // if it is not permitted the pages may be swapped out
   block_ = ::new (memory) freeze::Block;
   freeze::Header& header = block_->header;
   header.layout = freeze::kLayout;

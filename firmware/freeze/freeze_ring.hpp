@@ -20,32 +20,33 @@ namespace sandhopper {
 
 namespace freeze {
 
-inline constexpr std::uint32_t kLayout = 1;  // raised when anything below changes
-inline constexpr std::size_t kSlots = 8192;  // 6 s are written out; 2.1 s remain for the writer to be late
+inline constexpr std::uint32_t kLayout = 1;  // increase it when anything below changes
+inline constexpr std::size_t kSlots = 8192;  // 6 s are written to a frame; 2.1 s remain as margin for a late
+                                             // writer
 inline constexpr std::size_t kTextBytes = 131'072;
 
-// One cycle. `number` is its place since start, from 1; 0 while the cycle writes it.
+// One cycle. `number` counts cycles since start, from 1. It is 0 while the cycle is being written.
 struct Slot {
   std::atomic<std::uint64_t> number{0};
   FreezeCycle cycle{};
 };
 
-// In front of the slots. Plain values are written once, before the first cycle.
+// Header in front of the slots. The non-atomic values are written once, before the first cycle.
 struct Header {
   std::array<char, 8> magic{};
   std::uint32_t layout = 0;
   std::uint32_t slot_bytes = 0;
   std::uint32_t slots = 0;
   std::uint32_t text_bytes = 0;
-  std::uint64_t schema_hash = 0;  // of the three records: schema_hash()
+  std::uint64_t schema_hash = 0;  // schema_hash() of the three records
   std::int64_t start_ns = 0;      // CLOCK_MONOTONIC
   std::int64_t realtime_offset_ns = 0;
   std::int32_t process = 0;
   std::array<char, 32> version{};
   std::array<char, 1024> log_file{};
-  std::atomic<std::uint64_t> count{0};       // cycles in the ring since start
-  std::atomic<std::uint64_t> dumped_at{0};   // the guard has dumped the ring when it held so many
-  std::atomic<std::uint64_t> written_to{0};  // the faults of the first so many cycles are in frames already
+  std::atomic<std::uint64_t> count{0};       // number of cycles pushed since start
+  std::atomic<std::uint64_t> dumped_at{0};   // value of `count` when the guard dumped the ring
+  std::atomic<std::uint64_t> written_to{0};  // number of the last cycle whose faults are already in frames
 };
 
 struct Block {
@@ -60,20 +61,20 @@ std::uint64_t schema_hash();
 
 }  // namespace freeze
 
-// The writer's side. One thread pushes, which is a copy of about 1 kB: no wait, no lock, no allocation, no
+// Writer of the ring. One thread pushes; a push copies about 1 kB and makes no wait, lock, allocation or
 // system call. Readers in the same process use FreezeReader on bytes().
 class FreezeRing {
  public:
   struct Options {
-    std::filesystem::path file{};  // in memory (tmpfs); made anew, locked (flock) while this process lives
+    std::filesystem::path file{};  // on tmpfs; newly created, locked (flock) while this process lives
     std::filesystem::path log_file{};
     std::int64_t start_ns = 0;
     std::int64_t realtime_offset_ns = 0;
     LogDescription description{};
   };
-  // Throws std::system_error when the file cannot be made or its memory is not to be had.
+  // Throws std::system_error if the file cannot be created or its memory cannot be reserved.
   explicit FreezeRing(const Options& options);
-  // Leaves the file: remove() takes it away at an orderly end.
+  // Keeps the file. remove() deletes it at an orderly end.
   ~FreezeRing();
   FreezeRing(const FreezeRing&) = delete;
   FreezeRing& operator=(const FreezeRing&) = delete;
@@ -103,8 +104,8 @@ class FreezeRing {
   freeze::Block* block_ = nullptr;
 };
 
-// A ring's bytes, of this process or of a file. A file may be of another version, torn or damaged: the
-// constructor throws std::runtime_error then, with the reason. `bytes` must outlive the reader.
+// Reader of a ring's bytes, of this process or of a file. If a file is of another version, torn or damaged,
+// the constructor throws std::runtime_error with the reason. `bytes` must outlive the reader.
 class FreezeReader {
  public:
   explicit FreezeReader(std::span<const std::byte> bytes);
@@ -115,8 +116,8 @@ class FreezeReader {
   LogDescription description() const;
 
   std::uint64_t count() const { return header_->count.load(std::memory_order_acquire); }
-  std::uint64_t oldest() const;  // number of the oldest cycle that is still there
-  // The cycle of this number (from 1); none when it was overwritten, also while it was copied.
+  std::uint64_t oldest() const;  // number of the oldest cycle that was not overwritten
+  // The cycle with this number (from 1). Empty if it was overwritten before or during the copy.
   std::optional<FreezeCycle> cycle(std::uint64_t number) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace sandhopper {
 namespace {
 
-// The time of cycle 0. Damaged files may hold any number, so the arithmetic is unsigned.
+// Time of cycle 0. A damaged file may hold any number, so the arithmetic is unsigned.
 std::uint64_t origin_of(std::int64_t time_ns, std::uint64_t cycle) {
   return static_cast<std::uint64_t>(time_ns) - cycle * static_cast<std::uint64_t>(kCyclePeriod_ns);
 }
@@ -77,7 +77,7 @@ std::optional<NewestCycles> find_newest_cycles(const LoggedCycles& log,
       try {
         (search.*look)(file);
       } catch (const std::exception&) {
-        // Of another build or damaged: not this trial's, as far as can be told.
+        // A file of another build or a damaged file: it cannot be shown to belong to this trial.
       }
     }
   };

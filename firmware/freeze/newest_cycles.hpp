@@ -13,9 +13,9 @@ struct NewestCycles {
   std::vector<FreezeCycle> cycles;  // oldest first
 };
 
-// The last cycles of the trial that this log is of, from a ring, a dump or a freeze frame in one of the
-// folders; of several the one that goes on longest. Same trial: the cycles of both lie on the same grid of
-// time, to the nanosecond.
+// Last cycles of the trial of this log, from a ring, a dump or a freeze frame in one of the folders. If
+// several match, the one that ends last is taken. A file matches if its cycles lie on the same time grid, to
+// the nanosecond.
 std::optional<NewestCycles> find_newest_cycles(const LoggedCycles& log,
                                                const std::vector<std::filesystem::path>& folders);
 

@@ -10,7 +10,8 @@
 namespace sandhopper {
 namespace {
 
-// Asked of the file system at once, so that it is asked seldom; given back when the file is closed.
+// Disk space is allocated in steps of this size, so that the file system is called seldom. close() frees the
+// rest.
 constexpr std::uint64_t kStep_bytes = 1 << 20;
 
 bool no_room(int error) { return error == ENOSPC || error == EDQUOT; }
@@ -59,8 +60,8 @@ void AppendFile::append(std::span<const std::byte> data) {
   size_ += data.size();
 }
 
-// 0, or why there is no room for `bytes` more and the reserve. Where the file system cannot tell, write(2)
-// will.
+// Returns 0, or the errno if there is no room for `bytes` more and the reserve. If the file system cannot
+// allocate, write(2) will report the error.
 int AppendFile::make_room(std::uint64_t bytes) noexcept {
   const std::uint64_t wanted = size_ + bytes + reserve_bytes_;
   if (!can_allocate_ || wanted <= allocated_) return 0;
@@ -78,7 +79,7 @@ int AppendFile::make_room(std::uint64_t bytes) noexcept {
   return ENOSPC;
 }
 
-// Also of a piece of which only a part was written, and of what is allocated behind the end.
+// Truncates to the complete pieces: removes a partly written piece and the space allocated behind the end.
 void AppendFile::take_back() noexcept {
   if (::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) allocated_ = size_;
   ::lseek(descriptor_, static_cast<off_t>(size_), SEEK_SET);

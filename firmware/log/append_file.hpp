@@ -8,11 +8,11 @@
 
 namespace sandhopper {
 
-// A new file that only grows, by whole pieces: what append() is given is in the file, or nothing of it is.
-// Behind its end it keeps `reserve_bytes` of the disk allocated where the file system can, so that on a full
-// disk there is room left to say what was lost, and to close. Refuses to overwrite. Throws std::system_error,
-// with the file's name and what to do. After a failed append the next may succeed, when there is room again.
-// An empty name stands for a log that is switched off: everything is taken and nothing is kept.
+// A new file that grows only by whole pieces: either all data of an append() is in the file or none of it. If
+// the file system can, it keeps `reserve_bytes` allocated behind the end. So on a full disk there is room to
+// note what was lost and to close. Refuses to overwrite. Throws std::system_error with the file's name and
+// what to do. After a failed append the next one may succeed, once there is room. An empty name means that
+// the log is switched off: data is accepted and discarded.
 class AppendFile {
  public:
   explicit AppendFile(const std::filesystem::path& file, std::uint64_t reserve_bytes = 0,
@@ -26,8 +26,8 @@ class AppendFile {
   void append(std::span<const std::byte> data);
   // From now on append() may use the reserve.
   void open_reserve() noexcept { reserve_bytes_ = 0; }
-  // fdatasync(2): 0, or errno when what was written may not be on the disk. A file system that cannot sync (a
-  // pipe, some network mounts) is no error.
+  // fdatasync(2). Returns 0, or errno if written data may not be on the disk. A file system that cannot sync
+  // (a pipe, some network mounts) is no error.
   [[nodiscard]] int sync() noexcept;
   void close();
 

@@ -66,7 +66,7 @@ void CanLog::begin_file(const std::filesystem::path& file) {
   writer_ = std::move(next);
 }
 
-// Nearly sorted already: the place is near the end.
+// The frames arrive nearly sorted, so the search from the end is short.
 void CanLog::hold(const CandumpFrame& frame, std::size_t interface) {
   newest_ns_ = std::max(newest_ns_, frame.time_ns);
   auto place = held_.end();

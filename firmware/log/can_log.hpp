@@ -12,29 +12,29 @@
 
 namespace sandhopper {
 
-// The CAN half of a trial's log: frames from any number of interfaces, each fed by one thread, into one
-// candump file in the order of their times. Frames come a little out of order (a reply is read a cycle after
-// the command that followed it): they are held for 50 ms of their own time and sorted, so neither the
-// threads' nor the logger's timing shows in the file.
+// CAN part of a trial's log: frames of any number of interfaces, each fed by one thread, go into one candump
+// file in the order of their times. Frames arrive slightly out of order (a reply is read a cycle after the
+// command that followed it). So they are held for 50 ms of their own time and sorted. The file does not
+// depend on the timing of the threads or the logger.
 class CanLog {
  public:
   CanLog(const std::filesystem::path& file, std::int64_t realtime_offset_ns, std::size_t slots,
          FileCalls calls = FileCalls::of_the_system());
 
-  // Before the first frame. Returns the number for push().
+  // Call it before the first frame. Returns the number for push().
   std::size_t add_interface(std::string name);
 
-  // Wait-free, from one thread per interface; `frame.time_ns` is CLOCK_MONOTONIC. What does not fit is lost,
-  // counted, and noted in the file as a comment; so is what the disk does not take.
+  // Wait-free, from one thread per interface. `frame.time_ns` is CLOCK_MONOTONIC. Frames that do not fit or
+  // that the disk does not take are lost, counted, and noted in the file as a comment.
   void push(std::size_t interface, const CandumpFrame& frame) noexcept;
 
-  // The logger's thread from here on. begin_file and the constructor throw std::system_error.
+  // The following are called by the logger's thread. begin_file and the constructor throw std::system_error.
   void drain();
-  void begin_file(const std::filesystem::path& file);  // what is written from now on goes there
+  void begin_file(const std::filesystem::path& file);  // later frames go into this file
   void close();
-  const std::string& error() const { return error_; }  // the first
+  const std::string& error() const { return error_; }  // the first error
 
-  // Any thread: frames that did not fit, or that the disk did not take.
+  // Any thread. Frames that did not fit or that the disk did not take.
   std::uint64_t lost() const;
 
  private:

@@ -82,7 +82,7 @@ std::int64_t parse_time(std::string_view token) {
   if (place != end) {
     std::int64_t unit_ns = kNanoseconds;
     if (*place++ != '.') bad("not a time", token);
-    // Old asc2log writes a full second so (can-utils pull request 286).
+    // Old versions of asc2log write a full second like this (can-utils pull request 286).
     if (std::string_view(place, static_cast<std::size_t>(end - place)) == "1000000")
       return (seconds + 1) * kNanoseconds;
     for (; place != end; ++place) {

@@ -10,27 +10,28 @@
 
 #include "firmware/log/append_file.hpp"
 
-// CAN traffic as `candump -L` text, one line a frame, which canplayer, log2asc and every other CAN tool read:
+// CAN traffic as `candump -L` text, one line per frame. canplayer, log2asc and other CAN tools read it:
 //   (1700000000.123456) can0 00A#7FFF7FF0000007FF T
 // Three hexadecimal digits are a standard identifier, eight an extended one or, with bit 0x20000000, an error
 // frame; R in place of data is a remote request.
 namespace sandhopper {
 
-// refused: kept from being sent; a comment in the text, so that no tool takes it for traffic.
+// refused: not sent; written as a comment, so that no tool takes it for traffic.
 enum class CanDirection : std::uint8_t { unknown, received, sent, refused };
 
 struct CandumpFrame {
-  std::int64_t time_ns = 0;  // since 1970, or whatever zero the recording used
+  std::int64_t time_ns = 0;  // since 1970, or since the recording's own zero
   std::uint32_t id =
       0;  // with the flags of linux/can.h: 0x80000000 extended, 0x40000000 remote, 0x20000000 error
-  std::uint8_t length = 0;  // data bytes; of a remote request: those asked for
+  std::uint8_t length = 0;  // data bytes; for a remote request the number requested
   std::array<std::uint8_t, 8> data{};
   CanDirection direction = CanDirection::unknown;
 };
 
 struct CandumpFormat {
-  int decimals = 6;       // cut off, not rounded; or 9, which Debian 12's canplayer refuses
-  bool direction = true;  // R or T at the line's end, where known
+  int decimals = 6;       // fractions are truncated; 9 digits are possible, but Debian 12's canplayer refuses
+                          // them
+  bool direction = true;  // R or T at the end of the line, if known
 };
 
 // The line without its end.
@@ -43,40 +44,40 @@ class CandumpError : public std::runtime_error {
 
 struct CandumpLine {
   CandumpFrame frame;
-  std::string_view interface;  // part of the text given
+  std::string_view interface;  // part of the given text
 };
 
-// Empty for a line that does not begin with '(' (blank, a comment), which every CAN tool passes over. Tokens
-// after the frame are ignored but for R and T. Throws CandumpError on anything else, CAN FD and CAN XL among
-// it.
+// Empty for a line that does not begin with '(' (blank, a comment); every CAN tool skips such lines. Tokens
+// after the frame are ignored except R and T. Throws CandumpError on anything else, including CAN FD and CAN
+// XL.
 std::optional<CandumpLine> parse_candump(std::string_view line);
 
-// The number in CandumpWriter's comment "# 12 frames lost: why"; 0 of any other line.
+// Number in CandumpWriter's comment "# 12 frames lost: why"; 0 for any other line.
 std::uint64_t frames_lost_in(std::string_view line);
 
 struct CandumpDisk {
-  bool keep_going = false;          // drop what cannot be written
-  std::uint64_t reserve_bytes = 0;  // kept for the last comment
+  bool keep_going = false;          // drop frames that cannot be written
+  std::uint64_t reserve_bytes = 0;  // reserved for the last comment
   FileCalls calls = FileCalls::of_the_system();
 };
 
-// Appends to a new file. Throws std::system_error; with `keep_going`, frames that cannot be written are
-// dropped instead, and a comment with their number stands in their place as soon as there is room again.
+// Appends to a new file. Throws std::system_error. With `keep_going`, frames that cannot be written are
+// dropped instead; a comment with their number follows in their place as soon as there is room.
 class CandumpWriter {
  public:
   explicit CandumpWriter(const std::filesystem::path& file, CandumpFormat format = {},
                          const CandumpDisk& disk = {});
   void write(const CandumpFrame& frame, std::string_view interface);
-  void comment(std::string_view text);  // a line that CAN tools pass over
-  // A comment that `frames` are missing here, and why.
+  void comment(std::string_view text);  // a line that CAN tools skip
+  // A comment that `frames` are missing here, with the reason.
   void comment_lost(std::uint64_t frames, std::string_view why);
-  void flush();                        // hands what is buffered to the system
+  void flush();                        // writes the buffer to the file
   int sync() { return file_.sync(); }  // fdatasync(2), see AppendFile
   void close();
 
   const std::filesystem::path& path() const { return file_.path(); }
-  std::uint64_t lost() const { return lost_; }         // frames the disk did not take
-  const std::string& error() const { return error_; }  // of the last flush; empty when it succeeded
+  std::uint64_t lost() const { return lost_; }         // frames that the disk did not take
+  const std::string& error() const { return error_; }  // error of the last flush; empty if it succeeded
 
  private:
   AppendFile file_;
@@ -84,8 +85,8 @@ class CandumpWriter {
   bool keep_going_;
   std::string buffer_;
   std::uint64_t frames_in_buffer_ = 0;
-  std::uint64_t said_in_buffer_ = 0;  // lost frames that comments in the buffer speak of
-  std::uint64_t unsaid_ = 0;          // lost, and no comment in the file says so
+  std::uint64_t said_in_buffer_ = 0;  // lost frames that comments in the buffer report
+  std::uint64_t unsaid_ = 0;          // lost frames that no comment in the file reports yet
   std::uint64_t lost_ = 0;
   std::string error_;
 };

@@ -11,7 +11,7 @@
 namespace sandhopper {
 namespace {
 
-// A line as the writer makes it: a frame, or text that CAN tools pass over. A CR before the end is no harm.
+// A line as the writer makes it: a frame, or text that CAN tools skip. A CR before the end is accepted.
 bool is_sound(std::string_view line, LogRecovery& result) {
   if (line.find('\0') != std::string_view::npos) return false;
   if (const std::uint64_t lost = frames_lost_in(line); lost > 0) {

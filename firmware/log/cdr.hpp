@@ -10,11 +10,11 @@
 
 #include "config/fields.hpp"
 
-// Common Data Representation, plain (XCDR version 1) and little-endian, as ROS 2 puts it on the wire and into
-// bags (OMG DDSI-RTPS 2.5, section 10; OMG DDS-XTypes 1.3, section 7.4.1): four bytes {0, 1, 0, 0}, then each
-// field at a multiple of its own size counted from behind those four. Records hold no strings and no
-// sequences, so the size of an encoded record is a compile-time constant. Gaps are written as zeros: equal
-// records give equal bytes. Nothing here allocates or throws.
+// Common Data Representation, plain (XCDR version 1) and little-endian, as ROS 2 uses it in messages and bags
+// (OMG DDSI-RTPS 2.5, section 10; OMG DDS-XTypes 1.3, section 7.4.1): four bytes {0, 1, 0, 0}, then each
+// field at a multiple of its own size, counted from behind these four bytes. Records have no strings and no
+// sequences, so the size of an encoded record is a compile-time constant. Padding is zero, so equal records
+// give equal bytes. Nothing here allocates or throws.
 namespace sandhopper::cdr {
 
 static_assert(std::endian::native == std::endian::little, "records are copied, not byte-swapped");
@@ -105,7 +105,7 @@ struct Decoder {
 
 }  // namespace detail
 
-// Bytes of an encoded record, the four of the header included.
+// Bytes of an encoded record, including the four bytes of the header.
 template <HasFields Record>
 consteval std::size_t size_of() {
   detail::Sizer sizer;
@@ -122,7 +122,7 @@ void encode(const Record& record, std::byte* out) noexcept {
   Record::fields(record, encoder);
 }
 
-// False, and `record` untouched, when `bytes` is not a little-endian record of just this size.
+// Returns false and leaves `record` unchanged if `bytes` is not a little-endian record of exactly this size.
 template <HasFields Record>
 [[nodiscard]] bool decode(std::span<const std::byte> bytes, Record& record) noexcept {
   if (bytes.size() != size_of<Record>()) return false;

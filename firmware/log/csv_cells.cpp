@@ -20,7 +20,7 @@ std::optional<double> plain_number(std::string_view digits) {
   return value;
 }
 
-// True for "1,234,567": one to three digits that are not 0, then groups of three.
+// True for "1,234,567": one to three digits, not beginning with 0, then groups of three.
 bool has_groups(std::string_view whole, char mark) {
   auto at = whole.find(mark);
   const std::string_view first = whole.substr(0, at);
@@ -34,11 +34,11 @@ bool has_groups(std::string_view whole, char mark) {
   return true;
 }
 
-// A mark between digits that no locale uses for decimals: no-break, narrow and thin spaces. One byte here.
+// Group separator that no locale uses as a decimal mark: no-break, narrow and thin spaces become this byte.
 constexpr char kGroup = '\x01';
 
-// Minus signs, apostrophes and spaces beyond ASCII as the characters that are read; the exponent of Fortran
-// (1.5D-03) as E; a number that a spreadsheet was told to leave alone (="0.5", '0.5) without its guard.
+// Replaces minus signs, apostrophes and spaces beyond ASCII by the usual characters and Fortran's exponent
+// (1.5D-03) by E. Removes the quoting by which a spreadsheet keeps a number as text (="0.5", '0.5).
 std::string plainly_written(std::string_view text) {
   struct Sign {
     std::string_view written;
@@ -122,7 +122,7 @@ class TimeReader {
   std::string_view rest_;
 };
 
-// "Sep" in 13-Sep-2023: 9.
+// Number of the month, e.g. 9 for "Sep" in 13-Sep-2023.
 std::optional<int> month_named_in(TimeReader& in) {
   constexpr std::array<std::string_view, 12> kMonths{"JAN", "FEB", "MAR", "APR", "MAY", "JUN",
                                                      "JUL", "AUG", "SEP", "OCT", "NOV", "DEC"};
@@ -133,7 +133,7 @@ std::optional<int> month_named_in(TimeReader& in) {
 
 struct Days {
   double since_1970 = 0.0;
-  bool is_ambiguous = false;  // 03/04/2023: a number each that may be the month
+  bool is_ambiguous = false;  // 03/04/2023: both numbers may be the month
 };
 
 std::optional<Days> days_in(TimeReader& in, bool day_first) {
@@ -162,7 +162,8 @@ std::optional<Days> days_in(TimeReader& in, bool day_first) {
   return Days{static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count()), ambiguous};
 }
 
-// Behind a colon stand whole ms, us or ns; fewer digits are unclear: 18:5 may be 5 ms or half a second.
+// After a colon come whole ms, us or ns (3, 6 or 9 digits). Other lengths are unclear: 18:5 may be 5 ms or
+// half a second.
 struct Fraction {
   double s = 0.0;
   bool is_unclear = false;
@@ -207,7 +208,7 @@ std::optional<TimeOfDay> time_of_day_in(TimeReader& in) {
   return TimeOfDay{seconds, two_parts && !morning && !evening, unclear};
 }
 
-// "Z", "+02:00", "-0500"; empty where nothing is stated.
+// Reads "Z", "+02:00" or "-0500" [s]; empty if no offset is stated.
 std::optional<double> offset_from_utc(TimeReader& in) {
   in.blanks();
   if (in.at_end() || in.word("Z") || in.word("UTC")) return 0.0;
@@ -278,13 +279,13 @@ std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
 }
 
 bool is_no_sample(std::string_view text) {
-  // The last ones are what Microsoft's C library prints for a NaN.
+  // The last words are those of Microsoft's C library for NaN.
   constexpr std::array<std::string_view, 22> kWords{
       "nan",     "na",     "n/a",     "#n/a",     "#nv",       "#value!", "#div/0!", "#wert!",
       "null",    "none",   "nil",     "#num!",    "#ref!",     "missing", "invalid", "-nan",
       "1.#qnan", "1.#ind", "-1.#ind", "nan(ind)", "-nan(ind)", "1.#snan"};
   if (text.empty()) return true;
-  // "-", "--.---", ".": a display without a value; "#####": a spreadsheet's column that was too narrow.
+  // "-", "--.---", ".": a display without a value; "#####": a spreadsheet column that is too narrow.
   if (text.find_first_not_of("-.") == std::string_view::npos ||
       text.find_first_not_of('#') == std::string_view::npos)
     return true;
@@ -336,7 +337,7 @@ std::optional<CellTime> time_in_cell(std::string_view text, bool day_first) {
   return time;
 }
 
-// Control characters as '?': a terminal obeys them.
+// Shows control characters as '?', because a terminal would execute them.
 std::string printable_cell(std::string_view text) {
   std::string out(text);
   for (char& c : out)

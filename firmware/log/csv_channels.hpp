@@ -5,17 +5,17 @@
 
 #include "firmware/log/topics.hpp"
 
-// Which field of which topic each column of a trial's CSV holds.
+// Maps each column of a trial's CSV to a field of a topic.
 namespace sandhopper {
 
-// What makes a cell empty although the record is there.
+// Condition for filling a cell; without it the cell is empty although the record exists.
 enum class CsvCell : std::uint8_t {
   always,
   fresh,    // `guard` is true
-  good,     // likewise, and the field `status` beside it is 0
-  served,   // likewise, and the cycle estimates: idle or in a fault it leaves its last value standing
-  changed,  // `guard` differs from the row before
-  phase     // not a number of its own: the state's name decides
+  good,     // `guard` is true and the field `status` beside the value is 0
+  served,   // `guard` is true and the estimator runs; in idle and fault states the value is old
+  changed,  // `guard` differs from the previous row
+  phase     // a number derived from the name of the state
 };
 
 struct CsvChannel {
@@ -81,10 +81,10 @@ inline constexpr std::array kCsvChannels{
 
 inline constexpr std::array<std::string_view, 2> kCsvUnservedStates{"STATE_IDLE", "STATE_FAULT"};
 
-// Value of `phase` by the state's constant in the schema.
+// The index of the state's constant in this list is the value of `phase`.
 inline constexpr std::array<std::string_view, 3> kCsvPhases{"STATE_FLIGHT", "STATE_COMPRESSION",
                                                             "STATE_EXTENSION"};
-// The same by name, as `hop export` writes them.
+// Names of the phases in the same order, as `hop export` can write them.
 inline constexpr std::array<std::string_view, 3> kCsvPhaseNames{"flight", "compression", "extension"};
 
 }  // namespace sandhopper

@@ -21,7 +21,7 @@ void append_number(std::string& line, double value) {
   line.append(text.data(), end);
 }
 
-// Seconds with nanoseconds, exact, without idle zeros.
+// Appends the time in seconds, exact to the nanosecond, without trailing zeros.
 void append_seconds(std::string& line, std::int64_t time_ns) {
   if (time_ns < 0) line += '-';
   const std::uint64_t size_ns =
@@ -32,13 +32,13 @@ void append_seconds(std::string& line, std::int64_t time_ns) {
   if (!fraction.empty()) line += '.' + fraction;
 }
 
-// One topic's newest message, and where its fields are.
+// Newest message of one topic and the layout of its fields.
 struct Source {
   explicit Source(std::string_view name) : topic(name) {}
   std::string topic;
   const mcap::Channel* channel = nullptr;
   std::optional<RecordLayout> layout;
-  mcap::Bytes message;  // empty: none in this row
+  mcap::Bytes message;  // empty: no message in this row
 
   void open(const mcap::Reader& log) {
     channel = log.find(topic);
@@ -56,7 +56,7 @@ struct ExportCell {
   const RecordLayout::Field* state = nullptr;
   std::optional<std::int64_t> last{};
 
-  // Empty when there is nothing to write.
+  // Empty if the cell stays empty.
   std::optional<double> value() {
     if (source->message.empty()) return std::nullopt;
     if (channel->when == CsvCell::phase) return phase();
@@ -133,7 +133,7 @@ class Exporter {
     ExportCell cell;
     cell.channel = &channel;
     cell.source = source_of(channel.topic);
-    if (!cell.source->layout) return;  // no such topic in this log: no such column
+    if (!cell.source->layout) return;  // if the log lacks the topic the column is left out
     cell.field = cell.source->layout->find(channel.path);
     if (cell.field == nullptr) return;
     if (!channel.guard.empty()) {

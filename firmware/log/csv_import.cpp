@@ -112,7 +112,7 @@ class Reading {
     return true;
   }
 
-  // Texts of the present line's cells.
+  // Texts of the cells of the present line.
   std::vector<std::string> texts() {
     std::string mark;
     std::vector<std::string> out;
@@ -145,7 +145,7 @@ class Reading {
 
   void read_row() {
     split();
-    // Some programs end every row with a separator, and not the header.
+    // Some programs end every row, but not the header, with a separator.
     if (cells_.size() == place_of_cell_.size() + 1 && cells_.back().text.empty()) cells_.pop_back();
     if (cells_.size() == place_of_cell_.size() + 1 && table_.layout.rows_are_counted)
       cells_.erase(cells_.begin());
@@ -212,7 +212,7 @@ class Reading {
     return nullptr;
   }
 
-  // [format] no_sample: the same text, or the same number (-999 and -999.0).
+  // True for a word of [format] no_sample: the same text or the same number (-999 and -999.0).
   bool is_silent(std::string_view text, std::optional<double> value) const {
     return std::ranges::any_of(options_.format.no_sample, [&](const std::string& word) {
       return text == word || (value && number_in_cell(word, {}) == value);
@@ -244,7 +244,7 @@ class Reading {
                shown + "follows on another day, and either of its numbers may be the month");
       day_ = day;
     }
-    // A date of its own column already counts the midnights.
+    // If the date has its own column it already counts the days.
     return options_.second_time_column.empty() ? times_.seconds(time) : time.s;
   }
 
@@ -274,7 +274,7 @@ class Reading {
     return true;
   }
 
-  // Rows whose time goes back are told one by one, or as what they are together.
+  // Rows whose time goes back are reported one by one, or together if they have a common cause.
   void explain_back_steps() {
     const auto kind = times_.back_steps();
     if (kind == CsvRowTimes::BackSteps::slips) return;
@@ -292,7 +292,8 @@ class Reading {
     table_.issues.push_back(std::move(issue));
   }
 
-  // A file whose last line has no end and whose last cell is shorter than in every other row was cut there.
+  // If the last line has no line end and its last cell is shorter than in every other row, the file was cut
+  // there.
   void leave_out_cut_row() {
     constexpr std::size_t kFewestRows = 10;
     const bool is_last = !table_.lines.empty() && table_.lines.back() == line_number_;
@@ -372,12 +373,12 @@ class Reading {
   std::string line_;
   std::uint64_t line_number_ = 0;
   std::vector<TableCell> cells_;
-  std::vector<std::optional<std::size_t>> place_of_cell_;  // in the table; none: not used
+  std::vector<std::optional<std::size_t>> place_of_cell_;  // index in the table; none: column not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
   CsvRowTimes times_;
-  std::optional<double> day_{};  // of the last date whose month may be its other number
-  // Characters in the last cell of the newest row, and of all rows before it the fewest.
+  std::optional<double> day_{};  // last date whose day and month may be swapped
+  // Length of the last cell in the newest row, in the row before it, and the shortest of all earlier rows.
   std::size_t last_cell_ = 0, previous_cell_ = 0, shortest_cell_ = SIZE_MAX;
 };
 

@@ -3,7 +3,7 @@
 
 #include "firmware/log/csv_import.hpp"
 
-// Texts for a table's faults, and a table's own look-ups.
+// Texts of a table's faults, and the look-up functions of CsvTable.
 namespace sandhopper {
 
 std::string_view cure_for(CsvFault fault) {

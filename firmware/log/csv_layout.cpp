@@ -14,9 +14,9 @@ struct Division {
   NumberStyle numbers;
 };
 
-constexpr std::size_t kEnoughRows = 60;  // show how a table is written
+constexpr std::size_t kEnoughRows = 60;  // number of rows that suffices to detect the layout
 
-// In the order of preference: where two read equally many numbers the first counts.
+// In the order of preference: if two read equally many numbers the first one wins.
 std::vector<Division> divisions(const CsvFormat& stated, std::optional<char> declared) {
   constexpr std::array kSeparators{',', ';', '\t', ' ', '|'};
   constexpr std::array<NumberStyle, 6> kStyles{NumberStyle{'.', '\0'}, NumberStyle{',', '\0'},
@@ -62,7 +62,7 @@ LineShape shape_of(std::string_view line, const Division& division, std::vector<
   return shape;
 }
 
-// The table as one division shows it.
+// Result of reading the table with one division.
 struct Seen {
   Division division{};
   std::size_t first_row = 0;  // index of the line
@@ -70,7 +70,7 @@ struct Seen {
   double score = 0.0;
 };
 
-// True where the next lines that hold cells, three at most, hold numbers.
+// True if each of the next lines with cells, up to three, holds numbers.
 bool numbers_follow(const std::vector<LineShape>& shapes, std::size_t row) {
   std::size_t seen = 0;
   for (std::size_t i = row + 1; i < shapes.size() && seen < 3; ++i) {
@@ -81,7 +81,8 @@ bool numbers_follow(const std::vector<LineShape>& shapes, std::size_t row) {
   return seen > 0;
 }
 
-// Lines of one number of cells that hold numbers; the number of cells that most of them have counts.
+// Scores the lines that hold numbers, grouped by their number of cells. The group with the highest score is
+// the table.
 Seen look(const Lines& lines, const Division& division) {
   std::vector<TableCell> cells;
   std::map<std::size_t, double> score;
@@ -94,7 +95,7 @@ Seen look(const Lines& lines, const Division& division) {
     if (!shape.is_row()) continue;
     ++rows;
     const double text = static_cast<double>(shape.cells - shape.numbers - shape.silent);
-    // One cell a line is a table only where no separator shows another.
+    // A line with one cell is a row only if no separator finds more cells.
     const double weight = shape.cells == 1 ? 0.1 : 1.0;
     score[shape.cells] += weight * (static_cast<double>(shape.numbers) - 0.5 * text);
   }
@@ -103,7 +104,8 @@ Seen look(const Lines& lines, const Division& division) {
     if (sum > seen.score) seen.score = sum, seen.cells = count;
   for (std::size_t i = 0; i < shapes.size() && seen.cells > 0; ++i) {
     if (!shapes[i].is_row() || shapes[i].cells != seen.cells) continue;
-    // A line of numbers among the names ("ID",1,1,2) is followed by lines that are no rows.
+    // A line of numbers among the names ("ID",1,1,2) is not followed by further rows of numbers: go on
+    // searching.
     if (seen.first_row == lines.size()) seen.first_row = i;
     if (!shapes[i].has_words() || numbers_follow(shapes, i)) {
       seen.first_row = i;
@@ -120,7 +122,7 @@ std::optional<char> declared_separator(const Lines& lines) {
   return line.back();
 }
 
-// A division under which nearly every line is a row of numbers alone needs no rival.
+// If nearly every line is a row of numbers with comma and decimal point, no other division is tried.
 bool is_plain(const Seen& seen, const Division& division, std::size_t lines) {
   const std::size_t rows = std::min(lines > 0 ? lines - 1 : 0, kEnoughRows);
   return division.separator == ',' && division.numbers == NumberStyle{} && seen.cells > 1 && rows > 2 &&
@@ -132,7 +134,8 @@ Seen best_division(const Lines& lines, const CsvFormat& stated, std::optional<ch
   best.first_row = lines.size();
   for (const auto& division : divisions(stated, declared)) {
     const auto seen = look(lines, division);
-    // Blanks divide only where nothing else does: a line may hold tabs, and blanks within its cells.
+    // Blanks need a clearly higher score than another separator: a line may hold tabs, and blanks within its
+    // cells.
     const double favour = division.separator == ' ' && best.cells > 1 ? 1.1 : 1.0;
     if (seen.score > favour * best.score) best = seen;
     if (is_plain(seen, division, lines.size())) break;
@@ -164,7 +167,8 @@ class Finder {
   }
 
  private:
-  // No row: the first line that is no remark names the columns, divided as in a file of this project.
+  // The table has no rows: the first line that is no remark names the columns, divided as in this project's
+  // files.
   CsvLayout without_numbers(std::optional<char> declared) {
     std::size_t at = declared ? 1 : 0;
     if (stated_.header_line && *stated_.header_line > 0) at = *stated_.header_line - 1;
@@ -184,7 +188,7 @@ class Finder {
     return std::move(out_);
   }
 
-  // Cells of a line above the rows, the mark of a remark left out.
+  // Cells of a line above the rows, without the mark of a remark.
   std::vector<std::string> cells_above(std::size_t i) const {
     std::string mark;
     std::vector<TableCell> cells;
@@ -195,7 +199,8 @@ class Finder {
     return texts;
   }
 
-  // As many cells as a row has (one less where rows end with a separator), none of them a number.
+  // True if the line has as many cells as a row (one less if rows end with a separator), and none is a
+  // number.
   bool may_name(std::size_t i) const {
     const auto cells = cells_above(i);
     const bool count = cells.size() == seen_.cells || cells.size() + 1 == seen_.cells ||
@@ -204,7 +209,7 @@ class Finder {
     return std::none_of(cells.begin(), cells.end(),
                         [&](const auto& cell) { return is_number_or_time(cell, out_.numbers); });
   }
-  // The name of a column for words, which rows may end before.
+  // True for the name of a column of remarks, which the rows may lack.
   static bool is_remarks(std::string name) {
     constexpr std::array<std::string_view, 8> kNames{"comment", "comments", "remark",    "remarks",
                                                      "note",    "notes",    "kommentar", "bemerkung"};
@@ -215,7 +220,7 @@ class Finder {
   static bool is_silent(const std::vector<std::string>& cells) {
     return std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return is_no_sample(cell); });
   }
-  // A row of units has them below most of the names, and not the names again.
+  // True if at least two thirds of the filled cells look like units.
   bool holds_units(std::size_t i) const {
     const auto cells = cells_above(i);
     const auto filled = std::count_if(cells.begin(), cells.end(), [](const auto& c) { return !c.empty(); });
@@ -224,7 +229,7 @@ class Finder {
     return units > 0 && 3 * units >= 2 * filled;
   }
 
-  // Lines above the rows that may name the columns, upwards.
+  // Lines above the rows that may name the columns, from below upwards.
   std::vector<std::size_t> lines_of_names() const {
     std::vector<std::size_t> rows;
     for (std::size_t i = seen_.first_row; i-- > 0 && rows.size() < 3;) {
@@ -237,7 +242,7 @@ class Finder {
     return rows;
   }
 
-  // A sketch that prints "Time, Force" and then rows with tabs: the line above is divided in another way.
+  // A program may print "Time, Force" and then rows with tabs. Then the names have another separator.
   std::vector<std::size_t> lines_divided_otherwise() {
     for (const char other : {',', ';', '\t', '|'}) {
       if (other == out_.separator) continue;
@@ -248,7 +253,7 @@ class Finder {
     return {};
   }
 
-  // "|---|---|" between names and rows.
+  // True for a rule such as "|---|---|" between names and rows.
   bool is_rule(std::size_t i) const {
     return lines_[i].find('-') != std::string::npos && is_silent(cells_above(i));
   }
@@ -258,8 +263,8 @@ class Finder {
     return std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
   }
 
-  // The nearest line above the rows that is divided as they are, into other numbers of cells, and holds
-  // words.
+  // Finds the nearest line above the rows that is neither blank, remark nor row, and stores its number of
+  // cells.
   void find_misfit() {
     std::vector<TableCell> cells;
     for (std::size_t i = seen_.first_row; i-- > 0;) {
@@ -280,7 +285,7 @@ class Finder {
     out_.header_separator = out_.separator;
   }
 
-  // R writes the number of a row in front of it and no name above it.
+  // R writes the row's number as an additional first cell, without a name above it.
   void find_extra_cells(std::size_t header) {
     const std::size_t names = header < lines_.size() ? cells_above(header).size() : 0;
     out_.has_unused_names = names == seen_.cells + 1;
@@ -299,7 +304,7 @@ class Finder {
     out_.header_line = 0;
     auto rows = lines_of_names();
     if (rows.empty() && seen_.cells > 1 && !stated_.header_line) rows = lines_divided_otherwise();
-    // Below the names may stand what was done to each value, which only some of them have.
+    // A line below the names may describe the processing of some columns only. Skip such a line with gaps.
     while (rows.size() > 1 && has_gaps(rows[0]) && !has_gaps(rows[1])) rows.erase(rows.begin());
     if (rows.empty()) find_misfit();
     std::size_t header = lines_.size();

@@ -8,23 +8,24 @@
 #include "firmware/log/csv_cells.hpp"
 #include "firmware/log/csv_text.hpp"
 
-// The way to read the lines of a table: stated by its owner, or found by looking at its first lines.
+// Layout of a table: stated by its owner, or detected from its first lines.
 namespace sandhopper {
 
-// Statements of the owner, [format] of campaign.toml; the rest is found.
+// Statements of the owner in [format] of campaign.toml. The rest is detected.
 struct CsvFormat {
   std::optional<TextEncoding> encoding{};
   std::optional<char> separator{};
   std::optional<char> decimal{};
   std::optional<char> thousands{};             // '\0': none
-  std::optional<std::uint64_t> header_line{};  // from 1; 0: the columns have no names but `names`
+  std::optional<std::uint64_t> header_line{};  // from 1; 0: the file has no names, see `names`
   std::optional<std::uint64_t> units_line{};   // 0: none
-  std::vector<std::string> names{};            // of the columns, where the file has none
-  std::vector<std::string> no_sample{};        // further words that say so
-  bool spread_times = false;            // rows that share a time came evenly: times with too few digits
+  std::vector<std::string> names{};            // names of the columns if the file has none
+  std::vector<std::string> no_sample{};        // further words that mean "no sample"
+  bool spread_times = false;            // rows with the same time are spread evenly: the times have too few
+                                        // digits
   std::optional<bool> day_first{};      // 03/04/2023 is 3 April; false: March 4
   std::optional<bool> minutes_first{};  // 12:30 is 12 min 30 s; false: half past twelve
-  double row_every_s = 0.0;  // the file has no time, a row comes every so many seconds; 0: not stated
+  double row_every_s = 0.0;             // period of the rows if the file has no time [s]; 0: not stated
 };
 
 struct CsvLayout {
@@ -34,39 +35,40 @@ struct CsvLayout {
   std::uint64_t header_line = 1;  // 0: none
   std::uint64_t units_line = 0;   // 0: none
   std::uint64_t first_row_line = 2;
-  std::string header_mark{};      // in front of the names: "#"
-  char header_separator = ',';    // of the names; nearly always `separator`
-  std::size_t row_cells = 0;      // that most rows have
-  bool rows_are_counted = false;  // each begins with its number, which has no name (R)
-  std::uint64_t misfit_line = 0;  // nearest line above the rows that may name other numbers of columns …
-  std::size_t misfit_cells = 0;   // … and its cells; 0: the names were found
-  bool has_unused_names = false;  // the last name is that of remarks, and rows end before it (LabVIEW)
-  bool is_ambiguous = false;      // 1,234 may be 1234 or 1.234, and nothing in the file tells
+  std::string header_mark{};      // mark before the names, such as "#"
+  char header_separator = ',';    // separator of the names; nearly always `separator`
+  std::size_t row_cells = 0;      // number of cells that most rows have
+  bool rows_are_counted = false;  // each row begins with its number, which has no name (R)
+  std::uint64_t misfit_line = 0;  // nearest line above the rows that may hold the names, but with another
+                                  // number of cells
+  std::size_t misfit_cells = 0;   // number of its cells; 0: the names were found
+  bool has_unused_names = false;  // the last name is that of a remarks column, which the rows lack (LabVIEW)
+  bool is_ambiguous = false;      // 1,234 may be 1234 or 1.234, and nothing in the file decides
   std::string ambiguous_cell{};
-  // Unusual things about the file, told to its owner: "its names stand in line 3; lines 1 to 2 are passed
+  // Messages to the owner about unusual properties: "its names stand in line 3; lines 1 to 2 are passed
   // over".
   std::vector<std::string> said{};
 };
 
-// The table is the longest run of lines with equally many cells, most of them numbers; its names stand in the
-// nearest line above with as many cells that are no numbers, units in the line between. A line that states
-// `sep=;` is obeyed. Of several ways to divide the lines the one with most numbers counts.
+// The table is the longest run of lines with equally many cells, most of them numbers. Its names are in the
+// nearest line above with as many cells that are no numbers; units may be in the line between. A line `sep=;`
+// sets the separator. Of several possible separators the one that gives most numbers is used.
 CsvLayout find_layout(const std::deque<std::string>& first_lines, TextEncoding encoding,
                       const CsvFormat& stated);
 
-// Cells of the line of the names. Where blanks divide, "Load (N)" is one name if that gives `wanted` of them.
+// Cells of the line of names. If blanks separate, "Load (N)" is one name if that gives `wanted` names.
 void split_names(std::string_view line, char separator, std::size_t wanted, std::vector<TableCell>& cells);
 
-// A cell that may be read in two ways where no other cell decides: 1,234 between semicolons, with three
-// digits behind every comma; 1.001 beside 3,5. Empty where there is none.
+// A cell that can be read in two ways if no other cell decides: 1,234 between semicolons with three digits
+// after every comma, or 1.001 beside 3,5. Empty if there is none.
 std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t first_row,
                               const CsvLayout& layout);
 
-// A line that holds no cells: blank, or a remark ("#", "%", "//") behind the header.
+// True for a line without cells: blank, or a remark ("#", "%", "//") after the header.
 bool is_remark(std::string_view line);
 // The line without the remark's mark and the blanks around it.
 std::string_view without_mark(std::string_view line, std::string& mark);
-// "m", "[mm]", "(deg)", "N·m", "-": what a row of units holds in a cell.
+// True for the content of a unit cell: "m", "[mm]", "(deg)", "N·m", "-".
 bool looks_like_unit(std::string_view text);
 
 }  // namespace sandhopper

@@ -3,7 +3,7 @@
 
 #include "firmware/log/csv_layout.hpp"
 
-// One line of a table: its names, its remarks, its units.
+// Functions for one line of a table: its names, remarks and units.
 namespace sandhopper {
 
 void split_names(std::string_view line, char separator, std::size_t wanted, std::vector<TableCell>& cells) {
@@ -61,7 +61,7 @@ bool looks_like_unit(std::string_view text) {
   return text == "ft" || text == "degC" || text == "count" || text == "counts" || text == "rev" ||
          text == "U/min" || text == "seconds" || text == "raw" || text == "degrees" || text == "newton" ||
          text == "meter" || text == "TS" ||
-         text == "RN";  // a logger's time stamp and record number (Campbell, TOA5)
+         text == "RN";  // time stamp and record number of a logger (Campbell, TOA5)
 }
 
 namespace {
@@ -78,7 +78,8 @@ void for_each_cell(const std::deque<std::string>& lines, std::size_t first_row, 
   }
 }
 
-// 1.001 beside 3,5 and no number like 1.234,5: a column with decimal points beside one with decimal commas?
+// An example if there are 1.001 and 3,5 but no number like 1.234,5: some columns may have decimal points and
+// others decimal commas.
 std::string written_in_two_ways(const std::deque<std::string>& lines, std::size_t first_row,
                                 const CsvLayout& layout) {
   const auto style = layout.numbers;
@@ -91,7 +92,7 @@ std::string written_in_two_ways(const std::deque<std::string>& lines, std::size_
     const bool decimal = text.find(style.decimal) != std::string_view::npos;
     has_decimals = has_decimals || decimal;
     if (grouped && example.empty()) example = text;
-    if (grouped && decimal) example.clear(), has_decimals = false;  // this cell decides
+    if (grouped && decimal) example.clear(), has_decimals = false;  // this cell shows both marks and decides
     return !(grouped && decimal);
   });
   return has_decimals ? example : "";
@@ -112,7 +113,7 @@ std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t 
     const auto a = number_in_cell(text, style), b = number_in_cell(text, other);
     if (a && !b) example.clear();
     if (a && b && example.empty() && *a != *b) example = text;
-    return !a || b;  // a cell that can be read in one way decides
+    return !a || b;  // a cell that can be read in only one way decides
   });
   return example;
 }

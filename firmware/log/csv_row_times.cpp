@@ -6,9 +6,9 @@ namespace sandhopper {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-constexpr double kCounter = 4294967296.0;  // values of 32 bits
+constexpr double kCounter = 4294967296.0;  // number of values of 32 bits
 
-// micros() and millis() of an Arduino count in 32 bits.
+// micros() and millis() of an Arduino are 32-bit counters and overflow.
 bool is_full_counter(double last, double now) {
   const bool whole = last == std::floor(last) && now == std::floor(now);
   return whole && last < kCounter && now >= 0.0 && last - now > 0.9 * kCounter;

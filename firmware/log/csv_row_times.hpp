@@ -6,36 +6,36 @@
 
 #include "firmware/log/csv_cells.hpp"
 
-// The times of a table's rows, in the order of the file.
+// Times of a table's rows, in the order of the file.
 namespace sandhopper {
 
 class CsvRowTimes {
  public:
-  // A time of day goes on beyond midnight. With a date it is as it is.
+  // Time [s]. A time of day continues beyond midnight; a time with a date is returned unchanged.
   double seconds(const CellTime& time);
 
-  // A row's time beside those that were kept before it. `went_on`: a counter of 32 bits of a
-  // microcontroller began again at 0, and `time` is put behind the last one.
+  // Compares a row's time with that of the last kept row. `went_on`: a microcontroller's 32-bit counter
+  // overflowed and `time` was increased accordingly.
   enum class Order : std::uint8_t { grows, went_on, stands, back };
   Order take(double& time, std::uint64_t line);
   double last() const { return last_; }
 
-  // The rows whose time goes back, as a whole: a few slips, several recordings one below the other (the time
-  // begins again, and then grows), or a table upside down.
+  // Common cause of the rows whose time goes back: a few single slips, several recordings one below the other
+  // (the time starts again and then grows), or a table in reverse order.
   enum class BackSteps : std::uint8_t { slips, several_recordings, upside_down };
   BackSteps back_steps() const;
   std::string recordings() const;  // "lines 2 to 41, 43 to 82"
-  // The other cause of a step back: a clock that was set, by an hour at the end of summer time.
+  // Text of another possible cause: a clock that was set back, e.g. by an hour at the end of summer time.
   std::string clock_set_back() const;
 
  private:
   double midnights_s_ = 0.0;
   std::optional<double> last_of_day_s_{};
-  double wraps_ = 0.0;  // full counters
+  double wraps_ = 0.0;  // sum of the counter's overflows
   bool has_last_ = false;
-  double last_ = 0.0;        // of the rows that were kept
-  double previous_ = 0.0;    // of the row before, kept or not
-  double first_step_ = 0.0;  // back
+  double last_ = 0.0;        // time of the last kept row
+  double previous_ = 0.0;    // time of the previous row, kept or not
+  double first_step_ = 0.0;  // size of the first step back
   std::uint64_t rows_ = 0, left_out_ = 0;
   struct Recording {
     std::uint64_t first_line, last_line;

@@ -13,8 +13,8 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::size_t kLookedAt = 1 << 16;  // bytes
-constexpr std::size_t kMostBreaks = 8;      // lines that the names of a table may be spread over
+constexpr std::size_t kLookedAt = 1 << 16;  // bytes read to detect the format
+constexpr std::size_t kMostBreaks = 8;      // most lines over which the names of a table may be spread
 
 constexpr std::string_view kSaveAsCsv =
     "open it in the program that wrote it and save it as CSV UTF-8 (Excel: File, Save as, \"CSV UTF-8\"), "
@@ -49,8 +49,8 @@ constexpr std::array kMagic{
     Magic{"%PDF"sv, {"a PDF", "export the table itself as CSV"}},
     Magic{"\x89MCAP0\r\n"sv, {"an MCAP log", "give it the ending .mcap"}}};
 
-// Characters 0x80 to 0x9F of Windows-1252; the rest are those of Latin-1. Source: WHATWG Encoding Standard,
-// index windows-1252.
+// Characters 0x80 to 0x9F of Windows-1252; the others equal Latin-1. Source: WHATWG Encoding Standard, index
+// windows-1252.
 constexpr std::array<char32_t, 32> kWindows{0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                             0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
                                             0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
@@ -77,7 +77,7 @@ void append_utf8(std::string& out, char32_t c) {
 
 unsigned byte_at(std::string_view bytes, std::size_t i) { return static_cast<unsigned char>(bytes[i]); }
 
-// Bytes of the character that begins with `first`; 0: no character begins so.
+// Number of bytes of the UTF-8 character that begins with `first`; 0 if none does.
 std::size_t length_of_character(unsigned first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first < 0xE0) return 2;
@@ -97,7 +97,8 @@ bool is_utf8(std::string_view bytes) {
   return true;
 }
 
-// "t:0.1,F:2.3" or "t=0.1 F=2.3": the name before every value. Empty where the line is not written so.
+// Names of a line such as "t:0.1,F:2.3" or "t=0.1 F=2.3", with the name before every value. Empty for another
+// line.
 std::vector<std::string> labels_in(std::string_view line) {
   std::vector<std::string> labels;
   const auto is_part_of_name = [](char c) {
@@ -168,7 +169,7 @@ TextEncoding encoding_of(std::string_view bytes) {
   std::array<std::size_t, 2> zeros{};
   for (std::size_t i = 0; i < bytes.size(); ++i)
     if (bytes[i] == '\0') ++zeros[i % 2];
-  // Digits and separators of UTF-16 have one byte 0 each: nearly half of all bytes, all on one side.
+  // In UTF-16 digits and separators have one zero byte each, always on the same side.
   if (zeros[1] * 3 > bytes.size() && zeros[0] * 10 < zeros[1]) return TextEncoding::utf16_le;
   if (zeros[0] * 3 > bytes.size() && zeros[1] * 10 < zeros[0]) return TextEncoding::utf16_be;
   return is_utf8(bytes) ? TextEncoding::utf8 : TextEncoding::windows_1252;
@@ -212,8 +213,8 @@ TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
   join_broken_names();
 }
 
-// A line break within quotes: "Load<line break>(N)" in the names of a spreadsheet. The cells are put into the
-// first of the lines, and the others are left empty, so that lines keep their numbers.
+// Joins names with a line break within quotes ("Load<line break>(N)" of a spreadsheet). The cells go into the
+// first of the lines; the others become empty, so that the lines keep their numbers.
 void TextLines::join_broken_names() {
   const auto is_open = [](const std::string& text) {
     return std::count(text.begin(), text.end(), '"') % 2 == 1;
@@ -224,7 +225,7 @@ void TextLines::join_broken_names() {
     std::size_t last = i;
     const std::size_t most = std::min(ahead_.size() - 1, i + kMostBreaks);
     while (last < most && is_open(joined)) joined += ' ' + ahead_[++last];
-    if (is_open(joined)) continue;  // an inch sign, or a quote that is never closed
+    if (is_open(joined)) continue;  // an inch sign, or a quote without an end
     ahead_[i] = joined;
     for (std::size_t k = i + 1; k <= last; ++k) ahead_[k].clear();
     i = last;
@@ -246,7 +247,7 @@ bool TextLines::raw_line(std::string& line) {
     at_ = stop == std::string::npos ? held_.size() : stop + 1;
     last_is_ended_ = stop != std::string::npos;
     if (stop != std::string::npos || !in_) return true;
-    std::string rest;  // the line goes on behind what was looked at
+    std::string rest;  // the line continues after the bytes already read
     if (std::getline(in_, rest, end)) line += rest, last_is_ended_ = !in_.eof();
     return true;
   }
@@ -259,7 +260,7 @@ bool TextLines::raw_line(std::string& line) {
 bool TextLines::read(std::string& line) {
   if (!raw_line(line)) return false;
   while (line.ends_with('\r')) line.pop_back();
-  // A card that was allocated beforehand ends in zeros.
+  // A file whose space was allocated beforehand (SD card) ends in zeros.
   if (encoding_ == TextEncoding::utf8 || encoding_ == TextEncoding::windows_1252) std::erase(line, '\0');
   const auto has_high_byte = [&] {
     return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; });

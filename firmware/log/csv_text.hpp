@@ -9,7 +9,7 @@
 
 #include "config/fields.hpp"
 
-// The text of a recording that another program wrote, line by line in UTF-8.
+// Text of a recording of another program, line by line, converted to UTF-8.
 namespace sandhopper {
 
 enum class TextEncoding : std::uint8_t { utf8, utf16_le, utf16_be, windows_1252 };
@@ -18,29 +18,30 @@ struct EnumNames<TextEncoding> {
   static constexpr std::array<std::string_view, 4> value{"utf-8", "utf-16", "utf-16-be", "windows-1252"};
 };
 
-// A file that holds no text at all: "an Excel file (.xlsx)", and how to make a table of it.
+// A file that is not text, such as "an Excel file (.xlsx)", and the way to make a table of it.
 struct BinaryFormat {
   std::string_view name;
   std::string_view cure;
 };
-// The name of a binary format, from the first bytes of the file (magic numbers of the formats'
-// specifications); empty for a text.
+// Binary format recognised from the file's first bytes (magic numbers in the formats' specifications). Empty
+// for a text.
 std::optional<BinaryFormat> binary_format_of(std::string_view first_bytes);
 
-// A text that is no table, by its first line that is not empty: a page, JSON, a name before every value.
+// A text that is no table, recognised from its first non-empty line: a web page, JSON, or names before every
+// value.
 struct OtherText {
   std::string name;
   std::string cure;
 };
 std::optional<OtherText> other_text_of(std::string_view line);
 
-// UTF-16 by its byte order mark or by every second byte being 0, Windows-1252 where the bytes are no UTF-8,
-// else UTF-8. The last character may be cut.
+// UTF-16 if there is a byte order mark or every second byte is 0, Windows-1252 if the bytes are not valid
+// UTF-8, otherwise UTF-8. The last character may be incomplete.
 TextEncoding encoding_of(std::string_view bytes);
 std::string utf8_from(std::string_view bytes, TextEncoding encoding);
 
-// Lines of a stream without their line ends (\n, \r\n or \r) and without a byte order mark, in UTF-8. The
-// first `kAhead` lines can be looked at before they are taken.
+// Lines of a stream in UTF-8, without line ends (\n, \r\n or \r) and without a byte order mark. The first
+// `kAhead` lines can be read in advance.
 class TextLines {
  public:
   static constexpr std::size_t kAhead = 400;
@@ -49,9 +50,9 @@ class TextLines {
 
   TextEncoding encoding() const { return encoding_; }
   const std::deque<std::string>& ahead() const { return ahead_; }
-  std::string_view first_bytes() const { return first_bytes_; }  // as they stand in the file
+  std::string_view first_bytes() const { return first_bytes_; }  // unchanged bytes of the file
   bool next(std::string& line);                                  // false at the end
-  bool last_is_ended() const { return last_is_ended_; }          // the last line that was read has its end
+  bool last_is_ended() const { return last_is_ended_; }          // true if the last line read has a line end
 
  private:
   bool read(std::string& line);
@@ -60,7 +61,7 @@ class TextLines {
 
   std::istream& in_;
   TextEncoding encoding_;
-  std::string held_;  // bytes that were read to look at them, or the whole of a UTF-16 text
+  std::string held_;  // bytes read in advance, or the whole of a UTF-16 text
   std::size_t at_ = 0;
   std::string first_bytes_;
   std::deque<std::string> ahead_;

@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// Counts what is missing between the frames of a log by their cycle numbers. A number that does not grow (a
-// damaged log) is passed over.
+// Counts missing frames of a log by their cycle numbers. A number that does not increase (damaged log) is
+// skipped.
 class CycleCount {
  public:
   void see(const SensorFrame& frame, LogRecovery& result) {
@@ -27,7 +27,7 @@ class CycleCount {
     result.cycles->last_ns = frame.time_ns;
     overruns_ = frame.overruns;
   }
-  // Cycles that ran between the last frame seen, of number `last_cycle`, and this later one.
+  // Number of cycles that ran between the last frame seen, with number `last_cycle`, and this later one.
   std::uint64_t missing_until(const SensorFrame& later, std::uint64_t last_cycle) const {
     const std::uint64_t jump = later.cycle - last_cycle - 1;
     const std::uint64_t overruns = later.overruns - overruns_;

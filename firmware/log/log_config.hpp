@@ -9,13 +9,13 @@
 
 namespace sandhopper {
 
-// How hopperd divides a long log, what that log may take of the disk, and where the freeze frames of faults
-// go (firmware/freeze). Megabytes are 10^6 bytes.
+// Division of a long log into files, its disk quota, and the folder of the freeze frames (firmware/freeze).
+// Megabytes are 10^6 bytes.
 struct LogConfig {
-  int segment_MB = 200;  // a new file is begun when one holds this much; 0: one file
-  int quota_MB = 4000;   // the oldest files of this log go when all together would hold more; 0: none goes
+  int segment_MB = 200;  // a new file begins when one reaches this size; 0: one file
+  int quota_MB = 4000;   // beyond this sum the oldest files of this log are removed; 0: none is removed
   std::string freeze_folder{};  // empty: the state folder of the service or of the user
-  int freeze_files = 20;        // the newest so many are kept; one frame has about 4 MB
+  int freeze_files = 20;        // number of newest frames that are kept; one has about 4 MB
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -25,7 +25,7 @@ struct LogConfig {
     visit("freeze_files", self.freeze_files, Range{1, 10000});
   }
 
-  // Only whole files go, and neither the one being written nor the one before it: two must fit.
+  // Only whole files are removed, and neither the present nor the previous one. So two files must fit.
   template <class Report>
   void check(Report&& report) const {
     if (quota_MB == 0) return;

@@ -6,8 +6,8 @@
 
 namespace sandhopper {
 
-// Head of a log, in front of its records: configuration and other texts as attachments, build and board
-// as metadata. A freeze frame of the same trial carries the same.
+// Data in front of a log's records: configuration and other texts as attachments, build and board as
+// metadata. A freeze frame of the same trial has the same.
 struct LogDescription {
   struct Attachment {
     std::string name;

@@ -11,30 +11,32 @@
 
 namespace sandhopper {
 
-// Cycles of a log, by the cycle counter in /frame.
+// Cycles of a log, determined from the cycle counter in /frame.
 struct LoggedCycles {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
-  std::int64_t first_ns = 0;  // the cycles' own times, CLOCK_MONOTONIC
+  std::int64_t first_ns = 0;  // time stamps of these cycles, CLOCK_MONOTONIC
   std::int64_t last_ns = 0;
-  std::uint64_t missing_inside = 0;  // between first and last; skipped ones are not among them
-  std::uint64_t skipped = 0;         // grid points that the cycle did not run in: its overruns
-  std::uint64_t restored = 0;        // after `last`, from the freeze ring; they are in the copy
-  // After `last`, and not restored. 0 of a log that was closed; nothing when nobody knows.
+  std::uint64_t missing_inside = 0;  // cycles missing between first and last, without skipped ones
+  std::uint64_t skipped = 0;         // grid points without a cycle: overruns
+  std::uint64_t restored = 0;        // cycles after `last` that were restored from the freeze ring into the
+                                     // copy
+  // Cycles after `last` that were not restored. 0 for a log that was closed; empty if unknown.
   std::optional<std::uint64_t> missing_at_end;
 };
 
-// What is in a log and what is missing from it.
+// Content of a log and the parts that are missing.
 struct LogRecovery {
-  bool whole = false;  // closed in order and undamaged: nothing to do, no file is made
+  bool whole = false;  // closed in order and undamaged: no copy is made
   std::uint64_t file_bytes = 0;
   std::uint64_t unreadable_bytes = 0;  // damage and the torn end
 
   struct Topic {
     std::uint64_t saved = 0;
-    std::uint64_t lost = 0;  // by the jumps in the messages' own numbers; what the end took is not among them
+    std::uint64_t lost = 0;  // gaps in the messages' sequence numbers; messages lost at the end are not
+                             // included
   };
-  std::map<std::string, Topic> topics;  // of CAN text: one for each interface
+  std::map<std::string, Topic> topics;  // for CAN text one per interface
   std::int64_t first_ns = 0;            // log times of the first and last message saved
   std::int64_t last_ns = 0;
 
@@ -44,38 +46,38 @@ struct LogRecovery {
     std::string what;
   };
   std::vector<Damage> damage;
-  std::optional<std::uint64_t> cut_at;  // the log ends without its end; what followed is not known
-  std::uint64_t gaps = 0;               // that the log itself records, and the records missing in them
+  std::optional<std::uint64_t> cut_at;  // the log has no regular end; later content is unknown
+  std::uint64_t gaps = 0;               // number of gaps that the log records, and of records missing in them
   std::uint64_t lost_in_gaps = 0;
 
-  // Nothing where the log has no cycles of this build.
+  // Empty if the log has no cycles with this build's schema.
   std::optional<LoggedCycles> cycles;
 
-  // All that is missing is counted in lost(): the log was closed, or its end was restored.
+  // True if lost() counts everything that is missing: the log was closed, or its end was restored.
   bool end_is_known() const { return !cut_at || (cycles && cycles->missing_at_end); }
 
   std::uint64_t saved() const;
-  std::uint64_t lost() const;  // without the gaps' own
+  std::uint64_t lost() const;  // without lost_in_gaps
 };
 
-// Writes all that can be read of an MCAP log, cut or damaged anywhere, into a new, closed one; `from` stays
-// as it is. Messages are those of chunks whose CRC is right, and the whole ones of a chunk that is cut. In
-// place of what is missing stands a LogGap with cause `damaged`, and metadata "recovery" tells what was done.
-// When damage hides where records begin, the next chunk with a right CRC is searched for. A log of other
+// Writes everything readable of an MCAP log, cut or damaged anywhere, into a new, closed file; `from` is not
+// changed. Readable messages are those of chunks with a correct CRC and the whole ones of a cut chunk. A
+// LogGap with cause `damaged` replaces what is missing, and metadata "recovery" describes the recovery. If
+// damage hides the begin of the records, the next chunk with a correct CRC is searched for. A log with other
 // encodings than this firmware's is refused.
 //
-// `newest` are the last cycles that ran in this trial, oldest first, from its freeze ring
-// (find_newest_cycles()): those that a cut log lacks at its end are written to the copy, too.
+// `newest` are the last cycles of this trial, oldest first, from its freeze ring (find_newest_cycles()).
+// Those that a cut log lacks at its end are also written to the copy.
 //
-// Throws mcap::Error when `from` is no such log or nothing can be read of it, std::system_error when a file
-// cannot be opened or written; an existing `to` is not overwritten.
+// Throws mcap::Error if `from` is no such log or nothing in it can be read, and std::system_error if a file
+// cannot be opened or written. An existing `to` is not overwritten.
 LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to,
                          std::span<const FreezeCycle> newest = {});
-// Only looks. Throws as recover_mcap does.
+// Only inspects. Throws as recover_mcap does.
 LogRecovery look_at_mcap(const std::filesystem::path& from);
 
-// The same for CAN traffic as candump text: lines that are no frame, a torn last line among them, are left
-// out. Throws CandumpError when there is no frame in it.
+// Recovery of CAN traffic in candump text: lines that are no frame, including a torn last line, are left out.
+// Throws CandumpError if it contains no frame.
 LogRecovery recover_candump(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace sandhopper

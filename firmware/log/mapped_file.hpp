@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// A file mapped for reading front to back; its pages are the system's to drop. Throws std::system_error.
+// A file mapped for sequential reading; the kernel may drop its pages. Throws std::system_error.
 class MappedFile {
  public:
   MappedFile() = default;

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-// What writer and reader share of the MCAP container format, version 0 (mcap.dev/spec): a magic, then records
-// of {opcode: 1 byte, length: 8 bytes, content}, then the magic again. Integers are little-endian; a string
-// is its length in 4 bytes and its characters.
+// Common parts of writer and reader of the MCAP container format, version 0 (mcap.dev/spec): a magic, then
+// records of {opcode: 1 byte, length: 8 bytes, content}, then the magic again. Integers are little-endian. A
+// string is its length in 4 bytes followed by its characters.
 namespace sandhopper::mcap {
 
 static_assert(std::endian::native == std::endian::little, "integers are copied, not byte-swapped");
@@ -54,7 +54,7 @@ inline std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Length of the content of the record at `offset`; its head must lie in `file`.
+// Content length of the record at `offset`; the record's head must lie within `file`.
 inline std::uint64_t length_at(Bytes file, std::uint64_t offset) {
   std::uint64_t length = 0;
   std::memcpy(&length, file.data() + offset + 1, sizeof length);
@@ -64,7 +64,7 @@ inline std::uint64_t length_at(Bytes file, std::uint64_t offset) {
 // zlib's CRC-32 (polynomial 0xEDB88320 reflected), continued from `crc`; 0 to start.
 std::uint32_t crc32(std::uint32_t crc, Bytes bytes);
 
-// Grows at its end.
+// Byte buffer that grows at its end.
 class Buffer {
  public:
   std::vector<std::byte> bytes;
@@ -94,7 +94,7 @@ class Buffer {
     return bytes.data() + start;
   }
 
-  // A record is opened, filled and closed; closing writes its length.
+  // open_record() begins a record and returns the start of its content; close_record() writes its length.
   std::size_t open_record(Op op) {
     put(op);
     put(std::uint64_t{0});
@@ -103,7 +103,7 @@ class Buffer {
   void close_record(std::size_t content) {
     put_at(content - sizeof(std::uint64_t), static_cast<std::uint64_t>(size() - content));
   }
-  // A map or array is preceded by its length in bytes.
+  // A map or array is preceded by its length in bytes: open_list() reserves it, close_list() writes it.
   std::size_t open_list() {
     put(std::uint32_t{0});
     return size();
@@ -113,7 +113,7 @@ class Buffer {
   }
 };
 
-// Reads on; `ok` turns false, and stays so, at the first read beyond the end.
+// Reads sequentially. `ok` becomes false at the first read beyond the end and stays false.
 class Cursor {
  public:
   explicit Cursor(Bytes data) : data_(data) {}

@@ -10,7 +10,7 @@
 namespace sandhopper::mcap {
 namespace {
 
-// Other recordings that are taken for MCAP, by their first bytes.
+// Other recording formats that are mistaken for MCAP, by their first bytes.
 struct OtherFormat {
   std::string_view begins;
   const char* what;
@@ -106,7 +106,7 @@ Reader::Step Reader::take_record(Record& record) {
   return Step::end;
 }
 
-// Chunks are entered, not returned.
+// Next record outside chunks. It enters a chunk instead of returning it.
 Reader::Step Reader::take_outer(Record& record) {
   const std::uint64_t rest = file_.size() - position_;
   if (rest < kRecordHead || file_[position_] == std::byte{0}) return cut_at(position_);
@@ -141,7 +141,7 @@ void Reader::enter_chunk(Bytes content, std::uint64_t offset, std::uint64_t leng
   const std::string_view compression = in.take_text();
   const auto records = in.take<std::uint64_t>();
   if (!in.ok && content.size() < length) {
-    cut_at(offset);  // within a head made longer by the compression's name
+    cut_at(offset);  // the cut is within a head that the compression's name made longer
     return;
   }
   if (!in.ok) fail(offset, "a chunk without a head; the file is damaged");
@@ -158,8 +158,8 @@ void Reader::enter_chunk(Bytes content, std::uint64_t offset, std::uint64_t leng
   if (present == 0 && !chunk_is_cut_) inner_end_ = 0;
 }
 
-// A wrong CRC at the very end of a log that was never closed is a cut too: a file system may have kept the
-// length of the last write and not its content.
+// A wrong CRC at the very end of a log that was never closed also counts as a cut: a file system may have
+// kept the length of the last write without its content.
 bool Reader::chunk_is_sound(Bytes records, std::uint32_t crc, std::uint64_t offset, std::uint64_t end) {
   if (!options_.check_crc || crc == 0 || crc32(0, records) == crc) return true;
   const Bytes after = file_.subspan(end);
@@ -179,7 +179,7 @@ Reader::Step Reader::cut_at(std::uint64_t offset) {
 }
 
 void Reader::keep(const Record& record) {
-  if (in_summary_) return;  // repeats what the data section said
+  if (in_summary_) return;  // the summary repeats the data section
   Cursor in(record.content);
   switch (record.op) {
     case Op::header:

@@ -30,16 +30,16 @@ struct Channel {
   std::uint16_t number = 0;
   std::string topic;
   std::string message_encoding;
-  Schema schema;  // empty when the file gives none
+  Schema schema;  // empty if the file contains none
 };
 
-// Views into the file; valid as long as the reader.
+// Members refer to the file and stay valid as long as the reader.
 struct Message {
   const Channel* channel = nullptr;
   std::uint32_t sequence = 0;
   Stamp stamp;
   Bytes data;
-  std::uint64_t offset = 0;  // of the message's record in the file
+  std::uint64_t offset = 0;  // position of the message's record in the file
 };
 
 struct Attachment {
@@ -56,25 +56,25 @@ struct Metadata {
 
 struct ReaderOptions {
   bool check_crc = true;
-  bool skip_damaged = false;  // pass over a chunk whose CRC is wrong instead of throwing
+  bool skip_damaged = false;  // skip a chunk with a wrong CRC instead of throwing
 };
 
-// Reads an MCAP file front to back, as written, without its summary: a file cut at any byte gives every whole
-// record before the cut, whole messages of a cut chunk included, and then says where it ends (truncated_at).
-// The file is mapped, not loaded; one with compressed chunks is unpacked into memory, and bytes then count in
-// the unpacked file (mcap_unpack.hpp). Unknown records are passed over. Throws Error, with file and byte, on
-// damage that is not a cut; std::system_error when the file cannot be opened. The file must not shrink while
-// it is read.
+// Reads an MCAP file sequentially, without its summary. A file cut at any byte gives every whole record
+// before the cut, including whole messages of a cut chunk; then truncated_at() gives its end. The file is
+// mapped, not loaded. A file with compressed chunks is unpacked into memory, and offsets then refer to the
+// unpacked file (mcap_unpack.hpp). Unknown records are skipped. Throws Error, with file and byte, on damage
+// that is not a cut, and std::system_error if the file cannot be opened. The file must not shrink while it is
+// read.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file, ReaderOptions options = {});
-  // A file already in memory, which must outlive the reader; `name` is for messages.
+  // A file already in memory, which must outlive the reader; `name` is used in messages.
   Reader(Bytes data, std::string name, ReaderOptions options = {});
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  // False at the end. Schemas, channels, attachments and metadata met on the way are kept; those written in
-  // front of the first message are there from the start.
+  // Returns false at the end. Schemas, channels, attachments and metadata are kept when they are read; those
+  // before the first message are available from the start.
   [[nodiscard]] bool next(Message& message);
 
   const std::string& profile() const { return profile_; }
@@ -85,9 +85,9 @@ class Reader {
   const std::vector<Metadata>& metadata() const { return metadata_; }
   std::uint64_t file_bytes() const { return file_bytes_; }
 
-  // After next() said false: where the last whole record ends, if the file does not end as a closed log does.
+  // After next() returned false: end of the last whole record, if the file does not end like a closed log.
   std::optional<std::uint64_t> truncated_at() const { return truncated_at_; }
-  // Places of chunks passed over because of skip_damaged.
+  // Positions of the chunks that skip_damaged skipped.
   const std::vector<std::uint64_t>& damaged_chunks() const { return damaged_chunks_; }
 
  private:
@@ -123,7 +123,7 @@ class Reader {
   std::uint64_t inner_ = 0;      // next record in the chunk
   std::uint64_t inner_end_ = 0;  // 0: not in a chunk
   bool chunk_is_cut_ = false;
-  std::optional<Record> pending_;  // first message record, met while opening
+  std::optional<Record> pending_;  // first message record, read while opening
 
   std::string profile_;
   std::string library_;
@@ -136,7 +136,7 @@ class Reader {
   std::vector<std::uint64_t> damaged_chunks_;
 };
 
-// Throws Error naming the first difference when a channel's messages are not this build's `Record`.
+// Throws Error with the first difference if a channel's messages do not match this build's `Record`.
 void require_schema(const Channel& channel, const std::string& schema_name, const std::string& schema_text);
 template <HasFields Record>
 void require_schema(const Channel& channel) {

@@ -25,24 +25,25 @@ struct SavedChannel {
   mcap::Schema schema;
   std::uint16_t number_in_copy = 0;
   bool has_schema_of_gap = false;
-  bool has_schema_of_cycle = false;  // of the SensorFrame, StepOutput or Event that its topic should hold
+  bool has_schema_of_cycle = false;  // its schema is that of SensorFrame, StepOutput or Event, as its topic
+                                     // requires
 
-  // Of the last message met.
+  // State of the last message read.
   bool met = false;
   std::uint32_t sequence = 0;
   std::int64_t log_ns = 0;
-  std::int64_t own_ns = 0;      // its own time, which each record of this firmware begins with
-  std::size_t with_own_ns = 0;  // messages of that same time
+  std::int64_t own_ns = 0;      // its own time; each record of this firmware begins with it
+  std::size_t with_own_ns = 0;  // number of messages with this time
   std::uint64_t damage_before = 0;
   std::uint64_t gaps_before = 0;
 
   void forget() { met = false, own_ns = 0, with_own_ns = damage_before = gaps_before = 0; }
 };
 
-// Goes through the file, twice when there is something to write: first only to see what is there.
+// Goes through the file, a second time if a copy is written: the first pass only inspects.
 class Recovery {
  public:
-  // `file` outlives this.
+  // `file` must outlive this object.
   Recovery(Bytes file, std::string name)
       : unpacked_(mcap::unpack(file)), file_(unpacked_ ? Bytes(*unpacked_) : file), name_(std::move(name)) {}
 
@@ -73,7 +74,8 @@ class Recovery {
   }
 
  private:
-  // From anywhere: the summary at the end repeats what the front may have lost.
+  // Reads schemas and channels from everywhere: the summary at the end repeats those that damage in front may
+  // hide.
   void learn_channels() {
     mcap::Salvage salvage(file_);
     for (mcap::Salvage::Piece piece; salvage.next(piece);) {
@@ -156,7 +158,7 @@ class Recovery {
         save(piece.content, writer);
       } else if (piece.op == Op::data_end) {
         const auto crc = Cursor(piece.content).take<std::uint32_t>();
-        // A CRC of packed bytes is not looked at: each chunk has its own.
+        // For an unpacked file this CRC, which covers packed bytes, is not checked: each chunk has its own.
         data_is_right = crc == 0 || unpacked_ ||
                         crc == mcap::crc32(0, file_.first(static_cast<std::size_t>(piece.offset)));
         in_summary_ = true;
@@ -174,8 +176,8 @@ class Recovery {
     result_.whole = !result_.cut_at && result_.damage.empty() && data_is_right && result_.lost() == 0;
   }
 
-  // A message's number tells how many of its topic are missing before it. Where a gap record of the log
-  // stands between, those are the gap's.
+  // A message's sequence number shows how many messages of its topic are missing before it. If a gap record
+  // of the log lies between, that record already counts them.
   void save(Bytes content, mcap::Writer* writer) {
     Cursor in(content);
     const auto number = in.take<std::uint16_t>();
@@ -191,7 +193,7 @@ class Recovery {
     }
     SavedChannel& channel = found->second;
     note_gap(channel, in.rest());
-    // Other recorders begin to count where they like.
+    // Other recorders may start counting at any number.
     const bool begins_here = !channel.met && damage_seen_ == 0 && gaps_seen_ == 0;
     const std::uint32_t expected = channel.met ? channel.sequence + 1 : begins_here ? sequence : 0;
     const std::uint32_t missing = sequence - expected;
@@ -235,7 +237,7 @@ class Recovery {
 
   std::uint64_t restored() const { return result_.cycles ? result_.cycles->restored : 0; }
 
-  // What the cut log lacks of the newest cycles, in the order in which the logger would have written it.
+  // Writes the cycles that the cut log lacks, in the order in which the logger would have written them.
   void restore_end(mcap::Writer& writer, std::span<const FreezeCycle> newest) {
     if (newest.empty() || !result_.cut_at || !result_.cycles) return;
     const auto channel_of = [&](std::string_view topic) -> SavedChannel* {
@@ -266,7 +268,7 @@ class Recovery {
       const bool begun = channels[2]->own_ns == cycle.frame.time_ns;
       for (std::size_t i = begun ? channels[2]->with_own_ns : 0; i < events.size(); ++i) put(2, events[i]);
     }
-    // The ring's last cycle is the log's: nothing was missing.
+    // The last cycle in the ring is also in the log: nothing is missing.
     if (newest.back().frame.cycle == cycles.last) cycles.missing_at_end = 0;
   }
 
@@ -277,7 +279,7 @@ class Recovery {
     in.take<std::uint32_t>();  // CDR's head
     const auto own_ns = in.take<std::int64_t>();
     const std::int64_t time_ns = in.ok ? own_ns : stamp.log_ns;
-    // A damaged log may hold times that lie farther apart than can be said.
+    // In a damaged log the difference of two times may overflow.
     std::int64_t since_last_ns = 0, first_ns = time_ns;
     if (channel.met && (__builtin_sub_overflow(stamp.log_ns, channel.log_ns, &since_last_ns) ||
                         __builtin_sub_overflow(time_ns, since_last_ns, &first_ns)))
@@ -290,7 +292,7 @@ class Recovery {
                         .cause = LossCause::damaged});
   }
 
-  // A log of a version whose gap records were others gets a topic beside them.
+  // If the log's version has another gap record, a second topic is added for gaps.
   std::uint16_t channel_for_gaps(mcap::Writer& writer) const {
     bool taken = false;
     for (const auto& [number, channel] : channels_) {

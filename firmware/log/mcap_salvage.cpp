@@ -6,7 +6,7 @@ namespace sandhopper::mcap {
 namespace {
 
 struct ChunkHead {
-  std::uint64_t length = 0;  // of the record
+  std::uint64_t length = 0;  // of the whole record
   std::uint32_t crc = 0;
   bool lengths_agree = false;
 };
@@ -47,7 +47,7 @@ bool Salvage::next(Piece& piece) {
   return false;
 }
 
-// True: `piece` is one. False: something was passed over, or the end was reached.
+// True if `piece` is a sound record. False if damage was skipped or the end was reached.
 bool Salvage::take(Piece& piece) {
   const Bytes rest = file_.subspan(static_cast<std::size_t>(position_));
   if (std::all_of(rest.begin(), rest.end(), [](std::byte b) { return b == std::byte{0}; }))

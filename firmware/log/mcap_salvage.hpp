@@ -8,17 +8,17 @@
 
 namespace sandhopper::mcap {
 
-// Walks the records outside chunks of an MCAP file that may be cut or damaged anywhere: sound records are
-// given, what is not is passed over and noted. A chunk is sound when its lengths agree and its CRC-32 is
-// right (a CRC of 0 means there is none). Where damage hides how long a record is, the next sound chunk with
-// a CRC is searched for.
+// Iterates over the records outside chunks of an MCAP file that may be cut or damaged anywhere. Sound records
+// are returned, damage is skipped and noted. A chunk is sound if its lengths are consistent and its CRC-32 is
+// correct (a CRC of 0 means that there is none). If damage hides the length of a record, the next sound chunk
+// with a CRC is searched for.
 class Salvage {
  public:
   struct Piece {
     Op op{};
-    Bytes content;  // of a chunk: the records in it
+    Bytes content;  // for a chunk: the records in it
     std::uint64_t offset = 0;
-    bool is_cut = false;  // a chunk without its end; its records up to the cut
+    bool is_cut = false;  // a chunk without its end; `content` holds its records up to the cut
   };
   struct Damage {
     std::uint64_t from = 0;
@@ -30,9 +30,9 @@ class Salvage {
 
   [[nodiscard]] bool next(Piece& piece);
 
-  // After next() said false.
+  // Valid after next() returned false.
   const std::vector<Damage>& damage() const { return damage_; }
-  std::optional<std::uint64_t> cut_at() const { return cut_at_; }  // there is no end of an MCAP file
+  std::optional<std::uint64_t> cut_at() const { return cut_at_; }  // the file lacks the end of an MCAP file
 
  private:
   bool take(Piece& piece);

@@ -10,7 +10,7 @@
 namespace sandhopper::mcap {
 namespace {
 
-// Chunks of 0.8 to 4 MiB are usual; one that is said to be larger than this is damaged.
+// Chunks usually have 0.8 to 4 MiB; a larger stated size than this means damage.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
 constexpr std::size_t kStep = std::size_t{1} << 20;
 
@@ -42,7 +42,7 @@ bool is_packed(const Chunk& chunk) {
   return (chunk.compression == "zstd" || chunk.compression == "lz4") && chunk.unpacked <= kLargestChunk;
 }
 
-// Both unpackers append to `out` up to `most` bytes, and stop where the packed bytes end or are damaged.
+// Both functions append up to `most` bytes to `out`. They stop at the end of the packed bytes or at damage.
 void unpack_zstd(Bytes packed, std::uint64_t most, Buffer& out) {
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                           ZSTD_freeDStream);
@@ -76,7 +76,7 @@ void unpack_lz4(Bytes packed, std::uint64_t most, Buffer& out) {
   }
 }
 
-// False if the file ends within the chunk: nothing may follow it.
+// False if the file ends within the chunk; nothing may follow then.
 bool write_unpacked(const Chunk& chunk, Buffer& out) {
   const auto record = out.open_record(Op::chunk);
   out.put(chunk.first_ns);
@@ -91,7 +91,7 @@ bool write_unpacked(const Chunk& chunk, Buffer& out) {
                               : unpack_lz4(chunk.packed, chunk.unpacked, out);
   std::uint64_t length = chunk.unpacked;
   const std::uint64_t present = out.size() - start;
-  if (present < length && chunk.whole) {  // damaged: its CRC must not be right
+  if (present < length && chunk.whole) {  // damaged chunk: make sure that its CRC is wrong
     length = present;
     const auto crc = crc32(0, Bytes(out.bytes).subspan(start));
     out.put_at(head, length);
@@ -107,7 +107,7 @@ bool write_unpacked(const Chunk& chunk, Buffer& out) {
 std::optional<std::vector<std::byte>> unpack(Bytes file) {
   Buffer out;
   bool any = false;
-  std::uint64_t kept = 0;  // bytes of the file that `out` has
+  std::uint64_t kept = 0;  // bytes of the file already copied to `out`
   for (std::uint64_t at = kMagic.size(); at + kRecordHead <= file.size();) {
     const std::uint64_t length = length_at(file, at);
     const std::uint64_t rest = file.size() - at - kRecordHead;

@@ -7,10 +7,10 @@
 
 namespace sandhopper::mcap {
 
-// The same MCAP file with every chunk unpacked that is compressed with zstd or lz4 (the two that the format
-// knows), as other recorders write them; empty if none is. A chunk that the file's end cuts keeps the lengths
-// of the whole, so that a reader sees it cut there, too. One that is damaged is as long as what could be
-// unpacked, and its CRC is wrong. One that is compressed in another way stays as it is.
+// The same MCAP file with every chunk unpacked that another recorder compressed with zstd or lz4 (the two
+// methods of the format). Empty if no chunk is compressed. A chunk cut by the file's end keeps the lengths of
+// the whole chunk, so that a reader also sees the cut. A damaged chunk is as long as its readable part and
+// has a wrong CRC. A chunk with another compression is left as it is.
 std::optional<std::vector<std::byte>> unpack(Bytes file);
 
 }  // namespace sandhopper::mcap

@@ -10,14 +10,14 @@ namespace sandhopper::mcap {
 
 namespace {
 
-// Where a group of equal records lies in the summary.
+// Position of a group of equal records in the summary.
 struct Group {
   Op op;
   std::size_t start;
   std::size_t length;
 };
 
-// A recovered log's times may lie farther apart than can be said.
+// True if more than span_ns passed. In a recovered log the difference of two times may overflow.
 bool passed(std::int64_t from_ns, std::int64_t to_ns, std::int64_t span_ns) {
   std::int64_t since_ns = 0;
   return __builtin_sub_overflow(to_ns, from_ns, &since_ns) || since_ns >= span_ns;
@@ -129,7 +129,7 @@ void Writer::close_chunk() {
   front.put(chunk_high_ns_);
   front.put(records);
   front.put(crc32(0, Bytes(chunk_.bytes).subspan(head)));
-  front.put_text("");  // not compressed
+  front.put_text("");  // compression: none
   front.put(records);
   std::copy(front.bytes.begin(), front.bytes.end(), chunk_.bytes.begin());
   const std::uint64_t chunk_start = position_;
@@ -309,7 +309,7 @@ Buffer Writer::end_of_file(bool with_summary) const {
   return out;
 }
 
-// Summary and footer; the summary begins at `start` of the file, where `out` ends now.
+// Appends summary and footer. The summary begins at `start` of the file, which is the present end of `out`.
 void Writer::put_summary(Buffer& out, std::uint64_t start) const {
   const std::size_t before = out.size();
   std::vector<Group> groups;

@@ -51,7 +51,7 @@ T value_at(mcap::Bytes message, std::size_t offset) {
 
 }  // namespace
 
-// One field of one definition, as written.
+// One field of a definition in the schema text.
 struct RecordLayout::Line {
   std::string type;
   std::optional<std::size_t> count;  // of an array
@@ -66,7 +66,7 @@ struct RecordLayout::Definition {
 
 namespace {
 
-// "type[3] name=value  # true_name": what is in front of the comment, and the comment.
+// Splits "type[3] name=value  # true_name" into the part before the comment and the comment.
 struct Parts {
   std::string type;
   std::string rest;
@@ -110,7 +110,7 @@ RecordLayout::RecordLayout(const mcap::Channel& channel) : topic_(channel.topic)
       const char* const end = parts.rest.data() + parts.rest.size();
       if (std::from_chars(parts.rest.data() + equals + 1, end, value).ec != std::errc{} ||
           value != constants.size())
-        continue;  // a constant, but not an enum's next
+        continue;  // a constant that does not belong to an enum
       constants.push_back(parts.rest.substr(0, equals));
       continue;
     }

@@ -8,9 +8,9 @@
 
 namespace sandhopper {
 
-// Where each number of a topic's messages lies, worked out from the schema in the log itself: reads logs of
-// other versions, and records of which this program knows nothing but the name of a field. Numbers of fixed
-// size, nested records and fixed arrays of both; strings and sequences are refused.
+// Byte position of each number in a topic's messages, derived from the schema in the log itself. So it reads
+// logs of other versions and records of which this program knows only field names. Supports numbers of fixed
+// size, nested records and fixed arrays of both; refuses strings and sequences.
 class RecordLayout {
  public:
   enum class Kind : std::uint8_t { boolean, signed_integer, unsigned_integer, real };
@@ -19,17 +19,18 @@ class RecordLayout {
     std::string path;  // true names: "motor.0.current_A"
     Kind kind = Kind::real;
     std::uint8_t bytes = 0;
-    std::size_t offset = 0;              // from the message's first byte, encapsulation header included
-    std::vector<std::string> constants;  // of an enum, upper case, prefix included: "STATE_IDLE", …; by value
+    std::size_t offset = 0;              // from the message's first byte, including the encapsulation header
+    std::vector<std::string> constants;  // of an enum, indexed by value, in upper case with prefix:
+                                         // "STATE_IDLE", …
   };
 
-  // Throws mcap::Error naming the line that is not understood.
+  // Throws mcap::Error with the line that cannot be parsed.
   explicit RecordLayout(const mcap::Channel& channel);
 
   const std::vector<Field>& fields() const { return fields_; }
-  const Field* find(std::string_view path) const;  // null when there is none
+  const Field* find(std::string_view path) const;  // null if there is none
 
-  // Throw mcap::Error when the message is too short for the field.
+  // Throw mcap::Error if the message is too short for the field.
   static double number(mcap::Bytes message, const Field& field);
   static std::int64_t integer(mcap::Bytes message, const Field& field);
 

@@ -9,16 +9,15 @@
 
 #include "config/fields.hpp"
 
-// The `ros2msg` definition of a record, made from its `fields`: one line a field, a nested record's
-// definition after a line of 80 '=' and "MSG: package/Name". An enum's values are constants named after its
-// field, in front of it. ROS 2 allows lower case only in field names, so a name such as current_A becomes
-// current_a and the true one, unit and all, follows as a comment; the encoded bytes hold no names. Not for
-// the cycle.
+// `ros2msg` definition of a record, made from its `fields`: one line per field. A nested record's definition
+// follows after a line of 80 '=' and "MSG: package/Name". An enum's values are constants named after its
+// field, before it. ROS 2 allows only lower case in field names. So current_A becomes current_a, and its true
+// name with the unit follows as a comment. The encoded bytes contain no names. Not for the cycle.
 namespace sandhopper::schema {
 
 inline constexpr std::string_view kPackage = "sandhopper_msgs";
 
-// A type's own name without namespaces.
+// A type's name without namespaces.
 template <class T>
 constexpr std::string_view type_name() {
   std::string_view text = __PRETTY_FUNCTION__;  // "… [with T = sandhopper::Event; …]", clang: "… [T = …]"
@@ -28,7 +27,7 @@ constexpr std::string_view type_name() {
   return text;
 }
 
-// "sandhopper_msgs/msg/Event", the name under which a log's schema is stored.
+// Name of a log's schema, such as "sandhopper_msgs/msg/Event".
 template <HasFields Record>
 std::string message_name() {
   return std::string(kPackage) + "/msg/" + std::string(type_name<Record>());
@@ -74,7 +73,7 @@ inline std::string lower_case(std::string_view name) {
   return text;
 }
 
-// Definitions of one record's nested types, in the order in which they are first met.
+// Collects the definitions of a record's nested types, in the order of their first use.
 struct Writer {
   std::string own;
   std::string nested;

@@ -9,9 +9,9 @@
 namespace sandhopper {
 namespace {
 
-// Of the disk, kept for the last gap record, what is attached at the end, and the summary.
+// Disk space kept for the last gap record, attachments at the end, and the summary.
 constexpr std::uint64_t kReserve_bytes = 262'144;
-// After a new file could not be made, so much more is written to the old one before the next try.
+// If a new file cannot be created, this much more is written to the old one before the next try.
 constexpr std::uint64_t kRetry_bytes = 4'194'304;
 
 }  // namespace
@@ -57,7 +57,7 @@ void SegmentedLog::add_metadata(std::string_view name, const std::map<std::strin
   description_.metadata.emplace_back(name, entries);
 }
 
-// A file of its own begins with what the first one begins with.
+// Each further file begins with the same schemas, attachments and metadata as the first one.
 void SegmentedLog::describe(mcap::Writer& writer, std::uint32_t number) const {
   for (const Topic& topic : topics_) topic.add(writer, topic.name);
   for (const auto& a : description_.attachments)
@@ -77,7 +77,7 @@ mcap::Writer& SegmentedLog::writer_at(std::int64_t time_ns) {
   return *writer_;
 }
 
-// Learns what became of the last chunk closed.
+// Checks whether the last closed chunk was written.
 void SegmentedLog::settle() {
   if (writer_->chunks_closed() == chunks_settled_) return;
   chunks_settled_ = writer_->chunks_closed();
@@ -109,8 +109,8 @@ void SegmentedLog::merge(const mcap::Loss& loss) {
   }
 }
 
-// The first thing in a chunk. While the disk takes nothing, each chunk is a try, and its gap record is lost
-// with it.
+// Written as the first record of a chunk. While the disk accepts nothing every chunk is a retry, and its gap
+// record is lost with it.
 void SegmentedLog::write_pending(std::int64_t time_ns) {
   is_pending_ = false;
   pending_.time_ns = time_ns;
@@ -161,7 +161,7 @@ void SegmentedLog::end_segment() {
   older_.back().bytes = writer_->bytes() + (bytes_beside ? bytes_beside(writer_->path()) : 0);
 }
 
-// Called when a file is full: room for the next one is made beforehand.
+// Called when a file is full, so that there is room for the next one.
 std::vector<LogGap> SegmentedLog::keep_quota(std::int64_t time_ns) {
   std::vector<LogGap> removed;
   if (options_.limits.quota_bytes == 0) return removed;

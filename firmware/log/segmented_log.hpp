@@ -14,18 +14,18 @@
 
 namespace sandhopper {
 
-// How a long log is divided, and what it may take of the disk.
+// Division of a long log into files, and its disk quota.
 struct SegmentLimits {
-  std::uint64_t segment_bytes = 0;  // a new file is begun when this much is in one; 0: one file
-  std::uint64_t quota_bytes = 0;  // the oldest files of this log go when all together hold more; 0: none goes
+  std::uint64_t segment_bytes = 0;  // a new file begins when one reaches this size; 0: one file
+  std::uint64_t quota_bytes = 0;    // beyond this sum the oldest files of this log are removed; 0: none
 };
 
-// The MCAP files of one log, written so that the log survives its disk. trial.mcap, then trial.part0002.mcap,
-// …: each is whole in itself, with schemas, attachments and metadata.
+// The MCAP files of one log, written so that disk errors do not end the log. Files: trial.mcap, then
+// trial.part0002.mcap, …; each is complete, with schemas, attachments and metadata.
 //
-// What the disk does not take is counted, and a LogGap stands in the log in its place as soon as there is
-// room again, at the latest when the log is closed, for which room is kept from the start. Only a disk that
-// takes nothing more at all leaves no gap record: then error() and lost() say it.
+// Records that the disk does not accept are counted. A LogGap replaces them in the log as soon as there is
+// room, at the latest when the log is closed; space for it is reserved from the start. If the disk accepts
+// nothing at all there is no gap record; then error() and lost() report it.
 //
 // Order of calls: add_topic, attach, add_metadata (these throw std::system_error); write …; finish; attach,
 // close.
@@ -35,11 +35,11 @@ class SegmentedLog {
 
   struct Options {
     std::filesystem::path file;
-    std::int64_t offset_ns = 0;   // log time less a record's own time
-    std::int64_t created_ns = 0;  // log time of what is attached
+    std::int64_t offset_ns = 0;   // log time minus a record's own time
+    std::int64_t created_ns = 0;  // log time of the attachments
     SegmentLimits limits{};
     mcap::WriterOptions mcap{};
-    std::function<void(const std::string&)> say{};  // the disk's troubles in words, as they begin and end
+    std::function<void(const std::string&)> say{};  // disk errors in words, at begin and end
   };
 
   explicit SegmentedLog(Options options);
@@ -48,12 +48,12 @@ class SegmentedLog {
   void attach(std::string_view name, std::string_view media_type, std::string_view text);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
 
-  // What was attached and added before finish().
+  // Attachments and metadata added before finish().
   const LogDescription& description() const { return description_; }
 
   std::uint16_t gap_channel() const { return gap_channel_; }
 
-  // The file a record of this time goes to.
+  // The file for a record of this time.
   mcap::Writer& writer_at(std::int64_t time_ns);
   template <HasFields Record>
   void write(std::uint16_t channel, std::int64_t time_ns, const Record& record) {
@@ -64,14 +64,14 @@ class SegmentedLog {
     return {time_ns + options_.offset_ns, time_ns + options_.offset_ns};
   }
 
-  // The last record was written: what was lost is said now, if need be from the disk's reserve.
+  // Call it after the last record: writes the pending gap record, if necessary from the disk's reserve.
   void finish();
   void close();
 
-  std::uint64_t lost() const { return lost_; }  // records the disk did not take
+  std::uint64_t lost() const { return lost_; }  // records that the disk did not accept
   const std::string& error() const { return error_; }
-  // What lies beside each file, here the CAN traffic: called with each file after the first as it begins,
-  // asked for its size, and told of each file removed.
+  // Hooks for the files beside each log file, here the CAN traffic. on_begin is called with each file after
+  // the first when it begins, bytes_beside returns their size, on_remove is called for each removed file.
   std::function<void(const std::filesystem::path&)> on_begin{};
   std::function<std::uint64_t(const std::filesystem::path&)> bytes_beside{};
   std::function<void(const std::filesystem::path&)> on_remove{};
@@ -111,7 +111,7 @@ class SegmentedLog {
   std::vector<Segment> older_;
   std::uint64_t next_segment_bytes_ = 0;
 
-  // What the gap records in the open chunk say: lost with it, it is said again.
+  // Content of the gap records in the open chunk. If the chunk is lost they are reported again.
   struct Said {
     std::uint64_t gaps = 0;
     std::uint64_t lost = 0;
@@ -119,7 +119,7 @@ class SegmentedLog {
   };
   Said said_{};
   std::uint64_t chunks_settled_ = 0;
-  LogGap pending_{};  // lost and not yet said
+  LogGap pending_{};  // lost records without a gap record yet
   bool is_pending_ = false;
   bool failing_ = false;  // the last chunk was lost
   bool sync_failed_ = false;

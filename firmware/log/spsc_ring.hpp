@@ -8,9 +8,9 @@
 
 namespace sandhopper {
 
-// Bounded queue from one thread to one other: no lock, no wait, and no allocation after construction, which
-// also touches every page. Each side keeps a copy of the other's counter and reads the shared one only when
-// the copy says full or empty (Rigtorp's arrangement), so the two seldom fight over a cache line.
+// Bounded queue from one thread to one other. No lock, no wait, and no allocation after construction, which
+// also touches every page. Each side keeps a copy of the other's counter and reads the shared one only if the
+// copy indicates full or empty (Rigtorp's design), which reduces cache-line contention.
 template <class T>
 class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): it keeps the sides apart
   static_assert(std::is_trivially_copyable_v<T>);
@@ -20,7 +20,7 @@ class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): it keeps 
 
   std::size_t capacity() const { return slots_.size(); }
 
-  // Producer: a free slot to fill, then publish(); null when full.
+  // Producer: returns a free slot to fill before publish(); null if full.
   T* claim() noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head - known_tail_ > mask_) {
@@ -33,7 +33,7 @@ class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): it keeps 
     head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
 
-  // Producer: false, and counted, when full.
+  // Producer: returns false and counts the drop if full.
   bool push(const T& value) noexcept {
     T* slot = claim();
     if (slot == nullptr) {
@@ -47,7 +47,7 @@ class SpscRing {  // NOLINT(clang-analyzer-optin.performance.Padding): it keeps 
   void count_drop() noexcept { dropped_.store(dropped() + 1, std::memory_order_relaxed); }
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
-  // Consumer: the oldest value, valid until pop(); null when empty.
+  // Consumer: the oldest value, valid until pop(); null if empty.
   const T* front() noexcept {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == known_head_) {

@@ -7,12 +7,12 @@
 #include "config/fields.hpp"
 #include "firmware/log/mcap_reader.hpp"
 
-// Names of a trial log's topics, and how a program picks their records out of a log again.
+// Names of a trial log's topics, and a class that reads their records from a log.
 namespace sandhopper {
 
 namespace topic {
-inline constexpr std::string_view kFrame = "/frame";      // SensorFrame: what the cycle consumed
-inline constexpr std::string_view kOutput = "/output";    // StepOutput: what it made of it
+inline constexpr std::string_view kFrame = "/frame";      // SensorFrame: input of the cycle
+inline constexpr std::string_view kOutput = "/output";    // StepOutput: result of the cycle
 inline constexpr std::string_view kEvent = "/event";      // Event
 inline constexpr std::string_view kStride = "/stride";    // StrideResult
 inline constexpr std::string_view kProfile = "/profile";  // StrengthProfile, after each StrideResult
@@ -26,7 +26,7 @@ inline constexpr std::string_view kGap = "/gap";                     // LogGap
 enum class LossCause : std::uint8_t {
   ring_full,        // the logger was too slow: the disk, or the computer
   write_failed,     // the disk was full or failed
-  sync_failed,      // written, but whether it reached the disk is not known; lost is 0
+  sync_failed,      // written, but it may not have reached the disk; lost is 0
   segment_removed,  // an older file of this log was removed to keep the quota
   damaged           // hop recover could not read it
 };
@@ -36,9 +36,9 @@ struct EnumNames<LossCause> {
                                                          "segment_removed", "damaged"};
 };
 
-// Records that are missing; stands in the log in their place.
+// Record of missing records; it is in the log at their place.
 struct LogGap {
-  std::int64_t time_ns = 0;  // of the first record after the gap
+  std::int64_t time_ns = 0;  // time of the first record after the gap
   std::int64_t first_lost_ns = 0;
   std::int64_t last_lost_ns = 0;
   std::uint64_t lost = 0;
@@ -56,8 +56,8 @@ struct LogGap {
   }
 };
 
-// One topic of a log:  TopicOf<Event> events("/event");  while (log.next(m)) if (events.take(m, event)) …
-// The schema is compared at the topic's first message; another version's throws mcap::Error.
+// Reads one topic of a log:  TopicOf<Event> events("/event");  while (log.next(m)) if (events.take(m, event))
+// … The schema is compared at the topic's first message; that of another version throws mcap::Error.
 template <HasFields Record>
 class TopicOf {
  public:

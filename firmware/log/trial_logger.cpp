@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kPollPeriod_ns = 5'000'000;
 constexpr std::size_t kBackgroundSlots = 64;
 
-// Sleeps to the next point of a grid, so that virtual time wakes it at the same instants in every run.
+// Sleeps to the next point of a time grid, so that virtual time wakes it at the same instants in every run.
 void sleep_until_grid_point() {
   timespec time{};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
@@ -52,7 +52,7 @@ std::filesystem::path can_file_beside(const std::filesystem::path& mcap_file) {
 
 }  // namespace
 
-// With every file of the log goes one of CAN traffic.
+// Each file of the log gets a file of CAN traffic beside it.
 void TrialLogger::keep_can_beside() {
   can_ = std::make_unique<CanLog>(options_.candump_file, options_.realtime_offset_ns, options_.can_slots,
                                   options_.mcap.calls);
@@ -127,7 +127,7 @@ bool TrialLogger::put(LaneState& lane, std::uint16_t topic, std::int64_t time_ns
   return true;
 }
 
-// The maker of this thread may run under SCHED_FIFO, which threads inherit.
+// The creating thread may run under SCHED_FIFO, which threads inherit: return to ordinary scheduling.
 void TrialLogger::run() {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);

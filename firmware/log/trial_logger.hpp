@@ -19,7 +19,7 @@
 
 namespace sandhopper {
 
-// Which thread a topic's records come from: the cycle, or the one that works after a stride.
+// Thread that pushes a topic's records: the cycle, or the thread that solves finished strides.
 enum class Lane : std::uint8_t { cycle, background };
 
 template <class Record>
@@ -30,29 +30,29 @@ struct LogTopic {
 struct TrialLogOptions {
   std::filesystem::path mcap_file;      // empty: nothing is logged
   std::filesystem::path candump_file;   // empty: CAN traffic is not logged
-  std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; stamps what is attached
+  std::int64_t start_ns = 0;            // CLOCK_MONOTONIC; time of the attachments
   std::int64_t realtime_offset_ns = 0;  // realtime_offset_ns(), or a fixed date for repeatable files
   std::size_t slots = 8192;             // about 2.7 s of three records a cycle
   std::size_t can_slots = 16384;        // per interface; about 4 s of four frames a cycle
   bool own_thread = true;               // false: push() itself writes when the ring is full (simulation)
   SegmentLimits limits{};
   mcap::WriterOptions mcap{};
-  // Troubles of the disk, in words, as they begin and end; called from the logger's thread.
+  // Disk errors in words, at begin and end. Called from the logger's thread.
   std::function<void(const std::string&)> say{};
 };
 
-// The logger of a running trial. The cycle pushes records, which costs a copy: no wait, no lock, no
-// allocation. A thread of ordinary priority takes them out every 5 ms, encodes and writes. When it falls
-// behind, or the disk takes no more, records are lost and counted, and a LogGap stands in the log where they
-// are missing; the cycle does not notice (see SegmentedLog for the disk, and for a log in several files).
-// What the files hold depends only on what was pushed, not on when the thread ran: two runs in virtual time,
-// or one with and one without the thread, give the same bytes.
+// Logger of a running trial. The cycle pushes records, which costs a copy and no wait, lock or allocation. A
+// thread of ordinary priority takes them out every 5 ms, encodes and writes them. If it is too slow, or the
+// disk accepts no more, records are lost and counted, and a LogGap replaces them in the log; the cycle is not
+// affected (see SegmentedLog for the disk and for a log in several files). The content of the files depends
+// only on what was pushed, not on the thread's timing: two runs in virtual time, or one with and one without
+// the thread, give the same bytes.
 //
 // Order of calls: add_topic, add_can_interface, attach, add_metadata; start; push, push_can; stop; attach,
 // close.
-class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
+class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): padding of the rings
  public:
-  // Throws std::system_error when a file cannot be made.
+  // Throws std::system_error if a file cannot be created.
   explicit TrialLogger(TrialLogOptions options);
   ~TrialLogger();
 
@@ -70,32 +70,32 @@ class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the ri
   void attach(std::string_view name, std::string_view media_type, std::string_view text);
   void add_metadata(std::string_view name, const std::map<std::string, std::string>& entries);
 
-  // What was attached and added so far.
+  // Attachments and metadata added so far.
   const LogDescription& description() const { return log_.description(); }
 
   void start();
 
-  // From the one thread of the topic's lane. `time_ns` is the record's own, CLOCK_MONOTONIC.
+  // Call it only from the thread of the topic's lane. `time_ns` is the record's own time, CLOCK_MONOTONIC.
   template <HasFields Record>
   void push(LogTopic<Record> topic, std::int64_t time_ns, const Record& record) noexcept {
     push_bytes(topic.number, time_ns, &record, sizeof record);
   }
-  // From one thread per interface.
+  // Call it from one thread per interface.
   void push_can(std::size_t interface, const CandumpFrame& frame) noexcept;
 
-  // Everything pushed so far is in the files' hands, or lost, and the files say what.
+  // Afterwards everything pushed is written, or counted as lost with a gap record.
   void stop();
   void close();
 
-  // After stop(): the disk's first trouble, in words; empty when there was none.
+  // After stop(): the first disk error in words; empty if there was none.
   std::string error() const;
   std::uint64_t lost_records() const noexcept;
   std::uint64_t lost_can_frames() const noexcept { return can_ ? can_->lost() : 0; }
 
  private:
   static constexpr std::size_t kMaxRecordBytes = 1000;
-  // A result is solved some time after the instant it belongs to. It is written before the first record of
-  // the cycle that is this much younger, by when it has long been pushed.
+  // A stride's result is solved some time after its instant. It is written before the first record of the
+  // cycle that is younger by this much. By then it has been pushed.
   static constexpr std::int64_t kBackgroundHold_ns = 100'000'000;
 
   struct Slot {
@@ -111,7 +111,7 @@ class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the ri
   struct LaneState {
     explicit LaneState(std::size_t slots) : ring(slots) {}
     SpscRing<Slot> ring;
-    LogGap gap{};  // the producer's: what is lost since the last record that fitted
+    LogGap gap{};  // of the producer: records lost since the last record that fitted
   };
 
   template <class Record>
@@ -137,7 +137,7 @@ class TrialLogger {  // NOLINT(clang-analyzer-optin.performance.Padding): the ri
   SegmentedLog log_;
   std::unique_ptr<CanLog> can_;
   std::vector<TopicEntry> topics_;
-  LogTopic<LogGap> gap_topic_{};  // the first
+  LogTopic<LogGap> gap_topic_{};  // the first topic
   LaneState cycle_;
   LaneState background_;
   std::thread thread_;

@@ -11,12 +11,12 @@
 
 namespace sandhopper {
 
-// What the experimenter knows of a trial and no sensor does. Kept in the log as metadata "trial sheet"; as a
+// Information about a trial that only the experimenter has. In the log it is metadata "trial sheet"; as a
 // file it is TOML with these keys.
 struct TrialSheet {
   std::string who;
   std::string bed;              // the material
-  std::string bed_preparation;  // what is done to it before each trial
+  std::string bed_preparation;  // treatment before each trial
   std::optional<double> release_height_m;
   double payload_kg = 0.0;
   std::string notes;
@@ -34,14 +34,14 @@ struct TrialSheet {
 
 inline constexpr std::string_view kSheetMetadata = "trial sheet";
 
-// Key and text, in the order of the fields; empty ones left out.
+// Keys and texts in the order of the fields, without empty ones.
 std::vector<std::pair<std::string, std::string>> entries_of(const TrialSheet& sheet);
-// Keys that a whole sheet has and this one has not: notes and payload may be left out.
+// Keys that a complete sheet has and this one lacks. Notes and payload are optional.
 std::vector<std::string> missing_keys(const TrialSheet& sheet);
 
-// Before the logger starts.
+// Call it before the logger starts.
 void add_sheet(TrialLogger& logger, const TrialSheet& sheet);
-// Of a log that was read, at least to its first message.
+// The sheet in a log that was read at least to its first message.
 std::optional<TrialSheet> sheet_of(const mcap::Reader& log);
 
 }  // namespace sandhopper

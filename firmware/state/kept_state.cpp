@@ -19,7 +19,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::string_view kFormat = "sandhopper-state 1";
-constexpr std::size_t kLongest = 65536;  // bytes of a file that may be a state
+constexpr std::size_t kLongest = 65536;  // larger files are not read
 
 std::string header(std::string_view body) {
   const auto crc = ::crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
@@ -82,11 +82,11 @@ StateRead read_state_file(const std::filesystem::path& file) {
 
 void write_state_file(const std::filesystem::path& file, const KeptState& state) {
   auto scratch = file;
-  scratch += fmt::format(".new{}", ::getpid());  // another hopperd may write beside this one
+  scratch += fmt::format(".new{}", ::getpid());  // another hopperd may write at the same time
   {
     const UniqueFd fd(::open(scratch.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0664));
     if (!fd) fail("cannot make " + scratch.string());
-    ::fchmod(fd.get(), 0664);  // the service and its group's shells replace each other's
+    ::fchmod(fd.get(), 0664);  // the service and shells of its group may replace each other's file
     write_all(fd.get(), state_text(state), scratch.string());
     if (::fsync(fd.get()) != 0) fail("cannot write " + scratch.string());
   }

@@ -12,20 +12,21 @@
 
 namespace sandhopper {
 
-// What a robot remembers across restarts of hopperd and of the computer.
+// State of the robot that is kept over restarts of hopperd and of the computer.
 struct KeptState {
-  std::string boot_id;              // of the boot in which it was written
+  std::string boot_id;              // boot in which it was written
   std::int64_t boottime_ns = 0;     // CLOCK_BOOTTIME when it was written
   std::int64_t realtime_ns = 0;     // CLOCK_REALTIME when it was written
-  bool clock_synchronised = false;  // so that realtime_ns may be compared with another boot's
+  bool clock_synchronised = false;  // true if realtime_ns may be compared with that of another boot
   bool closed = false;              // written at the end of a run that ended in order
-  double period_s = 1.0;            // a run that did not end in order may be this much older than the state
+  double period_s = 1.0;            // a run that did not end in order may have continued this long after the
+                                    // state was written
   std::array<double, kMotorCount> winding_C{};
   std::array<double, kMotorCount> housing_C{};
   std::array<double, kMotorCount> position_rad{};
   bool positions_known = false;
   std::uint32_t touchdowns = 0;  // since the leg was inspected
-  Fault fault = Fault::none;     // not disarmed
+  Fault fault = Fault::none;     // not yet disarmed
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -44,28 +45,29 @@ struct KeptState {
   }
 };
 
-// A state as a file: one line with format, version, length and CRC-32 of the rest, then TOML.
+// A state as file content: one line with format, version, length and CRC-32 of the rest, then TOML.
 std::string state_text(const KeptState& state);
 
 struct StateRead {
   std::optional<KeptState> state;
   bool there = false;   // the file exists
-  std::string problem;  // why there is no state
+  std::string problem;  // reason why there is no state
 };
 StateRead state_from_text(std::string_view text);
 StateRead read_state_file(const std::filesystem::path& file);
 
-// In one step: after a power cut there is the old file or the new one. Throws std::system_error.
+// Writes the file atomically: after a power cut there is the old file or the new one. Throws
+// std::system_error.
 void write_state_file(const std::filesystem::path& file, const KeptState& state);
 
-// Files of the robot's state: `boot` for this boot of the computer, written often, in memory; `lasting`
-// for all boots, written seldom.
+// Files of the robot's state. `boot`: for this boot of the computer, in memory, written often. `lasting`: for
+// all boots, written seldom.
 struct StatePlaces {
   std::filesystem::path boot;
   std::filesystem::path lasting;
 };
-// In `directory` if that is not empty; else where systemd says ($RUNTIME_DIRECTORY, $STATE_DIRECTORY), else
-// in /run/sandhopper and /var/lib/sandhopper.
+// Files in `directory` if it is not empty, otherwise in systemd's folders ($RUNTIME_DIRECTORY,
+// $STATE_DIRECTORY), otherwise in /run/sandhopper and /var/lib/sandhopper.
 StatePlaces state_places(const std::string& directory);
 
 }  // namespace sandhopper

@@ -17,11 +17,12 @@ namespace {
 
 constexpr double kHotShare = 0.8;
 constexpr int kCoolingSteps = 1000;
-constexpr double kHeatingStep_s = 1e-2;  // of time constants over 0.4 s (config/consistency.hpp)
+constexpr double kHeatingStep_s = 1e-2;  // time step; the time constants exceed 0.4 s
+                                         // (config/consistency.hpp)
 
 struct Age {
   double seconds = 0.0;
-  std::string by;  // for the message
+  std::string by;  // method, for the message
 };
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
@@ -30,7 +31,7 @@ bool of_boot(const StateRead& read, const StateClock& now) {
   return read.state && read.state->boot_id == now.boot_id && !now.boot_id.empty();
 }
 
-// The age of a lasting state of an earlier boot; nothing where the date went backwards.
+// Age of a lasting state of an earlier boot; empty if the date went backwards.
 std::optional<Age> age_across_boots(const KeptState& state, const StateClock& now) {
   const Age since_boot{seconds(now.boottime_ns), "since this boot, the clocks are not synchronised"};
   const double elapsed_s = seconds(now.realtime_ns) - seconds(state.realtime_ns);
@@ -39,7 +40,8 @@ std::optional<Age> age_across_boots(const KeptState& state, const StateClock& no
   return Age{elapsed_s, "by the date"};
 }
 
-// Heats both capacities as a run that did not end in order may have done after its last write.
+// Heats winding and housing at the torque limit, because a run that did not end in order may have gone on
+// after its last write.
 void heat(const RobotConfig& robot, std::size_t motor, double time_s, double& winding_C, double& housing_C) {
   ThermalModel model(robot.supervision, winding_C, housing_C);
   const auto& m = robot.motor[motor];
@@ -99,7 +101,7 @@ Recollection temperatures(const StateRead& boot, const StateRead& lasting, const
   return remembered(*lasting.state, *age, robot);
 }
 
-// By a time server, or by a battery-backed clock that set the date at boot.
+// True if a time server synchronised the date or a battery-backed clock set it at boot.
 bool date_can_be_trusted() {
   std::error_code error;
   if (std::filesystem::exists("/run/systemd/timesync/synchronized", error)) return true;
@@ -128,7 +130,7 @@ std::string turned_over(const KeptState& state, const RobotConfig& robot) {
 
 StateClock state_clock() {
   StateClock clock;
-  // A sandboxed service does not see /proc/sys; its unit hands the number over.
+  // A sandboxed service cannot read /proc/sys, so its unit passes the boot id.
   if (const char* given = std::getenv("SANDHOPPER_BOOT_ID"); given != nullptr)
     clock.boot_id = given;
   else
@@ -143,13 +145,14 @@ StateClock state_clock() {
 Recollection recollect(const StateRead& boot, const StateRead& lasting, const StateClock& now,
                        const RobotConfig& robot) {
   auto out = temperatures(boot, lasting, now, robot);
-  // Counts and faults do not age: the newer of the states that can be read has them.
+  // Counts and faults do not depend on age: take them from the newer readable state.
   const auto* newest = lasting.state ? &*lasting.state : nullptr;
   if (boot.state && (newest == nullptr || boot.state->touchdowns >= newest->touchdowns))
     newest = &*boot.state;
   if (newest == nullptr) return out;
   out.start.touchdowns = newest->touchdowns;
-  // A restart in order ends this fault, as its entry says. A crash does not: nobody may have seen it.
+  // An orderly restart ends this fault, as its entry says. After a crash it stays, because it may not have
+  // been noticed.
   if (!newest->closed && entry_of(newest->fault).latch == Latch::until_restart)
     out.start.fault = newest->fault;
   out.positions = turned_over(*newest, robot);
@@ -160,6 +163,7 @@ double hot_C(const SupervisionConfig& c) noexcept {
   return c.ambient_C + kHotShare * (c.winding_temperature_C - c.ambient_C);
 }
 
+// Implicit Euler step of the two-body thermal model:
 // (1 + dt a) w - dt a h = w0,  -dt b w + (1 + dt (b + g)) h = h0 + dt g ambient
 void cool(const SupervisionConfig& c, double age_s, double& winding_C, double& housing_C) noexcept {
   const double dt = age_s / kCoolingSteps;

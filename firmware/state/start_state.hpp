@@ -8,8 +8,8 @@
 
 namespace sandhopper {
 
-// State of the motors and the last fault with which the cycle starts. An input: it is kept in the trial's log
-// (start.toml), and a replay begins with the same.
+// State of the motors and latched fault with which the cycle starts. It is an input of the cycle: it is
+// stored in the trial's log (start.toml), and a replay starts with it.
 struct StartState {
   bool temperatures_known = false;  // false: every motor is at supervision.ambient_C
   std::array<double, kMotorCount> winding_C{};
@@ -27,11 +27,11 @@ struct StartState {
   }
 };
 
-// Sample of the robot's state that the cycle hands to StateKeeper each turn.
+// Sample of the robot's state that the cycle passes to StateKeeper each turn.
 struct StateSample {
   std::array<double, kMotorCount> winding_C{};
   std::array<double, kMotorCount> housing_C{};
-  std::array<double, kMotorCount> position_rad{};  // of the link, unwrapped; NaN before the first reply
+  std::array<double, kMotorCount> position_rad{};  // link angle, unwrapped; NaN before the first reply
   std::uint32_t touchdowns = 0;                    // since the leg was inspected
   Fault fault = Fault::none;                       // not yet disarmed
 };

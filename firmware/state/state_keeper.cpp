@@ -51,7 +51,7 @@ void StateKeeper::close() {
   look(true);
 }
 
-// Its maker may be of the cycle's priority, which threads inherit.
+// The creating thread may have the cycle's priority, which threads inherit: return to ordinary scheduling.
 void StateKeeper::run() {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);

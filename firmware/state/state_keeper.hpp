@@ -11,15 +11,15 @@
 
 namespace sandhopper {
 
-// Writes down what the cycle publishes: this boot's state every second, the lasting one every ten seconds,
-// both at once when the fault changes (at the next look) and at the end. A thread of ordinary priority; the
-// cycle only copies a sample.
+// Writes the robot's state to files: this boot's state every second, the lasting one every ten seconds, and
+// both when the fault changes and at the end. Runs in a thread of ordinary priority; the cycle only copies a
+// sample.
 class StateKeeper {
  public:
   static constexpr double kBootPeriod_s = 1.0;
   static constexpr double kLastingPeriod_s = 10.0;
 
-  // say: what cannot be written, once.
+  // `say` reports the first write error, once.
   StateKeeper(StatePlaces places, std::function<void(const std::string&)> say);
   ~StateKeeper();
   StateKeeper(const StateKeeper&) = delete;
@@ -27,8 +27,8 @@ class StateKeeper {
 
   Latest<StateSample>& newest() noexcept { return newest_; }
 
-  // The run ended in order: writes both states and ends the thread. Without this call the last ones stay as
-  // those of a run that did not.
+  // For a run that ended in order: writes both states and ends the thread. Without this call the last files
+  // count as those of a run that did not end in order.
   void close();
 
  private:
@@ -50,7 +50,7 @@ class StateKeeper {
   std::thread thread_;
 };
 
-// A sample as it is kept, at this time.
+// Converts a sample to the state that is stored.
 KeptState kept_state(const StateSample& sample, const StateClock& now, double period_s, bool closed);
 
 }  // namespace sandhopper

@@ -7,7 +7,7 @@
 
 namespace sandhopper {
 
-// The motors' bus: the controller's state, and every count that must not grow.
+// Checks the motors' bus: the controller's state, and all error counts, which must not increase.
 class BusCheck {
  public:
   void see(const BusSample& bus, Findings& findings) noexcept {
@@ -16,7 +16,7 @@ class BusCheck {
     const auto grown = [](std::uint32_t now, std::uint32_t before) {
       return static_cast<double>(now - before);
     };
-    // No matter when: a frame refused before the first cycle counts, too.
+    // Tested without a difference, so that a frame refused before the first cycle counts, too.
     findings.add_if(bus.refused.count > 0, Fault::transmit_refused, static_cast<double>(bus.refused.rule),
                     bus.refused.can_id);
     findings.add_if(bus.state == BusState::off, Fault::bus_off, 1.0, 0.0);
@@ -39,7 +39,7 @@ class BusCheck {
   }
 
  private:
-  // One answer too many is what a reply read late looks like; five within a few cycles are a second drive.
+  // One surplus answer can be a reply that was read late. Five within a few cycles mean a second drive.
   static constexpr double kUnexpected = 5.0;
   BusSample last_{};
   std::array<LeakyCount, kMotorCount> unexpected_{LeakyCount{0.25}, LeakyCount{0.25}};

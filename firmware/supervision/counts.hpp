@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// Grows by one on a bad sample and leaks on a good one: single outliers pass, a share of bad ones above
-// leak / (1 + leak) does not.
+// Increases by one on a bad sample and decreases by `leak` on a good one. Single outliers pass; a share of
+// bad samples above leak / (1 + leak) does not.
 class LeakyCount {
  public:
   explicit constexpr LeakyCount(double leak) noexcept : leak_(leak) {}
@@ -22,7 +22,7 @@ class LeakyCount {
   double value_ = 0.0;
 };
 
-// How many of the last N cycles had it; counted as if all before the first had it.
+// Share of the last N cycles in which the condition held. Cycles before the first count as if it held.
 template <std::size_t N>
 class RecentShare {
  public:

@@ -7,7 +7,7 @@
 
 namespace sandhopper {
 
-// Whether the cycle itself keeps time: grid points missed in a row, overruns within a second, the watchdog.
+// Checks the cycle's timing: grid points missed in a row, overruns within a second, and the watchdog.
 class CycleCheck {
  public:
   explicit CycleCheck(const SupervisionConfig& config) noexcept : config_(config) {}

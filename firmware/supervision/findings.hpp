@@ -6,14 +6,14 @@
 
 namespace sandhopper {
 
-// Of two faults the harsher one is obeyed: the one with the harsher reaction or, of equal ones, with the
-// stricter latch. Of equals the first stays.
+// The fault with the harsher reaction takes precedence. If the reactions are equal, the one with the stricter
+// latch does. If both are equal, the first fault found stays.
 constexpr bool is_harsher(Fault fault, Fault than) noexcept {
   const FaultEntry &a = entry_of(fault), &b = entry_of(than);
   return a.reaction != b.reaction ? a.reaction > b.reaction : a.latch > b.latch;
 }
 
-// So a harsher fault never loosens a latch.
+// A stricter latch requires the harshest reaction, so a harsher fault never loosens a latch.
 constexpr bool strict_latches_are_limp() {
   for (const auto& entry : kFaults)
     if (entry.latch > Latch::until_disarmed && entry.reaction != Reaction::limp) return false;
@@ -23,14 +23,14 @@ static_assert(strict_latches_are_limp());
 
 struct FaultFound {
   Fault fault = Fault::none;
-  std::array<double, 2> values{};  // what was seen and what was allowed
+  std::array<double, 2> values{};  // measured and allowed value
 };
 
-// Detectors switched off, by the number of their fault. For tests of the tests only: nothing in the daemon
-// sets one.
+// Detectors that are switched off, by the number of their fault. Only tests of the tests use it, never the
+// daemon.
 using DetectorMask = std::bitset<kFaultCount>;
 
-// What the checks of one cycle found: the harshest fault.
+// Result of one cycle's checks: the harshest fault.
 class Findings {
  public:
   explicit Findings(const DetectorMask& off) noexcept : off_(off) {}

@@ -9,19 +9,20 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
-constexpr int kDisagree_cycles = 10;   // an impact reaches encoders and IMUs some cycles apart
-constexpr double kImpact_mps2 = 40.0;  // from one cycle to the next
+constexpr int kDisagree_cycles = 10;   // an impact reaches encoders and IMUs at different cycles
+constexpr double kImpact_mps2 = 40.0;  // change from one cycle to the next that counts as an impact
 constexpr double kImpactRate_mps = 0.08;
 constexpr double kSpins = 3.0;
-constexpr double kTiltTime_s = 0.5;       // gyro below, gravity above
-constexpr double kTiltAccel_share = 0.3;  // gravity is believed when no more than this off
-constexpr double kBodySpeed_mps = 3.0;    // how fast the ToF's height may move
+constexpr double kTiltTime_s = 0.5;       // time constant of the complementary filter: gyro for faster
+                                          // motion, gravity for slower
+constexpr double kTiltAccel_share = 0.3;  // gravity is used if its magnitude is within this share
+constexpr double kBodySpeed_mps = 3.0;    // largest speed of the ToF's height
 constexpr int kTofOutliers = 5;
 constexpr double kLoadCellTime_s = 0.015;
-constexpr double kLoadCellShare = 0.5;  // of the force, on top of the limit
+constexpr double kLoadCellShare = 0.5;  // tolerance as a share of the force, in addition to the limit
 constexpr int kLoadCellWrong = 5;
 constexpr int kEnergy_cycles = 5;
-constexpr int kHeightsRefused = 20;  // a sound filter refuses three in a row at most
+constexpr int kHeightsRefused = 20;  // a sound filter rejects at most three in a row
 
 double followed(double value, double target, double dt_s, double time_s) noexcept {
   return value + std::clamp(dt_s / time_s, 0.0, 1.0) * (target - value);
@@ -55,7 +56,7 @@ double MotionCheck::leg_rate_mps(const SensorFrame& frame) const noexcept {
   return leg_.kinematics(angle).dlength_m_per_rad * rate;
 }
 
-// Over the window: integral of (a_body - a_foot) = change of the leg's rate.
+// Checks over the window: integral of (a_body - a_foot) = change of the leg's rate.
 void MotionCheck::see_imus(const SensorFrame& frame, const Context& context, Findings& findings) noexcept {
   const auto& s = config_.supervision;
   const std::array<const ImuSample*, 2> imu{&frame.imu_body, &frame.imu_foot};
@@ -68,7 +69,7 @@ void MotionCheck::see_imus(const SensorFrame& frame, const Context& context, Fin
   }
   const bool clipped = std::abs(imu[0]->accel_mps2[kZ]) > 0.9 * s.imu_range_mps2 ||
                        std::abs(imu[1]->accel_mps2[kZ]) > 0.9 * s.imu_range_mps2;
-  // An impact shorter than a cycle passes between two samples: the integral would miss it.
+  // An impact shorter than a cycle falls between two samples, so the integral would miss it.
   bool impact = false;
   for (std::size_t i = 0; i < imu.size(); ++i) {
     impact = impact || std::abs(imu[i]->accel_mps2[kZ] - last_accel_mps2_[i]) > kImpact_mps2;
@@ -107,7 +108,7 @@ void MotionCheck::see_tilt(const ImuSample& imu, double dt_s, Findings& findings
   findings.add_if(tilt > config_.supervision.tilt_rad, Fault::tilt_limit, tilt, config_.supervision.tilt_rad);
 }
 
-// One outlier is nothing; several in a row that a body could not have moved to are.
+// One outlier is ignored; several in a row that a body could not have reached are a fault.
 void MotionCheck::see_tof(const TofSample& tof, Findings& findings) noexcept {
   if (!std::isfinite(tof.height_m)) return;
   const double since_s = static_cast<double>(tof.time_ns - tof_level_ns_) * 1e-9;
@@ -146,8 +147,8 @@ void MotionCheck::see_estimate(const Estimate& e, const Context&, Findings& find
   findings.add_if(e.foot_z_m > s.foot_height_m, Fault::body_height_limit, e.foot_z_m, s.foot_height_m);
 }
 
-// Beyond its gate the filter takes no reading, so an estimate that is off by more goes on alone and gets
-// worse.
+// The filter rejects readings beyond its gate. So an estimate with a larger error is no longer corrected and
+// gets worse.
 void MotionCheck::see_height(const Estimate& e, Findings& findings) noexcept {
   const double squared = e.normalised_innovation_squared[0];
   if (!std::isfinite(squared)) return;  // no reading in this cycle
@@ -157,7 +158,7 @@ void MotionCheck::see_height(const Estimate& e, Findings& findings) noexcept {
                   heights_refused_);
 }
 
-// Body and foot as two masses; the links' share is small against the limit.
+// Body and foot as two masses; the links' share is small compared with the limit.
 void MotionCheck::see_energy(const Estimate& e, const Context& context, Findings& findings) noexcept {
   const auto& r = config_.robot;
   const auto energy = [](double mass, double z, double v) {

@@ -11,7 +11,8 @@
 
 namespace sandhopper {
 
-// The sensors against each other and against what a robot on a rail can do. See supervisor.hpp for when.
+// Checks the sensors against each other and against the possible motion of a robot on a rail. supervisor.hpp
+// states when.
 class MotionCheck {
  public:
   MotionCheck(const CycleConfig& config, const Leg& leg) noexcept : config_(config), leg_(leg) {}
@@ -38,7 +39,7 @@ class MotionCheck {
 
   const CycleConfig& config_;
   const Leg& leg_;
-  // Both IMUs' difference, integrated, and the leg's rate, over the last cycles.
+  // Integrated difference of both IMUs, and the leg's rate, over the last cycles.
   struct Instant {
     double integral_mps = 0.0;
     double leg_rate_mps = 0.0;
@@ -47,7 +48,7 @@ class MotionCheck {
   std::size_t cycles_ = 0;
   double integral_mps_ = 0.0;
   std::array<double, 2> last_accel_mps2_{};
-  int blind_ = 0;  // cycles until the window holds no clipped sample and no impact
+  int blind_ = 0;  // cycles until the window contains no clipped sample and no impact
   int disagree_ = 0;
   std::array<LeakyCount, 2> spin_{LeakyCount{1.0}, LeakyCount{1.0}};
   std::array<double, 2> tilt_rad_{};

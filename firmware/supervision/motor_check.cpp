@@ -8,12 +8,13 @@ namespace {
 
 constexpr double kCycle_s = 1e-3;
 constexpr double kLate = 3.0;
-constexpr double kErrorTime_s = 0.010;  // low-pass of the velocity's and the current's error
+constexpr double kErrorTime_s = 0.010;  // low-pass of the errors of velocity and current
 constexpr int kErrorCycles = 8;
-constexpr double kErrorShare = 0.25;  // of the speed; a scale wrong by two gives a half
-constexpr double kForget_s = 0.3;     // of the other side's travel
-constexpr int kSettle_cycles = 15;    // after drives come on
-constexpr int kSamples = 3;           // current and voltage: as many in a row
+constexpr double kErrorShare = 0.25;  // tolerance as a share of the speed; a scale wrong by a factor of two
+                                      // gives 0.5
+constexpr double kForget_s = 0.3;     // time constant with which the other side's travel is forgotten
+constexpr int kSettle_cycles = 15;    // after the drives come on
+constexpr int kSamples = 3;           // current and voltage: as many wrong samples in a row
 
 double followed(double value, double error, double dt_s) noexcept {
   const double share = std::clamp(dt_s / kErrorTime_s, 0.0, 1.0);
@@ -30,7 +31,7 @@ void MotorCheck::see(const MotorSample& sample, const Context& context, Findings
   see_replies(sample, context, findings);
   see_torque(sample, context, findings);
   if (sample.fresh) {
-    // A reply that cannot be true says nothing else either.
+    // If the position is impossible the other values of the reply are not used either.
     if (see_motion(sample, context, findings)) see_limits(sample, context, findings);
     last_ = sample;
     answered_ = true;
@@ -47,7 +48,7 @@ void MotorCheck::see_replies(const MotorSample& sample, const Context& context, 
   const double wanted = s.motor_reply_share * rate_share;
   findings.add_if(replies_.share() < wanted, Fault::motor_reply_intermittent, number(), replies_.share());
   if (!sample.fresh) return;
-  // A reply carries the instant of the command it answers, one cycle ago if it came in time.
+  // A reply has the time of the command it answers, which is one cycle ago if the reply came in time.
   const double age_s =
       to_s(context.time_ns - sample.time_ns) - static_cast<double>(context.cycles - 1) * kCycle_s;
   findings.add_if(late_.see(age_s > s.motor_reply_age_s) >= kLate, Fault::motor_reply_late, number(), age_s);
@@ -63,7 +64,7 @@ bool MotorCheck::see_motion(const MotorSample& sample, const Context&, Findings&
   if (!possible) return false;
   const double mean_radps = 0.5 * (sample.velocity_radps + last_.velocity_radps);
   velocity_error_radps_ = followed(velocity_error_radps_, mean_radps - moved / dt_s, dt_s);
-  // Fast to and fro, as against an end stop, leaves more of a difference between the two than steady turning.
+  // Fast reversals, as at an end stop, cause a larger difference between the two than steady rotation.
   const double speed_radps = std::max(std::abs(mean_radps), std::abs(moved / dt_s));
   const bool wrong = std::abs(velocity_error_radps_) >
                      config_.supervision.motor_velocity_error_radps + kErrorShare * speed_radps;
@@ -123,10 +124,10 @@ void MotorPairCheck::see(const std::array<MotorSample, kMotorCount>& motor, bool
   for (std::size_t i = 0; i < kMotorCount; ++i) {
     auto& anchor = anchor_[i];
     const double own = motor[i].position_rad;
-    // By its velocity: a position that runs away alone is not a leg that moves.
+    // Integrate the velocity: a position that jumps alone does not prove that the leg moves.
     const double dt_s = started_ ? to_s(motor[1 - i].time_ns - last_ns_[1 - i]) : 0.0;
-    // It is forgotten again: a drive whose velocity cannot be zero (half a count of the MIT protocol) would
-    // otherwise travel while it stands.
+    // Let the travel decay. Otherwise a drive whose velocity cannot be zero (half a count of the MIT
+    // protocol) would seem to move while it stands.
     anchor.other_travel_rad -= anchor.other_travel_rad * std::clamp(dt_s / kForget_s, 0.0, 1.0);
     anchor.other_travel_rad += motor[1 - i].velocity_radps * dt_s;
     if (!started_ || std::abs(own - anchor.own_rad) > kStill_rad) anchor = {own, 0.0};

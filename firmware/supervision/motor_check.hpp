@@ -11,8 +11,8 @@
 
 namespace sandhopper {
 
-// One motor with its drive: whether it answers, in time and often enough, and whether position, velocity and
-// current can be true together and stay within the limits.
+// Checks one motor with its drive: it must answer in time and often enough; position, velocity and current
+// must be consistent and within the limits.
 class MotorCheck {
  public:
   MotorCheck(const CycleConfig& config, std::size_t motor) noexcept
@@ -25,7 +25,7 @@ class MotorCheck {
   struct Context {
     std::int64_t time_ns;
     std::int64_t cycles;  // since the last frame: 1, more after an overrun
-    bool starting;        // the daemon: a drive may not have answered yet
+    bool starting;        // the daemon is starting: a drive may not have answered yet
     bool energised;
     DriveRequest drive;           // of the last cycle's command
     const MotorCommand& command;  // likewise
@@ -35,7 +35,7 @@ class MotorCheck {
 
  private:
   void see_replies(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
-  // False: the position cannot be true.
+  // Returns false if the position is impossible.
   bool see_motion(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_torque(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
   void see_limits(const MotorSample& sample, const Context& context, Findings& findings) noexcept;
@@ -44,7 +44,7 @@ class MotorCheck {
   const CycleConfig& config_;
   std::size_t motor_;
   ThermalModel thermal_;
-  bool answered_ = false;  // ever
+  bool answered_ = false;  // at least once
   int misses_ = 0;
   LeakyCount late_{0.5};
   RecentShare<50> replies_;
@@ -59,8 +59,8 @@ class MotorCheck {
   double at_torque_limit_s_ = 0.0;
 };
 
-// Both sides are one mechanism: an encoder that stands still while the other side turns is stuck, and angles
-// that drift apart mean that a coupling slips. Nothing can be said while the leg is at rest.
+// Both sides are one mechanism. An encoder that stands still while the other side turns is stuck; angles that
+// drift apart mean that a coupling slips. At rest neither can be detected.
 class MotorPairCheck {
  public:
   explicit MotorPairCheck(const CycleConfig& config) noexcept : config_(config) {}
@@ -70,7 +70,7 @@ class MotorPairCheck {
   static constexpr double kStill_rad = 0.002;
   struct Anchor {
     double own_rad = 0.0;
-    double other_travel_rad = 0.0;  // since
+    double other_travel_rad = 0.0;  // travel of the other side since own_rad was stored
   };
   const CycleConfig& config_;
   std::array<Anchor, kMotorCount> anchor_{};

@@ -12,7 +12,7 @@ constexpr double kWrongTimes = 2.0;
 
 void SensorCheck::see(const Seen& seen, Findings& findings) noexcept {
   const double age_s = static_cast<double>(seen.now_ns - seen.time_ns) * 1e-9;
-  // Until the first sample that comes in time: those before lay in a queue while the devices were opened.
+  // Wait for the first sample that is in time: earlier ones were queued while the devices were opened.
   if (last_time_ns_ == 0 && seen.starting && (!seen.fresh || age_s > limits_.age_s)) return;
   findings.add_if(age_s > limits_.age_s, faults_.stale, faults_.number, age_s);
   share_.see(seen.fresh);

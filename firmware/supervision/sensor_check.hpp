@@ -6,21 +6,21 @@
 
 namespace sandhopper {
 
-// What is asked of every sensor on a slow bus: fresh, often enough, stamps that go forward, values that
-// change when they did before, within range. Stuck is judged only of a sensor whose noise was seen while the
-// robot hung still: one without noise (a simulation) may well repeat itself.
+// Checks every sensor on a slow bus: fresh samples, often enough, with increasing time stamps and within
+// range. Equal samples are a fault only if the sensor showed noise while the robot hung still; a sensor
+// without noise (a simulation) may repeat its value.
 class SensorCheck {
  public:
   struct Faults {
     Fault stale, stuck, out_of_range;
-    double number;  // of the device, in the log
+    double number;  // number of the device in the log
   };
   struct Limits {
     double age_s;
-    double rate_Hz;  // fresh cycles a second, at least
+    double rate_Hz;  // least number of fresh cycles per second
     int stuck_samples;
     double range_samples;
-    double range_leak;  // of the count of values out of range, per good one
+    double range_leak;  // decrease of the out-of-range count per good value
   };
   SensorCheck(const Faults& faults, const Limits& limits) noexcept
       : faults_(faults), limits_(limits), out_of_range_(limits.range_leak) {}
@@ -29,10 +29,10 @@ class SensorCheck {
     std::int64_t now_ns;
     std::int64_t time_ns;
     bool fresh;
-    bool changed;   // against the sample before
-    bool in_range;  // and a number
-    bool starting;  // the daemon: the first sample may still be on its way
-    bool learning;  // the robot hangs or stands still: noise may be learned
+    bool changed;   // the value differs from that of the previous sample
+    bool in_range;  // and is a number
+    bool starting;  // the daemon is starting: the first sample may not have arrived yet
+    bool learning;  // the robot hangs or stands still, so the sensor's noise may be learned
   };
   void see(const Seen& seen, Findings& findings) noexcept;
 

@@ -3,19 +3,19 @@
 
 namespace sandhopper {
 
-// When the supervisor calls something a fault, beyond the limits of [limits]. A number of samples counts
-// fresh ones.
+// Limits of the supervisor, in addition to those in [limits]. Numbers of samples count fresh samples.
 struct SupervisionConfig {
-  double startup_s = 0.5;  // how long after its first cycle a device may take to deliver its first sample
+  double startup_s = 0.5;  // time from the first cycle within which a device must deliver its first sample
   // Motors.
-  double motor_reply_share = 0.6;     // of the last 50 commands that must have been answered
-  double motor_reply_age_s = 0.0016;  // state in a reply that comes no later than this is in time
-  double motor_jump_rad = 0.015;      // on top of what motor_speed_radps allows between two replies
+  double motor_reply_share = 0.6;     // least share of the last 50 commands that must be answered
+  double motor_reply_age_s = 0.0016;  // a reply is in time if its state is no older than this
+  double motor_jump_rad = 0.015;      // tolerance in addition to the travel at motor_speed_radps between two
+                                      // replies
   double motor_velocity_error_radps = 2.0;
   double motor_torque_error_Nm = 0.5;
   double motor_current_A = 45.0;
   double torque_limit_s = 0.3;      // longer than a stance
-  double encoder_stuck_rad = 0.03;  // the other side has moved this far
+  double encoder_stuck_rad = 0.03;  // travel of the other side
   double bus_voltage_min_V = 18.0;
   double bus_voltage_max_V = 56.0;
   // Thermal model of a motor, see thermal_model.hpp.
@@ -31,8 +31,9 @@ struct SupervisionConfig {
   int range_samples = 10;
   double imu_range_mps2 = 152.0;
   double imu_gyro_radps = 8.0;
-  double imu_disagreement_mps = 0.35;  // between both IMUs and the encoders over 20 ms
-  double imu_rate_Hz = 800.0;          // samples in fewer cycles of a second than this: intermittent
+  double imu_disagreement_mps = 0.35;  // difference between both IMUs and the encoders over 20 ms
+  double imu_rate_Hz = 800.0;          // least number of cycles per second with a new sample; fewer are a
+                                       // fault
   double tilt_rad = 0.2;
   double tof_range_m = 2.5;
   double tof_jump_m = 0.06;
@@ -45,7 +46,7 @@ struct SupervisionConfig {
   double leg_length_max_m = 0.3595;
   double body_speed_mps = 3.5;
   double foot_height_m = 0.25;
-  double energy_gain_J = 2.0;  // in one flight
+  double energy_gain_J = 2.0;  // gain within one flight
   int hop_count = 100000;
   // The cycle.
   int cycle_gap = 20;

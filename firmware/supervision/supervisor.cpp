@@ -17,7 +17,8 @@ Limits tof_limits(const CycleConfig& c) noexcept {
   const auto& s = c.supervision;
   return {c.limits.tof_age_s, s.tof_rate_Hz, s.stuck_samples, static_cast<double>(s.range_samples), 1.0};
 }
-// Noise of a broken wire swings through the range: half as many count, and good ones forgive little.
+// The noise of a broken wire crosses the range repeatedly. So half as many bad samples suffice, and good ones
+// decrease the count only slowly.
 Limits load_cell_limits(const CycleConfig& c) noexcept {
   const auto& s = c.supervision;
   return {c.limits.load_cell_age_s, s.load_cell_rate_Hz, s.stuck_samples, 0.5 * s.range_samples, 0.25};

@@ -13,17 +13,18 @@
 
 namespace sandhopper {
 
-// Looks at every frame, in every state, and says which fault it shows, if any; of several the one with the
-// harshest reaction. Remembers what the checks need, so it must see each frame once. Like the cycle it is
-// part of it reads no clock, allocates and throws nothing.
+// Checks every frame in every state and returns the fault it shows, if any; of several the one with the
+// harshest reaction. It stores the history that the checks need, so it must see each frame exactly once.
+// Being part of the cycle it reads no clock and neither allocates nor throws.
 class Supervisor {
  public:
-  // Both must outlive it.
+  // `config` and `leg` must outlive it.
   Supervisor(const CycleConfig& config, const Leg& leg) noexcept;
 
   struct Context {
     State state;
-    double phase_time_s;  // in flight, compression or extension; of a soft stop what is beyond its own time
+    double phase_time_s;  // time in flight, compression or extension; for a soft stop the time beyond its
+                          // planned duration
     bool estimating;      // the estimate belongs to this frame
     bool energised;       // drives are on and checked
     std::uint32_t touchdowns;  // since the leg was inspected
@@ -33,7 +34,7 @@ class Supervisor {
 
   const ThermalModel& thermal(std::size_t motor) const noexcept { return motor_[motor].thermal(); }
 
-  // For tests of the tests: without this fault's detector.
+  // Removes this fault's detector. For tests that prove that the fault matrix notices a missing detector.
   void switch_off(Fault detector) noexcept { off_.set(static_cast<std::size_t>(detector)); }
 
  private:

@@ -25,13 +25,13 @@ namespace {
 
 constexpr int kCutsAfterDeath = 100;
 constexpr std::int64_t kBetweenCuts_ns = 1'000'000;
-// Later than the torque watchdog's thread, which has cut by then if it can run at all.
+// Later than the torque watchdog's thread, which has already cut the torque if it can run at all.
 constexpr double kStallFactor = 1.5;
-constexpr int kLooks = 4;  // in cycle_stall_s
+constexpr int kLooks = 4;  // checks within cycle_stall_s
 constexpr std::int64_t kPatienceAfterEnd_ns = 500'000'000;
 constexpr std::size_t kMostDescriptors = 16;
-// The kernel's out-of-memory killer never chooses a process at -1000. hopperd stands just above it: it goes
-// after everything else on the machine, and before its guard.
+// The kernel's out-of-memory killer never chooses a process with -1000. hopperd is just above: it is killed
+// after all other processes and before its guard.
 constexpr std::string_view kNeverKilled = "-1000";
 constexpr std::string_view kKilledLast = "-900";
 
@@ -46,7 +46,7 @@ bool is_never_killed() noexcept {
   return file && ::read(file.get(), text, sizeof text - 1) > 0 && std::string_view(text) == "-1000\n";
 }
 
-// The child. Between fork and _exit: only what a signal handler may call.
+// The child process. Between fork and _exit it may call only async-signal-safe functions.
 class Guard {
  public:
   Guard(const GuardProcess::Setup& setup, int line) noexcept
@@ -76,7 +76,7 @@ class Guard {
     ::setsid();
     ::prctl(PR_SET_NAME, "hopperd-guard");
     write_score(kNeverKilled);
-    // The file writer that carries out the last act of a standstill is a child of ordinary priority.
+    // SCHED_RESET_ON_FORK: the child that writes the file at a standstill gets ordinary priority.
     const sched_param parameters{.sched_priority = setup_.config.priority};
     if (parameters.sched_priority > 0) ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
     close_other_descriptors();
@@ -102,7 +102,7 @@ class Guard {
     ::close_range(next, ~0U, 0);
   }
 
-  // Until the next look, or the parent's message or end.
+  // Waits until the next check, or until the parent's message or end.
   Message wait() const noexcept {
     pollfd line{line_, POLLIN, 0};
     const timespec timeout{look_ns_ / kNanosecondsPerSecond, look_ns_ % kNanosecondsPerSecond};
@@ -129,7 +129,7 @@ class Guard {
     const auto now_ns = monotonic_ns();
     const auto stall_ns = detector_.see(setup_.heart, now_ns);
     const bool stalled = stall_ns >= limit_ns_;
-    if (stalled) setup_.heart.trip(stall_ns);  // before the cut: a cycle that wakes now sends nothing old
+    if (stalled) setup_.heart.trip(stall_ns);  // before the cut, so a waking cycle sends no old command
     const bool untaken = tripped_ && setup_.heart.beating() && setup_.heart.tripped();
     if (stalled || untaken || overdue(now_ns)) setup_.cut.cut();
     if (stalled && !tripped_) start_writer();
@@ -145,7 +145,7 @@ class Guard {
     return ended_since_ns_ != 0 && now_ns - ended_since_ns_ >= kPatienceAfterEnd_ns;
   }
 
-  // The last act of a standstill, in a process of its own so that the cuts go on.
+  // Runs the last act of a standstill in a child process, so that the cuts go on.
   void start_writer() noexcept {
     if (setup_.last_act == nullptr || writer_ > 0) return;
     writer_ = ::fork();
@@ -172,7 +172,7 @@ GuardProcess::GuardProcess(const Setup& setup) {
     throw std::system_error(errno, std::generic_category(), "line to the guard");
   const UniqueFd child_end(ends[0]);
   line_ = UniqueFd(ends[1]);
-  // Blocked before the fork, so that no signal finds the child before it has blocked them itself.
+  // Block the signals before the fork, so that none reaches the child before it has blocked them itself.
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -186,7 +186,7 @@ GuardProcess::GuardProcess(const Setup& setup) {
 
 GuardProcess::~GuardProcess() {
   if (line_) {
-    // A guard that somebody killed must not end this process with SIGPIPE.
+    // If the guard was killed, SIGPIPE must not end this process.
     [[maybe_unused]] const auto told = ::send(line_.get(), "q", 1, MSG_NOSIGNAL);
     line_ = UniqueFd();
   }

@@ -10,14 +10,16 @@
 namespace sandhopper {
 
 // A child process that cuts the torque when this process dies (crash, SIGKILL, out of memory) or stands still
-// as a whole (SIGSTOP, Ctrl-Z, a debugger), where the torque watchdog's thread stands still with the cycle.
-//   - Death: within a millisecond, then every millisecond for 100 ms; then the last act, and the child ends.
-//   - Standstill: the cycle has beaten and then misses its beat for 1.5 cycle_stall_s. The child looks every
-//     quarter of cycle_stall_s, leaves a trip in the heartbeat and cuts at each look until the cycle beats
-//     again and has taken the trip, so that it ends in the fault watchdog_tripped.
-//   - Not dismissed 0.5 s after the cycle's end: it cuts at each look until it is dismissed.
-// It sends nothing but the frames of TorqueCut: zero torque, leave motor mode. It ignores every signal that
-// can be ignored, has a session of its own (no Ctrl-C or Ctrl-Z reaches it), runs with SCHED_FIFO at the
+// as a whole (SIGSTOP, Ctrl-Z, a debugger). In the second case the torque watchdog's thread stands still with
+// the cycle.
+//   - Death: cuts within a millisecond, then every millisecond for 100 ms; runs the last act and ends.
+//   - Standstill: the cycle has beaten and then misses its beat for 1.5 cycle_stall_s. The child checks every
+//     quarter of cycle_stall_s. It stores a trip in the heartbeat and cuts at each check until the cycle
+//     beats again and has taken the trip. The trip leads to the fault watchdog_tripped.
+//   - Not dismissed 0.5 s after the cycle's end: it cuts at each check until it is dismissed.
+// It sends only the frames of TorqueCut: zero torque, leave motor mode. It ignores every signal that can be
+// ignored and has a session of its own (Ctrl-C and Ctrl-Z do not reach it). As far as permitted, it runs with
+// SCHED_FIFO at the watchdog's priority and locks its memory.
 // watchdog's priority and locks its memory, as far as the machine grants that.
 class GuardProcess {
  public:
@@ -35,16 +37,18 @@ class GuardProcess {
   GuardProcess(const GuardProcess&) = delete;
   GuardProcess& operator=(const GuardProcess&) = delete;
 
-  // For drives that were not confirmed off: the child does what it does at a death of this process.
+  // For drives that were not confirmed off: the child acts as after the death of this process.
   void abandon() noexcept { line_ = UniqueFd(); }
 
-  // False after the child has ended, for example killed by somebody: nobody would cut the torque. Reaps it.
+  // False after the child has ended, for example because it was killed. Then a standstill or a death of this
+  // process would not cut the torque. Also reaps the child.
   bool alive() noexcept;
 
   pid_t process_id() const noexcept { return child_; }
 
  private:
-  UniqueFd line_;  // the child reads its other end: a byte dismisses it, the end of the line is a death
+  UniqueFd line_;  // the child reads the other end: a byte dismisses it, the end of the connection means
+                   // death
   pid_t child_ = -1;
 };
 

@@ -7,22 +7,22 @@
 
 namespace sandhopper {
 
-// What the cycle and those who watch it share: beats one way, the watchdog's trip the other. Nothing here
-// waits. It may lie in memory shared by processes: its atomics take no lock.
+// Shared state of the cycle and its watchdogs: beats in one direction, a watchdog's trip in the other. No
+// function waits. It may be in memory shared by processes, because its atomics are lock-free.
 class Heartbeat {
  public:
-  // The cycle's, once a turn.
+  // Called by the cycle once per turn.
   void beat(State state, Fault fault) noexcept {
     state_.store(state, std::memory_order_relaxed);
     fault_.store(fault, std::memory_order_relaxed);
     beats_.store(beats_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
-  // The cycle has ended: from now on silence is right.
+  // Called by the cycle at its end: from now on missing beats are no stall.
   void end() noexcept { beats_.store(kEnded, std::memory_order_release); }
-  // For how long the watchdog saw it stand still and tripped, since the last call; 0: it did not.
+  // Length [ns] of the stall at which a watchdog tripped since the last call; 0: none.
   std::int64_t take_trip() noexcept { return stall_ns_.exchange(0, std::memory_order_acq_rel); }
 
-  // The watchers'.
+  // Called by the watchdogs.
   std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_acquire); }
   bool ended() const noexcept { return beats() == kEnded; }
   bool beating() const noexcept { return beats() != 0 && beats() != kEnded; }
@@ -30,7 +30,7 @@ class Heartbeat {
   Fault fault() const noexcept { return fault_.load(std::memory_order_relaxed); }
   void trip(std::int64_t stall_ns) noexcept { stall_ns_.store(stall_ns, std::memory_order_release); }
 
-  // A trip that the cycle has not seen yet: what it computed before is not to be sent any more.
+  // True if the cycle has not yet seen a trip: what it computed before must not be sent.
   bool tripped() const noexcept { return stall_ns_.load(std::memory_order_acquire) != 0; }
 
  private:

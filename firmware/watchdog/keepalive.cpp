@@ -12,7 +12,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::int64_t kLongest_ns = 500'000'000;  // between two looks
+constexpr std::int64_t kLongest_ns = 500'000'000;  // longest time between two checks
 
 std::int64_t period_of(const KernelWatchdog& kernel, std::uint64_t service_us) {
   std::int64_t period_ns = kLongest_ns;
@@ -38,7 +38,7 @@ Keepalive::~Keepalive() {
 
 void Keepalive::run() {
   ::pthread_setname_np(::pthread_self(), "keepalive");
-  constexpr std::int64_t kStep_ns = 10'000'000;  // to end soon when asked
+  constexpr std::int64_t kStep_ns = 10'000'000;  // short, so that the thread ends soon when asked
   std::uint64_t last_beats = 0;
   bool ready = false;
   std::int64_t next_ns = 0;

@@ -12,16 +12,15 @@
 
 namespace sandhopper {
 
-// Tells those outside the process that the cycle beats: the kernel's watchdog and, under systemd, the service
-// manager (sd_notify(3): READY=1, STATUS=, WATCHDOG=1 twice in WATCHDOG_USEC, STOPPING=1). Of ordinary
-// priority on purpose: a computer on which it does not get to run has come to a standstill, too. A cycle that
-// stands still, or has not begun, is not spoken for; systemd then ends the program, the kernel resets the
-// computer.
+// Reports the beats of the cycle to the kernel's watchdog and, under systemd, to the service manager
+// (sd_notify(3): READY=1, STATUS=, WATCHDOG=1 twice in WATCHDOG_USEC, STOPPING=1). It runs at ordinary
+// priority on purpose: a computer on which it gets no time has also stalled. While the cycle stands still, or
+// before it has begun, nothing is reported; then systemd ends the program and the kernel resets the computer.
 class Keepalive {
  public:
-  // `also` is called on the same thread every 10 ms or a little later, whether the cycle beats or not.
+  // `also` is called on the same thread about every 10 ms, whether the cycle beats or not.
   Keepalive(const WatchdogConfig& config, const Heartbeat& heart, std::function<void()> also = {});
-  // Says that the service stops and disarms the kernel's watchdog.
+  // Reports that the service stops, and disarms the kernel's watchdog.
   ~Keepalive();
   Keepalive(const Keepalive&) = delete;
   Keepalive& operator=(const Keepalive&) = delete;

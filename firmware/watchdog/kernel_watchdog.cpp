@@ -30,7 +30,7 @@ KernelWatchdog::~KernelWatchdog() {
     const auto disarmed = ::write(fd_.get(), "V", 1);
 }
 
-// Anything written feeds it, but 'V'.
+// Any byte except 'V' feeds the watchdog.
 void KernelWatchdog::feed() noexcept {
   if (fd_) [[maybe_unused]]
     const auto fed = ::write(fd_.get(), "\0", 1);

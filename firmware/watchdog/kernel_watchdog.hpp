@@ -5,11 +5,11 @@
 
 namespace sandhopper {
 
-// The kernel's watchdog (Documentation/watchdog/watchdog-api.rst): resets the computer unless fed. Ended in
-// order it is disarmed ('V' before the close); a program that dies leaves it armed.
+// The kernel's watchdog (Documentation/watchdog/watchdog-api.rst): it resets the computer unless it is fed.
+// An orderly end disarms it ('V' before the close); a program that dies leaves it armed.
 class KernelWatchdog {
  public:
-  // Opening arms it. Where there is none, or it takes no time-out, warning() says so with a cure.
+  // Opening arms it. If there is none, or its timeout cannot be set, warning() has the cause and the cure.
   KernelWatchdog(const std::string& device, int timeout_s);
   ~KernelWatchdog();
   KernelWatchdog(const KernelWatchdog&) = delete;
@@ -17,7 +17,7 @@ class KernelWatchdog {
 
   void feed() noexcept;
   bool armed() const noexcept { return static_cast<bool>(fd_); }
-  int timeout_s() const noexcept { return timeout_s_; }  // as the driver took it
+  int timeout_s() const noexcept { return timeout_s_; }  // timeout that the driver accepted
   const std::string& warning() const noexcept { return warning_; }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace sandhopper {
 
-// One object in memory that this process shares with the children it forks later (anonymous mapping,
-// MAP_SHARED). What either writes, the other sees. Throws std::system_error when there is no memory.
+// One object in memory that this process shares with children forked later (anonymous mapping, MAP_SHARED).
+// Each side sees what the other writes. Throws std::system_error if there is no memory.
 template <class T>
 class Shared {
   static_assert(std::is_trivially_destructible_v<T>, "the child ends without destructors");

@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// How long the beats have stood still, by the looks taken at them: never longer than they did, and shorter by
-// at most the time between two looks. Before the first beat and after the last nothing stands still.
+// Time [ns] for which the beats have stood still, as observed at each call of see(). It is never too long,
+// and too short by at most the time between two calls. Before the first beat and after the end it is 0.
 class StallDetector {
  public:
   std::int64_t see(const Heartbeat& heart, std::int64_t now_ns) noexcept {

@@ -58,7 +58,7 @@ void TorqueWatchdog::watch() noexcept {
       tripped = false;
       continue;
     }
-    // First, so that a cycle which wakes just now does not send what it worked out before.
+    // Trip before the cut, so that a cycle that wakes now does not send an old command.
     heart_.trip(stall_ns);
     cut_();
     if (!tripped) trips_.fetch_add(1, std::memory_order_relaxed);

@@ -10,10 +10,10 @@
 
 namespace sandhopper {
 
-// A thread of its own, above the cycle, that takes the torque away when the cycle stands still for longer
-// than cycle_stall_s, and again every look until it beats again; the trip is left with the heartbeat, so that
-// the cycle ends in the fault watchdog_tripped when it wakes. It looks four times in cycle_stall_s. After its
-// start it allocates nothing and waits for nothing but time.
+// A thread with a priority above the cycle's. It takes the torque away when the cycle stands still for longer
+// than cycle_stall_s, and again at every check until the cycle beats again. It stores a trip in the
+// heartbeat, so that the cycle raises the fault watchdog_tripped when it wakes. It checks four times in
+// cycle_stall_s. After its start it allocates nothing and waits only for time.
 class TorqueWatchdog {
  public:
   // `cut` takes the torque away and must not block; both must outlive the watchdog.
@@ -22,7 +22,7 @@ class TorqueWatchdog {
   TorqueWatchdog(const TorqueWatchdog&) = delete;
   TorqueWatchdog& operator=(const TorqueWatchdog&) = delete;
 
-  // What the machine did not grant, with its cure; empty: nothing.
+  // Real-time settings that the computer did not permit, with the cure; empty if none.
   const std::string& warning() const noexcept { return warning_; }
 
   std::uint32_t trips() const noexcept { return trips_.load(std::memory_order_relaxed); }

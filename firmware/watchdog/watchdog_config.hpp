@@ -5,13 +5,13 @@
 
 namespace sandhopper {
 
-// What watches the cycle from outside: a thread that takes the torque away, and the kernel's watchdog that
-// resets the computer.
+// Watchdogs of the cycle: a thread that takes the torque away, and the kernel's watchdog that resets the
+// computer.
 struct WatchdogConfig {
-  double cycle_stall_s = 0.020;          // the cycle stands still for this long: torque is taken away
+  double cycle_stall_s = 0.020;          // a longer standstill of the cycle takes the torque away
   int priority = 90;                     // SCHED_FIFO, above the cycle's; 0: ordinary scheduling
-  std::string device = "/dev/watchdog";  // kernel's watchdog, fed while the cycle beats; empty: none
-  int device_timeout_s = 5;              // the computer is reset when it was not fed for so long
+  std::string device = "/dev/watchdog";  // the kernel's watchdog, fed while the cycle beats; empty: none
+  int device_timeout_s = 5;              // the computer is reset if it was not fed for this long
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {

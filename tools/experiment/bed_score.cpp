@@ -15,14 +15,15 @@ namespace sandhopper {
 namespace {
 
 constexpr double kNormal975 = 1.959964;
-constexpr double kFirstDepth_m = 0.002;  // shallower, the surface's own error is larger than the force
+constexpr double kFirstDepth_m = 0.002;  // at smaller depths the surface error is larger than the force
 constexpr double kWidthDepth_m = 0.020;
 constexpr double kNone_m = std::numeric_limits<double>::infinity();
 constexpr double kPitch_m = 0.001;
-constexpr double kSamePlace_m = 0.010;  // farther off, what was found is something else
+constexpr double kSamePlace_m = 0.010;  // an event found farther away is a different one
 constexpr double kAccurate_m = 0.002;
 constexpr double kNear_m = 0.005;
-constexpr double kBeyond_m = 0.001;  // how far the foot must go past an event for it to have happened
+constexpr double kBeyond_m = 0.001;  // the foot must pass an event by this much for it to count as having
+                                     // happened
 constexpr int kStrides = 3;
 
 void score_band(const StrengthProfile& profile, const BedTruth& truth, double from_m, double to_m,
@@ -37,7 +38,7 @@ void score_band(const StrengthProfile& profile, const BedTruth& truth, double fr
   }
 }
 
-// `true_depth_m`: infinite where the bed has no such thing.
+// `true_depth_m` is infinite if the bed has no such event.
 void score_event(const GroundEvent& event, GroundEventKind kind, double true_depth_m, double deepest_m,
                  EventScore& score) {
   const bool happened = deepest_m > true_depth_m + kBeyond_m;
@@ -63,26 +64,25 @@ void score_event(const GroundEvent& event, GroundEventKind kind, double true_dep
 void score_events(const GroundEvents& found, const BedStride& stride, const BedTruth& truth,
                   EventScores& score) {
   const double deepest = stride.true_deepest_m, crater = stride.true_crater_m;
-  // Depths above the crater's deepest point belong to an earlier stride.
+  // Events above the crater's deepest point belong to an earlier stride.
   const auto depth_of = [&](const std::optional<double>& depth) {
     return depth && *depth > crater - kBeyond_m ? *depth : kNone_m;
   };
   score_event(found.rupture, GroundEventKind::crust_rupture, depth_of(truth.rupture_depth_m), deepest,
               score.rupture);
-  // A foot that only came near the boundary felt a part of it: neither there nor absent.
+  // Near the boundary the foot felt only a part of it, so the stride counts neither as present nor as absent.
   const double boundary = depth_of(truth.boundary_depth_m);
   const double near = truth.boundary_depth_m.value_or(kNone_m);
   if (!(std::abs(deepest - near) <= kNear_m) && !(crater > 0.0 && std::abs(crater - near) <= kNear_m))
     score_event(found.boundary, GroundEventKind::layer_boundary, boundary, deepest, score.boundary);
   score_event(found.boundary, GroundEventKind::box_floor, depth_of(truth.floor_depth_m), deepest,
               score.floor);
-  // A foot that leaves meets suction just above its crater's floor, which is not deeper than the deepest
-  // point.
+  // While the foot leaves, suction acts just above the crater's floor, which is not below the deepest point.
   const double pull = truth.suction_N.has_value() ? deepest - 2.0 * kBeyond_m : kNone_m;
   score_event(found.suction, GroundEventKind::suction, pull, deepest, score.suction);
 }
 
-// All that the other thread makes of one stride.
+// All results for one stride that are computed outside the cycle.
 struct Answer {
   JointEstimate joint{};
   StrengthProfile profile{};

@@ -9,18 +9,19 @@
 #include "terrain/ground_events.hpp"
 #include "tools/experiment/bed_strides.hpp"
 
-// Score of what strides say about beds of every family: coverage and width of the strength profile, the slope
-// of a line, the crater of later strides, and events that were found, missed and false.
+// Scores the results of strides on beds of every family: coverage and width of the strength profile, slope of
+// a line, crater of later strides, and events found, missed and false.
 namespace sandhopper {
 
 struct CoverageScore {
-  double depths = 0.0;         // at which the band was compared: visited by the foot, from 2 mm on
-  double covered = 0.0;        // truth inside mean +- 1.96 sd
+  double depths = 0.0;         // number of depths at which the band was compared: visited by the foot, from 2
+                               // mm on
+  double covered = 0.0;        // true value inside mean +- 1.96 sd
   double squared_error = 0.0;  // sum of ((mean - truth) / truth)^2
   double share() const { return covered / depths; }
 };
 
-// A number with its 95 % interval against the truth.
+// Score of a value with a 95 % interval against the true value.
 struct NumberScore {
   double count = 0.0;
   double absolute_error = 0.0;  // sum of |value / truth - 1|
@@ -32,23 +33,24 @@ struct NumberScore {
 struct FirstStrideScore {
   double strides = 0.0;
   CoverageScore band{};
-  std::vector<double> width_20mm{};  // 2 x 1.96 sd / truth at 20 mm, of strides that reached it
-  double line_valid = 0.0;           // a straight line is reported as a valid description
-  double joint_valid = 0.0;          // by the joint fit
-  // For beds that are a line: its slope, on the strides where both call it valid.
+  std::vector<double> width_20mm{};  // 2 x 1.96 sd / true value at 20 mm, for strides that reached it
+  double line_valid = 0.0;           // strides for which a straight line is reported as a valid description
+  double joint_valid = 0.0;          // the same by the joint fit
+  // For beds that are a line: its slope, for strides that both call valid.
   NumberScore slope{}, joint_slope{};
-  std::array<double, 6> shapes{};  // of GroundShape
+  std::array<double, 6> shapes{};  // number of strides per GroundShape
 };
 
-// Strides 2 and 3, which land in the crater.
+// Score of strides 2 and 3, which land in the crater.
 struct CraterScore {
   double strides = 0.0;
-  NumberScore reloading{};                // those with an interval of two ends
-  double bounds = 0.0;                    // a lower bound alone
-  std::vector<double> reloading_width{};  // interval over truth
-  double deeper = 0.0;                    // in truth, by more than the stated error of the depth
-  double curves = 0.0;                    // of these, with samples on new ground
-  CoverageScore fresh{};                  // at the depths that are new in this stride
+  NumberScore reloading{};                // for intervals with two ends
+  double bounds = 0.0;                    // number of results with a lower bound only
+  std::vector<double> reloading_width{};  // width of the interval over the true value
+  double deeper = 0.0;                    // strides that truly went deeper, by more than the stated error of
+                                          // the depth
+  double curves = 0.0;                    // those of them with samples on new ground
+  CoverageScore fresh{};                  // at depths that are new in this stride
   CoverageScore band{};                   // at every depth visited so far
   double landings = 0.0, landing_error_m = 0.0, landing_squared_m2 = 0.0;  // BedStride::landing_error_m
   double landing_rms_m() const { return std::sqrt(landing_squared_m2 / landings); }
@@ -56,13 +58,14 @@ struct CraterScore {
 
 struct EventScore {
   double possible = 0.0;  // strides in which the event happened
-  double found = 0.0;     // of these, with the depth within 10 mm
+  double found = 0.0;     // those of them found with a depth error within 10 mm
   double within_2mm = 0.0;
   double depth_error_m = 0.0, depth_error_squared_m2 = 0.0;  // sums over those found
   double absent = 0.0;                                       // strides in which it did not happen
-  double false_alarms = 0.0;                                 // of these
-  double largest_absent = 0.0;                               // statistic over threshold
-  std::vector<double> absent_statistics{};  // T / u of each stride without the event: the null's distribution
+  double false_alarms = 0.0;                                 // those of them in which it was reported
+  double largest_absent = 0.0;                               // largest statistic over threshold in these
+  std::vector<double> absent_statistics{};  // T / u of each stride without the event: distribution under the
+                                            // null
 };
 
 struct EventScores {
@@ -72,25 +75,25 @@ struct EventScores {
 struct BedScore {
   std::string bed;
   double trials = 0.0, incomplete = 0.0;
-  double contact_error_m = 0.0;  // sum
+  double contact_error_m = 0.0;  // sum over trials
   FirstStrideScore first{};
   CraterScore crater{};
   EventScores first_events{}, later_events{};
-  std::vector<double> solve_s{}, search_s{};  // of each stride: profile and summary; events
+  std::vector<double> solve_s{}, search_s{};  // for each stride: profile and summary; events
 };
 
 struct BedScoreSetup {
   CycleConfig cycle{};
   WorldConfig world{};
-  std::vector<std::string> beds{};  // names of bed_cases(); empty: those of a family
-  long trials = 200;                // of each, of three strides
+  std::vector<std::string> beds{};  // names of bed_cases(); empty: those that are standard
+  long trials = 200;                // trials per bed, of three strides each
   std::uint64_t first_seed = 1;
   unsigned threads = 2;
   std::function<void(long done, long total)> progress{};
-  std::function<void(const BedScore&)> finished{};  // a bed
+  std::function<void(const BedScore&)> finished{};  // called after each bed
 };
 
-// Throws std::invalid_argument where a name is none of bed_cases().
+// Throws std::invalid_argument if a name is not in bed_cases().
 std::vector<BedScore> score_beds(const BedScoreSetup& setup);
 
 void to_json(nlohmann::ordered_json& json, const BedScore& score);

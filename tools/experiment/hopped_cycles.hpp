@@ -8,19 +8,20 @@
 
 namespace sandhopper {
 
-// A trial on the simulated robot, cycle by cycle: the controller is asked to arm, then to release.
+// A trial on the simulated robot, cycle by cycle. The controller gets the requests to arm and then to
+// release.
 class HoppedCycles {
  public:
   HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup);
 
-  // Runs one cycle; false where the trial is over. `change` may alter what the controller is told.
+  // Runs one cycle. Returns false when the trial is over. `change` may modify the controller's input.
   bool next(const std::function<void(SensorFrame&)>& change = {});
 
   const Controller& controller() const { return controller_; }
   const SensorFrame& frame() const { return told_; }
   const StepOutput& output() const { return *output_; }
-  const PlantTruth& truth() const { return truth_; }          // at the cycle's own time
-  const PlantTruth& truth_before() const { return before_; }  // at that of the newest motor reply
+  const PlantTruth& truth() const { return truth_; }          // at the time of the cycle
+  const PlantTruth& truth_before() const { return before_; }  // at the time of the newest motor reply
   bool faulted() const { return output_->state == State::fault; }
 
  private:

@@ -21,7 +21,7 @@ struct NominalRow {
 
 struct NominalStride {
   std::vector<NominalRow> rows;
-  std::vector<PlantTruth> grid;  // every 0.1 ms, starting with the first row
+  std::vector<PlantTruth> grid;  // one row every 0.1 ms, starting with the first row
 };
 
 inline NominalStride nominal_stride(const NominalStrideSetup& setup, const WorldConfig& config = {}) {

@@ -12,9 +12,9 @@ namespace sandhopper {
 
 inline unsigned processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-// work(i) for every i in [0, total), on `threads` threads, each i once; progress(done, total) from one thread
-// at a time. What work(i) leaves behind must depend on i alone, then the answer does not depend on the number
-// of threads. After a first exception nothing more is begun, and it is thrown again here.
+// Calls work(i) once for every i in [0, total) on `threads` threads, and progress(done, total) from one
+// thread at a time. The result of work(i) must depend on i only; then the result is independent of the number
+// of threads. After the first exception no further work begins and the exception is rethrown.
 inline void parallel_for(long total, unsigned threads, const std::function<void(long)>& work,
                          const std::function<void(long, long)>& progress = {}) {
   std::atomic<long> next{0};
@@ -44,7 +44,7 @@ inline void parallel_for(long total, unsigned threads, const std::function<void(
   if (failure) std::rethrow_exception(failure);
 }
 
-// On every processor.
+// The same on all processors.
 inline void parallel_for(std::size_t total, const std::function<void(std::size_t)>& work) {
   parallel_for(static_cast<long>(total), processors(), [&](long i) { work(static_cast<std::size_t>(i)); });
 }

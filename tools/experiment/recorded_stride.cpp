@@ -67,7 +67,7 @@ void follow_strides(std::span<const RecordedStride> strides, const StiffnessConf
   for (const auto& stride : strides)
     for (const auto& sample : stride.samples) {
       const std::int64_t now_ns = sample.estimate.force_time_ns + kPeriod_ns;
-      // A cycle's sample belongs to the state before its transition.
+      // The sample of a cycle belongs to the state before the cycle's transition.
       if (state != State::armed) recorder.update(sample.estimate, state);
       if (state == State::armed && sample.state == State::flight) recorder.on_release(now_ns);
       if (state == State::flight && sample.state == State::compression) recorder.on_touchdown(now_ns);

@@ -2,16 +2,17 @@
 #include <span>
 #include <vector>
 
-// Small-sample statistics of the experiments; of nothing they are NaN.
+// Statistics of small samples for the experiments. Without values they are NaN, except standard_deviation().
 namespace sandhopper {
 
 double mean(std::span<const double> values);
-double standard_deviation(std::span<const double> values);  // of a sample, n - 1; 0 for less than two values
+double standard_deviation(std::span<const double> values);  // sample standard deviation with n - 1; 0 for
+                                                            // fewer than two values
 double rms(std::span<const double> values);
 double correlation(std::span<const double> a, std::span<const double> b);
 double largest(std::span<const double> values);
 double smallest(std::span<const double> values);
-double median(std::span<const double> values);  // the upper one of two
+double median(std::span<const double> values);  // the upper middle value for an even number
 
 // y = intercept + slope x by ordinary least squares.
 struct LineFit {

@@ -3,7 +3,7 @@
 namespace sandhopper {
 namespace {
 
-// The sums' fields, once, for writing and reading.
+// Fields of the sums, listed once for writing and reading.
 template <class Sums, class Visitor>
 void way_fields(Sums& s, Visitor&& visit) {
   visit("strides", s.strides);

@@ -14,7 +14,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kFirstSetup = 7;  // 0.7 m/s and 375 N/m, of 15
+constexpr std::size_t kFirstSetup = 7;  // index of 0.7 m/s and 375 N/m in the 15 set-ups
 constexpr std::uint64_t kSeedsOfASession = 1000, kForecasts = 100, kStrides = 200, kSeedsOfAnArm = 50;
 
 struct Stride {

@@ -119,7 +119,7 @@ StrideOutcome run_one(const StudySetup& setup, const HopCell& cell, std::uint64_
   return outcome;
 }
 
-// Every (seed, cell, trial) has its own place, so the answer does not depend on the number of threads.
+// Every (seed, cell, trial) has its own element, so the result does not depend on the number of threads.
 std::vector<StrideOutcome> run_all(const StudySetup& setup) {
   const auto& cells = hop_cells();
   const int per_seed = static_cast<int>(cells.size()) * setup.trials_per_cell;

@@ -8,9 +8,9 @@
 #include "terrain/bed.hpp"
 #include "tools/experiment/recorded_stride.hpp"
 
-// The hop set: five touchdown speeds, three compression stiffnesses, five trials a cell, several seeds;
-// stiffness by three treatments in several sample windows, against the stiffness an actuator measures on the
-// same bed.
+// The hop set: five touchdown speeds, three compression stiffnesses, five trials per cell, several seeds.
+// Stiffness is estimated by three treatments in several sample windows and compared with the stiffness that
+// an actuator measures on the same bed.
 namespace sandhopper {
 
 struct HopCell {
@@ -18,10 +18,10 @@ struct HopCell {
   double release_height_m;
   double compression_stiffness_N_per_m;
 };
-// Release heights give those speeds with 4 N of rail friction.
+// The release heights give these speeds with 4 N of rail friction.
 const std::vector<HopCell>& hop_cells();
 
-// Stiffness of a slow intrusion to 50 mm: slope with a free intercept, and through the origin.
+// Stiffness from a slow intrusion to 50 mm: slope with a free intercept, and slope through the origin.
 struct GroundTruthStiffness {
   double free_intercept_N_per_m;
   double through_origin_N_per_m;
@@ -34,13 +34,13 @@ struct TreatmentCase {
   bool free_intercept;
   bool true_state = false;  // observer's force, depth, speed and acceleration replaced by the true ones
 };
-// A, A2, B, C, C2, D, E, T.
+// The cases A, A2, B, C, C2, D, E, T.
 const std::vector<TreatmentCase>& treatment_cases();
 
 enum class Treatment : std::size_t { quasi_static_ols, observer_ols, observer_wls };
 inline constexpr std::size_t kTreatments = 3;
 
-// Mean |k_est/k_GT - 1| over the cells, each cell the mean of its trials, per seed and treatment.
+// Mean |k_est/k_GT - 1| over the cells per seed and treatment. Each cell is the mean of its trials.
 struct CaseResult {
   TreatmentCase definition;
   std::vector<std::array<double, kTreatments>> error_by_seed;
@@ -49,7 +49,7 @@ struct CaseResult {
   int seeds_in_order(Treatment worse, Treatment better) const;
 };
 
-// Root mean square errors in stance, per touchdown speed.
+// Root mean square errors in stance per touchdown speed.
 struct EstimationError {
   double touchdown_speed_mps;
   double quasi_static_N;
@@ -73,8 +73,8 @@ struct StudySetup {
   int seeds = 8;
   int trials_per_cell = 5;
   unsigned threads = 2;
-  // As if no sample had an age: the filter takes a height reading as of the cycle that hears of it, and
-  // forces are paired with the depth of the row they stand in.
+  // Treats all samples as if they had age zero: the filter assigns a height reading to the cycle that
+  // receives it, and forces are paired with the depth in the same row.
   bool ignore_ages = false;
   std::function<void(int done, int total)> progress{};  // called from one thread at a time
 };

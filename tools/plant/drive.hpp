@@ -8,11 +8,11 @@
 
 namespace sandhopper {
 
-// One motor with its drive: the law torque = kp (p_des - p) + kd (v_des - v) + t_ff on what its own encoder
-// measures, the torque limit, the current loop (first-order lag, exact for a held demand) and the drive's
-// measurements. Position is rounded to the encoder's counts after noise; speed is its difference over 0.1 ms
-// through a first-order low-pass. The drive controls current: a torque constant that differs from the nominal
-// one changes the torque, not the current.
+// One motor with its drive: the law torque = kp (p_des - p) + kd (v_des - v) + t_ff with its own encoder's
+// measurement, the torque limit, the current loop (first-order lag, exact for a held demand) and the drive's
+// measurements. The position is rounded to the encoder's counts after noise; the speed is its difference over
+// 0.1 ms through a first-order low-pass. The drive controls current, so a torque constant that differs from
+// the nominal one changes the torque, not the current.
 class Drive {
  public:
   struct Imperfection {
@@ -30,13 +30,13 @@ class Drive {
   void place(double angle_rad) noexcept;
   void command(const MotorCommand& command, bool enabled) noexcept;
 
-  // Lets one step's lag pass; the torque is then held through the step.
+  // Advances the current loop by one step; the torque is then held through the step.
   void step() noexcept;
   double torque_Nm() const noexcept {
     return (1.0 + imperfection_.torque_constant_relative) * nominal_torque_Nm_;
   }
 
-  // To be called with the link's angle at each step's end.
+  // Call it at the end of each step with the link's angle.
   void measure(double angle_rad) noexcept;
   MotorSample sample(std::int64_t time_ns) const noexcept;
 

@@ -6,20 +6,21 @@
 
 namespace sandhopper {
 
-// What somebody does to the robot while the catch holds it: weights on the load cell, the leg moved by hand,
-// the robot laid on its side, taps, or foot and body clamped so that the motors press on the load cell.
+// Actions on the robot while the catch holds it: weights on the load cell, the leg moved by hand, the robot
+// laid on its side, taps, or foot and body clamped so that the motors press on the load cell.
 struct Fixture {
   double load_N = 0.0;
-  std::optional<double> leg_angle_rad{};  // not given: as it is
-  // From that angle to this much more and back, as a raised cosine.
+  std::optional<double> leg_angle_rad{};  // empty: unchanged
+  // Swing from that angle to this much more and back, as a raised cosine.
   double leg_swing_rad = 0.0;
   double leg_swing_period_s = 1.0;
-  std::optional<double> body_height_m{};   // of the hip axis over the surface; not given: as it is
-  std::array<double, 3> body_up{0, 0, 1};  // the direction up in the robot's axes, as the body's IMU has them
-  std::array<double, 3> foot_up{0, 0, 1};  // and the foot's
+  std::optional<double> body_height_m{};   // height of the hip axis over the surface; empty: unchanged
+  std::array<double, 3> body_up{0, 0, 1};  // upward direction in the robot's axes, as the body's IMU measures
+                                           // it
+  std::array<double, 3> foot_up{0, 0, 1};  // the same for the foot's IMU
   bool clamped = false;
-  // Half-sine taps along the leg, felt by both IMUs and the load cell; the first one tap_period_s after the
-  // fixture was set.
+  // Half-sine taps along the leg, measured by both IMUs and the load cell. The first one comes tap_period_s
+  // after the fixture was set.
   int taps = 0;
   double tap_period_s = 0.5;
   double tap_length_s = 0.008;
@@ -43,13 +44,13 @@ struct Fixture {
     visit("tap_accel_mps2", self.tap_accel_mps2, Range{0.0, 1000.0});
   }
 
-  // 1 at the peak of a tap.
+  // Relative strength of a tap at this time; 1 at its peak.
   double tap_at(double since_set_s) const noexcept;
-  // How far the leg is from where its swing began [rad].
+  // Deviation of the leg from the start of its swing [rad].
   double swing_at(double since_set_s) const noexcept;
 };
 
-// The torque that reaches the links of a clamped leg: it follows the motors' with the play of Coulomb
+// Torque on the links of a clamped leg: it follows the motors' torque with the hysteresis of Coulomb
 // friction.
 class PressedTorque {
  public:

@@ -13,8 +13,8 @@ WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig
 
 namespace {
 
-// The family named in the document gives the keys of [bed_family] their values where they are left out. A
-// name that is none is left to the reader, which reports it.
+// The family named in the document gives default values for the keys of [bed_family]. An invalid name is left
+// to the reader, which reports it.
 BedFamilyParameters named_family(const ConfigDocument& document) {
   const ConfigNode* table = document.root.find("bed_family");
   const ConfigNode* name = table != nullptr ? table->find("family") : nullptr;

@@ -6,16 +6,16 @@
 
 namespace sandhopper {
 
-// The world the robot of this configuration lives in: its leg, neutral lengths and torque constants,
-// everything else as in `directory`/world.toml, whose keys may each be left out. A leg key there makes the
-// simulated robot another one than the firmware believes. Throws ConfigError.
+// World of the simulated robot: leg, neutral lengths and torque constants from the robot's configuration, the
+// rest from `directory`/world.toml, in which every key is optional. A leg key in world.toml makes the
+// simulated leg differ from the firmware's model. Throws ConfigError.
 WorldConfig load_world(const std::filesystem::path& directory, const RobotConfig& robot);
 
-// What `file` leaves out is as in `base`; but a key of [bed_family] has the value of the family named there.
-// Throws ConfigError.
+// Keys missing in `file` are taken from `base`, but those of [bed_family] from the family named there. Throws
+// ConfigError.
 WorldConfig load_world_file(const std::filesystem::path& file, WorldConfig base);
 
-// As the first, from any file.
+// The same as load_world, from any file.
 WorldConfig load_world_file(const std::filesystem::path& file, const RobotConfig& robot);
 
 }  // namespace sandhopper

@@ -14,13 +14,14 @@ struct EnumNames<NominalPhase> {
   static constexpr std::array<std::string_view, 3> value{"flight", "compression", "extension"};
 };
 
-// The belief's controller, which is told the true foot height (the firmware must find the touchdown in what
-// it measures). Leg as a spring, F = K (L0 - L) - B Ldot, torque = F L' (clipped by the drives):
+// Nominal controller of the diagnosis. It gets the true foot height, while the firmware must detect
+// touchdown from its measurements. The leg is a spring, F = K (L0 - L) - B Ldot, torque = F L' (limited by
+// the drives):
 //   flight       K 500, L0 0.30, B 15   until x_f <= 0 and (L0 - L > 2 mm or Ldot < -50 mm/s)
 //   compression  K k_c, L0 0.30, B 0    until Ldot >= 0 and L0 - L > 4 mm
 //   extension    K 500, L0 0.34, B 0    until L >= L0 - 0.5 mm, then flight
-// After a liftoff below the surface a touchdown counts only once the foot has been above it. For a later
-// stride the caller gives the foot's height over the surface it will land on, which is then the crater's.
+// After a liftoff below the surface a touchdown counts only after the foot has been above it. For a later
+// stride the caller gives the foot's height over the surface where it will land, which is the crater's floor.
 class NominalController {
  public:
   struct Input {
@@ -32,7 +33,7 @@ class NominalController {
   NominalController(const NominalControllerConfig& config, double compression_stiffness_N_per_m)
       : c_(config), compression_stiffness_N_per_m_(compression_stiffness_N_per_m) {}
 
-  // Sum of both motors' torque to be held until the next call.
+  // Sum of both motors' torque, held until the next call.
   double step(const Leg& leg, const Input& in) noexcept {
     const auto kinematics = leg.kinematics(in.angle_rad);
     const double length_m = kinematics.length_m;

@@ -11,8 +11,8 @@ constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
 constexpr double kNever_s = 1e9;
 constexpr double kTeethDampingRatio = 0.5;
-constexpr double kCalm_mps2 = 0.5;          // a foot that swings on the unloading line exceeds it
-constexpr double kPhasePerPiece_rad = 0.5;  // of the quickest oscillation, in one midpoint step
+constexpr double kCalm_mps2 = 0.5;          // a foot that oscillates on the unloading line accelerates more
+constexpr double kPhasePerPiece_rad = 0.5;  // largest phase of the fastest oscillation in one midpoint step
 constexpr double kLeastFoot_kg = 1e-3;      // a spring needs a mass to act on
 
 }  // namespace
@@ -61,14 +61,14 @@ double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
   return friction + cogging + stops;
 }
 
-// What the teeth pass on from rotors to links.
+// Torque that the gear teeth transmit from rotors to links.
 double Plant::transmitted_Nm(const PlantState& s) const noexcept {
   const double half = 0.5 * robot_.joint_play_rad;
   const double pressed = s.play_rad - std::clamp(s.play_rad, -half, half);
   return pressed == 0.0 ? 0.0 : teeth_Nm_per_rad_ * pressed + teeth_Nm_s_ * s.play_radps;
 }
 
-// The leg's dynamics without the rotors' inertia, which is constant.
+// Removes the rotors' inertia, which is constant, from the leg's dynamics.
 void Plant::free_rotors(LegDynamics& d) const noexcept {
   d.m22_kg_m2 -= rotors_kg_m2_;
   const double gain = d.m12_kg_m / d.m22_kg_m2;
@@ -146,7 +146,7 @@ double Plant::deepest_N() const noexcept {
   return known_N_;
 }
 
-// `from`, `dt_s` later, at the speeds of `at` and these accelerations.
+// State `from` after `dt_s`, with the speeds of `at` and these accelerations.
 PlantState Plant::moved(const PlantState& from, const PlantState& at, const Rates& r, double dt_s) noexcept {
   return {.foot_z_m = from.foot_z_m + dt_s * at.foot_velocity_mps,
           .foot_velocity_mps = from.foot_velocity_mps + dt_s * r.foot_accel_mps2,
@@ -179,8 +179,8 @@ void Plant::step(double torque_Nm, double step_s) noexcept {
   finish_step(torque_Nm);
 }
 
-// How long until the force has a kink or a jump, if the acceleration stays: the sole meets the surface, comes
-// to rest in the bed (which yields no further) or is back where it was deepest (where it yields again).
+// Time until the force has a kink or a jump if the acceleration stays constant: the sole meets the surface,
+// comes to rest in the bed (penetration ends) or returns to its deepest point (penetration starts again).
 double Plant::next_event_s(double accel_mps2) const noexcept {
   const double z = state_.foot_z_m, v = state_.foot_velocity_mps;
   const double level_m = z > 0.0 ? 0.0 : -max_depth_m_;
@@ -191,7 +191,7 @@ double Plant::next_event_s(double accel_mps2) const noexcept {
   return event_s > 0.0 ? event_s : kNever_s;
 }
 
-// Springs of the plant's own are quicker than a step.
+// Largest step for the plant's own springs, which oscillate faster than a step.
 double Plant::longest_piece_s(const LegDynamics& d, double step_s) const noexcept {
   double quickest = 0.0;  // rad^2/s^2
   if (series_N_per_m_ > 0.0) {
@@ -244,18 +244,18 @@ void Plant::finish_step(double torque_Nm) noexcept {
   }
 }
 
-// Impact: an impulse at the foot leaves the momentum of phi alone, M12 dv_f + M22 dphid = 0, and takes M_f
-// v_f.
+// Plastic impact: the impulse at the foot keeps the momentum of phi, M12 dv_f + M22 dphid = 0, and removes
+// M_f v_f.
 void Plant::settle_on_rigid_ground(double torque_Nm) noexcept {
   if (standing_) {
     standing_ = rates(state_, torque_Nm).contact_force_N > 0.0;
   } else if (state_.foot_z_m <= 0.0 && state_.foot_velocity_mps < 0.0) {
-    if (series_N_per_m_ > 0.0) {  // the spring keeps the blow from the leg
+    if (series_N_per_m_ > 0.0) {  // the spring isolates the leg from the impact
       state_.series_mps -= state_.foot_velocity_mps;
       contact_impulse_Ns_ -= leg_.parameters().foot_mass_kg * state_.foot_velocity_mps;
     } else {
       auto d = leg_.dynamics(state_.angle_rad);
-      if (teeth_Nm_per_rad_ > 0.0) {  // what the links' speed changes the rotors' does not
+      if (teeth_Nm_per_rad_ > 0.0) {  // the impact changes the links' speed but not the rotors'
         free_rotors(d);
         state_.play_radps -= d.torque_gain_per_m * state_.foot_velocity_mps;
       }

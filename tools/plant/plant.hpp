@@ -11,17 +11,17 @@ struct PlantState {
   double foot_velocity_mps = 0.0;
   double angle_rad = 0.0;  // upper link from straight down
   double angular_velocity_radps = 0.0;
-  double series_m = 0.0;  // how far the spring between toe and foot is compressed
+  double series_m = 0.0;  // compression of the spring between toe and foot
   double series_mps = 0.0;
-  double play_rad = 0.0;  // the rotors' angle beyond the links'
+  double play_rad = 0.0;  // angle of the rotors minus that of the links
   double play_radps = 0.0;
 
-  // What the motors' encoders turn with.
+  // The motors' encoders measure these.
   double rotor_rad() const noexcept { return angle_rad + play_rad; }
   double rotor_radps() const noexcept { return angular_velocity_radps + play_radps; }
 };
 
-// What follows from the state and the motors' torque at one instant.
+// Quantities that follow from the state and the motors' torque at one instant.
 struct PlantMotion {
   double foot_accel_mps2 = 0.0;
   double angular_accel_radps2 = 0.0;
@@ -30,17 +30,17 @@ struct PlantMotion {
   double body_accel_mps2 = 0.0;
   double leg_length_m = 0.0;
   double contact_force_N = 0.0;
-  double rail_force_N = 0.0;     // on the body, up positive; with the cable
+  double rail_force_N = 0.0;     // on the body, up positive; includes the cable
   double joint_torque_Nm = 0.0;  // friction, cogging and end stops on the upper links
 };
 
-// Forces beyond the plant's own parameters; see tools/diagnose.
+// Forces in addition to the plant's own; see tools/diagnose.
 class PlantExtension {
  public:
   virtual ~PlantExtension() = default;
-  // On the body, up; `leg_force_N` is the motors' torque at the foot.
+  // Force on the body, upward positive; `leg_force_N` is the motors' torque expressed at the foot.
   virtual double rail_force_N(double body_z_m, double body_velocity_mps, double leg_force_N) const = 0;
-  // On the links, both sides together, in the direction of growing angle.
+  // Torque on the links, both sides together, positive in the direction of increasing angle.
   virtual double joint_torque_Nm(const PlantState& state, double motor_torque_Nm) const = 0;
 };
 
@@ -49,16 +49,17 @@ class PlantExtension {
 //   phidd from the second row of estimation/leg.hpp
 //   Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable
 //   Q2 = Q1 L' - n joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops
-// for n motors. With a spring in series, F_s = k s + c ds/dt between toe and foot (c = 2 zeta sqrt(k
-// m_foot)), the first row holds for the toe without the foot's mass, F_s in place of F_c, and the foot has
-// its own:
+// for n motors. With a series spring F_s = k s + c ds/dt between toe and foot (c = 2 zeta sqrt(k m_foot)),
+// the first row holds for the toe without the foot's mass and with F_s instead of F_c. The foot has its own
+// equation:
 //   m_foot a_f = F_c - F_s - m_foot g
-// With play in the joint the rotors, inertia J, turn on their own and the links get what the teeth transmit:
-//   J rotor'' = tau - tau_t,  tau_t = K (|p| - play/2) sign(p) + D dp/dt where they touch,  K = 1 N m / (give
-//   play)
-// F_c is the bed's (terrain/bed.hpp), solved together with a_f; the deepest point grows after each step and
-// stays for later strides, which land in the crater. On rigid ground the foot stops dead (plastic impact) and
-// stands until the force would be negative. Accurate to about 0.03 % of peak force at this step size.
+// With play in the joint the rotors (inertia J) move separately, and the links get the torque that the teeth
+// transmit while they touch:
+//   J rotor'' = tau - tau_t,  tau_t = K (|p| - play/2) sign(p) + D dp/dt,  K = 1 N m / (give play)
+// F_c is the bed's force (terrain/bed.hpp), solved together with a_f. The deepest point increases after each
+// step and is kept for later strides, which land in the crater. On rigid ground the foot stops at once
+// (plastic impact) and stands until the force would become negative. Accurate to about 0.03 % of peak force
+// at this step size.
 class Plant {
  public:
   static constexpr double kStep_s = 1e-4;
@@ -67,15 +68,17 @@ class Plant {
 
   struct Options {
     double cable_force_N = 0.0;                 // constant, pulls the body down
-    bool bed_memory = true;                     // false: the surface closes as soon as the foot is above it
+    bool bed_memory = true;                     // false: the surface is restored as soon as the foot is above
+                                                // it
     const PlantExtension* extension = nullptr;  // must outlive the plant
-    const LegTable* leg_table = nullptr;        // of the same leg, in its place; must outlive the plant
+    const LegTable* leg_table = nullptr;        // of the same leg, used instead of it; must outlive the plant
   };
 
-  // Throws std::invalid_argument where the leg is impossible.
+  // Throws std::invalid_argument if the leg is impossible.
   Plant(const WorldConfig& config, const Bed& bed, const Options& options);
   Plant(const WorldConfig& config, const Bed& bed) : Plant(config, bed, Options{}) {}
 
+  // Sets the state. The foot's present depth becomes the deepest point; place_in_crater() gives a deeper one.
   void place(const PlantState& state) noexcept;
   void place_in_crater(const PlantState& state, double max_depth_m) noexcept;
 
@@ -84,15 +87,16 @@ class Plant {
 
   PlantMotion motion(double torque_Nm) const noexcept;
 
-  // motion() here and a step by the midpoint rule, two evaluations in place of five aloft and four in
-  // contact; it is divided where the bed's force has a kink or a jump. For many simulations of the same hop
-  // at 0.25 ms, smooth in what they start from.
+  // Returns motion() and then makes a step by the midpoint rule: two evaluations instead of five in flight
+  // and four in contact. The step is divided where the bed's force has a kink or a jump. It is meant for many
+  // simulations of the same hop at 0.25 ms; the result depends smoothly on the initial values.
   PlantMotion advance(double torque_Nm, double step_s) noexcept;
   const PlantState& state() const noexcept { return state_; }
   const Leg& leg() const noexcept { return leg_; }
   const Bed& bed() const noexcept { return bed_; }
   double max_depth_m() const noexcept { return max_depth_m_; }
-  // Integral of the contact force since place(): its difference over an interval is the mean force there.
+  // Integral of the contact force since place(). Its difference over an interval, divided by the interval's
+  // length, is the mean force.
   double contact_impulse_Ns() const noexcept { return contact_impulse_Ns_; }
 
  private:
@@ -109,7 +113,8 @@ class Plant {
   Rates rates(const PlantState& state, double torque_Nm) const noexcept;
   double joint_torque_Nm(const PlantState& state) const noexcept;
   PlantMotion motion_of(const Rates& rates) const noexcept;
-  // The bed's curve at the deepest point, kept while that stays; negative where the foot does not unload.
+  // The bed's curve at the deepest point, stored while that point stays. Negative while the foot does not
+  // unload.
   double deepest_N() const noexcept;
   double next_event_s(double accel_mps2) const noexcept;
   void midpoint(const Rates& at_start, double torque_Nm, double step_s) noexcept;
@@ -124,12 +129,12 @@ class Plant {
   double motors_;
   bool rigid_;
   double series_N_per_m_ = 0.0, series_N_s_per_m_ = 0.0;  // 0: the toe is rigid
-  double rotors_kg_m2_ = 0.0;                             // on the links' side
+  double rotors_kg_m2_ = 0.0;                             // reflected to the links' side
   double teeth_Nm_per_rad_ = 0.0, teeth_Nm_s_ = 0.0;      // 0: no play
 
   PlantState state_{};
   double max_depth_m_ = 0.0;
-  mutable double known_depth_m_ = 0.0, known_N_ = 0.0;  // a deepest point, and the bed's curve there
+  mutable double known_depth_m_ = 0.0, known_N_ = 0.0;  // a deepest point and the bed's curve there
   double contact_impulse_Ns_ = 0.0;
   bool standing_ = false;  // on rigid ground
 };

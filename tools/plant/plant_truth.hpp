@@ -5,10 +5,10 @@
 
 namespace sandhopper {
 
-// What really is, at the newest grid point: for reports, for scoring estimates, and for the camera system,
-// which the firmware does not see. `contact_impulse_Ns` is the integral of the contact force since the start:
-// its difference over an interval is the mean force there. Motion capture is the newest frame, in the
-// laboratory's frame.
+// True values at the newest grid point, for reports, for scoring estimates, and for the camera system; the
+// firmware does not use them. `contact_impulse_Ns` is the integral of the contact force since the start. Its
+// difference over an interval, divided by the interval's length, is the mean force. Motion capture values are
+// those of the newest camera frame, in the laboratory's frame.
 struct PlantTruth {
   std::int64_t time_ns = 0;
   bool released = false;

@@ -5,14 +5,14 @@
 
 namespace sandhopper {
 
-// One independent random stream per (seed, stream): a sensor that is switched off or sampled more often
-// shifts no other. The engine's output is fixed by the C++ standard; the normal law is written out
-// (Marsaglia's polar method) because the standard library's distributions differ between implementations.
+// One independent random stream per (seed, stream): switching a sensor off or sampling it more often does not
+// change the others. The engine's output is fixed by the C++ standard. The normal distribution is implemented
+// here (Marsaglia's polar method), because those of the standard library differ between implementations.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream) : engine_(mixed(mixed(seed) + stream)) {}
 
-  // In [0, 1).
+  // Uniform in [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
   double normal() {
@@ -33,7 +33,7 @@ class Random {
   }
 
  private:
-  // SplitMix64's finaliser: neighbouring seeds and streams give unrelated engines.
+  // SplitMix64's finaliser: neighbouring seeds and streams give uncorrelated engines.
   static constexpr std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

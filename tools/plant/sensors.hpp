@@ -8,12 +8,12 @@
 #include "drivers/samples.hpp"
 #include "tools/plant/random.hpp"
 
-// The sensors that run on their own clocks. Each is stepped along the plant's 0.1 ms grid with what it senses
-// at the grid points, and publishes a sample when one of its own sampling instants has passed (and its
-// latency with it): the stamp is the instant of measurement, the value is interpolated between grid points.
+// Sensors with their own clocks. Each is stepped along the plant's 0.1 ms grid with its input at the grid
+// points. It publishes a sample when one of its own sampling instants, and its latency, have passed. The time
+// stamp is the instant of measurement; the value is interpolated between grid points.
 namespace sandhopper {
 
-// Instants start + (phase + n) period, with a constant clock error in the period.
+// Sampling instants start + (phase + n) period, with a constant relative clock error.
 class SampleClock {
  public:
   struct Setup {
@@ -57,7 +57,7 @@ class LowPass {
     value_ += gain_ * (input - value_);
   }
   double value() const noexcept { return value_; }
-  // Between the last two steps; 1 is the newest.
+  // Output between the last two steps; fraction 1 is the newest.
   double at(double fraction) const noexcept { return before_ + fraction * (value_ - before_); }
 
  private:
@@ -77,9 +77,9 @@ struct GridStep {
   }
 };
 
-// Accelerometer and gyro on a vertical rail: z carries the specific force, the other axes what a robot laid
-// on its side feels, the rates only noise and offsets. Noise is white through the sensor's bandwidth;
-// structure noise adds in stance.
+// Accelerometer and gyro on a vertical rail. z contains the specific force along the rail; x and y contain
+// the gravity on a robot that is laid on its side. Angular rates contain only noise and offsets. Noise is
+// white within the sensor's bandwidth; structure noise is added in stance.
 class Imu {
  public:
   struct Setup {
@@ -90,8 +90,8 @@ class Imu {
     double resolution_mps2 = 0.0;
     double gyro_noise_radps = 0.0;
     double scale_relative = 0.0;
-    std::array<double, 3> raw_offset_mps2{};  // always
-    std::array<double, 3> bias_mps2{};        // from the release on
+    std::array<double, 3> raw_offset_mps2{};  // always present
+    std::array<double, 3> bias_mps2{};        // present from the release on
     std::array<double, 3> gyro_bias_radps{};
   };
   Imu(const Setup& setup, const SampleClock::Setup& clock, std::int64_t start_ns, const Random& random);
@@ -100,7 +100,7 @@ class Imu {
     double specific_force_mps2;  // along z
     bool stance;
     bool released;
-    std::array<double, 2> lateral_mps2{};  // along x and y; what changes too slowly for the filter to matter
+    std::array<double, 2> lateral_mps2{};  // along x and y; changes too slowly for the filter to matter
   };
   void reset(double specific_force_mps2) noexcept { filter_.reset(specific_force_mps2); }
   void step(const GridStep& step, const Input& input) noexcept;
@@ -114,14 +114,14 @@ class Imu {
   Setup setup_;
   SampleClock clock_;
   LowPass filter_;
-  double noise_memory_;  // correlation of band-limited noise from one sample to the next
+  double noise_memory_;  // correlation of band-limited noise between consecutive samples
   bool noisy_;
   Random random_;
   std::array<double, 6> noise_{};  // unit variance
   ImuSample sample_{};
 };
 
-// Height of the hip axis over the surface, available `latency_s` after it was measured.
+// Height of the hip axis over the surface, available `latency_s` after its measurement.
 class TimeOfFlight {
  public:
   struct Setup {
@@ -139,7 +139,8 @@ class TimeOfFlight {
   std::int64_t next_sample_ns() const noexcept;
 
  private:
-  static constexpr std::size_t kUnderway = 512;  // more than the longest latency at the highest rate
+  static constexpr std::size_t kUnderway = 512;  // more than the number of samples within the longest latency
+                                                 // at the highest rate
 
   Setup setup_;
   SampleClock clock_;
@@ -152,7 +153,7 @@ class TimeOfFlight {
   TofSample sample_{};
 };
 
-// Load cell behind an amplifier (first-order) and a free-running converter that holds its last value.
+// Load cell with an amplifier (first-order) and a free-running converter that holds its last value.
 class LoadCell {
  public:
   struct Setup {
@@ -175,7 +176,7 @@ class LoadCell {
   LoadCellSample sample_{};
 };
 
-// Cameras: body and foot in one frame, in the laboratory's frame.
+// Motion capture: positions of body and foot in one camera frame, in the laboratory's frame.
 struct MocapFrame {
   std::int64_t time_ns = 0;
   double body_z_m = kNotMeasured;

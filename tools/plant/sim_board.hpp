@@ -6,10 +6,10 @@
 
 namespace sandhopper {
 
-// The simulated world behind the cycle's seam, in the process. read() moves the world to the frame's time and
-// takes the newest samples, each fresh in the one cycle that first sees it; write() acts at that same instant
-// and samples the drives' replies, which the next read() delivers. A drive answers in every mode; it makes
-// torque in `run` only.
+// The simulated world as a board in the same process. read() advances the world to the frame's time and takes
+// the newest samples; each is fresh only in the cycle that first sees it. write() acts at the same instant
+// and samples the drives' replies, which the next read() delivers. A drive answers in every mode, but
+// produces torque only in `run`.
 class SimBoard : public Board {
  public:
   explicit SimBoard(World& world) : world_(world) {}

@@ -5,7 +5,7 @@
 namespace sandhopper {
 namespace {
 
-// Numbers of the random streams. A new one goes to the end, so that the others keep their figures.
+// Numbers of the random streams. A new one goes to the end, so that the others keep their numbers.
 enum Stream : std::uint64_t {
   kBedStiffness,
   kBedFluctuation,
@@ -29,9 +29,9 @@ enum Stream : std::uint64_t {
   kBedFamily,
 };
 
-constexpr double kLeastExponent = 0.1;       // as the configuration's
-constexpr double kLeastFloor_m = 1e-3;       // zero would be no floor
-constexpr double kQuietPhase_periods = 0.5;  // of every sample clock when nothing is random
+constexpr double kLeastExponent = 0.1;       // lower limit of the configuration
+constexpr double kLeastFloor_m = 1e-3;       // zero would mean no floor
+constexpr double kQuietPhase_periods = 0.5;  // phase of every sample clock when noise is off
 
 double limited_normal(Random& random) { return std::clamp(random.normal(), -3.0, 3.0); }
 
@@ -86,7 +86,7 @@ BedFamilyParameters TrialDraw::bed_family() const {
   return family;
 }
 
-// The torque constant's error is that of the magnets and of the convention: the same in both motors.
+// The error of the torque constant comes from the magnets and the convention, so it is equal for both motors.
 Drive TrialDraw::drive(Side side) const {
   const bool left = side == Side::left;
   Drive::Imperfection imperfection{.noisy = setup_.noise};

@@ -8,9 +8,9 @@
 
 namespace sandhopper {
 
-// What differs from trial to trial, drawn once for a seed: makes the bed, drives and sensors of that trial
-// from the configuration's noise and spread. Every quantity has its own random stream, and draws are limited
-// to three sigma. Without noise everything is nominal.
+// Random draws that differ between trials, made once per seed: bed, drives and sensors of that trial, from
+// the configuration's noise and spread. Every quantity has its own random stream, and draws are limited to
+// three sigma. Without noise all values are nominal.
 class TrialDraw {
  public:
   struct Setup {
@@ -21,9 +21,9 @@ class TrialDraw {
   TrialDraw(const WorldConfig& config, const Setup& setup) : config_(config), setup_(setup) {}
 
   struct Release {
-    double height_m = 0.0;  // added to the set release height
+    double height_m = 0.0;  // added to the nominal release height
     double speed_mps = 0.0;
-    double surface_height_m = 0.0;  // of the bed in the laboratory's frame
+    double surface_height_m = 0.0;  // height of the bed in the laboratory's frame
   };
   Release release() const;
   double cable_force_N() const;

@@ -139,7 +139,7 @@ void World::take_truth() noexcept {
   truth_.max_depth_m = plant_.max_depth_m();
 }
 
-// What the fixture makes of a robot that is held.
+// Forces and accelerations that the fixture causes on a robot that is held.
 void World::take_held_truth() noexcept {
   const double tap = fixture_.tap_at(static_cast<double>(now_ns_ - fixture_ns_) * 1e-9);
   truth_.body_accel_mps2 = truth_.foot_accel_mps2 = fixture_.tap_accel_mps2 * tap;

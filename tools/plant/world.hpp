@@ -15,8 +15,8 @@ namespace sandhopper {
 
 class TrialDraw;
 
-// One trial of the simulated robot. `noise = false` switches off every random thing (noise, offsets, spread,
-// clock errors, rounding) and leaves rates, bandwidths, latencies and ages.
+// One trial of the simulated robot. `noise = false` switches off everything random (noise, offsets, spread,
+// clock errors, rounding); rates, bandwidths, latencies and ages remain.
 struct TrialSetup {
   double release_height_m = 0.0618;
   std::uint64_t seed = 1;
@@ -24,15 +24,15 @@ struct TrialSetup {
   bool bed_memory = true;  // later strides land in the crater of earlier ones
 };
 
-// Robot, bed and sensors in plant time, which moves on a 0.1 ms grid from `start_ns` and only when asked.
-// Held by the catch until open_catch(): foot at the release height, leg at its flight length, motors act but
-// nothing moves. The same seed gives the same bits; nothing depends on how often a sensor is looked at.
+// Robot, bed and sensors. Their time advances on a 0.1 ms grid from `start_ns`, and only in advance_to().
+// Until open_catch() the catch holds the robot: foot at the release height, leg at its flight length; the
+// motors produce torque but nothing moves. Equal seeds give equal bits; the result does not depend on how
+// often a sensor is read.
 class World {
  public:
   static constexpr std::int64_t kStep_ns = 100'000;
 
-  // Throws std::invalid_argument where the leg is impossible or the release height puts the foot into the
-  // bed.
+  // Throws std::invalid_argument if the leg is impossible or the release height puts the foot into the bed.
   World(const WorldConfig& config, const TrialSetup& setup, std::int64_t start_ns);
 
   std::int64_t now_ns() const noexcept { return now_ns_; }
@@ -43,13 +43,13 @@ class World {
   // The body is free from the next step on.
   void open_catch() noexcept;
 
-  // In force from the next step on, until the body is released.
+  // The fixture acts from the next step on, until the body is released.
   void hold(const Fixture& fixture) noexcept;
 
-  // In force from the next step until the next command; not enabled = no torque.
+  // Acts from the next step until the next command; not enabled means no torque.
   void command(Side side, const MotorCommand& command, bool enabled) noexcept;
 
-  // What the drive measures now.
+  // Present measurement of the drive.
   MotorSample read_motor(Side side) const noexcept;
 
   // Newest completed sample; time_ns = 0 before the first.
@@ -58,10 +58,10 @@ class World {
   const TofSample& tof() const noexcept { return tof_.sample(); }
   const LoadCellSample& load_cell() const noexcept { return load_cell_.sample(); }
 
-  // Earliest grid time at which any of those four changes.
+  // Earliest grid time at which one of these four samples changes.
   std::int64_t next_sample_ns() const noexcept;
 
-  // Exact instants at which each has its next one.
+  // Exact instant of each sensor's next sample.
   struct NextSamples {
     std::int64_t imu_body_ns, imu_foot_ns, tof_ns, load_cell_ns;
   };
@@ -86,7 +86,7 @@ class World {
   double release_speed_mps_;
   double surface_height_m_;
   std::size_t motors_;
-  double joint_friction_Nm_;  // all motors' together
+  double joint_friction_Nm_;  // sum of all motors
   std::int64_t start_ns_;
   std::int64_t now_ns_;
   Fixture fixture_{};

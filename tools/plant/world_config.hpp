@@ -6,11 +6,11 @@
 #include "terrain/bed.hpp"
 #include "terrain/bed_family.hpp"
 
-// What the simulated world is made of: the tables and keys of a campaign's nominal.toml, with the default
-// robot, bed, sensors and spread. Every default is a figure of that default set; zero means "no such effect".
+// Configuration of the simulated world: the tables and keys of a campaign's nominal.toml, with the default
+// robot, bed, sensors and spread. All defaults together form that default set; zero means "no such effect".
 namespace sandhopper {
 
-// [robot]: leg figures per link and per rotor; joint friction and cogging per motor, on the link's side.
+// [robot]: leg values per link and per rotor; joint friction and cogging per motor, on the link's side.
 struct WorldRobotConfig {
   LegParameters leg{};
   double rail_coulomb_N = 4.0;
@@ -19,9 +19,9 @@ struct WorldRobotConfig {
   double cogging_amplitude_Nm = 0.02;
   double cogging_periods_per_rev = 252.0;
   double series_compliance_m_per_N = 0.0;  // between toe and foot
-  double series_damping_ratio = 0.1;       // of the foot on that spring
+  double series_damping_ratio = 0.1;       // damping ratio of the foot on that spring
   double joint_play_rad = 0.0;             // between rotors and links
-  double joint_give_relative = 0.3;        // of the play: how far 1 N m turns teeth that touch
+  double joint_give_relative = 0.3;        // of the play: angle by which 1 N m turns teeth in contact
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -53,7 +53,7 @@ struct WorldMotorConfig {
   }
 };
 
-// [controller]: the nominal 1 kHz law; the compression stiffness is a trial's set-up.
+// [controller]: the nominal 1 kHz law. The compression stiffness is part of a trial's set-up.
 struct NominalControllerConfig {
   double rate_Hz = 1000.0;
   double compression_length_m = 0.30;
@@ -83,8 +83,8 @@ struct NominalControllerConfig {
   }
 };
 
-// [sensors]: what is the same in every trial. Rates are nominal, noise is rms of one sample, bandwidths are
-// first-order low-passes. The IMU's structure noise adds in stance only.
+// [sensors]: properties that are equal in every trial. Rates are nominal, noise is the rms of one sample,
+// bandwidths are first-order low-passes. The IMU's structure noise is added only in stance.
 struct SensorConfig {
   double imu_rate_Hz = 1666.0;
   double imu_bandwidth_Hz = 400.0;
@@ -130,8 +130,8 @@ struct SensorConfig {
   }
 };
 
-// [spread]: one sigma from trial to trial. `imu_raw_offset` is there from power-on and a static zero removes
-// it; `imu_bias` comes with the release, so that no static zero can.
+// [spread]: one sigma between trials. `imu_raw_offset` exists from power-on, so the zero at arming removes
+// it. `imu_bias` begins with the release, so the zero cannot remove it.
 struct SpreadConfig {
   double bed_stiffness_relative = 0.03;
   double bed_fluctuation_relative = 0.02;
@@ -197,8 +197,8 @@ struct WorldConfig {
     visit("spread", self.spread);
   }
 
-  // What one key alone cannot show: the leg must not lock, and must reach the lengths asked of it; the bed
-  // must not give back more work than it took.
+  // Rules between keys: the leg must not lock and must reach the configured lengths; the bed must not return
+  // more work than it received.
   template <class Report>
   void check(Report&& report) const {
     const auto& leg = robot.leg;

@@ -36,7 +36,7 @@ Json pooled_json(const std::vector<PooledQuantity>& pooled) {
   return json;
 }
 
-// Trials whose numbers in the set-up are the same, pooled by themselves.
+// Pools the trials with equal set-up numbers separately.
 Json pooled_by_setup(const ResultPointers& results) {
   constexpr std::size_t kMostGroups = 200;
   std::vector<std::pair<const TrialResult*, ResultPointers>> groups;
@@ -107,7 +107,7 @@ std::string spaced(std::string words) {
   return words;
 }
 
-// "max_depth_m", "38.7" -> "max depth 38.7 mm"
+// Text such as "max depth 38.7 mm" for "max_depth_m" and "38.7".
 std::string in_words(std::string_view name, std::string_view number) {
   const auto unit = figure_unit(name);
   return fmt::format("{} {}{}", figure_title(name), number, unit == "–" ? "" : " " + unit);

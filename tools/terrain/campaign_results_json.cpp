@@ -22,7 +22,7 @@ void write_results(std::ostream& out, const Json& head, const CampaignResults& r
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   std::string start = text(head);
-  start.pop_back();  // the closing brace comes after the trials
+  start.pop_back();  // the closing brace is written after the trials
   out << start << (head.empty() ? "" : ",\n") << "\"trials\":[";
   for (std::size_t i = 0; i < r.results.size(); ++i)
     out << (i == 0 ? "\n" : ",\n") << text(to_json(r.results[i]));

@@ -27,7 +27,7 @@ std::string figure_title(std::string_view name) {
   std::string title(unit ? unit->quantity : name);
   for (char& c : title)
     if (c == '_') c = ' ';
-  for (const std::string_view fit : {" ols", " wls"})  // fits are written as everywhere else
+  for (const std::string_view fit : {" ols", " wls"})  // the names of fits are in upper case everywhere
     if (const auto at = title.find(fit); at != std::string::npos)
       for (std::size_t i = at; i < at + fit.size(); ++i)
         title[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[i])));

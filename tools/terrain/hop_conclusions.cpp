@@ -42,7 +42,7 @@ TrialMean stiffness_of(Results results, std::string_view way, std::string_view w
   return mean_over_trials(values_of(results, stiffness_name(way, is_joint(way) ? "" : window)));
 }
 
-// Strides whose beds were prepared alike give one stiffness; the force scale's error is common to them.
+// Pools the strides of beds prepared alike into one stiffness. The force-scale error is common to them.
 PooledStiffness pooled_joint(Results results) {
   std::vector<JointEstimate> strides;
   for (const auto* result : results) {
@@ -107,7 +107,7 @@ StudyFigure window_figure(Results results) {
   return figure;
 }
 
-// Each trial's stiffness against what differs between the trials.
+// Figure of each trial's stiffness against a property that differs between the trials.
 StudyFigure against(Results results, std::string_view x_name, const std::string& x_label) {
   StudyFigure figure{
       .title = fmt::format("Stiffness against {}", x_label.substr(0, x_label.find(','))),

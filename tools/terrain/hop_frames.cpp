@@ -11,7 +11,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::array<std::string_view, 2> kSides{"left", "right"};
-constexpr double kFreeFall_mps2 = 5.0;  // body specific force below this means released
+constexpr double kFreeFall_mps2 = 5.0;  // a smaller specific force of the body means that it was released
 constexpr int kFreeFallRows = 3;
 constexpr double kShortestRest_s = 0.02;
 
@@ -19,7 +19,7 @@ std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std:
 
 using Column = std::vector<double>;
 
-// The newest value up to each row; zero before the first.
+// Newest value up to each row; zero before the first one.
 Column held(const Column& column) {
   Column out(column.size(), 0.0);
   double last = 0.0;
@@ -30,7 +30,7 @@ Column held(const Column& column) {
   return out;
 }
 
-// Backward difference of the fresh samples, as a drive that reports no speed would give it.
+// Backward difference of the fresh samples; replaces the speed if the drive does not report it.
 Column differenced(const std::vector<double>& t_s, const Column& position) {
   Column speed(position.size(), NAN);
   std::size_t before = position.size();
@@ -80,7 +80,7 @@ class FrameMaker {
     return missing;
   }
 
-  // The channel of this side, or of the other where this one was not recorded.
+  // Channel of this side, or of the other side if this one was not recorded.
   const Column* of_side(std::size_t side, std::string_view pattern) const {
     const auto name = [&](std::size_t which) { return fmt::format(fmt::runtime(pattern), kSides[which]); };
     const auto* own = in_.find(name(side));
@@ -100,7 +100,7 @@ class FrameMaker {
     const Column speeds = held(speed != nullptr ? *speed : differenced(in_.t_s, position));
     const Column currents = held(current_of(side));
     const Column positions = held(position);
-    // In the firmware's own log a cycle holds the reply to the cycle before.
+    // In the firmware's own log a cycle contains the reply to the previous cycle's command.
     const std::int64_t age_ns =
         in_.own_log ? kCyclePeriod_ns : nanoseconds(belief_.sensors.other.encoder_latency_s);
     for (std::size_t row = 0; row < in_.rows(); ++row) {
@@ -159,7 +159,8 @@ class FrameMaker {
     }
   }
 
-  // The phase tells where it was recorded before the hop as well; otherwise the body's accelerometer.
+  // The recorded phase gives the release if it also covers the time before the hop. Otherwise the body's
+  // accelerometer does.
   void find_release() {
     if (!out_.phase.empty() && std::isnan(out_.phase.front())) {
       while (out_.release_row < out_.phase.size() && std::isnan(out_.phase[out_.release_row]))
@@ -207,7 +208,7 @@ class FrameMaker {
     out_.calibration.body_height_m = height.count > 0 ? height.value() : expected_height_m();
   }
 
-  // Where the experimenter says the foot hung.
+  // Height of the hip axis according to the release height in the set-up.
   double expected_height_m() const {
     const auto leg = leg_measurement(out_.frames[out_.release_row], measuring_);
     return trial_.number("release_height_m").value_or(0.0) + belief_.robot.leg.foot_height_m +

@@ -11,21 +11,21 @@
 
 namespace sandhopper {
 
-// A recorded hop as the cycle would have seen it.
+// A recorded hop in the form of the cycle's input.
 struct HopFrames {
-  std::vector<SensorFrame> frames;   // one a row
+  std::vector<SensorFrame> frames;   // one per row
   std::vector<double> phase;         // as recorded; NaN: outside of a hop. Empty: not recorded
-  std::size_t release_row = 0;       // the first one free
+  std::size_t release_row = 0;       // first row after the release
   StaticCalibration calibration{};   // from the rows before the release
-  bool rest_seen = false;            // false: the recording begins in the air, offsets are taken as zero
-  bool speed_known = false;          // starts from rest, as recorded or as the set-up says
-  std::vector<std::string> notes{};  // what stands in for channels that were not recorded
+  bool rest_seen = false;            // false: the recording begins in the air, and offsets are taken as zero
+  bool speed_known = false;          // starts from rest, according to the recording or the set-up
+  std::vector<std::string> notes{};  // replacements for channels that were not recorded
 };
 
-// Frames from the channels of RECORDING, every sample with the age that the belief gives its sensor. Needs
-// motor positions and both IMUs; speeds are differenced, currents taken from the commands and a missing
-// motor from the other one where they were not recorded. Without the needed channels the answer is empty and
-// `missing` names them.
+// Makes frames from the channels of RECORDING. Every sample gets the age that the belief states for its
+// sensor. Needs motor positions and both IMUs. If they were not recorded, speeds are differences of
+// positions, currents come from the commands, and a missing motor is replaced by the other one. Without the
+// needed channels the result is empty and `missing` names them.
 std::optional<HopFrames> hop_frames(const CampaignTrial& trial, const TrialRecording& recording,
                                     const Leg& leg, std::string& missing);
 

@@ -9,7 +9,7 @@ namespace sandhopper {
 namespace {
 
 constexpr double kNearlyAtRest_mps = 0.05;
-constexpr double kUnknownSpeed_mps = 0.5;  // of a recording that begins in the air
+constexpr double kUnknownSpeed_mps = 0.5;  // initial speed uncertainty of a recording that begins in the air
 
 class Replay {
  public:
@@ -49,7 +49,7 @@ class Replay {
     return cycle;
   }
 
-  // Idle: the hop is over.
+  // State of the next row; idle means that the hop is over.
   State state_after(State state, std::size_t row, const Estimate& estimate) const {
     if (state == State::armed) return State::flight;
     if (!hop_.phase.empty()) return recorded_state(state, row);

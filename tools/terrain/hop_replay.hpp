@@ -6,12 +6,12 @@
 
 namespace sandhopper {
 
-// The cycle's configuration for a robot that is believed to be so.
+// Configuration of the cycle for the robot as the trial's belief describes it.
 CycleConfig cycle_config_for(const CampaignTrial& trial);
 
-// A recorded hop run through the firmware's own estimators, stride by stride. The first begins at the
-// release; what is true is not known (NaN). Phases are the recorded ones or, where there are none, those that
-// the firmware's rules give.
+// Runs a recorded hop through the firmware's own estimators, stride by stride. The first stride begins at the
+// release. True values are unknown (NaN). Phases are those recorded or, if there are none, those from the
+// firmware's rules.
 std::vector<RecordedStride> replay_hop(const HopFrames& hop, const CycleConfig& cycle, const Leg& leg);
 
 }  // namespace sandhopper

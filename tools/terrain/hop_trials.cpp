@@ -21,10 +21,10 @@ constexpr std::array kWays{StiffnessWay{"quasi_static_ols", "quasi-static, OLS",
                            StiffnessWay{"joint", "joint fit", "green"},
                            StiffnessWay{"load_cell_ols", "load cell, OLS", "sand"},
                            StiffnessWay{"load_cell_joint", "load cell, joint fit", "grey"}};
-constexpr std::size_t kDrawnTrials = 4;  // whose curves travel with the result
+constexpr std::size_t kDrawnTrials = 4;  // number of trials whose curves are kept in the result
 constexpr std::size_t kDrawnPoints = 160;
-constexpr double kUnloadedShare = 0.05;      // of the peak: the ground is let go
-constexpr double kDepthResolution_m = 2e-4;  // of an unloading path
+constexpr double kUnloadedShare = 0.05;      // of the peak: below it the foot has left the ground
+constexpr double kDepthResolution_m = 2e-4;  // resolution of depth on an unloading path
 
 TrialQuantity stiffness(std::string_view way, std::string_view window, const StiffnessEstimate& e) {
   return {stiffness_name(way, window), e.value_N_per_m, e.standard_error_N_per_m,
@@ -45,7 +45,7 @@ StiffnessConfig with_window(const StiffnessConfig& config, const TreatmentCase& 
   return changed;
 }
 
-// Mean square of what stands in stance, root taken at the end.
+// Root mean square.
 struct Rms {
   double sum = 0.0;
   std::size_t count = 0;
@@ -125,8 +125,8 @@ class HopAnalysis {
 
   double foot_diameter_m() const { return 2.0 * cycle_.robot.foot_radius_m; }
 
-  // From all strides, as the firmware knows the ground after the last. The torque constant's error is common
-  // to all trials.
+  // Curve from all strides, as the firmware estimates the ground after the last one. The error of the torque
+  // constant is common to all trials.
   void add_firmware_curve() {
     ProfileSolver solver(cycle_.stiffness);
     double greatest_N = 0.0;
@@ -142,7 +142,7 @@ class HopAnalysis {
                out_);
   }
 
-  // The first stance up to its deepest point.
+  // Curve of the first stance up to its deepest point, from load cell and motion capture.
   void add_measured_curve() {
     std::vector<LoadingSample> loading;
     for (const auto& sample : measured_->stride.samples) {
@@ -201,7 +201,7 @@ class HopAnalysis {
     if (out_.index < kDrawnTrials) draw(measured_->stride, "load_cell", &Estimate::contact_force_N);
   }
 
-  // From the deepest point on.
+  // Unloading stiffness after the deepest point.
   void add_unloading() {
     std::vector<double> depth_m, force_N;
     double peak_N = 0.0;
@@ -217,7 +217,7 @@ class HopAnalysis {
     add("unloading_stiffness_N_per_m", found.stiffness_N_per_m);
   }
 
-  // Estimates against load cell and motion capture, row by row in the first stance.
+  // Compares the estimates with load cell and motion capture, row by row in the first stance.
   void compare() {
     Rms quasi_static, observer;
     std::vector<double> depth_error_m;
@@ -248,7 +248,7 @@ class HopAnalysis {
     if (std::isfinite(value)) out_.quantities.push_back({std::move(name), value, standard_error});
   }
 
-  // Depth and force of the first stance, thinned, in series "NAME_depth_m" and "NAME_force_N".
+  // Stores depth and force of the first stance, thinned, as series "NAME_depth_m" and "NAME_force_N".
   void draw(const RecordedStride& stride, const std::string& name, double Estimate::*force) {
     std::vector<const Estimate*> stance;
     for (const auto& sample : stride.samples)
@@ -284,7 +284,7 @@ bool HopTrials::takes(CampaignPlant plant, TrialKind kind) const {
 void HopTrials::analyse(const CampaignTrial& trial, const TrialRecording& recording,
                         TrialResult& result) const {
   const auto* belief = std::get_if<HopperBelief>(&trial.belief);
-  if (belief != nullptr && belief->terrain.rigid) return;  // no stiffness to be found
+  if (belief != nullptr && belief->terrain.rigid) return;  // a rigid ground has no stiffness to estimate
   HopAnalysis(trial, recording, result).run();
 }
 

@@ -108,8 +108,8 @@ LawResult fit_law(DepthLaw kind, const Presses& fit, const Presses& held_out,
   return out;
 }
 
-// p from every pair of trials of two sizes; per trial of the second size the mean over those of the first, so
-// that the interval counts trials.
+// Exponent p from every pair of trials of two sizes. For each trial of the second size the mean over those of
+// the first is taken, so that the interval counts trials.
 AreaExponent area_exponent(const Presses& first, const Presses& second, double depth_m) {
   std::vector<double> exponents;
   for (const auto* b : second) {

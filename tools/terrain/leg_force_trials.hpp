@@ -5,9 +5,9 @@
 
 namespace sandhopper {
 
-// Hops on rigid ground with a force plate under the foot: how well the motors know the contact force, with
-// the leg's inertia and friction identified on the hops that are not held out, and how stiff the ground is at
-// least.
+// Analysis of hops on rigid ground with a force plate under the foot: the error of the contact force from the
+// motors, with the leg's inertia and friction identified on the hops that are not held out, and a lower bound
+// of the ground's stiffness.
 class LegForceTrials : public TrialAnalysis {
  public:
   std::string_view name() const override { return "leg_force"; }

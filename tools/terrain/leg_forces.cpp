@@ -5,7 +5,7 @@
 namespace sandhopper {
 namespace {
 
-// The believed leg with what was identified.
+// The believed leg with the identified parameters.
 Leg identified_leg(const LegParameters& believed, const LegIdentification& found) {
   LegParameters p = believed;
   p.rotor_inertia_kg_m2 = found.value[1] / (p.motor_count * p.gear_ratio * p.gear_ratio);
@@ -20,7 +20,7 @@ JointFriction identified_friction(const LegIdentification& found, const LegIdent
   return {found.value[2], found.value[3], options.friction_switch_radps};
 }
 
-// What the joint feels of the commanded torque, friction and spring.
+// Torque on the joint from the commanded torque, friction and spring.
 double joint_torque_Nm(const LegIdentification& found, const JointFriction& friction, double command_Nm,
                        double angle_rad, double rate_radps) {
   return found.value[0] * command_Nm + friction.torque_Nm(rate_radps) + found.spring_torque_Nm -
@@ -56,7 +56,7 @@ CausalForces causal_forces(const LegHop& hop, double gain_per_s, const LegIdenti
   const Leg leg = identified_leg(hop.leg, found);
   const auto friction = identified_friction(found, options);
   JointRowObserver joint(gain_per_s);
-  MomentumObserver reduced(gain_per_s);  // of a foot at rest: its momentum is zero
+  MomentumObserver reduced(gain_per_s);  // for a foot at rest, whose momentum is zero
   CausalForces out{{0.0}, {0.0}};
   for (std::size_t row = 1; row < hop.t_s.size(); ++row) {
     const double dt = hop.t_s[row] - hop.t_s[row - 1];

@@ -1,22 +1,22 @@
 #pragma once
 #include "tools/terrain/leg_regression.hpp"
 
-// A hop's contact force by each way to estimate it, row by row.
+// Contact force of a hop by each estimation method, row by row.
 namespace sandhopper {
 
 std::vector<double> quasi_static_force(const LegHop& hop);
 std::vector<double> smooth_force(const PreparedHop& prepared, const LegIdentification& found,
                                  const LegIdentificationOptions& options);
 
-// Both causal forms see the angle up to their row only: rate by difference, torque and angle of the middle of
-// the step.
+// Both causal methods use the angle only up to their row. The rate is a difference; torque and angle are
+// those at the middle of the step.
 struct CausalForces {
   std::vector<double> joint_row_N, reduced_row_N;
 };
 CausalForces causal_forces(const LegHop& hop, double gain_per_s, const LegIdentification& found,
                            const LegIdentificationOptions& options);
 
-// What an observer of this gain makes of a force it knows exactly.
+// Output of an observer with this gain for an exactly known force.
 std::vector<double> behind_lag(const std::vector<double>& force_N, const std::vector<double>& t_s,
                                double gain_per_s);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kDefaultSettling_s = 0.015;
 constexpr std::size_t kFewestRows = 50;
 
-// Mean of both sides; of the one there is otherwise. Empty when there is none.
+// Mean of both sides, or the only side that was recorded. Empty if there is none.
 std::vector<double> of_sides(const TrialRecording& recording, const std::string& quantity, double scale) {
   const auto* left = recording.find("motor_left_" + quantity);
   const auto* right = recording.find("motor_right_" + quantity);
@@ -24,7 +24,7 @@ std::vector<double> of_sides(const TrialRecording& recording, const std::string&
   return out;
 }
 
-// The believed leg as a list of numbers, in the order of its fields.
+// Parameters of the believed leg as a list of numbers, in the order of its fields.
 std::vector<double> numbers_of(const LegParameters& leg) {
   std::vector<double> numbers;
   LegParameters::fields(leg, [&](std::string_view, const auto& value, auto&&...) {

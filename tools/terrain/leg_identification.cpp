@@ -19,7 +19,7 @@ std::vector<const HopEquations*> pointers(const std::vector<HopEquations>& equat
   return out;
 }
 
-// Root mean square over hops, each predicted from the others.
+// Root mean square error over hops, each predicted from the others.
 double leave_one_hop_out_N(const std::vector<HopEquations>& equations, LinearModel model) {
   double sum = 0.0;
   for (std::size_t left_out = 0; left_out < equations.size(); ++left_out) {
@@ -98,7 +98,7 @@ LegHopFit score(const PreparedHop& prepared, const LegIdentification& found,
   auto causal = causal_forces(hop, found.observer_gain_per_s, found, options);
   out.force_N = {quasi_static_force(hop), smooth_force(prepared, found, options),
                  std::move(causal.joint_row_N), std::move(causal.reduced_row_N)};
-  // The quasi-static estimate knows of no clock offset.
+  // The quasi-static estimate uses no clock offset.
   const auto plain = reference_of(prepared, 0.0, options.reference_window_s);
   for (std::size_t form = 0; form < kLegForceForms; ++form)
     for (std::size_t window = 0; window < kLegWindows; ++window)
@@ -116,7 +116,7 @@ LegHopFit score(const PreparedHop& prepared, const LegIdentification& found,
   return out;
 }
 
-// Impulse of a cycle that ends as it began carries the weight for its duration.
+// Over a cycle that ends as it began, the impulse equals weight times duration.
 double mass_of_kg(const PreparedHop& prepared) {
   const auto& hop = *prepared.hop;
   const double duration_s = hop.t_s.back() - hop.t_s.front();
@@ -216,7 +216,7 @@ LegIdentification identify_leg(std::span<const LegHop> hops, const LegIdentifica
   out.fit_hops = fit_hops.size();
   out.believed_mass_kg = bare_leg(hops.front().leg).total_mass_kg();
 
-  // From here on nothing is fitted any more.
+  // Nothing is fitted after this point.
   for (const auto& prepared : fit_hops) out.hops.push_back(score(prepared, out, options));
   const auto held_out = prepare(hops, true, out.half_width_s, out.tare_N, options);
   for (const auto& prepared : held_out) out.hops.push_back(score(prepared, out, options));

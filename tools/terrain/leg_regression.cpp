@@ -12,7 +12,7 @@ namespace {
 constexpr int kOffsetsEachSide = 20;
 constexpr double kOffsetStep_s = 0.25e-3;
 
-// 1 for what the model has.
+// 1 for each term that the model has.
 LinearValues terms_of(LinearModel model) {
   LinearValues terms;
   terms << 1, 1, 1, 1, model == LinearModel::friction_and_foot ? 1 : 0,
@@ -47,7 +47,7 @@ double interpolated(std::span<const double> x, std::span<const double> y, double
   return y[above - 1] + share * (y[above] - y[above - 1]);
 }
 
-// First plate reading above the threshold; the first row itself where the hop starts in contact.
+// Time of the first plate reading above the threshold, or of the first row if the hop starts in contact.
 double landing_of(const LegHop& hop, double tare_N, double contact_force_N) {
   const auto at_start_N = hop.reference_N.front() - tare_N;
   if (at_start_N > 0.25 * contact_force_N) return hop.t_s.front();
@@ -104,7 +104,7 @@ std::vector<double> clock_offsets_s() {
 Leg bare_leg(const LegParameters& believed) {
   LegParameters p = believed;
   p.rotor_inertia_kg_m2 = 0.0;
-  if (p.body_mass_kg <= 0.0) p.body_mass_kg = 1.0;  // cancels in the joint row
+  if (p.body_mass_kg <= 0.0) p.body_mass_kg = 1.0;  // any value: it cancels in the joint row
   return Leg{p};
 }
 

@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// JSON has no NaN and no infinity: null.
+// JSON has neither NaN nor infinity; they become null.
 inline nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

@@ -21,7 +21,7 @@ std::vector<double> without_gravity(const TrialRecording& in) {
   return out;
 }
 
-// What the load cell reads in the air before the first contact: a tare that was not taken off.
+// Reading of the load cell in the air before first contact: a tare that was not subtracted.
 double offset_in_air_N(std::span<const double> force_N, const SmoothMotion& motion, std::size_t first_row) {
   constexpr double kClear_m = 1e-3;
   double sum = 0.0;
@@ -34,14 +34,15 @@ double offset_in_air_N(std::span<const double> force_N, const SmoothMotion& moti
   return count >= 10 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// States of the rows where no phase was recorded: stance from load to no load.
+// Determines the state of each row if no phase was recorded: stance from loading to unloading.
 class LoadPhases {
  public:
   explicit LoadPhases(double contact_force_N) : contact_force_N_(contact_force_N) {}
   State next(double force_N) {
     unloaded_ = force_N < kUnloaded_N ? unloaded_ + 1 : 0;
     if (state_ == State::flight && !stood_ && force_N >= contact_force_N_) state_ = State::compression;
-    // The recorder closes a stride at the end of an extension; here the stance has no switch.
+    // The recorder closes a stride at the end of an extension, but here the stance has no switch: enter
+    // extension just before unloading.
     if (state_ == State::compression && unloaded_ == kUnloadedRows - 1) state_ = State::extension;
     if (state_ == State::extension && unloaded_ >= kUnloadedRows) {
       state_ = State::flight;

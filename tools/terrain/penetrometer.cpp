@@ -10,12 +10,12 @@ namespace sandhopper {
 namespace {
 
 constexpr double kAverage_s = 0.010;
-constexpr double kRest_s = 1.0;  // the end of a recording that must be at rest
+constexpr double kRest_s = 1.0;  // length of the part at the end of a recording that must be at rest
 constexpr double kRestTolerance_mps2 = 0.4;
 constexpr double kBeforeImpact_s = 0.6;
 constexpr double kTouchdownSigmas = 4.0;
-constexpr double kSlowest_mps = 0.05;  // below, a drop counts as stopped
-constexpr double kFalling_mps = 0.3;   // above, it counts as falling
+constexpr double kSlowest_mps = 0.05;  // below it a drop counts as stopped
+constexpr double kFalling_mps = 0.3;   // above it the body counts as falling
 constexpr std::size_t kMostSamples = 400;
 
 struct Signals {
@@ -68,7 +68,7 @@ class DropAnalysis {
   DropAnalysis(const Signals& signals, const FallingBodyBelief& belief, PenetrometerDrop& drop)
       : signals_(signals), gravity_mps2_(belief.gravity_mps2), drop_(drop) {}
 
-  // Throws std::invalid_argument with the reason.
+  // Throws std::invalid_argument with the reason if the drop cannot be used.
   void run() {
     std::vector<std::span<const double>> channels(signals_.accel_mps2.begin(), signals_.accel_mps2.end());
     drop_.fused = fuse_accelerometers(channels, {});
@@ -103,7 +103,7 @@ class DropAnalysis {
     for (std::size_t i = from; i < to; ++i)
       f.push_back(drop_.fused.specific_force_mps2[i] + motion_.bias_mps2 + gravity_mps2_ - rest_mps2_);
     drop_.fluid = fit_fluid(std::span(v).subspan(from, to - from), f, gravity_mps2_);
-    // Half a second before it falls, for 0.2 s: it hung still there.
+    // The body hung still from 0.7 to 0.5 s before the fall.
     double sum = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < from; ++i)
       if (t[i] > t[from] - 0.7 && t[i] < t[from] - 0.5) {

@@ -2,7 +2,7 @@
 
 #include "tools/terrain/penetrometer.hpp"
 
-// A drop as a list of numbers that travel with its trial's result.
+// Converts a drop to a list of numbers that is stored in its trial's result.
 namespace sandhopper {
 
 void keep_numbers(const PenetrometerDrop& drop, TrialResult& result) {

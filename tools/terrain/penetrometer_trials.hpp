@@ -4,7 +4,7 @@
 
 namespace sandhopper {
 
-// Bodies that fall through a fluid into a bed with accelerometers on board: resistance of the bed against
+// Analysis of bodies with accelerometers that fall through a fluid into a bed: resistance of the bed against
 // depth and speed.
 class PenetrometerTrials : public TrialAnalysis {
  public:

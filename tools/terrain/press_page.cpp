@@ -143,7 +143,7 @@ StudyFigure force_figure(const IntrusionFit& fit, std::span<const PressTrial> tr
         line.x.push_back(1e3 * deepest_m * i / 100);
         line.y.push_back(depth_law_force_N(law, deepest_m * i / 100, diameter_m, fit.options));
       }
-      line.x.push_back(NAN);  // the next plate's line is one of its own
+      line.x.push_back(NAN);  // NaN ends the line before the next plate's line
       line.y.push_back(NAN);
     }
     figure.series.push_back(std::move(line));
@@ -179,7 +179,7 @@ StudyFigure rig_figure(std::span<const PressTrial> trials) {
   return figure;
 }
 
-// How sure the chosen law's prediction is.
+// Accuracy of the chosen law's prediction, in words.
 std::string prediction_text(const IntrusionFit& fit) {
   const auto& chosen = fit.laws[*fit.chosen];
   std::string text;
@@ -268,7 +268,7 @@ std::string line_of(const IntrusionFit& fit) {
   return line;
 }
 
-// The law in words; its equation and figures stand in the lines and on the page.
+// The law in words; its equation and values are in the lines and on the page.
 std::string answer_of(const IntrusionFit& fit) {
   if (!fit.chosen) return line_of(fit);
   const auto& law = fit.laws[*fit.chosen];

@@ -8,8 +8,10 @@ namespace sandhopper {
 namespace {
 
 constexpr double kDefaultFrictionAngle_deg = 30.0;
-constexpr double kRelieved_m = 5e-4;  // above the deepest point: relieved, or pressed again into its own hole
-constexpr std::size_t kMostPressSamples = 400;  // of one trial; a slow press has no more to say
+constexpr double kRelieved_m = 5e-4;  // this far above the deepest point the plate counts as unloaded, or in
+                                      // its own hole
+constexpr std::size_t kMostPressSamples = 400;  // for one trial; more samples of a slow press add no
+                                                // information
 
 struct Row {
   double t_s, depth_m, force_N;
@@ -28,7 +30,8 @@ std::vector<Row> fresh_rows(const TrialRecording& recording) {
   return held ? changed : rows;
 }
 
-// Where the plate goes down: as the experimenter says, or from the last time at the surface to the deepest.
+// Interval in which the plate goes down: as stated in the set-up, or from the last time at the surface to the
+// deepest point.
 struct Window {
   double from_s, to_s;
 };
@@ -41,7 +44,8 @@ Window loading_window(const CampaignTrial& trial, const std::vector<Row>& rows) 
           trial.number("loading_to_s").value_or(deepest->t_s)};
 }
 
-// Inertia shows: a stroke, whose force is not of the depth alone (stroke_trials.hpp).
+// True if inertia is significant. Then it is a stroke, whose force does not depend on depth alone
+// (stroke_trials.hpp).
 bool is_fast(const std::vector<Row>& loading) {
   constexpr double kInertial_mps = 0.0767;  // sqrt(2 d g) of 0.3 mm grains
   if (loading.size() < 2) return false;
@@ -74,8 +78,8 @@ void keep_press(const CampaignTrial& trial, const TrialRecording& recording, Tri
   std::vector<Row> loading, path;
   double deepest_m = 0.0;
   for (const auto& row : rows) {
-    deepest_m =
-        std::max(deepest_m, row.depth_m);  // of earlier pushes, too: a foot falls freely into its hole
+    deepest_m = std::max(deepest_m, row.depth_m);  // includes earlier pushes, because a foot moves freely in
+                                                   // its own hole
     if (row.t_s < window.from_s) continue;
     path.push_back(row);
     const bool relieved = row.depth_m < deepest_m - kRelieved_m;

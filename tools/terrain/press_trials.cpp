@@ -8,7 +8,7 @@
 namespace sandhopper {
 namespace {
 
-// Faster than this the bed answers to speed as well, and a depth law alone is no law: sqrt(2 d g) of 0.3 mm
+// Above this speed the bed also responds to speed, and a depth law alone is not valid: sqrt(2 d g) of 0.3 mm
 // grains (Goldman & Umbanhowar).
 constexpr double kSlow_mps = 0.077;
 

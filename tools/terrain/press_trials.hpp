@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// Slow presses of flat plates: which depth law holds, what it predicts for plates of another size, and what
-// the rig itself yields, from trials on a rigid stop (kind "clamped").
+// Analysis of slow presses of flat plates: the best depth law, its prediction for plates of another size, and
+// the compliance of the rig itself, from trials on a rigid stop (kind "clamped").
 class PressTrials : public TrialAnalysis {
  public:
   std::string_view name() const override { return "presses"; }

@@ -9,8 +9,8 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kNamedCurves = 12;  // more are one entry of the legend
-constexpr std::size_t kDrawnCurves = 40;  // more hide one another
+constexpr std::size_t kNamedCurves = 12;  // more curves become one entry of the legend
+constexpr std::size_t kDrawnCurves = 40;  // more curves would hide one another
 
 StudySeries line_of(const StrengthCurve& curve) {
   StudySeries series{.mark = StudySeries::Mark::line};
@@ -23,8 +23,8 @@ StudySeries line_of(const StrengthCurve& curve) {
   return series;
 }
 
-// Two trials of more make a band as wide as the figure: it ends where fewer than three are left, unless there
-// were never more than two.
+// Band of a group. With only two of several trials left the band would fill the figure, so it ends where
+// fewer than three are left, unless there were never more than two.
 StudySeries band(std::string label, std::span<const PooledDepth> depths, const std::string& color,
                  bool further) {
   std::size_t most = 0;
@@ -43,7 +43,7 @@ StudySeries band(std::string label, std::span<const PooledDepth> depths, const s
   return series;
 }
 
-// Few trials by name, each with a look of its own; many as one entry.
+// Adds few trials by name, each in its own style; many become one entry.
 void add_curves(std::span<const StrengthCurve> curves, const std::string& label, StudyFigure& figure) {
   const std::size_t drawn = std::min(curves.size(), kDrawnCurves);
   if (drawn == 0) return;

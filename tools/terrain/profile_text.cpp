@@ -73,7 +73,7 @@ Json in_band_json(const std::vector<CurveInBand>& trials) {
   return list;
 }
 
-// Depths of all trials that lie inside, and all.
+// Number of depths of all trials that lie inside the band, and number of all depths.
 std::pair<std::size_t, std::size_t> inside_of(const std::vector<CurveInBand>& trials) {
   std::size_t inside = 0, depths = 0;
   for (const auto& t : trials) {
@@ -88,7 +88,7 @@ double share_of(const std::vector<CurveInBand>& trials) {
   return depths > 0 ? static_cast<double>(inside) / static_cast<double>(depths) : 0.0;
 }
 
-// A wide band holds everything: its width belongs to the share.
+// Width of the band. A wide band contains every curve, so the share inside is given with the width.
 std::string width_text(const std::vector<CurveInBand>& trials) {
   double width = 0.0;
   for (const auto& t : trials) width += t.half_width / static_cast<double>(trials.size());
@@ -171,7 +171,7 @@ std::string left_out_text(const CurveGroup& g) {
                      g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
 }
 
-// By which power of the area the force grows, if the held-out force is to be met on average.
+// Exponent of the area with which the predicted force would match the held-out force on average.
 std::string area_power_text(const ProfilePrediction& p, double ratio) {
   const double area = std::pow(p.diameter_m / p.from_diameter_m, 2);
   if (p.law != kAreaLaw || std::abs(area - 1.0) < 0.01 || !(ratio > 0.0)) return "";
@@ -192,7 +192,7 @@ std::string prediction_text(const ProfilePrediction& p) {
       area_power_text(p, ratio));
 }
 
-// The deepest round depth that every trial reached, or as many as reached any.
+// Deepest round depth that every trial reached, or that most trials reached.
 double deepest_with_most_trials(const CurveGroup& g, const std::vector<double>& depths_m) {
   double found_m = depths_m.front();
   for (const double depth_m : depths_m)

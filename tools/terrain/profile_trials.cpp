@@ -12,7 +12,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kReferenceSpeed_mps = 1.0;  // of the rate law (terrain/resistance_law.hpp)
+constexpr double kReferenceSpeed_mps = 1.0;  // reference speed of the rate law (terrain/resistance_law.hpp)
 
 std::vector<PenetrometerDrop> drops_of(std::span<const TrialResult* const> results) {
   std::vector<PenetrometerDrop> drops;
@@ -27,7 +27,7 @@ double moving_mass_kg(const PenetrometerDrop& drop, double mass_kg) {
   return coefficients(drop.fluid, body).moving_mass_kg;
 }
 
-// Force of the bed on the body, at the reference speed where the drops' own rate law gives one.
+// Force of the bed on the body, at the reference speed if the drops have a rate law.
 StrengthCurve curve_of_drop(const PenetrometerDrop& drop, double rate) {
   const double mass_kg = moving_mass_kg(drop, drop.body.mass_kg);
   const double range_kg = moving_mass_kg(drop, drop.mass_max_kg) - moving_mass_kg(drop, drop.mass_min_kg);

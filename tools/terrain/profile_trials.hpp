@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// Strength profile of the ground over depth, pooled over trials of any sort that gives force and depth. The
-// curves of hops, presses and strokes are kept by their own analyses; a drop's needs the rate law of all
+// Strength profile of the ground over depth, pooled over all kinds of trials that give force and depth. The
+// analyses of hops, presses and strokes store their own curves. A drop's curve needs the rate law of all
 // drops and is made here.
 class ProfileTrials : public TrialAnalysis {
  public:
@@ -18,10 +18,10 @@ class ProfileTrials : public TrialAnalysis {
 
 inline constexpr std::string_view kAreaLaw = "area law";
 
-// Held-out curves against the band that a group gives for their size of foot.
+// Comparison of held-out curves with the band that a group predicts for their size of foot.
 struct ProfilePrediction {
-  std::string law{};   // "area law"
-  std::string text{};  // how the force is carried over to the other foot
+  std::string law{};   // name of the law, such as "area law"
+  std::string text{};  // description of the scaling from one foot to the other
   CurveSource source = CurveSource::rig;
   double from_diameter_m = 0.0, diameter_m = 0.0;
   std::vector<PooledDepth> band{};
@@ -32,10 +32,10 @@ struct ProfileConclusion {
   std::vector<CurveGroup> groups{};
   std::vector<StrengthCurve> held_out{};
   std::vector<ProfilePrediction> predictions{};
-  std::vector<std::string> notes{};  // said below the figures
+  std::vector<std::string> notes{};  // notes below the figures
 };
 
-// `laws`: further ways, besides the area, to carry a press over to another plate; found on trials that are
+// A further method, besides the area law, to scale a press to another plate. It is fitted on trials that are
 // not held out.
 struct AreaWay {
   std::string law{};
@@ -44,7 +44,7 @@ struct AreaWay {
 };
 ProfileConclusion conclude_profile(std::span<const StrengthCurve> curves, std::span<const AreaWay> laws);
 
-// Terminal, JSON, table and page (profile_page.cpp).
+// Terminal lines, JSON, table and page (profile_page.cpp).
 CampaignConclusions tell_profile(const ProfileConclusion& conclusion);
 
 }  // namespace sandhopper

@@ -15,14 +15,14 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kContact_N = 10.0;  // as LegIdentificationOptions
+constexpr double kContact_N = 10.0;  // the same as in LegIdentificationOptions
 constexpr double kGreatestAmplification = 2.0;
 
-// The body's speed downward at this row of the plate, if position and speed at the end of the record are
+// Downward speed of the body at this row of the plate, if position and speed at the end of the record equal
 // those at its start.
 double falling_speed_mps(const LegHop& hop, double tare_N, double mass_kg, std::size_t row) {
   const auto& t = hop.reference_t_s;
-  double speed = 0.0, way = 0.0, at_row = 0.0;  // upward, from the first reading
+  double speed = 0.0, way = 0.0, at_row = 0.0;  // upward, from the first reading on
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double step_s = t[i] - t[i - 1];
     const double force_N = 0.5 * (hop.reference_N[i] + hop.reference_N[i - 1]) - tare_N;
@@ -34,7 +34,7 @@ double falling_speed_mps(const LegHop& hop, double tare_N, double mass_kg, std::
   return way / (t.back() - t.front()) - at_row;
 }
 
-// Rate at which the leg becomes longer, over the last 10 ms before this time.
+// Rate of change of the leg's length over the last 10 ms before this time.
 double extension_mps(const LegHop& hop, double t_s) {
   constexpr double kBefore_s = 0.010;
   const auto last = std::lower_bound(hop.t_s.begin(), hop.t_s.end(), t_s) - hop.t_s.begin();
@@ -49,12 +49,13 @@ double extension_mps(const LegHop& hop, double t_s) {
 std::optional<BlowBound> bound_of(const LegHop& hop, double tare_N, double mass_kg) {
   const auto& t = hop.reference_t_s;
   const auto force_N = [&](std::size_t i) { return hop.reference_N[i] - tare_N; };
-  constexpr double kStanding = 0.25;  // as leg_regression.cpp tells a hop that starts in contact
+  constexpr double kStanding = 0.25;  // the same criterion as in leg_regression.cpp for a hop that starts in
+                                      // contact
   if (t.empty() || force_N(0) > kStanding * kContact_N) return std::nullopt;
   std::size_t contact = 0;
   while (contact < t.size() && force_N(contact) < kContact_N) ++contact;
   if (contact == 0 || contact == t.size()) return std::nullopt;
-  // Back to the reading from which the force only rises: on soft ground ten newtons take a while.
+  // Go back to the reading from which the force only rises, because on soft ground 10 N are reached late.
   while (contact > 1 && force_N(contact - 1) > 0.0 && force_N(contact - 1) < force_N(contact)) --contact;
   std::size_t peak = contact;
   while (peak + 1 < t.size() && force_N(peak + 1) > force_N(peak)) ++peak;

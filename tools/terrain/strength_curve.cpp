@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::size_t kFewestLoadingSamples = 10;
 
-// Depth counted in units of `unit` metres: lengths and speeds of the prior become smaller, stiffnesses
-// greater. The added mass grows with the cube of a length and acts on an acceleration.
+// Converts the configuration to depths in units of `unit` metres: lengths and speeds of the prior become
+// smaller, stiffnesses larger. The added mass is proportional to the cube of a length and multiplies an
+// acceleration.
 StiffnessConfig in_units(StiffnessConfig config, double unit) {
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
@@ -32,7 +33,7 @@ StiffnessConfig in_units(StiffnessConfig config, double unit) {
   return config;
 }
 
-// The smallest power of two whose cells hold the depth.
+// Smallest power of two for which the cells cover the depth.
 double unit_for(double deepest_m) {
   double unit = 1.0;
   while (deepest_m >= unit * kProfileDepth_m) unit *= 2.0;
@@ -47,9 +48,10 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
   profile.believed_stiffness_N_per_m =
       facts.believed_stiffness_N_per_m > 0.0 ? facts.believed_stiffness_N_per_m : std::max(mean_slope, 1.0);
   config.profile = profile;
-  config.max_depth_m = std::numeric_limits<double>::infinity();             // a rod carries this foot
-  config.joint.accel_range_mps2 = std::numeric_limits<double>::infinity();  // the caller left those out
-  config.joint.depth_drift_sd_mps = 1e-6;  // a measured depth does not drift as an integrated one does
+  config.max_depth_m = std::numeric_limits<double>::infinity();             // the foot is carried by a rod
+  config.joint.accel_range_mps2 = std::numeric_limits<double>::infinity();  // the caller removed saturated
+                                                                            // samples
+  config.joint.depth_drift_sd_mps = 1e-6;  // a measured depth does not drift like an integrated one
   if (facts.quasi_static) {
     config.joint.added_mass_factor = 0.0;
     config.joint.added_mass_factor_sd = 1e-6;
@@ -57,7 +59,7 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
   return config;
 }
 
-// Points of the curve at the depths visited, in metres again.
+// Points of the curve at the depths visited, converted back to metres.
 StrengthCurve points_of(const ProfileSolver& solver, const GroundSummary& summary, double unit,
                         double greatest_N, const CurveFacts& facts) {
   const auto& joint = solver.config().joint;
@@ -114,7 +116,7 @@ TrialValue StrengthCurve::force_at(double depth_m) const {
   const double share = place - static_cast<double>(i);
   const auto at = [&](const std::vector<double>& values) {
     const double above = i > 0 ? values[i - 1] : 0.0;
-    return i < values.size() ? above + share * (values[i] - above) : above;  // the last point itself
+    return i < values.size() ? above + share * (values[i] - above) : above;  // exactly at the last point
   };
   return {at(force_N), at(force_sd_N)};
 }
@@ -134,7 +136,7 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
     return {.source = facts.source, .diameter_m = facts.diameter_m, .held_out = facts.held_out};
   const double unit = unit_for(samples.back().depth_m);
   const StiffnessConfig config = in_units(config_for(samples, facts), unit);
-  // The force does not follow from the acceleration: as with an infinite mass.
+  // The force is measured independently of the acceleration, which corresponds to an infinite mass.
   ProfileRegression regression(config, 0.5 * facts.diameter_m / unit,
                                std::numeric_limits<double>::infinity());
   double before_s = samples.front().t_s;
@@ -157,7 +159,7 @@ StrengthCurve curve_of(std::span<const LoadingSample> loading, const CurveFacts&
 
 StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const double> force_N,
                              const CurveFacts& facts) {
-  constexpr double kSpeed_mps = 0.001;  // any that makes the lag between force and depth come to nothing
+  constexpr double kSpeed_mps = 0.001;  // small enough that the lag between force and depth has no effect
   std::vector<LoadingSample> samples;
   for (std::size_t i = 0; i < depth_m.size(); ++i)
     samples.push_back({depth_m[i] / kSpeed_mps, depth_m[i], kSpeed_mps, 0.0, force_N[i]});

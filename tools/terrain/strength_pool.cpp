@@ -18,7 +18,8 @@ double shared_sd(std::span<const StrengthCurve> curves) {
   return shared;
 }
 
-// A trial's force at one depth belongs to one draw of the bed, so the trials' values are independent.
+// Pools the trials' values at one depth. They are independent, because each trial's force belongs to its own
+// draw of the bed.
 template <class Value>
 PooledValue pooled(std::span<const StrengthCurve> curves, Value&& value, double shared_sd_relative) {
   std::vector<TrialValue> values;
@@ -26,7 +27,7 @@ PooledValue pooled(std::span<const StrengthCurve> curves, Value&& value, double 
   return pool_trials(values, shared_sd_relative);
 }
 
-// Dry ground does not pull: no interval of the force goes below zero.
+// Dry ground cannot pull, so intervals of the force are limited to zero from below.
 void keep_positive(PooledValue& force_N) {
   if (std::isfinite(force_N.mean_low)) force_N.mean_low = std::max(force_N.mean_low, 0.0);
   if (std::isfinite(force_N.new_low)) force_N.new_low = std::max(force_N.new_low, 0.0);
@@ -83,7 +84,8 @@ void pool_numbers(CurveGroup& group) {
       shared);
 }
 
-// One of two left out leaves one, which tells of no other. The time grows with the square of the number.
+// Compares each trial with the band of the others. This needs three trials, and the time grows with the
+// square of their number.
 void leave_out(CurveGroup& group) {
   constexpr std::size_t kFewest = 3, kMost = 30;
   if (group.curves.size() < kFewest || group.curves.size() > kMost) return;

@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Results = std::span<const TrialResult* const>;
 
-constexpr double kInertialSpeed_mps = 0.0767;  // sqrt(2 d g) of 0.3 mm beads: slower, speed does not matter
-constexpr double kFastest_mps = 0.3;           // from here on drag shows
+constexpr double kInertialSpeed_mps = 0.0767;  // sqrt(2 d g) of 0.3 mm beads: below it speed does not matter
+constexpr double kFastest_mps = 0.3;           // from this speed on drag is visible
 
 // Strokes with plates of one size, whose forces share one map.
 struct Plate {
@@ -28,7 +28,7 @@ struct Plate {
   double fastest_mps = 0.0;
 
   bool tells_drag() const { return fastest_mps >= kFastest_mps && trials.size() >= 3; }
-  // Why not, with what to record.
+  // Reason why there is no drag, with the recordings that would be needed.
   std::string why_no_drag() const {
     if (trials.size() < 3)
       return fmt::format(
@@ -40,7 +40,7 @@ struct Plate {
   }
 };
 
-// Mean slope of a straight line through each stroke, whatever its speed.
+// Mean slope of a straight line through each stroke at any speed.
 TrialMean any_slope(const Plate& plate) {
   std::vector<double> slopes;
   for (const auto* trial : plate.trials) slopes.push_back(trial->value("slope_N_per_m"));
@@ -72,7 +72,7 @@ std::string mean_text(const TrialMean& mean) {
 
 double speed_of(const TrialResult& result) { return result.series.at("stroke").at(1); }
 
-// Mean slope of the strokes too slow for inertia.
+// Mean slope of the strokes that are too slow for inertia.
 TrialMean slow_slope(const Plate& plate) {
   std::vector<double> slopes;
   for (const auto* trial : plate.trials)
@@ -80,8 +80,8 @@ TrialMean slow_slope(const Plate& plate) {
   return mean_over_trials(slopes);
 }
 
-// Exponent p of k ~ A^p, from each trial's own stiffness: the slope where it was too slow for inertia, which
-// a joint fit could not tell from depth there.
+// Exponent p of k ~ A^p from each trial's own stiffness. For slow trials it is the slope, because a joint fit
+// cannot separate the inertial terms from depth there.
 struct AreaLaw {
   double exponent = NAN, half_width = NAN;
   std::size_t trials = 0;
@@ -184,7 +184,7 @@ StudyFigure path_figure(Results results) {
   return figure;
 }
 
-// One row of the table, one entry of the JSON and the figures of one plate.
+// Table row, JSON entry and figures of one plate.
 struct PlateReport {
   std::vector<std::string> row;
   Json json;
@@ -237,7 +237,7 @@ PlateReport report_plate(const Plate& plate) {
 CampaignConclusions conclude_strokes(Results results) {
   CampaignConclusions told;
   const auto plates = plates_of(results);
-  // Slow presses alone are the depth law's.
+  // Slow presses alone are evaluated by the depth law.
   const bool fast = std::any_of(plates.begin(), plates.end(),
                                 [](const Plate& plate) { return plate.fastest_mps > kInertialSpeed_mps; });
   if (!fast) return told;

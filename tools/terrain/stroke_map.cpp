@@ -26,7 +26,7 @@ Products matrix(const StrokeSums& sums) {
   return m;
 }
 
-// Least squares in the columns of `basis`, each a combination of regressors. Columns are scaled to one.
+// Least squares in the columns of `basis`, which are combinations of regressors. Columns are scaled to one.
 Eigen::VectorXd solve(const Products& products, const Eigen::MatrixXd& basis) {
   Eigen::MatrixXd normal = basis.transpose() * products * basis;
   const Eigen::VectorXd right = basis.transpose() * products.col(kForce);
@@ -59,7 +59,7 @@ Combination added_mass_force(const StrokeMap& map) {
   return force;
 }
 
-// Mean of jackknife pseudo-values, with Student's interval.
+// Mean of jackknife pseudo-values with Student's interval.
 TrialMean jackknife(double whole, const std::vector<double>& without_one) {
   const double n = static_cast<double>(without_one.size());
   std::vector<double> pseudo;
@@ -131,7 +131,7 @@ StrokeResiduals stroke_residuals(const StrokeSums& trial, const StrokeMap& map) 
   const Combination left = map_left(map), inertia = added_mass_force(map);
   out.map_rms_N = rms(left);
   out.added_mass_rms_N = rms(left - inertia);
-  // Column 0 is 1, so a combination's sum over the samples is its product with that column.
+  // Column 0 is 1, so the product with it is the sum of a combination over the samples.
   const auto mean = [&](const Combination& c) { return c.dot(products.col(0)) / n; };
   const double covariance = left.dot(products * inertia) / n - mean(left) * mean(inertia);
   const double spread = std::sqrt((square_sum(products, left) / n - mean(left) * mean(left)) *

@@ -5,17 +5,17 @@
 
 #include "terrain/trial_statistics.hpp"
 
-// Force of a foot driven into the ground, split into what depth, speed and acceleration explain:
+// Splits the force of a foot driven into the ground into parts due to depth, speed and acceleration:
 //   F = F0 + k z + (a + b z + c z^2) v^2                          map of depth and speed
-//     + (a z + b z^2/2 + c z^3/3) zdd                             added mass, whose gradient the drag is
-// z depth, v speed and zdd acceleration downward, on samples at new depths. Solved from sums over trials, so
-// that thousands fit in memory; intervals by leaving out one trial after the other (jackknife).
+//     + (a z + b z^2/2 + c z^3/3) zdd                             added mass; its gradient is the drag
+// with z depth, v speed and zdd acceleration, all downward, for samples at new depths. It is solved from sums
+// over trials, so that thousands fit in memory. Intervals are jackknife intervals (leave one trial out).
 namespace sandhopper {
 
 struct StrokeSample {
   double depth_m;
   double speed_mps;   // downward
-  double accel_mps2;  // downward; 0 where it is not known
+  double accel_mps2;  // downward; 0 if it is unknown
   double force_N;
 };
 
@@ -30,9 +30,9 @@ class StrokeSums {
   double samples() const { return at(0, 0); }
   double at(std::size_t row, std::size_t column) const;
 
-  // Upper triangle, row by row, to travel with a trial's result.
+  // Upper triangle, row by row, for storage in a trial's result.
   std::vector<double> numbers() const { return {products_.begin(), products_.end()}; }
-  static StrokeSums from(std::span<const double> numbers);  // zeros where the size does not fit
+  static StrokeSums from(std::span<const double> numbers);  // zeros if the size does not match
 
  private:
   std::array<double, kColumns*(kColumns + 1) / 2> products_{};
@@ -48,19 +48,20 @@ struct StrokeMap {
 };
 
 enum class StrokeTerms { depth_and_speed, with_added_mass };
-// Least squares over everything in `sums`. NaN where it does not tell (a single speed, too few samples).
+// Least squares over all samples in `sums`. NaN if the terms are not determined (a single speed, too few
+// samples).
 StrokeMap fit_stroke_map(const StrokeSums& sums, StrokeTerms terms);
 
-// What each description leaves of a trial's force.
+// Residuals of a trial's force for each description.
 struct StrokeResiduals {
-  double line_rms_N = 0.0;  // straight line of that trial alone
+  double line_rms_N = 0.0;  // straight line fitted to this trial alone
   double map_rms_N = 0.0;
-  double added_mass_rms_N = 0.0;  // map and added mass, nothing fitted to the trial
-  double correlation = 0.0;       // of what the map leaves with the added mass' force
+  double added_mass_rms_N = 0.0;  // map and added mass, not fitted to the trial
+  double correlation = 0.0;       // between the map's residual and the added-mass force
 };
 StrokeResiduals stroke_residuals(const StrokeSums& trial, const StrokeMap& map);
 
-// The map over all trials, each figure with its jackknife interval (trial as the unit).
+// Map over all trials; each coefficient has a jackknife interval with the trial as the unit.
 struct StrokeMapWithIntervals {
   StrokeMap map;
   TrialMean intercept_N, stiffness_N_per_m, drag_at_surface_kg_per_m, added_mass_at_30mm_kg;

@@ -16,12 +16,12 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kSlowestFoot_mps = 0.001;  // a foot slower than this does not penetrate
+constexpr double kSlowestFoot_mps = 0.001;  // a slower foot does not penetrate
 constexpr std::size_t kFewestSamples = 10;
 constexpr std::size_t kDrawnStrokes = 6;
 constexpr std::size_t kDrawnStrokePoints = 160;
 constexpr double kStrokeResolution_m = 2e-4;
-constexpr double kStrokeUnloadedShare = 0.05;  // of the greatest force
+constexpr double kStrokeUnloadedShare = 0.05;  // of the largest force
 
 using Sample = LoadingSample;
 
@@ -60,7 +60,7 @@ class Stroke {
   }
 
  private:
-  // Speed and acceleration where they were recorded, else from what was.
+  // Speed and acceleration as recorded, otherwise derived from other channels.
   void find_motion() {
     const std::vector<double> none(in_.rows(), NAN);
     const auto* speed = in_.find("foot_velocity_mps");
@@ -85,7 +85,7 @@ class Stroke {
       if (!std::isnan(recorded[row])) values[row] = recorded[row];
   }
 
-  // What the force sensor reads in the air before the foot first meets the surface.
+  // Subtracts the force sensor's reading in the air before the foot first meets the surface.
   void remove_offset() {
     constexpr double kClear_m = 5e-4;
     std::vector<double> in_air;
@@ -97,7 +97,7 @@ class Stroke {
     add("force_offset_N", offset_N);
   }
 
-  // Rows with a fresh force, paired with the motion of the instant the force belongs to.
+  // Collects rows with a fresh force, paired with the motion at the instant of the force.
   void collect() {
     const auto& force = force_N_;
     const double lag_s = 1.0 / (2.0 * std::numbers::pi * belief_.sensors.robot.load_cell_bandwidth_Hz) +
@@ -131,7 +131,7 @@ class Stroke {
 
   StiffnessConfig config() const {
     StiffnessConfig config;
-    config.max_depth_m = 1.0;  // a rod carries this foot; sand over its top is the experimenter's concern
+    config.max_depth_m = 1.0;  // the foot is carried by a rod; sand above its top is not checked here
     config.min_samples = static_cast<int>(kFewestSamples);
     return config;
   }
@@ -168,7 +168,7 @@ class Stroke {
           {"added_mass_factor", fit.added_mass_factor, fit.added_mass_factor_sd, invalid});
   }
 
-  // A slow press has its own curve (press_trials.cpp), from the window that the experimenter states.
+  // A slow press stores its own curve (press_trials.cpp), from the window in the set-up.
   void add_curve() {
     if (out_.series.contains("press")) return;
     auto loading = loading_;
@@ -190,7 +190,7 @@ class Stroke {
                              fused_ ? 1.0 : 0.0};
   }
 
-  // From contact to where the force is gone again.
+  // From contact to the end of the force.
   std::span<const Sample> in_contact() const {
     const auto peak =
         std::max_element(path_.begin(), path_.end(), [](auto& a, auto& b) { return a.force_N < b.force_N; });
@@ -234,9 +234,9 @@ class Stroke {
   SmoothMotion motion_;
   std::vector<double> force_N_;
   bool inertia_known_ = false;
-  bool fused_ = false;  // speed from camera and accelerometer together
+  bool fused_ = false;  // speed was fused from camera and accelerometer
   std::vector<Sample> loading_, path_;
-  double speed_mps_ = 0.0;  // median while it penetrates
+  double speed_mps_ = 0.0;  // median during penetration
 };
 
 }  // namespace

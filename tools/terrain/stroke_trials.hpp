@@ -3,9 +3,9 @@
 
 namespace sandhopper {
 
-// Intrusions with speed: the depth-speed map with added mass over all trials of one plate, a straight line
-// and the joint fit trial by trial, unloading. Speed and acceleration as recorded, or from camera and
-// accelerometer together (estimation/motion_smoother.hpp), or from the depth alone.
+// Analysis of intrusions with speed: the depth-speed map with added mass over all trials of one plate, a
+// straight line and the joint fit for each trial, and unloading. Speed and acceleration are used as recorded,
+// or fused from camera and accelerometer (estimation/motion_smoother.hpp), or derived from the depth alone.
 class StrokeTrials : public TrialAnalysis {
  public:
   std::string_view name() const override { return "strokes"; }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Opens for writing, or says why not.
+// Opens a file for writing; throws with the reason if that fails.
 std::ofstream open(const fs::path& file) {
   fs::create_directories(file.parent_path());
   std::ofstream out(file);
@@ -38,7 +38,8 @@ std::ofstream begin(const fs::path& folder, const Head& head) {
 
 std::string trial_file(int number) { return fmt::format("trials/{:04}.csv", number + 1); }
 
-// The foot's prescribed path: rest above the surface, down at one speed, a dwell, up again; ramps in between.
+// The foot's prescribed path: at rest above the surface, down at one speed, a dwell, up again, with ramps in
+// between.
 class Path {
  public:
   explicit Path(double speed_mps) : speed_mps_(speed_mps) {
@@ -49,7 +50,7 @@ class Path {
     end_s_ = up_s_ + 0.6 * (bottom_s_ - down_s_) + kRest_s;
   }
   double end_s() const { return end_s_; }
-  // Speed profile of trapezoids; position by integration in the caller.
+  // Speed profile of trapezoids; the caller integrates the position.
   double velocity_mps(double t_s) const {
     if (t_s < down_s_ || t_s > end_s_ - kRest_s) return 0.0;
     if (t_s < bottom_s_) return -ramped(t_s - down_s_, bottom_s_ - t_s);
@@ -71,7 +72,7 @@ struct Intrusion {
   double speed_mps;
   double diameter_m;
 
-  // The bed has one pressure at one depth: the foot's stiffness in the ratio of the areas.
+  // The bed's pressure at one depth does not depend on the plate, so the stiffness scales with the area.
   double stiffness_N_per_m(double of_foot_N_per_m, double foot_radius_m) const {
     const double size = 0.5 * diameter_m / foot_radius_m;
     return of_foot_N_per_m * size * size;
@@ -108,7 +109,7 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
     cell_of_trial.step({i * World::kStep_ns, (i + 1) * World::kStep_ns}, force);
     accel_sum += a;
     if (i % 10 == 0) {
-      // The mean over a millisecond: an accelerometer's filter loses no part of a short ramp.
+      // Mean over a millisecond, so that a short ramp is not lost.
       const double accel = accel_sum / (i == 0 ? 1.0 : 10.0);
       accel_sum = 0.0;
       const bool frame = t >= camera_s;
@@ -124,7 +125,7 @@ void record_intrusion(const WorldConfig& world, const Intrusion& what, std::uint
   }
 }
 
-// What the simulation has and a nominal.toml must ask for.
+// Properties of the simulated bed that a nominal.toml must contain.
 std::string bed_keys(const BedParameters& bed) {
   return fmt::format(
       "[terrain]\nstiffness_N_per_m         = {}\nintercept_depth_m         = {}\nadded_mass_factor         "

@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::int64_t kPatience_ns = 200'000'000;
 
-// The robot's driver on the interface, and beside it a plain socket that puts the trace's frames there.
+// The robot's driver on the interface, and a plain socket that sends the trace's frames to it.
 class Stage {
  public:
   explicit Stage(const CanConfig& config) : player_(config.interface, {}), drives_(config) {}
 
-  // Sends a frame that the decoder took for a reply and waits until the driver has read it.
+  // Sends a frame that the decoder recognised as a reply, and waits until the driver has read it.
   void play(const can_frame& frame, std::vector<MotorReading>& readings) {
     while (!player_.send(frame)) drives_.wait(1'000'000);
     const auto before = readings.size();

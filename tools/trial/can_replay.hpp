@@ -13,24 +13,24 @@
 namespace sandhopper {
 
 struct CanReplayResult {
-  trace::TraceReport trace;                         // by the decoder alone
-  std::optional<std::vector<MotorReading>> driven;  // by the real driver on the interface
-  std::uint64_t different = 0;                      // readings whose values are not the same bits in both
-  std::uint32_t overflows = 0;                      // dropped by the kernel on the way to the driver
+  trace::TraceReport trace;                         // result of the decoder alone
+  std::optional<std::vector<MotorReading>> driven;  // result of the real driver on the interface
+  std::uint64_t different = 0;                      // readings whose values differ in any bit
+  std::uint32_t overflows = 0;                      // frames that the kernel dropped on the way to the driver
   bool identical() const { return different == 0 && (!driven || driven->size() == trace.decoded.size()); }
 };
 
 struct CanReplaySetup {
   CanConfig config;
   trace::TraceLimits limits{};
-  std::string bus;                          // interface of the trace to take; empty: all
-  std::optional<std::string> interface {};  // to play its replies on
+  std::string bus;                          // interface of the trace that is used; empty: all
+  std::optional<std::string> interface {};  // interface on which its replies are played
 };
 
-// Reads a candump trace, finds its replies and what else it contains (trace/trace_report.hpp) and, when
-// `interface` is given, plays the replies on that CAN interface (one at a time, each read before the next)
-// into the driver that the robot uses, and compares. Throws CandumpError for a file without a single frame,
-// DeviceError when the interface is not there.
+// Reads a candump trace and finds its replies and its other content (trace/trace_report.hpp). If `interface`
+// is given, it plays the replies on that CAN interface (one at a time, each read before the next) into the
+// robot's driver and compares. Throws CandumpError for a file without any frame, and DeviceError if the
+// interface does not exist.
 CanReplayResult replay_can(const std::filesystem::path& file, const CanReplaySetup& setup,
                            const std::function<void(std::uint64_t frames)>& progress = {});
 

@@ -7,11 +7,12 @@
 
 namespace sandhopper {
 
-// A program with its standard input and output in our hands, line by line. Its standard error is ours. It has
-// a session of its own: signals of our terminal (Ctrl-C, a lost connection) reach us alone, and we tell it.
+// A program whose standard input and output this process writes and reads line by line. It shares the
+// standard error. It has a session of its own, so signals of the terminal (Ctrl-C, a lost connection) reach
+// only this process, which passes them on.
 class ChildProcess {
  public:
-  // Throws std::system_error when it cannot be started.
+  // Throws std::system_error if it cannot be started.
   explicit ChildProcess(std::vector<std::string> command);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -19,10 +20,11 @@ class ChildProcess {
 
   void write_line(const std::string& line);
   bool read_line(std::string& line);  // false at the end of its output
-  // Instead of read_line, for who waits for several things: its output, and what there is of it.
+  // Alternative to read_line for a caller that waits for several descriptors: its output, and the available
+  // part of it.
   int output() const;
-  bool read_some(std::string& text);  // adds to text; false at the end
-  int wait();                         // exit status; 128 + signal when killed
+  bool read_some(std::string& text);  // appends to `text`; false at the end
+  int wait();                         // exit status; 128 + signal if it was killed
 
  private:
   pid_t pid_ = -1;

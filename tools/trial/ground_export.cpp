@@ -14,7 +14,7 @@ void row(std::ostream& out, std::initializer_list<double> values) {
   for (const double value : values) out << fmt::format(",{:.7g}", value);
 }
 
-// Cells of one line, with commas between.
+// Cells of one line, separated by commas.
 class Line {
  public:
   explicit Line(std::ostream& out) : out_(out) {}
@@ -28,7 +28,7 @@ class Line {
   bool first_ = true;
 };
 
-// "line_N_per_m" to "line_N_per_m,line_N_per_m_ci95_low,..."
+// Expands "line_N_per_m" to "line_N_per_m,line_N_per_m_ci95_low,...".
 class Header : public Line {
  public:
   using Line::Line;
@@ -83,7 +83,7 @@ void write_profile_csv(const std::vector<StrengthProfile>& profiles, std::ostrea
   for (const auto& p : profiles)
     for (std::size_t i = 0; i < kProfilePoints; ++i) {
       const double depth_m = static_cast<double>(i + 1) * kProfilePoint_m;
-      const std::size_t cell = i / 2;  // the cell that ends at this point, or holds it
+      const std::size_t cell = i / 2;  // the cell that ends at this point or contains it
       const ProfilePoint force{p.force_N[i], p.force_sd_N[i]};
       const ProfilePoint tangent{p.tangent_N_per_m[cell], p.tangent_sd_N_per_m[cell]};
       out << p.stride;

@@ -23,7 +23,7 @@ E enum_named(const std::string& name) {
   throw std::runtime_error("hopperd said '" + name + "', which this build does not know");
 }
 
-// The robot as this trial has it, beside the log, so that hopperd reads what was asked for.
+// Writes this trial's robot configuration next to the log, so that hopperd uses the requested values.
 std::filesystem::path write_robot_file(const LinuxTrialSetup& setup) {
   auto path = std::filesystem::path(setup.log).replace_extension(".robot.toml");
   write_text(path, to_toml(setup.robot));

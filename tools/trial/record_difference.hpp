@@ -46,7 +46,7 @@ std::string difference_at(const std::string& path, const T& logged, const T& rep
 
 }  // namespace detail
 
-// The first field in which two records differ, with both values; empty when none does. Doubles are compared
+// First field in which two records differ, with both values; empty if they are equal. Doubles are compared
 // bit by bit.
 template <HasFields Record>
 std::string first_difference(const Record& logged, const Record& replayed) {

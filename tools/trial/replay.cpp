@@ -26,7 +26,7 @@ RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file)
     if (attachment.name != kRobotAttachment) continue;
     const std::string_view text(reinterpret_cast<const char*>(attachment.data.data()),
                                 attachment.data.size());
-    // A key that the log's version did not know yet has its default.
+    // A key that the log's version did not have gets its default.
     return load_text<RobotConfig>(file.string() + ": " + std::string(kRobotAttachment), text,
                                   MissingKeys::use_default);
   }
@@ -34,7 +34,7 @@ RobotConfig robot_of(const mcap::Reader& log, const std::filesystem::path& file)
                     ", so the cycle's configuration is not known; was it made by hopperd or `hop trial`?");
 }
 
-// Of a log without it the cycle started anew.
+// In a log without this attachment the cycle started without a kept state.
 StartState start_of(const mcap::Reader& log, const std::filesystem::path& file) {
   for (const auto& attachment : log.attachments()) {
     if (attachment.name != kStartAttachment) continue;
@@ -65,19 +65,19 @@ std::filesystem::path next_segment(const std::filesystem::path& file) {
   return file.parent_path() / name;
 }
 
-// One topic of the log against what the cycle gives now, in order.
+// Compares one topic of the log, in order, with the replayed cycle's records.
 template <class Record>
 class Comparison {
  public:
   explicit Comparison(std::string_view name) : name_(name), topic_(name) {}
 
-  // A topic's channel belongs to its file.
+  // A topic's channel belongs to one file.
   void begin_file() { topic_ = TopicOf<Record>(name_); }
 
-  // What the cycle gave; compared as soon as the logged record is met.
+  // A record of the replayed cycle; it is compared when the logged record is read.
   void expect(const Record& record) { expected_.push_back(record); }
 
-  // True when the message was of this topic.
+  // True if the message was of this topic.
   bool take(const mcap::Message& message, std::optional<ReplayMismatch>& mismatch) {
     if (!topic_.take(message, logged_)) return false;
     if (expected_.empty()) {
@@ -139,13 +139,13 @@ class Replay {
     result_.x_real_time = result_.seconds > 0.0 ? logged_s / result_.seconds : 0.0;
     result_.events = events_.count();
     result_.strides = strides_.count();
-    // A cut log, and what `hop recover` saved of one, may lack the last records of what the cycle gave; one
-    // that was closed must have them all.
+    // A cut log, or one that `hop recover` restored, may lack the last records. A log that was closed must
+    // have all of them.
     if (!result_.truncated_at && !salvaged_ && result_.gaps == 0) {
       report_missing(outputs_);
       report_missing(events_);
       report_missing(strides_);
-      // Logs of before the strength profile have no such topics.
+      // Logs of versions without the strength profile lack these topics.
       if (profiles_.count() > 0) report_missing(profiles_);
       if (grounds_.count() > 0) report_missing(grounds_);
       if (ground_events_.count() > 0) report_missing(ground_events_);

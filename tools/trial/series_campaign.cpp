@@ -20,7 +20,7 @@ std::string line(std::string_view key, double value) {
   return to_toml_line(key, detail::real_node(value)) + "\n";
 }
 
-// The configured values of those keys that a simulation of the robot has, too.
+// Configured values of the keys that a simulation of the robot also has.
 template <class Configured, class Believed>
 std::string shared_keys(std::string_view table, const Configured& configured, const Believed& believed) {
   std::string out = fmt::format("\n[{}]\n", table);

@@ -11,7 +11,7 @@
 namespace sandhopper {
 namespace {
 
-// What an operator sets with a ruler, up to the greatest drop that the robot was designed for.
+// Drop heights that an operator can set with a ruler, up to the largest drop that the robot is designed for.
 constexpr std::array kDrops_m{0.005, 0.010, 0.020, 0.030, 0.040, 0.050, 0.060, 0.070, 0.080, 0.090};
 
 }  // namespace

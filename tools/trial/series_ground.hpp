@@ -8,16 +8,16 @@
 
 namespace sandhopper {
 
-// What the trials of a series have shown of the ground so far, each on ground that was prepared alike and
-// that no trial had touched, and the drop that would show most of the rest.
+// Knowledge of the ground from the trials of a series so far, and the drop that is expected to add most to
+// it. Every trial must be on untouched ground that was prepared alike.
 class SeriesGround {
  public:
   explicit SeriesGround(const RobotConfig& robot);
 
-  // The strides of one more trial, from its log. Throws mcap::Error.
+  // Adds the strides of one more trial from its log. Throws mcap::Error.
   void add(const std::filesystem::path& log);
 
-  // None before a stride was measured. The leg's stiffness is that of the series.
+  // Next drop; empty before a stride was measured. The leg's stiffness is that of the series.
   std::optional<NextStride> next() const;
 
  private:
@@ -27,7 +27,7 @@ class SeriesGround {
   bool known_ = false;
 };
 
-// "Tells most about the ground next: a drop from 60 mm ..."
+// Text such as "Tells most about the ground next: a drop from 60 mm ...".
 std::string to_text(const NextStride& next);
 
 }  // namespace sandhopper

@@ -16,7 +16,7 @@ constexpr std::uint64_t kArm_cycle = 10;
 constexpr std::uint64_t kHang_cycles = 100;  // between armed and release
 constexpr std::uint64_t kTail_cycles = 20;   // after the end
 
-// The operator of a simulated trial.
+// Acts as the operator of a simulated trial.
 class Script {
  public:
   Request next(std::uint64_t cycle) noexcept {

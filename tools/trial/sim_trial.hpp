@@ -19,8 +19,8 @@ struct SimTrialSetup {
   TrialSetup trial{};
   std::optional<TrialSheet> sheet{};
   std::filesystem::path log;            // .mcap
-  std::int64_t realtime_offset_ns = 0;  // date of the trial's start
-  double longest_s = 60.0;              // a trial that has not ended by then is stopped
+  std::int64_t realtime_offset_ns = 0;  // date of the trial's start: CLOCK_REALTIME minus the trial's time
+  double longest_s = 60.0;              // a trial that lasts longer is stopped
   std::function<void(double time_s)> progress{};
 };
 
@@ -30,11 +30,11 @@ struct SimTrialResult {
   std::uint64_t cycles = 0;
 };
 
-// A whole trial in the simulated world, as fast as it goes: arm, release, hop, soft stop; logged like a real
-// one, with the truth beside it. The same setup gives the same bytes.
+// Runs a complete trial in the simulated world, as fast as possible: arm, release, hop, soft stop. It is
+// logged like a real one, with the true values in addition. Equal set-ups give equal bytes.
 SimTrialResult run_sim_trial(const SimTrialSetup& setup);
 
-// Into the log, before it starts: robot, world, seed, release height.
+// Adds robot, world, seed and release height to the log. Call it before the log starts.
 void describe_simulated_trial(TrialLogger& logger, const SimTrialSetup& setup);
 
 }  // namespace sandhopper

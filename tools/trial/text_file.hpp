@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// Throws where the disk does not take all of it.
+// Writes a text file. Throws if the disk does not accept all of it.
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file);
   out << text;

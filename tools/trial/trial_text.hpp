@@ -9,17 +9,17 @@
 
 namespace sandhopper {
 
-// A name of an enumeration as words: "too_shallow" as "too shallow".
+// Name of an enumeration value as words: "too_shallow" becomes "too shallow".
 std::string readable(std::string name);
 
-// What a trial gave, for people: a block of lines per stride.
+// Results of a trial for people: a block of lines per stride.
 std::vector<std::string> stride_lines(const ReportData& data);
 
 // The same for programs: touchdown_speed_mps, times, peak force, depth,
 // stiffness_N_per_m.{qs_ols,mo_ols,mo_wls,joint}, profile (profile_text.hpp).
 nlohmann::ordered_json stride_json(const ReportStride& stride);
 
-// The joint fit of all valid strides together; empty text and null where there are fewer than two.
+// Joint fit of all valid strides together; empty text and null for fewer than two.
 struct PooledText {
   std::string line;
   nlohmann::ordered_json json;

@@ -10,7 +10,7 @@ namespace sandhopper::paper {
 namespace {
 
 constexpr std::int64_t kStep_ns = 100'000;
-constexpr std::int64_t kRunUp_ns = 20'000'000;  // in the air, at speed
+constexpr std::int64_t kRunUp_ns = 20'000'000;  // time in the air at full speed
 
 ActuatorRun drive_once(const WorldConfig& world, const ActuatorSetup& setup, double speed_mps,
                        std::uint64_t seed) {

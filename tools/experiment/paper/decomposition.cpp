@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kFewest = 10;
 
-// What one row says, by source; the row before holds the motion at the instant of the estimate's forces.
+// Sample of one row for this source. The previous row contains the motion at the instant of the estimate's
+// forces.
 PenetratingSample sample_of(const HopRow& before, const HopRow& row, const ForceMap& map,
                             ForceSource source) {
   PenetratingSample s{};
@@ -28,8 +29,9 @@ PenetratingSample sample_of(const HopRow& before, const HopRow& row, const Force
   return s;
 }
 
-// Depth that the filter shows when the foot's accelerometer feels the ground, the robot's own zero: after the
-// last cycle before touchdown in which it felt nothing.
+// Depth estimated by the filter when the foot's accelerometer first measures the ground's force. The robot
+// takes this point as zero depth. Calculated as the value after the last cycle before touchdown without
+// contact force.
 double met_surface_at_m(const HopTrial& trial) {
   const double contact_force_N = StiffnessConfig{}.contact_force_N;
   double depth_m = 0.0;

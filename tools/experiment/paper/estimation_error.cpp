@@ -11,7 +11,7 @@ constexpr std::int64_t kCycle_ns = 1'000'000;
 
 double seconds(std::int64_t time_ns) { return 1e-9 * static_cast<double>(time_ns); }
 
-// The forces of `row` belong to the instant of the row before.
+// The forces in `row` belong to the instant of the previous row.
 void add_forces(const HopRow& before, const HopRow& row, EstimationErrors& errors) {
   const auto& e = row.estimate;
   errors.quasi_static_N.add(e.quasi_static_force_N - before.truth.contact_force_N);
@@ -21,7 +21,7 @@ void add_forces(const HopRow& before, const HopRow& row, EstimationErrors& error
   errors.observer_to_cell_N.add(e.contact_force_N - e.load_cell_force_N);
 }
 
-// A camera frame falls between two cycles: the estimate is interpolated to its instant.
+// A camera frame falls between two cycles, so the estimate is interpolated to its instant.
 void add_motion_capture(const HopRow& before, const HopRow& row, EstimationErrors& errors) {
   if (row.truth.mocap_time_ns == before.truth.mocap_time_ns) return;
   errors.fresh_mocap += 1.0;

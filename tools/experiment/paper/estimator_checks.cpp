@@ -12,7 +12,7 @@
 namespace sandhopper::paper {
 namespace {
 
-// p = M_f v_f and psi at one instant of a frictionless hop; the torque is the one held since then.
+// p = M_f v_f and psi at one instant of a frictionless hop, with the torque held since then.
 struct MomentumTerms {
   double momentum_kg_mps;
   double psi_N;
@@ -41,11 +41,11 @@ MomentumCheck momentum_balance(const WorldConfig& config) {
   const auto stride = nominal_stride({}, world);
   const Leg leg(world.robot.leg);
   std::vector<double> difference_N;
-  const std::size_t steps = steps_until_liftoff(stride);  // beyond it the leg may meet its end stops
+  const std::size_t steps = steps_until_liftoff(stride);  // after liftoff the leg may hit its end stops
   for (std::size_t i = 0; i < steps; ++i) {
     const auto& now = stride.grid[i];
     const auto& next = stride.grid[i + 1];
-    // The step's torque is the one the drives had reached at its end.
+    // The torque of a step is the one that the drives had reached at the step's end.
     const auto here = momentum_terms(leg, now, next.motor_torque_Nm, world.gravity_mps2);
     const auto there = momentum_terms(leg, next, next.motor_torque_Nm, world.gravity_mps2);
     const double step_s = 1e-9 * static_cast<double>(next.time_ns - now.time_ns);
@@ -60,7 +60,7 @@ MomentumCheck momentum_balance(const WorldConfig& config) {
 ObserverStep observer_step(double gain_per_s) {
   constexpr double kForce_N = 30.0;
   constexpr double kPsi_N = -6.5;
-  constexpr int kFine = 1000;  // steps of the internal form in a cycle
+  constexpr int kFine = 1000;  // steps of the internal form per cycle
   MomentumObserver observer(gain_per_s);
   observer.reset(0.0);
   double momentum = 0.0, internal = 0.0, integral = 0.0, difference = 0.0;
@@ -96,7 +96,7 @@ int observability_rank(const Eigen::MatrixXd& measurement) {
 
 namespace {
 
-// Mean normalised squared innovation of one made-up motion in which the filter's model is true.
+// Mean normalised squared innovation for a synthetic motion that matches the filter's model exactly.
 double mean_normalised_innovation(const KalmanConfig& c, int steps, std::uint64_t seed) {
   Random random(seed, 0);
   const auto noise = [&random](double sigma) { return sigma * random.normal(); };
@@ -132,7 +132,8 @@ FilterCheck filter_check(const KalmanConfig& config) {
   h << 1, 0, 0, 0, 1, 0, -1, 0, 0, 1, 0, -1;
   FilterCheck check{.rank_with_tof = observability_rank(h),
                     .rank_without_tof = observability_rank(h.bottomRows(2))};
-  const double half_band = 1.96 * std::sqrt(2.0 / (3.0 * kSteps));  // of a chi-squared mean
+  const double half_band = 1.96 * std::sqrt(2.0 / (3.0 * kSteps));  // half width of the 95 % band of the mean
+                                                                    // of a chi-squared variable
   for (int run = 0; run < kRuns; ++run) {
     const double normalised = mean_normalised_innovation(config, kSteps, static_cast<std::uint64_t>(run));
     check.mean_normalised += normalised / kRuns;

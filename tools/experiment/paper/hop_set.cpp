@@ -6,7 +6,7 @@
 namespace sandhopper::paper {
 namespace {
 
-// How straight force over estimated depth is while the foot penetrates.
+// Linearity of force over estimated depth while the foot penetrates.
 void find_linearity(const HopTrial& trial, double min_speed_mps, HopResult& result) {
   std::vector<double> depth_m, quasi_static_N, observer_N;
   const auto at = stance_rows(trial);

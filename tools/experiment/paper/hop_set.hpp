@@ -8,16 +8,17 @@
 
 namespace sandhopper::paper {
 
-// What is kept of one trial of the hop set.
+// Results that are kept of one trial of the hop set.
 struct HopResult {
-  std::size_t cell = 0;  // of hop_cells()
+  std::size_t cell = 0;  // index in hop_cells()
   bool complete = false;
   StrideShape shape{};
   EstimationErrors errors{};
   Decomposition truth{}, instruments{}, robot{};
-  double quasi_static_r_squared = 0.0;  // of a line through force and estimated depth, penetrating samples
+  double quasi_static_r_squared = 0.0;  // r^2 of a line through force over estimated depth, penetrating
+                                        // samples
   double observer_r_squared = 0.0;
-  Validity validity = Validity::valid;  // of the observer's stiffness, as the firmware judges it
+  Validity validity = Validity::valid;  // of the observer's stiffness, as in the firmware
 };
 
 struct HopSetSetup {
@@ -29,7 +30,7 @@ struct HopSetSetup {
   std::function<void(int done, int total)> progress{};
 };
 
-// Seeds x cells x trials, in that order, with the same beds and sensors as run_treatment_study's.
+// Runs seeds x cells x trials, in that order, with the same beds and sensors as run_treatment_study.
 std::vector<HopResult> run_hop_set(const HopSetSetup& setup, const ForceMap& map);
 
 }  // namespace sandhopper::paper

@@ -14,13 +14,14 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
-// Angles at which the leg is compared: the whole working range.
+// Visits the angles at which the leg is compared: the whole working range.
 template <class Visit>
 void over_angles(Visit&& visit) {
   for (int i = 0; i <= 42; ++i) visit(0.3 + 0.05 * i);
 }
 
-// Heights over the foot's sole and horizontal places of the moving masses of one side, and the link angles.
+// Heights over the foot's sole and horizontal positions of the moving masses of one side, and the link
+// angles.
 struct Places {
   Complex body_z, upper_z, upper_x, lower_z, lower_x, lower_angle;
 };
@@ -39,7 +40,7 @@ Places places(const LegParameters& p, Complex angle) {
           .lower_angle = lower_angle};
 }
 
-// Mass matrix from kinetic energy: both sides, links and rotors.
+// Mass matrix from the kinetic energy of both sides, links and rotors.
 Eigen::Matrix2d mass_matrix(const LegParameters& p, double angle_rad) {
   const auto at = places(p, Complex(angle_rad, kComplexStep));
   const auto rate = [](const Complex& place) { return place.imag() / kComplexStep; };

@@ -1,11 +1,10 @@
 #pragma once
 #include "tools/plant/world_config.hpp"
 
-// Checks of the leg's mechanics: each figure is computed from scratch, by another route than the code it
-// checks.
+// Checks of the leg's mechanics. Each value is computed independently of the code that it checks.
 namespace sandhopper::paper {
 
-// Leg standing on rigid ground with a spring along it, settled.
+// A leg that stands on rigid ground with a spring along it, at rest.
 struct StaticLeg {
   double quasi_static_N;  // tau / L'
   double spring_N;        // K (L0 - L)
@@ -14,16 +13,16 @@ struct StaticLeg {
 };
 StaticLeg standing_leg(const WorldConfig& world);
 
-// Largest difference, over leg angles, between the mass matrix (and its derivative) of estimation/leg.hpp and
-// the one assembled from the links' positions, differentiated by complex steps. SI units.
+// Largest difference over the leg's angles between the mass matrix (and its derivative) of estimation/leg.hpp
+// and one that is assembled from the links' positions by complex-step differentiation. SI units.
 double mass_matrix_difference(const LegParameters& leg);
 
-// Largest residual of M_f (xdd + g) = F_c - beta tau - C phid^2 when the two rows of the full equation of
-// motion are solved for both accelerations, over random states, forces and torques [N].
+// Largest residual [N] of M_f (xdd + g) = F_c - beta tau - C phid^2 if the two rows of the full equation of
+// motion are solved for both accelerations, over random states, forces and torques.
 double reduced_equation_residual_N(const LegParameters& leg);
 
-// What remains of F_c - tau/L' for a leg without link and rotor inertia while the foot accelerates by
-// `foot_accel_mps2`: the remainder and the foot's own m_f (xdd + g).
+// Remainder F_c - tau/L' for a leg without link and rotor inertia while the foot accelerates with
+// `foot_accel_mps2`, and the foot's own m_f (xdd + g).
 struct MasslessRemainder {
   double remainder_N;
   double foot_inertia_N;

@@ -23,7 +23,7 @@ ProgrammeResults run_programme(const ProgrammeSetup& setup) {
   r.stiffness =
       stiffness_by_definition(r.actuator, r.map, world.terrain.stiffness_N_per_m, r.inertial_speed_mps);
 
-  // The hop set is run for its shapes and errors, once more for the treatments, and again for every other
+  // The hop set is run once for its shapes and errors, once for the treatments, and again for every other
   // condition.
   const int strides = setup.seeds * static_cast<int>(hop_cells().size()) * setup.trials_per_cell;
   const int per_condition =

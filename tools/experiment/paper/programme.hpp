@@ -8,8 +8,8 @@
 #include "tools/experiment/paper/sensitivity.hpp"
 #include "tools/experiment/treatments.hpp"
 
-// The whole programme of "From Impact to Insight: Dynamics-Aware Proprioceptive Terrain Sensing on Granular
-// Media" (arXiv 2604.02563) on the simulator.
+// Runs the whole programme of "From Impact to Insight: Dynamics-Aware Proprioceptive Terrain Sensing on
+// Granular Media" (arXiv 2604.02563) on the simulator.
 namespace sandhopper::paper {
 
 inline constexpr double kGrainDiameter_m = 0.3e-3;
@@ -20,25 +20,25 @@ struct ProgrammeSetup {
   ActuatorSetup actuator{};
   int seeds = 8;  // repetitions of the hop set
   int trials_per_cell = 5;
-  int condition_seeds = 2;  // of each other condition; 0: none is run
+  int condition_seeds = 2;  // seeds for each other condition; 0: no condition is run
   unsigned threads = 2;
-  std::function<void(int done, int total)> progress{};  // from one thread at a time
+  std::function<void(int done, int total)> progress{};  // called from one thread at a time
 };
 
 struct ProgrammeResults {
   ProgrammeSetup setup{};
-  double inertial_speed_mps = 0.0;  // sqrt(2 d g): below it force does not depend on speed
+  double inertial_speed_mps = 0.0;  // sqrt(2 d g): below it the force does not depend on speed
   std::vector<ActuatorRun> actuator{};
   ForceMap map{};
-  ForceMap map_with_lag{};  // the load cell's amplifier left as it is
+  ForceMap map_with_lag{};  // without correction of the load cell's amplifier lag
   StiffnessDefinitions stiffness{};
   std::vector<HopResult> hops{};
   TreatmentStudy treatments{};
-  TreatmentStudy without_ages{};              // the same hops, as if no sample had an age
-  std::vector<ConditionResult> conditions{};  // the treatments under other conditions; the first is the base
+  TreatmentStudy without_ages{};              // the same hops, evaluated as if all samples had age zero
+  std::vector<ConditionResult> conditions{};  // treatments under other conditions; the first is the base
   HopTrial example{};                         // 1.0 m/s, 3.75 N/cm
-  HopTrial quiet{};                           // the same without noise or spread
-  HopTrial rigid{};                           // quiet, on a bed a hundred times as stiff
+  HopTrial quiet{};                           // the same without noise and spread
+  HopTrial rigid{};                           // without noise, on a bed a hundred times as stiff
 };
 
 ProgrammeResults run_programme(const ProgrammeSetup& setup);

@@ -6,9 +6,8 @@
 
 namespace sandhopper::paper {
 
-// Mean abs(k_est/k_GT - 1) that an independent simulation gives for the same definitions (8 seeds of 75
-// hops), and how far another implementation may lie from it. For comparison only: nothing is computed from
-// these figures.
+// Mean abs(k_est/k_GT - 1) of an independent simulation with the same definitions (8 seeds of 75 hops), and
+// the tolerance for another implementation. For comparison only: nothing is computed from these values.
 struct ReferenceCase {
   std::string_view name;
   std::array<double, kTreatments> error;

@@ -8,14 +8,14 @@
 
 namespace sandhopper::paper {
 
-// The programme's page: claims, then one section for each part of the programme with the paper's panels.
+// Page of the programme: claims, then one section for each part of the programme with the paper's panels.
 Study programme_report(const ProgrammeResults& results, const std::vector<Claim>& claims);
 
-// The same as numbers: claims, stiffness by definition, map, decomposition, estimation errors, treatments,
-// conditions.
+// The numbers of the page: claims, stiffness by definition, map, decomposition, estimation errors,
+// treatments, conditions.
 nlohmann::ordered_json programme_json(const ProgrammeResults& results, const std::vector<Claim>& claims);
 
-// The sections, each in its own file.
+// Sections of the page, each in its own file.
 StudySection claims_section(const std::vector<Claim>& claims);
 StudySection stride_section(const ProgrammeResults& results);
 StudySection actuator_section(const ProgrammeResults& results);

@@ -6,7 +6,7 @@
 namespace sandhopper::paper {
 namespace {
 
-// Added mass resists no acceleration, but its gradient still drags.
+// Removes the added-mass force but keeps the drag from its gradient.
 void without_added_mass_force(CycleConfig&, WorldConfig& world) {
   world.terrain.added_mass_switch_speed_mps = 1e12;
 }

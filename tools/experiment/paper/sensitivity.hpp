@@ -6,15 +6,15 @@
 
 #include "tools/experiment/treatments.hpp"
 
-// The treatments under other conditions: on which of them a verdict hangs.
+// Runs the treatments under other conditions to find the conditions on which a verdict depends.
 namespace sandhopper::paper {
 
-// Mean abs(k_est/k_GT - 1) over seeds and over the cells that `wanted` picks (all, when empty) and that have
-// a liftoff.
+// Mean abs(k_est/k_GT - 1) over seeds and over the cells with a liftoff that `wanted` selects (all if it is
+// empty).
 std::array<double, kTreatments> cell_error(const CaseResult& result,
                                            const std::function<bool(const HopCell&)>& wanted = {});
 
-// One figure of the estimator, the robot, the bed or the sensors changed.
+// A condition changes one parameter of the estimator, the robot, the bed or the sensors.
 struct Condition {
   std::string name;
   std::function<void(CycleConfig&, WorldConfig&)> change;
@@ -27,11 +27,11 @@ struct ConditionResult {
   std::array<double, kTreatments> penetrating{};   // case A
   std::array<double, kTreatments> to_max_depth{};  // case B
   int seeds = 0;
-  int seeds_weighted_better = 0;  // case A: weights better than none
+  int seeds_weighted_better = 0;  // case A: seeds in which weights are better than none
   int strides = 0;
   int incomplete = 0;
 };
-// `study` says how many seeds and trials; its robot and world are the base.
+// `study` gives the number of seeds and trials; its robot and world are the base.
 ConditionResult run_condition(const StudySetup& study, const Condition& condition);
 
 }  // namespace sandhopper::paper

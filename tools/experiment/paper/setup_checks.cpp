@@ -25,12 +25,12 @@ LegStiffness leg_stiffness(const CycleConfig& cycle, const WorldConfig& world,
   const auto trial = run_hop(cycle, world, cell, {.noise = false});
   const Leg leg(world.robot.leg);
   constexpr double kUnsaturated = 0.95;
-  constexpr std::size_t kSettled_rows = 10;  // after a change of law
+  constexpr std::size_t kSettled_rows = 10;  // rows after a change of law
   const double limit_Nm = kUnsaturated * world.robot.leg.motor_count * world.motor.torque_limit_Nm;
   const auto stiffness = [&](std::size_t from, std::size_t to) {
     std::vector<double> length_m, force_N;
     for (std::size_t i = from + kSettled_rows; i < to; ++i) {
-      // The torque answers to what the cycle saw one row before.
+      // The torque responds to the state that the cycle saw one row before.
       const auto& seen = trial.rows[i - 1].truth;
       const double torque_Nm = trial.rows[i].truth.motor_torque_Nm;
       if (std::abs(torque_Nm) > limit_Nm) continue;

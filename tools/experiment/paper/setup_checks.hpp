@@ -2,13 +2,13 @@
 #include "firmware/controller_config.hpp"
 #include "tools/plant/world_config.hpp"
 
-// Checks of what a trial is set to.
+// Checks of a trial's set-up.
 namespace sandhopper::paper {
 
-// Speed at which the foot meets the surface after free fall from `height_m` [m/s].
+// Speed [m/s] at which the foot meets the surface after a fall from `height_m`.
 double drop_speed_mps(const WorldConfig& world, double height_m, bool friction);
 
-// dF/dL of the leg in stance, by its current, on samples whose torque is not at the limit [N/m].
+// dF/dL [N/m] of the leg in stance, from its current, for samples whose torque is below the limit.
 struct LegStiffness {
   double compression_N_per_m;
   double extension_N_per_m;

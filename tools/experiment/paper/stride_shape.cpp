@@ -13,7 +13,7 @@ constexpr double kRestShare = 0.05;
 constexpr double kStill_mps = 0.02;
 constexpr std::size_t kTransient_rows = 20;
 
-// Row times and stance of a trial, shared by the features below.
+// Rows and stance of a trial, used by the features below.
 struct Stance {
   const std::vector<HopRow>& rows;
   StanceRows at;
@@ -48,7 +48,7 @@ void find_early_peak(const Stance& s, StrideShape& shape) {
   shape.early_drop = 1.0 - lowest->mean_force_N / shape.early_peak_N;
 }
 
-// Longest stretch at less than 0.02 m/s that comes before the foot's second descent.
+// Longest time with a speed below 0.02 m/s that ends in another descent of the foot.
 double plateau_s(const Stance& s) {
   double longest_s = kNoValue;
   std::size_t from = 0;
@@ -64,8 +64,8 @@ double plateau_s(const Stance& s) {
   return longest_s;
 }
 
-// Foot down, body up, after the switch; the foot may restart some cycles later, and a body that still sinks
-// at the switch turns some cycles later.
+// Time after the switch during which the foot moves down and the body up. Both may begin some cycles after
+// the switch.
 double opposed_s(const Stance& s) {
   const auto opposed = [&s](std::size_t i) {
     return i < s.at.liftoff && s.down_mps(i) > 0.0 && s.rows[i].truth.body_velocity_mps > 0.0;
@@ -77,7 +77,7 @@ double opposed_s(const Stance& s) {
   return s.rows[to].time_s - s.rows[from].time_s;
 }
 
-// Largest departure upward (or downward), within 20 ms, from the acceleration just before the event.
+// Largest upward (or downward) change within 20 ms relative to the acceleration just before the event.
 double transient_mps2(const Stance& s, std::size_t event, double direction) {
   const double before = s.rows[event - 2].mean_accel_mps2;
   double largest = 0.0;

@@ -3,22 +3,22 @@
 
 namespace sandhopper::paper {
 
-// Features of one stance's true motion that the paper's text describes. Times count from physical contact,
-// speeds are downward for the foot and upward for the body; NaN where a feature is not there.
+// Features of one stance's true motion that the paper's text describes. Times count from physical contact.
+// Speeds are positive downward for the foot and upward for the body. NaN if a feature does not exist.
 struct StrideShape {
   double touchdown_speed_mps;
-  double contact_s;      // after the release
-  double compression_s;  // contact to switch
-  double extension_s;    // switch to liftoff
-  double rest_s;         // until the foot is slower than 5 % of its touchdown speed
-  double early_peak_N;   // largest local maximum of the first 60 ms
+  double contact_s;      // time from release to contact
+  double compression_s;  // time from contact to switch
+  double extension_s;    // time from switch to liftoff
+  double rest_s;         // time until the foot is slower than 5 % of its touchdown speed
+  double early_peak_N;   // largest local maximum in the first 60 ms
   double early_peak_s;
-  double early_drop;       // share of the early peak by which the force then falls
-  double plateau_s;        // slower than 0.02 m/s between two phases of penetration
+  double early_drop;       // relative drop of the force after the early peak
+  double plateau_s;        // time below 0.02 m/s between two phases of penetration
   double switch_foot_mps;  // at the switch
   double switch_body_mps;  // at the switch
-  double shortest_leg_s;   // shortest leg after the switch (negative: before)
-  double opposed_s;        // foot still down, body up, from the switch on
+  double shortest_leg_s;   // time of the shortest leg relative to the switch
+  double opposed_s;        // time after the switch with the foot moving down and the body up
   double peak_force_N;
   double peak_force_s;
   double max_depth_m;

@@ -37,7 +37,7 @@ double share_of(const std::vector<const HopResult*>& trials,
 
 namespace {
 
-// The touchdown speeds of the hop set, each once.
+// Touchdown speeds of the hop set, each once.
 std::vector<double> touchdown_speeds_mps() {
   std::vector<double> speeds;
   for (const auto& cell : hop_cells())

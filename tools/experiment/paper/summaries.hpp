@@ -7,14 +7,14 @@
 // Means and shares over the trials of the hop set.
 namespace sandhopper::paper {
 
-// Complete trials that `wanted` picks (all, when empty).
+// Complete trials that `wanted` selects (all if it is empty).
 std::vector<const HopResult*> complete_trials(const ProgrammeResults& results,
                                               const std::function<bool(const HopCell&)>& wanted = {});
 
 // Estimation errors of all complete trials together.
 EstimationErrors errors_of_all(const ProgrammeResults& results);
 
-// A feature of those trials, where it is there.
+// Values of a feature in those trials that have it.
 std::vector<double> over(const std::vector<const HopResult*>& trials,
                          const std::function<double(const HopResult&)>& feature);
 double share_of(const std::vector<const HopResult*>& trials,
@@ -23,7 +23,7 @@ double share_of(const std::vector<const HopResult*>& trials,
 // Means over the complete trials of one touchdown speed.
 struct SpeedDecomposition {
   double speed_mps;
-  double line_N, map_N, inertial_N;  // rms of what each description leaves
+  double line_N, map_N, inertial_N;  // rms residual of each description
   double correlation;
 
   double drop_percent() const { return 100.0 * (1.0 - inertial_N / map_N); }

@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// What a lab opens our logs with elsewhere: layouts for PlotJuggler and Foxglove, loaders for Python, MATLAB
-// and Octave. The files of this folder, inside the program.
+// Files for opening logs in other programs: layouts for PlotJuggler and Foxglove, loaders for Python, MATLAB
+// and Octave. The files of this folder are embedded in the program.
 struct LayoutFile {
   std::string name;
   std::string text;

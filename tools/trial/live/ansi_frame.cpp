@@ -30,7 +30,7 @@ std::string_view rendition(Style style, bool colour) {
   return "\x1b[0m";
 }
 
-// The nearest character every terminal has.
+// Most similar character that every terminal has.
 char32_t plain_character(char32_t c) {
   if (c < 0x7f) return c;
   if (c >= U'▁' && c <= U'█') return U".:-=+*%#"[static_cast<std::size_t>(c - U'▁')];
@@ -63,7 +63,7 @@ std::string ansi_frame(const Canvas& before, const Canvas& after, const Terminal
   if (anew) out += "\x1b[0m\x1b[2J";
   std::optional<Style> style;
   for (int row = 0; row < rows; ++row) {
-    int cursor = -1;  // where the terminal's is in this row
+    int cursor = -1;  // column of the terminal's cursor in this row
     for (int column = 0; column < columns; ++column) {
       const auto& cell = after.at(row, column);
       if (anew ? cell == Canvas::Cell{} : cell == before.at(row, column)) continue;

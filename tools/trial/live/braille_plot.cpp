@@ -18,7 +18,7 @@ class Dots {
   int height() const { return 4 * rows_; }
   int width() const { return 2 * columns_; }
   void set(int x, int y) {
-    // Unicode 15, section 21.1: the bits of a Braille pattern, by column and row of the dot.
+    // Unicode 15, section 21.1: bits of a Braille pattern, by column and row of the dot.
     static constexpr std::array<std::array<unsigned, 4>, 2> kBit{
         {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}}};
     if (x < 0 || y < 0 || x >= width() || y >= height()) return;

@@ -13,15 +13,15 @@ struct PlotPoint {
 };
 
 struct BraillePlot {
-  std::string title;  // with its unit
+  std::string title;  // including its unit
   double from_s = 0.0;
   double to_s = 1.0;
-  double low = 0.0;  // at least this much of the value's axis is shown
+  double low = 0.0;  // the axis shows at least the values from low to high
   double high = 1.0;
 };
 
-// A line through the points, two by four dots a character, with the ends of both axes; takes all of the pane.
-// Points that are not finite interrupt the line.
+// Draws a line through the points, with two by four dots per character and the ends of both axes. Uses the
+// whole pane. Points that are not finite interrupt the line.
 void draw_plot(Pane pane, const BraillePlot& plot, const std::vector<PlotPoint>& points);
 
 }  // namespace sandhopper

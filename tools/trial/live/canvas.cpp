@@ -15,7 +15,7 @@ char32_t one_column(char32_t c) {
 
 }  // namespace
 
-// Malformed bytes become '?', one each.
+// Each malformed byte becomes '?'.
 std::u32string decode_utf8(std::string_view text) {
   std::u32string out;
   for (std::size_t i = 0; i < text.size();) {

@@ -6,7 +6,7 @@
 
 namespace sandhopper {
 
-// How a piece of the screen looks. Colour says nothing that the text does not say, too.
+// Appearance of a piece of the screen. Every information that a colour gives is also in the text.
 enum class Style : std::uint8_t { plain, bold, faint, bar, heading, good, caution, alarm, key };
 
 struct ScreenSize {
@@ -15,8 +15,8 @@ struct ScreenSize {
   friend bool operator==(const ScreenSize&, const ScreenSize&) = default;
 };
 
-// A screen of characters, each one column wide (a wider or unprintable one becomes '?'). What lies outside is
-// cut off.
+// A screen of characters, each one column wide (a wider or unprintable one becomes '?'). Text outside is cut
+// off.
 class Canvas {
  public:
   struct Cell {
@@ -31,12 +31,12 @@ class Canvas {
 
   // Text is UTF-8. Returns the column after it.
   int put(int row, int column, std::string_view text, Style style = Style::plain);
-  // Ends in "…" where it would go beyond `end`.
+  // Ends in "…" if it would extend beyond `end`.
   int put_within(int row, int column, int end, std::string_view text, Style style = Style::plain);
   void put_right(int row, int end, std::string_view text, Style style = Style::plain);
   void fill(int row, Style style);
 
-  std::string row_text(int row) const;  // UTF-8, without blanks at its end
+  std::string row_text(int row) const;  // UTF-8, without trailing blanks
 
  private:
   std::size_t index(int row, int column) const {

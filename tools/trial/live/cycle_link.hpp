@@ -5,15 +5,15 @@
 
 namespace sandhopper {
 
-// A running cycle as its operator has it: words in (arm, release, stop, disarm, quit), lines of JSON out
-// (firmware/operator_text.hpp), whichever board it runs on.
+// Operator's connection to a running cycle on any board: words in (arm, release, stop, disarm, quit), lines
+// of JSON out (firmware/operator_text.hpp).
 class CycleLink {
  public:
   virtual ~CycleLink() = default;
   virtual void send(std::string_view word) = 0;
-  // Can be read, as poll(2) has it, when there are lines to take or it has ended.
+  // Readable for poll(2) when there are lines to take or the cycle has ended.
   virtual int descriptor() const = 0;
-  // Adds what was said since; false: it has ended, and that was all. Does not wait.
+  // Appends the new lines without waiting. False if it has ended and there are no more.
   virtual bool take(std::vector<std::string>& lines) = 0;
 };
 

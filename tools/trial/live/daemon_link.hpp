@@ -4,11 +4,11 @@
 
 namespace sandhopper {
 
-// hopperd, a process of its own. When this process goes, however it goes, hopperd's input ends and it stops
-// the robot softly.
+// Connection to hopperd in its own process. When this process ends in any way, hopperd's input ends and
+// hopperd stops the robot softly.
 class DaemonLink : public CycleLink {
  public:
-  // Throws std::system_error when it cannot be started.
+  // Throws std::system_error if it cannot be started.
   explicit DaemonLink(std::vector<std::string> command) : daemon_(std::move(command)) {}
 
   void send(std::string_view word) override { daemon_.write_line(std::string(word)); }

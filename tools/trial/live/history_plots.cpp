@@ -17,7 +17,7 @@ struct Times {
   double from_s, to_s;
 };
 
-// In the air to at rest; what follows it does not push it off the screen.
+// Time range from the release to rest; later samples do not move it off the screen.
 Times times_of(const TrialModel& model) {
   const auto now_ns = model.history.empty() ? 0 : model.history.back().time_ns;
   if (!model.released_ns) return {now_ns, -kShortest_s, 0.0};

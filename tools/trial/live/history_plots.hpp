@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// Leg length and bed force over time: the last seconds, and from the release on the whole hop. Two plots, one
-// above the other.
+// Plots leg length and bed force over time: before the release the last seconds, afterwards the whole hop.
+// Two plots, one above the other.
 void draw_history(Canvas& canvas, Pane::Area area, const TrialModel& model);
 
 }  // namespace sandhopper

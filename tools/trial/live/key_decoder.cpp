@@ -2,8 +2,8 @@
 
 namespace sandhopper {
 
-// ECMA-48: CSI sequences end with a byte from '@' to '~'; SS3 ones have one byte. Bracketed paste stands
-// between CSI 200~ and CSI 201~.
+// ECMA-48: CSI sequences end with a byte from '@' to '~'; SS3 sequences have one byte. Pasted text is
+// enclosed in CSI 200~ and CSI 201~.
 std::u32string KeyDecoder::take(std::string_view bytes) {
   constexpr char kEscape = '\x1b';
   std::u32string keys;

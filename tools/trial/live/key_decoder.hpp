@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// Single keys out of what a terminal sends. Escape sequences (arrows, function keys) and pasted text are
-// passed over: nobody arms a robot by pasting a word with an `a` in it.
+// Extracts single keys from a terminal's input. Escape sequences (arrows, function keys) and pasted text are
+// ignored, so that pasting a word with an `a` in it does not arm the robot.
 class KeyDecoder {
  public:
   std::u32string take(std::string_view bytes);

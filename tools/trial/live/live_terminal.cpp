@@ -18,7 +18,7 @@ namespace {
 
 constexpr ScreenSize kSmallest{20, 60};
 
-// A description of its own, so that nobody else's writes become non-blocking.
+// Opens a separate file description, so that writes of other programs do not become non-blocking.
 UniqueFd open_output() {
   std::array<char, 256> name{};
   if (::ttyname_r(STDOUT_FILENO, name.data(), name.size()) != 0) std::strcpy(name.data(), "/dev/tty");
@@ -31,7 +31,7 @@ ScreenSize size_of(int fd) {
   return {size.ws_row, size.ws_col};
 }
 
-// Another screen, no cursor, pasted text marked; and back.
+// Enter: alternate screen, hidden cursor, bracketed paste. Leave: restore them.
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[2J";
 constexpr std::string_view kLeave = "\x1b[0m\x1b[?2004l\x1b[?25h\x1b[?1049l";
 
@@ -52,7 +52,7 @@ LiveTerminal::LiveTerminal() : out_(open_output()) {
   traits_.utf8 = std::string_view(::nl_langinfo(CODESET)) == "UTF-8";
   ::tcgetattr(STDIN_FILENO, &before_);
   termios raw = before_;
-  // Keys one by one and unseen; Ctrl-C is a key, and Ctrl-S cannot stop the screen.
+  // Single keys without echo. Ctrl-C is read as a key, and Ctrl-S cannot stop the screen.
   ::cfmakeraw(&raw);
   raw.c_oflag = before_.c_oflag;
   ::tcsetattr(STDIN_FILENO, TCSANOW, &raw);
@@ -91,7 +91,7 @@ void LiveTerminal::flush() {
       continue;
     }
     if (errno == EINTR) continue;
-    if (errno != EAGAIN) pending_.clear();  // gone; reading keys says so, too
+    if (errno != EAGAIN) pending_.clear();  // the terminal is gone; reading keys reports it, too
     return;
   }
 }

@@ -9,12 +9,12 @@
 
 namespace sandhopper {
 
-// The terminal of standard input and output, as a screen of its own with single keys, until the object goes.
-// Writing never waits: a terminal that is stopped, or a connection that is slow, gets fewer frames, and the
-// operator's loop goes on. (Curses would wait for the terminal in the middle of a frame.)
+// Uses the terminal of standard input and output as a full screen with single keys, until the object is
+// destroyed. Writing never waits: a stopped terminal or a slow connection gets fewer frames, and the
+// operator's loop continues. (Curses would wait for the terminal in the middle of a frame.)
 class LiveTerminal {
  public:
-  // Whether there is one, good enough for a screen.
+  // True if there is a terminal that can show a screen.
   static bool available();
 
   LiveTerminal();
@@ -23,16 +23,16 @@ class LiveTerminal {
   LiveTerminal& operator=(const LiveTerminal&) = delete;
 
   ScreenSize size() const;
-  // Whether the last frame is out; a frame shown before that is left out.
+  // True if the last frame was sent completely; frames shown before that are skipped.
   bool ready() const { return pending_.empty(); }
   void show(const Canvas& canvas);
-  // Sends what the terminal takes now.
+  // Sends as much as the terminal accepts now.
   void flush();
   int output() const { return out_.get(); }
-  // The screen was changed by others (a resize): the next frame draws all of it.
+  // Call it after the screen was changed from outside (a resize): the next frame draws everything.
   void forget();
 
-  // False: the terminal is gone.
+  // False if the terminal is gone.
   bool read_keys(std::u32string& keys);
 
  private:

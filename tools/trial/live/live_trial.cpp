@@ -18,7 +18,8 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
-// A log grows by 1 MB/s: an operator who has gone leaves 30 MB after the trial, not a full disk.
+// Time after the trial until the log is closed. A log grows by 1 MB/s, so an absent operator costs 30 MB, not
+// a full disk.
 constexpr std::int64_t kOverShown_ns = 30'000'000'000;
 
 class LiveTrial {
@@ -39,7 +40,7 @@ class LiveTrial {
   }
 
  private:
-  // A frame is drawn when it is due; until then only news wake us.
+  // Waits until a frame is due or a descriptor has news.
   void wait() {
     const auto until_frame_ns = std::max<std::int64_t>(0, next_frame_ns_ - monotonic_ns());
     fds_ = {pollfd{connection_lost_ ? -1 : STDIN_FILENO, POLLIN, 0}, pollfd{signals_.descriptor(), POLLIN, 0},
@@ -60,8 +61,8 @@ class LiveTrial {
     }
   }
 
-  // A lost connection may be told several times, by the shell and by the kernel; only what somebody sends
-  // twice on purpose lets go of the robot at once.
+  // The shell and the kernel may both report a lost connection. Only a signal that somebody sends twice on
+  // purpose ends the trial at once.
   void lose_connection(bool hung_up) {
     connection_lost_ = true;
     if (!hung_up || !model_.quitting) quit();
@@ -120,7 +121,7 @@ class LiveTrial {
   LiveTerminal terminal_;
   std::array<pollfd, 4> fds_{};
   std::int64_t next_frame_ns_ = 0;
-  std::int64_t over_since_ns_ = 0;  // 0: it is not over, or somebody did something since
+  std::int64_t over_since_ns_ = 0;  // 0: the trial is not over, or the operator has acted since
   bool link_ended_ = false;
   bool connection_lost_ = false;
 };

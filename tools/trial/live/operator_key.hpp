@@ -8,7 +8,7 @@
 
 namespace sandhopper {
 
-// A key of the view and the word it sends. `meaning` is what is on the screen.
+// A key of the view and the word it sends. `meaning` is shown on the screen.
 struct OperatorKey {
   char key;
   std::string_view word;
@@ -21,10 +21,10 @@ inline constexpr std::array<OperatorKey, 5> kOperatorKeys{{{'a', "arm", "arm"},
                                                            {'d', "disarm", "disarm"},
                                                            {'q', "quit", "quit"}}};
 
-// Lower or upper case; the space bar is `stop`, Ctrl-C is `quit`. No key: nullptr.
+// Lower or upper case. The space bar is `stop`, Ctrl-C is `quit`. nullptr if the key has no meaning.
 const OperatorKey* operator_key(char32_t typed);
 
-// Why this word would do nothing now, and what would; nothing: it does what it says.
+// Reason why this word would have no effect now, with the word that would. Empty if it has an effect.
 std::optional<std::string> why_not(std::string_view word, const TrialModel& model);
 
 }  // namespace sandhopper

@@ -5,8 +5,9 @@
 
 namespace sandhopper {
 
-// While it lives, what would end this process (SIGINT, SIGTERM, SIGHUP) and a terminal's resize (SIGWINCH)
-// come as news to its one thread that looks, so that it can end a trial in order. Make it before any thread.
+// While it exists, signals that would end this process (SIGINT, SIGTERM, SIGHUP) and a terminal's resize
+// (SIGWINCH) are read by one thread through next(), so that a trial can end in order. Construct it before any
+// thread starts.
 class SignalWatch {
  public:
   SignalWatch();
@@ -15,7 +16,7 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   int descriptor() const { return fd_.get(); }
-  int next();  // a signal's number; 0: none
+  int next();  // number of a signal; 0: none
 
  private:
   sigset_t before_{};

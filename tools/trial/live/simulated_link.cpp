@@ -17,8 +17,8 @@
 namespace sandhopper {
 namespace {
 
-// The trial's own time, from zero, at a pace of this computer's. It shows how late the thread woke, but a
-// cycle that came later than its period counts as one that came just in it.
+// The trial's own time, from zero, paced by this computer's clock. It shows the thread's wake-up latency, but
+// a latency of more than a period counts as just below a period.
 class PacedTime : public TimeSource {
  public:
   explicit PacedTime(double speed) : speed_(speed), origin_ns_(monotonic_ns()) {}
@@ -27,7 +27,7 @@ class PacedTime : public TimeSource {
     const auto due_ns = origin_ns_ + to_ns(static_cast<double>(time_ns) * 1e-9 / speed_);
     if (const auto wait_ns = due_ns - monotonic_ns(); wait_ns > 0) sleep_ns(wait_ns);
     const auto late_ns = std::max<std::int64_t>(0, monotonic_ns() - due_ns);
-    if (late_ns > kCyclePeriod_ns) origin_ns_ += late_ns;  // held up: go on from here, without a burst
+    if (late_ns > kCyclePeriod_ns) origin_ns_ += late_ns;  // delayed: continue from here without catching up
     now_ns_ = time_ns + std::min(late_ns, kCyclePeriod_ns - 1);
   }
 
@@ -37,7 +37,7 @@ class PacedTime : public TimeSource {
   std::int64_t now_ns_ = 0;
 };
 
-// Logs what really happened beside what the cycle saw.
+// Also logs the true values for each cycle.
 class WitnessedBoard : public Board {
  public:
   WitnessedBoard(World& world, TrialLogger& logger)
@@ -81,7 +81,7 @@ SimulatedLink::~SimulatedLink() {
   teller_.join();
 }
 
-// The cycle's clock is its own: it stamps the word when it takes it.
+// The simulated cycle has its own clock, so it stamps the word when it takes it.
 void SimulatedLink::send(std::string_view word) {
   post_words(std::array{word_named(word)}, 0, requests_, quit_);
 }

@@ -10,8 +10,8 @@
 
 namespace sandhopper {
 
-// The cycle on the simulated robot, in a thread of this process, paced so that one can watch: `speed` times
-// real time. Its time is virtual: a computer that holds it up makes it slow, and never late.
+// Runs the cycle with the simulated robot in a thread of this process, at `speed` times real time for
+// watching. Its time is virtual: a busy computer makes it slow but causes no overruns.
 class SimulatedLink : public CycleLink {
  public:
   SimulatedLink(const SimTrialSetup& setup, double speed, int status_Hz);

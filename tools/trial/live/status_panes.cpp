@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kBlocks{" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 
-// Right-aligned in eight columns; a dash where nothing is known.
+// Right-aligned in eight columns; a dash if the value is unknown.
 std::string value_text(double value, int decimals, bool known = true) {
   if (!known || !std::isfinite(value)) return fmt::format("{:>8}", "–");
   return fmt::format("{:8.{}f}", value + 0.0, decimals);
@@ -58,7 +58,7 @@ StateText state_text(const TrialModel& model) {
 
 Style state_style(const TrialModel& model) { return model.fault != Fault::none ? Style::alarm : Style::key; }
 
-// A force between 0 and full scale, as a bar.
+// Bar for a force between 0 and full scale.
 std::string bar(double value, double full, int columns) {
   const double eighths = std::clamp(value / full, 0.0, 1.0) * columns * 8.0;
   static constexpr std::array<std::string_view, 8> kLeft{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
@@ -71,7 +71,7 @@ std::string bar(double value, double full, int columns) {
 
 constexpr int kIndent = 2;
 
-// What is wrong, then the cure; nothing where nothing is wrong.
+// The fault, then its cure; empty if there is none.
 std::vector<std::string> fault_text(const TrialModel& model) {
   if (!model.error.empty()) return {"ERROR " + model.error};
   if (model.fault == Fault::none) return {};
@@ -204,7 +204,7 @@ void draw_cycle(Pane& pane, const TrialModel& model) {
   pane.put(40, "cycles");
 }
 
-// "below 128 us ████ 1234", one line an octave.
+// Lines such as "below 128 us ████ 1234", one per octave.
 void draw_latency(Pane& pane, const TrialModel& model) {
   if (!model.status) return;
   const auto& counts = model.status->late_octaves;

@@ -4,7 +4,7 @@
 #include "tools/trial/live/pane.hpp"
 #include "tools/trial/live/trial_model.hpp"
 
-// The numbers of the view, top to bottom. Each takes the next lines of the pane.
+// Numeric part of the view, from top to bottom. Each function uses the next lines of the pane.
 namespace sandhopper {
 
 struct Hint {
@@ -12,7 +12,7 @@ struct Hint {
   Style style = Style::plain;
 };
 
-// What the operator does next; instead of it, why the last key did nothing.
+// Next action for the operator. If the last key had no effect, the reason instead.
 Hint hint(const TrialModel& model);
 
 void draw_state(Pane& pane, const TrialModel& model);
@@ -21,10 +21,10 @@ void draw_motors(Pane& pane, const TrialModel& model);
 void draw_cycle(Pane& pane, const TrialModel& model);
 void draw_latency(Pane& pane, const TrialModel& model);
 void draw_sheet(Pane& pane, const TrialModel& model);
-int fault_rows(const TrialModel& model, int columns);  // 0: nothing is wrong
+int fault_rows(const TrialModel& model, int columns);  // 0: no fault
 void draw_fault(Pane& pane, const TrialModel& model);
 
-// Bars of one character each, from nothing to full, heights by the logarithm of the counts.
+// One bar per character; heights are proportional to the logarithm of the counts.
 std::string log_histogram(const std::array<std::uint64_t, LatencyHistogram::kOctaves>& counts);
 
 }  // namespace sandhopper

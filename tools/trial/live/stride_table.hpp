@@ -4,11 +4,11 @@
 
 namespace sandhopper {
 
-// Lines that the ground takes below the strides.
+// Number of lines that the ground needs below the strides.
 int ground_rows(const TrialModel& model, int columns);
 
-// The last strides, at most `most`, with the stiffness of the joint fit and its 95 % interval; below them
-// what is known of the ground.
+// Shows the last strides, at most `most`, with the stiffness of the joint fit and its 95 % interval, and
+// below them the known properties of the ground.
 void draw_strides(Pane& pane, const TrialModel& model, int most);
 
 }  // namespace sandhopper

@@ -59,8 +59,8 @@ LiveStride::Stiffness stiffness_of(const Json& json) {
           json.at("valid").get<bool>(), readable(json.at("reason").get<std::string>())};
 }
 
-// The ground after the newest stride, in the words of the trial's last line. A stride that reached no deeper
-// than those before says nothing of its own.
+// Text on the ground after the newest stride, in the words of the trial's final line. A stride that reached
+// no new ground has no result of its own.
 void take_ground(TrialModel& model, const Json& json) {
   constexpr double kDepth_m = 0.020;
   if (model.strides.empty()) return;
@@ -85,7 +85,7 @@ void take_ground(TrialModel& model, const Json& json) {
                                      1e3 * profile.depth_max_m, headline(ground));
 }
 
-// Only what was found: a search that found nothing is no message.
+// Reports only events that were found.
 void take_ground_events(TrialModel& model, const Json& json) {
   const auto found = record_of<GroundEvents>(json);
   for (const auto* event : found_in(found))
@@ -122,7 +122,7 @@ std::string event_text(EventKind kind, const Json& json, Fault fault) {
     case EventKind::armed:
       return "armed: the drives hold the leg, the encoders agree; release when ready";
     case EventKind::zero_check:
-      return "";  // told with what follows it
+      return "";  // the next event reports it
     case EventKind::released:
       return fmt::format("released from {:.1f} mm", 1e3 * value(1));
     case EventKind::touchdown:
@@ -195,7 +195,7 @@ void take_end(TrialModel& model, const Json& end) {
   if (const auto trouble = end.at("log_error").get<std::string>(); !trouble.empty()) model.error = trouble;
 }
 
-// The events say what a word that was served did.
+// A word that was served is reported by its events.
 void take_answer(TrialModel& model, const Json& answer) {
   if (answer.at("outcome") != name_of(RequestOutcome::served))
     model.say(answer.at("text").get<std::string>());
@@ -229,7 +229,7 @@ void TrialModel::take(const std::string& line) {
   try {
     take_json(*this, json);
   } catch (const Json::exception&) {
-    say(line);  // another version's
+    say(line);  // a line of another version
   }
 }
 

@@ -28,7 +28,7 @@ void draw_title(Canvas& canvas, const TrialModel& model) {
   canvas.put(0, end, clock, Style::bar);
 }
 
-// Each key with what it does; those that would do nothing now are faint and in parentheses.
+// Each key with its meaning. Keys without effect now are faint and in parentheses.
 void draw_keys(Canvas& canvas, const TrialModel& model) {
   const int row = canvas.size().rows - 1;
   int column = 1;
@@ -50,7 +50,7 @@ void draw_hint(Canvas& canvas, const TrialModel& model) {
 
 void draw_messages(Pane pane, const TrialModel& model) {
   pane.heading("Messages, the newest last");
-  // From the newest back, as many whole messages as there is room for.
+  // As many whole messages as fit, newest first.
   int room = pane.left();
   auto first = model.messages.end();
   while (first != model.messages.begin()) {
@@ -66,7 +66,7 @@ void draw_messages(Pane pane, const TrialModel& model) {
     }
 }
 
-// What is wrong comes first; then what there is room for.
+// A fault comes first, then everything else that fits.
 void draw_below_numbers(Pane& pane, const TrialModel& model, bool wide) {
   constexpr int kLatencyRows = 14, kMessageRows = 2;
   const int fault = fault_rows(model, pane.columns());
@@ -93,8 +93,7 @@ Canvas trial_screen(const TrialModel& model, ScreenSize size) {
   draw_state(numbers, model);
   draw_leg_and_forces(numbers, model);
   draw_motors(numbers, model);
-  // On a small screen what is wrong and its cure need the room of the cycle's numbers and of the strides'
-  // heading.
+  // On a small screen the fault and its cure use the room of the cycle's numbers and of the strides' heading.
   constexpr int kCycleAndStrides = 4 + 6;
   const int fault = fault_rows(model, numbers.columns());
   if (fault == 0 || numbers.left() >= fault + kCycleAndStrides) draw_cycle(numbers, model);

@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// The whole view of a trial at this size. From 60 x 20 on nothing is cut; wide screens (from 120 columns)
-// have plots and messages beside the numbers.
+// The complete view of a trial for this screen size. From 60 x 20 characters nothing is cut off. Wide screens
+// (from 120 columns) have plots and messages beside the numbers.
 Canvas trial_screen(const TrialModel& model, ScreenSize size);
 
 }  // namespace sandhopper

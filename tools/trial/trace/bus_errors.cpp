@@ -15,14 +15,14 @@ struct Kind {
   bool loses_frames;
 };
 
-// Bits of the identifier.
+// Error classes: bits of the identifier.
 constexpr std::array kClasses{
     Kind{CAN_ERR_TX_TIMEOUT, "transmit timeout", true}, Kind{CAN_ERR_LOSTARB, "lost arbitration", false},
     Kind{CAN_ERR_PROT, "protocol violation", false},    Kind{CAN_ERR_TRX, "transceiver", true},
     Kind{CAN_ERR_ACK, "no acknowledge", false},         Kind{CAN_ERR_BUSOFF, "bus-off", true},
     Kind{CAN_ERR_BUSERROR, "bus error", false},         Kind{CAN_ERR_RESTARTED, "restarted", true}};
 
-// Bits of data[1] in a frame of class CAN_ERR_CRTL.
+// Controller states: bits of data[1] in a frame of class CAN_ERR_CRTL.
 constexpr std::array kControllerStates{Kind{CAN_ERR_CRTL_RX_OVERFLOW, "receive overflow", true},
                                        Kind{CAN_ERR_CRTL_TX_OVERFLOW, "transmit overflow", true},
                                        Kind{CAN_ERR_CRTL_RX_WARNING, "error-warning", false},
@@ -34,7 +34,7 @@ constexpr std::array kControllerStates{Kind{CAN_ERR_CRTL_RX_OVERFLOW, "receive o
 template <std::size_t Count>
 bool take(const std::array<Kind, Count>& kinds, std::uint32_t bits, BusErrors& errors) {
   bool any = false;
-  const char* counted = "";  // receive and transmit side share a name
+  const char* counted = "";  // receive and transmit side have the same name; count it once
   for (const auto& kind : kinds) {
     if ((bits & kind.bit) == 0) continue;
     any = true;

@@ -11,14 +11,14 @@ namespace sandhopper::trace {
 
 struct BusErrors {
   std::uint64_t frames = 0;
-  std::map<std::string, std::uint64_t> kinds;  // "bus-off": frames that report it
+  std::map<std::string, std::uint64_t> kinds;  // kind, such as "bus-off", and number of frames that report it
   bool bus_off = false;
-  bool frames_lost = false;  // by the controller: its buffers ran over, or it fell silent
-  int transmit_errors = 0;   // largest counters reported
+  bool frames_lost = false;  // by the controller: its buffers overflowed, or it stopped sending
+  int transmit_errors = 0;   // largest error counters reported
   int receive_errors = 0;
 };
 
-// Error frames by kind, linux/can/error.h.
+// Counts error frames by kind (linux/can/error.h).
 BusErrors count_bus_errors(const std::vector<Frame>& frames);
 
 Findings bus_error_findings(const BusErrors& errors);

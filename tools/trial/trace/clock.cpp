@@ -10,35 +10,35 @@
 namespace sandhopper::trace {
 namespace {
 
-// Frames that one batch can hold: a millisecond of the shortest frames.
+// Largest number of frames in one batch: a millisecond of the shortest frames.
 constexpr std::size_t kBatchFrames = static_cast<std::size_t>(kBatch_ns / kShortestFrame_ns);
-// With fewer frames, times that happen to be round say nothing of the resolution.
+// With fewer frames, round times may be a coincidence and do not show the resolution.
 constexpr std::size_t kFewestForResolution = 10;
-// Nobody records a bus on which nothing comes for a day.
+// Longest plausible time without any frame in a recording: a day.
 constexpr std::int64_t kLongestSilence_ns = 86'400'000'000'000;
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
-// A later frame of the same batch has a time that is not before `newest_ns`.
+// True if a later frame of the same batch has a time not before `newest_ns`.
 bool catches_up(const std::vector<Frame>& frames, std::size_t i, std::int64_t newest_ns) {
   const auto end = std::min(frames.size(), i + kBatchFrames);
   for (std::size_t j = i + 1; j < end; ++j)
     if (frames[j].time_ns >= newest_ns) return true;
-  return i + 1 == frames.size();  // the last frame of the file: no successor says otherwise
+  return i + 1 == frames.size();  // the last frame of the file has no successor that could contradict
 }
 
-// Backward times all along, and a second half that is no later than the first one.
+// True if many times go backward and the second half of the times is not later than the first half.
 bool are_differences(const std::vector<Frame>& frames) {
   std::uint64_t backward = 0;
   for (std::size_t i = 1; i < frames.size(); ++i) backward += frames[i].time_ns < frames[i - 1].time_ns;
   if (frames.size() < kFewestForResolution || 4 * backward < frames.size()) return false;
   const auto earlier = [](const Frame& a, const Frame& b) { return a.time_ns < b.time_ns; };
   const auto begin_ns = std::ranges::min_element(frames, earlier)->time_ns;
-  if (begin_ns > kLongestSilence_ns) return false;  // a date
+  if (begin_ns > kLongestSilence_ns) return false;  // the times are dates
   double first_s = 0.0, second_s = 0.0;
   for (std::size_t i = 0; i < frames.size(); ++i)
     (2 * i < frames.size() ? first_s : second_s) += seconds(frames[i].time_ns - begin_ns);
-  return second_s < 2.0 * first_s;  // of evenly growing times: three times as much
+  return second_s < 2.0 * first_s;  // evenly increasing times would give a factor of three
 }
 
 std::int64_t resolution_of(const std::vector<Frame>& frames) {
@@ -104,7 +104,7 @@ Findings clock_findings(const ClockReport& report, const Trace& trace, std::int6
                    "record with absolute times: candump -L, without -t", false});
     return out;
   }
-  // One clock is not set so often: can-utils issue 233.
+  // A single clock is not set so often; see can-utils issue 233.
   constexpr std::size_t kManySteps = 3;
   if (report.steps_back.size() > kManySteps)
     out.push_back({"several_clocks",

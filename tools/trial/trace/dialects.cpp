@@ -16,7 +16,7 @@ constexpr std::uint64_t kFewestReplies = 10;
 constexpr int kLastDrive = 0x7E;
 constexpr std::uint32_t kLastServoMode = 6;
 
-// First bytes and lengths of one standard identifier.
+// First bytes and lengths of the frames with one standard identifier.
 struct StandardId {
   std::uint64_t frames = 0;
   std::uint8_t first = 0;
@@ -60,7 +60,7 @@ std::string cure_for_status(const std::string& dialect) {
          "if each answers a command (board V3)";
 }
 
-// Another dialect from a configured drive.
+// Finding for a configured drive that uses another dialect.
 std::optional<Finding> another_dialect(const DialectsSeen& seen, const CubeMarsConfig& motor,
                                        std::uint64_t replies) {
   const std::string who = fmt::format("motor {}: drive {}", motor.name, motor.can_id);
@@ -94,7 +94,7 @@ std::string numbers(const std::vector<int>& drives) {
   return fmt::format("{} {}", drives.size() == 1 ? "drive" : "drives", fmt::join(drives, ", "));
 }
 
-// Drives that robot.toml does not name.
+// Findings for drives that robot.toml does not contain.
 Findings strangers(const DialectsSeen& seen, const CanConfig& config, bool any_reply) {
   std::vector<int> configured, status, mit;
   for (std::size_t m = 0; m < static_cast<std::size_t>(config.motor_count); ++m)

@@ -10,9 +10,9 @@
 namespace sandhopper::trace {
 namespace {
 
-constexpr std::size_t kShareWindow = 50;  // commands, as in MotorCheck
+constexpr std::size_t kShareWindow = 50;  // commands, the same number as in MotorCheck
 
-// Pairs the commands of a drive that answers each of them with its replies.
+// Pairs commands and replies of a drive that answers each command.
 class Pairing {
  public:
   Pairing(Exchange& exchange, std::int64_t longest_reply_ns) : e_(exchange), longest_ns_(longest_reply_ns) {}
@@ -30,7 +30,7 @@ class Pairing {
   }
 
   void reply(const Frame& frame) {
-    // Too early to answer the newest command: it answers the one before it.
+    // If the reply came too early to answer the newest command, it answers the previous one.
     const std::int64_t after_newest_ns = frame.time_ns - newest_.frame.time_ns;
     if (before_.waiting && (!newest_.waiting || after_newest_ns < kShortestReply_ns)) {
       answered(frame.time_ns - before_.frame.time_ns);
@@ -46,7 +46,7 @@ class Pairing {
     answered(after_newest_ns);
   }
 
-  // A command at the very end may have been answered after the recording ended.
+  // A command at the very end may have been answered after the end of the recording.
   void end(std::int64_t last_ns) {
     if (before_.waiting) missed();
     if (newest_.waiting && last_ns - newest_.frame.time_ns > longest_ns_) missed();
@@ -98,7 +98,7 @@ void find_longest_gap(Exchange& e, const std::vector<Frame>& replies) {
   }
 }
 
-// Without commands, or from a drive that speaks unasked, a reply is missing wherever its period passed again.
+// Counts missing replies by the period, for a trace without commands or a drive that sends unasked.
 void count_missing_by_period(Exchange& e, const std::vector<Frame>& replies) {
   for (std::size_t i = 1; i < replies.size() && e.period_ns > 0; ++i) {
     const auto step_ns = replies[i].time_ns - replies[i - 1].time_ns;

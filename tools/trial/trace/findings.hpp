@@ -4,12 +4,12 @@
 
 namespace sandhopper::trace {
 
-// Something a trace contains besides decoded replies.
+// A property of a trace besides the decoded replies.
 struct Finding {
-  std::string kind;     // "clock_step", "missed_replies": a word for programs
-  std::string text;     // with its numbers
-  std::string cure{};   // empty where nothing need be done
-  bool trusted = true;  // false: figures taken from this trace may be wrong
+  std::string kind;     // identifier for programs: "clock_step", "missed_replies"
+  std::string text;     // text with the numbers
+  std::string cure{};   // empty if nothing must be done
+  bool trusted = true;  // false: numbers derived from this trace may be wrong
 };
 
 using Findings = std::vector<Finding>;

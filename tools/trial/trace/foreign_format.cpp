@@ -13,22 +13,22 @@
 namespace sandhopper::trace {
 namespace {
 
-constexpr std::size_t kSeen = 4096;  // bytes looked at
+constexpr std::size_t kSeen = 4096;  // number of bytes that are examined
 
 using namespace std::string_view_literals;
 
 struct Magic {
   std::string_view bytes;
   const char* what;
-  const char* cure;  // {0} the file, {1} the file with the ending .log
+  const char* cure;  // {0} is the file, {1} the file with the ending .log
 };
 
-// python-can reads ASC, BLF, TRC, CSV and its own database, and writes candump text by the ending .log.
+// python-can reads ASC, BLF, TRC, CSV and its own database, and writes candump text if the file ends in .log.
 constexpr const char* kPythonCan = "python3 -m can.logconvert '{0}' '{1}' (Debian: python3-can)";
-// MF4 came with python-can 4.2 and needs asammdf; Debian 12 has 4.1.
+// MF4 needs python-can 4.2 and asammdf; Debian 12 has version 4.1.
 constexpr const char* kPythonCanOfToday =
     "pip install 'python-can[mf4]', then python3 -m can.logconvert '{0}' '{1}'";
-// Identifiers of more than 11 bits have eight digits; tshark 4 prints them as decimal numbers.
+// Identifiers of more than 11 bits need eight digits; tshark 4 prints them as decimal numbers.
 constexpr const char* kCapture =
     "tshark -r '{0}' -T fields -e frame.time_epoch -e can.flags.xtd -e can.id -e data.data | awk '{{ "
     "printf($2 ~ "
@@ -53,7 +53,7 @@ constexpr std::array kMagics{
     Magic{"\xff\xfe"sv, "UTF-16 text, as PowerShell's > writes it", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"},
     Magic{"\xfe\xff"sv, "UTF-16 text", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"}};
 
-// The cells after "[8]" joined: interface and identifier stand before it, whatever options candump had.
+// Joins the cells after "[8]". Interface and identifier come before it with every option of candump.
 constexpr const char* kLongCandump =
     "awk '/^ *\\([0-9.]+\\)/ {{ for (i = 3; i <= NF && $i !~ /^\\[/; ++i); d = \"\"; for (j = i + 1; j <= NF "
     "&& "
@@ -66,12 +66,12 @@ constexpr const char* kPrinted =
     "id \"#\" toupper(d) }}' '{0}' > '{1}'";
 
 struct Pattern {
-  const char* regex;  // of a line
+  const char* regex;  // matches a line
   const char* what;
   const char* cure;
 };
 constexpr std::array kPatterns{
-    // asc2log misreads these (can-utils issue 348).
+    // asc2log reads these wrongly (can-utils issue 348).
     Pattern{R"(^\s*base\s+(hex|dec)\s+no internal events logged.*)", "an ASC log of BUSMASTER", kPythonCan},
     Pattern{R"(^\s*base\s+(hex|dec)\s+timestamps\s+(absolute|relative).*)", "a Vector ASC log",
             "asc2log -I '{0}' -O '{1}' (Debian: can-utils), or python3 -m can.logconvert '{0}' '{1}'"},

@@ -5,15 +5,16 @@
 
 namespace sandhopper::trace {
 
-// A file that is no `candump -L` text, and how to make one of it.
+// A file that is not `candump -L` text, and the way to convert it.
 struct ForeignFormat {
-  std::string what;  // "a Vector ASC log"
+  std::string what;  // such as "a Vector ASC log"
   std::string cure;  // the command line to convert it
 };
 
-// Looks at the first bytes and lines: Vector ASC and BLF, PEAK TRC, ASAM MDF, python-can's CSV, database and
-// print-out, candump without -L (with and without times), packet captures, compressed files, UTF-16, MCAP.
-// Empty for `candump -L` text and for what is not known. Throws std::system_error if it cannot be opened.
+// Examines the first bytes and lines. Recognises Vector ASC and BLF, PEAK TRC, ASAM MDF, python-can's CSV,
+// database and print-out, candump without -L (with and without times), packet captures, compressed files,
+// UTF-16 and MCAP. Empty for `candump -L` text and for unknown formats. Throws std::system_error if the file
+// cannot be opened.
 std::optional<ForeignFormat> recognise_format(const std::filesystem::path& file);
 
 }  // namespace sandhopper::trace

@@ -22,7 +22,7 @@ class MotorFrames {
         longest_reply_ns_(longest_reply_ns) {}
 
   bool has_command_id(const Frame& f) const { return codec_.is_command_id(f.id); }
-  // Identifier and first byte decide; on the command's identifier it may still be a command.
+  // Checks identifier and first byte. A frame on the command's identifier may still be a command.
   bool may_be_reply(const Frame& f) const {
     if (f.is_remote() || f.is_error()) return false;
     if (config_.dialect != Dialect::mit) return f.id == (CAN_EFF_FLAG | kServoStatus | id_);
@@ -31,7 +31,7 @@ class MotorFrames {
   }
   bool on_shared_id(const Frame& f) const { return config_.dialect == Dialect::mit && f.id == id_; }
 
-  // Both directions on one identifier: fills in the roles of `places`, indices into `frames`.
+  // Assigns roles if both directions use one identifier. `places` are indices into `frames`.
   Evidence share(const std::vector<Frame>& frames, const std::vector<std::size_t>& places,
                  std::vector<Part>& parts) const {
     if (std::ranges::any_of(places, [&](auto i) { return frames[i].direction == CanDirection::sent; })) {
@@ -58,8 +58,9 @@ class MotorFrames {
   }
 
  private:
-  // Half the period of the commands, or the longest time the bus can take if that is less than the period and
-  // more than half of it. Nothing if commands and replies do not alternate unevenly.
+  // Longest time from command to reply: half the period of the commands, or, if a frame is too short for a
+  // command, the longest time that the bus can take. Empty if commands and replies do not alternate with
+  // uneven steps.
   std::optional<std::int64_t> reply_limit_ns(const std::vector<Frame>& frames,
                                              const std::vector<std::size_t>& places) const {
     std::vector<std::int64_t> certain, all;
@@ -70,7 +71,8 @@ class MotorFrames {
     if (2 * certain.size() >= places.size()) return median(steps(certain)) / 2;
     if (std::ranges::any_of(places, [&](auto i) { return frames[i].length < kCommandBytes; }))
       return longest_reply_ns_;
-    // Most or all first bytes are the drive's number: an exchange has a short step and a long one in turn.
+    // Most or all first bytes are the drive's number. Then an exchange alternates between a short and a long
+    // step.
     const auto step_ns = steps(all);
     std::vector<std::int64_t> shorter, longer;
     for (std::size_t i = 0; i + 1 < step_ns.size(); i += 2) {
@@ -88,12 +90,12 @@ class MotorFrames {
   std::int64_t longest_reply_ns_;
 };
 
-// The same identifier, length and bytes.
+// True if identifier, length and bytes are equal.
 bool same_content(const Frame& a, const Frame& b) {
   return a.id == b.id && a.length == b.length && a.data == b.data;
 }
 
-// Marks copies: no two frames of a bus end within the time of the shortest one.
+// Marks copies: two different frames of a bus cannot end within the duration of the shortest frame.
 void mark_doubled(const std::vector<Frame>& frames, std::vector<Part>& parts) {
   for (std::size_t i = 1; i < frames.size(); ++i) {
     if (frames[i].is_error()) continue;

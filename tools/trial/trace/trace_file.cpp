@@ -35,7 +35,7 @@ class TraceBuilder {
 
   std::size_t frames() const { return trace_.frames.size(); }
 
-  // `complete`: the last line has its end.
+  // `complete`: the last line has a line end.
   Trace finish(bool complete) {
     if (torn_.count > 0 && (complete || trace_.frames.empty())) forget_torn_line();
     trace_.last_line_torn = torn_.count > 0;
@@ -61,7 +61,7 @@ class TraceBuilder {
     for (const char c : line.substr(0, kShownCharacters)) passed.first += c >= ' ' && c <= '~' ? c : '?';
   }
 
-  // A line that could not be read counts as unreadable once another line follows it.
+  // An unreadable last line counts as unreadable only if another line follows.
   void forget_torn_line() {
     if (torn_.count == 0) return;
     auto& bad = trace_.unreadable;

@@ -9,12 +9,12 @@
 
 #include "firmware/log/candump.hpp"
 
-// A CAN trace as a lab recorded it: read whole, so that both directions can be looked at together.
+// A recorded CAN trace. It is read completely, so that both directions can be examined together.
 namespace sandhopper::trace {
 
 struct Frame {
   std::int64_t time_ns = 0;
-  std::uint64_t line = 0;  // of the file
+  std::uint64_t line = 0;  // line of the file
   std::uint32_t id = 0;    // with the flags of linux/can.h
   std::uint16_t interface = 0;
   std::uint8_t length = 0;
@@ -26,7 +26,7 @@ struct Frame {
   bool is_extended() const noexcept { return !is_error() && (id & 0x80000000U) != 0; }
 };
 
-// Lines that are no classic CAN frame.
+// Lines that are not a classic CAN frame.
 struct BadLines {
   std::uint64_t count = 0;
   std::uint64_t first_line = 0;
@@ -37,16 +37,16 @@ struct Trace {
   std::string file;
   std::vector<std::string> interfaces;
   std::vector<Frame> frames;  // in the order of the file
-  BadLines unreadable;        // without the last line
+  BadLines unreadable;        // not counting the last line
   bool last_line_torn = false;
-  BadLines passed_over;          // neither a frame nor a comment nor blank, as every CAN tool passes over
-  std::uint64_t zero_bytes = 0;  // as a power cut leaves them
-  std::uint64_t fd_frames = 0;   // CAN FD and CAN XL: passed over
-  std::uint64_t lost_by_recorder = 0;  // by its own comments, "# 12 frames lost: …"
+  BadLines passed_over;                // neither frame, comment nor blank; every CAN tool skips them
+  std::uint64_t zero_bytes = 0;        // zero bytes, as after a power cut
+  std::uint64_t fd_frames = 0;         // CAN FD and CAN XL frames, which are skipped
+  std::uint64_t lost_by_recorder = 0;  // according to its own comments, "# 12 frames lost: …"
 };
 
-// Frames of interface `bus`, or of all interfaces where it is empty. Unreadable lines are counted and passed
-// over. Throws std::system_error if the file cannot be opened.
+// Reads the frames of interface `bus`, or of all interfaces if it is empty. Unreadable lines are counted and
+// skipped. Throws std::system_error if the file cannot be opened.
 Trace read_trace(const std::filesystem::path& file, const std::string& bus = {},
                  const std::function<void(std::uint64_t frames)>& progress = {});
 

@@ -22,7 +22,7 @@ void append(Findings& findings, const Findings& more) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
 
-// Median time between commands of the motor that has most of them; replies where there are no commands.
+// Median time between commands of the motor with the most commands; without commands that between replies.
 std::int64_t period_of(const TraceReport& report, const CanConfig& config) {
   const Exchange* most = &report.motors[0];
   for (std::size_t m = 1; m < static_cast<std::size_t>(config.motor_count); ++m)
@@ -48,7 +48,7 @@ void decode(const std::vector<Frame>& frames, const Roles& roles, const CanConfi
   }
 }
 
-// Copies of replies are counted with their motor, not with the other frames.
+// Copies of replies are already counted with their motor.
 void count_doubled(const std::vector<Frame>& frames, const Roles& roles, TraceReport& report) {
   for (std::size_t i = 1; i < frames.size(); ++i) {
     if (roles.parts[i].role != Role::doubled) continue;
@@ -168,7 +168,7 @@ Findings silent_motor_findings(const TraceReport& report, const CanConfig& confi
   return out;
 }
 
-// Two buses in one trace, both with the same drive numbers.
+// Finding for two buses in one trace with the same drive numbers.
 Findings interface_findings(const Trace& trace, const Roles& roles) {
   std::array<std::vector<std::uint64_t>, kMotorCount> replies;
   for (auto& counts : replies) counts.resize(trace.interfaces.size());

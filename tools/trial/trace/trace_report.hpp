@@ -16,15 +16,15 @@
 
 namespace sandhopper::trace {
 
-// Limits that a trace is held against, from robot.toml.
+// Limits from robot.toml against which a trace is checked.
 struct TraceLimits {
   ReplyLimits replies{};
-  int cycle_gap = 20;  // supervision.cycle_gap: periods in which nothing comes
+  int cycle_gap = 20;  // supervision.cycle_gap: number of periods without any frame
 };
 
-// A reply, in the order of the times.
+// A reply; the list is in the order of the times.
 struct TimedReading {
-  std::int64_t trace_ns = 0;  // of the frame in the trace
+  std::int64_t trace_ns = 0;  // time of the frame in the trace
   std::uint64_t line = 0;
   can_frame frame{};
   MotorReading reading{};
@@ -34,17 +34,18 @@ struct TraceReport {
   std::uint64_t frames = 0;
   std::vector<TimedReading> decoded;
   std::array<Exchange, kMotorCount> motors{};
-  std::array<std::map<std::uint8_t, std::uint64_t>, kMotorCount> drive_errors{};  // code, replies with it
+  std::array<std::map<std::uint8_t, std::uint64_t>, kMotorCount> drive_errors{};  // error code and number of
+                                                                                  // replies with it
   ClockReport clock;
   BusErrors bus;
   DialectsSeen dialects;
-  std::uint64_t doubled_others = 0;  // copies of frames that are no replies
+  std::uint64_t doubled_others = 0;  // copies of frames that are not replies
   Findings findings;
   bool trusted() const { return all_trusted(findings); }
 };
 
-// Everything that a trace says beside the replies' figures. `config.motor_count` motors are looked for.
-// Throws std::invalid_argument for a configuration that is not right.
+// Examines everything in a trace besides the values in the replies, for `config.motor_count` motors. Throws
+// std::invalid_argument for an invalid configuration.
 TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimits& limits);
 
 }  // namespace sandhopper::trace

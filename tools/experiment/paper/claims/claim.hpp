@@ -13,13 +13,13 @@ struct ClaimFigure {
   std::string name;
   double value;
   std::string unit;  // empty: a pure number
-  int digits = 3;    // after the point, for people
-  // Of a mean over trials: the smallest and the largest.
+  int digits = 3;    // digits after the decimal point, for people
+  // Smallest and largest value, if `value` is a mean over trials.
   double lowest = std::numeric_limits<double>::quiet_NaN();
   double highest = std::numeric_limits<double>::quiet_NaN();
 };
 
-// One statement of the paper, what would make it true here, what was found, and what follows.
+// One statement of the paper, the criterion for it to hold here, the values found, and the verdict.
 struct Claim {
   int number = 0;
   std::string statement;
@@ -31,8 +31,8 @@ struct Claim {
 
 inline Verdict comes_out_if(bool passed) { return passed ? Verdict::comes_out : Verdict::does_not; }
 
-// For a statement about every trial: 95 % of them make it true, 5 % or less make it false, between the two it
-// depends.
+// Verdict for a statement about every trial. It holds if it is true in at least 95 % of them and fails if it
+// is true in 5 % or less. In between it holds only under a condition.
 Verdict verdict_of_share(double share);
 
 }  // namespace sandhopper::paper

@@ -6,10 +6,10 @@
 
 namespace sandhopper::paper {
 
-// All 36, in order; every figure is computed from `results` or from the checks that need no bed.
+// All 36 claims in order. Every value is computed from `results` or from checks that need no bed.
 std::vector<Claim> claim_table(const ProgrammeResults& results);
 
-// By group, each in its own file.
+// Groups of claims, each in its own file.
 std::vector<Claim> instrument_claims(const ProgrammeResults& results);  // 1, 2
 std::vector<Claim> mechanics_claims(const ProgrammeResults& results);   // 3 to 8
 std::vector<Claim> filter_claims(const ProgrammeResults& results);      // 9 to 12

@@ -20,7 +20,7 @@ const CaseResult& case_of(const ProgrammeResults& r, std::string_view name) {
   throw std::out_of_range("no treatment case of that name");
 }
 
-// |mean ratio - 1| of a treatment over the cells of one speed, mean over seeds; case A.
+// mean ratio - 1| of a treatment over the cells of one speed in case A, mean over seeds.
 double error_at_speed(const CaseResult& c, double speed_mps, std::size_t treatment) {
   std::vector<double> errors;
   for (const auto& seed : c.ratio)
@@ -97,8 +97,8 @@ Claim deviation_at_speed(const ProgrammeResults& r) {
   return c;
 }
 
-// Where else, in case A, the weights lose, and what is left of their gain without the force they are meant
-// against.
+// Further conditions under which the weights lose in case A, and the gain that remains without the added-mass
+// force that they are meant to suppress.
 std::string other_conditions(const ProgrammeResults& r) {
   std::string lost, cause;
   for (const auto& condition : r.conditions) {

@@ -12,7 +12,7 @@ using Trials = std::vector<const HopResult*>;
 
 ClaimFigure share_figure(double share) { return {"trials in which it holds", 100.0 * share, "%", 1}; }
 
-// Mean of a feature with its smallest and largest, each times `scale`.
+// Adds the mean of a feature with its smallest and largest value, each multiplied by `scale`.
 void add_range(Claim& c, const std::string& name, const std::string& unit, double scale, int digits,
                const std::vector<double>& values) {
   c.figures.push_back(

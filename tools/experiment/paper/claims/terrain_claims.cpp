@@ -11,7 +11,7 @@
 namespace sandhopper::paper {
 namespace {
 
-constexpr double kFast_mps = 0.7;  // from here on the inertial terms must show
+constexpr double kFast_mps = 0.7;  // at and above this speed the inertial terms must be visible
 
 Claim slow_force_is_linear(const ProgrammeResults& r) {
   constexpr double kTransient_m = 0.005;
@@ -36,7 +36,7 @@ Claim slow_force_is_linear(const ProgrammeResults& r) {
   return c;
 }
 
-// Force at a depth, between two samples of a run; NaN outside.
+// Force at a depth, interpolated between two samples of a run; NaN outside.
 double force_at(const ActuatorRun& run, double depth_m) {
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const auto& a = run.samples[i - 1];
@@ -120,7 +120,7 @@ Claim added_mass_explains(const ProgrammeResults& r) {
   return c;
 }
 
-// Largest relative departure of the integrated gradient from the bed's added mass, 1 to 30 mm.
+// Largest relative difference between the integrated gradient and the bed's added mass, from 1 to 30 mm.
 double worst_profile(const ForceMap& map, const Bed& bed) {
   double worst = 0.0;
   for (int mm = 1; mm <= 30; ++mm) {

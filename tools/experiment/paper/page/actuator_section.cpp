@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kColors{"blue", "green", "sand", "orange", "purple"};
 
-// First trial of the speed nearest to `speed_mps`.
+// First trial of the speed closest to `speed_mps`.
 const ActuatorRun& run_near(const ProgrammeResults& r, double speed_mps) {
   const auto nearer = [speed_mps](const ActuatorRun& a, const ActuatorRun& b) {
     return std::abs(a.speed_mps - speed_mps) < std::abs(b.speed_mps - speed_mps);

@@ -20,7 +20,7 @@ const char* mark_of(Verdict verdict) {
   return "bad";
 }
 
-// "time: 40.1 ms (35.2 to 50.1)"
+// Text such as "time: 40.1 ms (35.2 to 50.1)".
 std::string figure_text(const ClaimFigure& figure) {
   const auto number = [&figure](double value) {
     const bool tiny = value != 0.0 && std::abs(value) < 1e-6;
@@ -33,7 +33,7 @@ std::string figure_text(const ClaimFigure& figure) {
   return text;
 }
 
-// On one line.
+// Replaces blanks by no-break spaces, so that the text stays on one line.
 std::string unbroken(std::string_view text) {
   std::string result;
   for (const char c : text) result += c == ' ' ? "\u00a0" : std::string(1, c);

@@ -9,7 +9,7 @@ namespace {
 
 using Value = double (*)(const PenetratingSample&);
 
-// Over time since contact; the plateau between the two phases of penetration is a gap.
+// Series over time since contact. The plateau between the two phases of penetration is a gap.
 StudySeries over_time(const std::vector<PenetratingSample>& samples, std::string label, std::string color,
                       Value value, Style style = Style::line) {
   constexpr double kGap_s = 0.003;

@@ -4,7 +4,7 @@
 
 #include "tools/report/study.hpp"
 
-// Ways to fill the page's figures.
+// Functions to fill the page's figures.
 namespace sandhopper::paper {
 
 enum class Style { line, dashed, points, bars };  // bars: points with error bars
@@ -24,14 +24,14 @@ inline void add(StudySeries& s, double x, double y) {
   s.y.push_back(y);
 }
 
-// With an error bar of `half` each way.
+// Adds a point with an error bar of `half` in both directions.
 inline void add(StudySeries& s, double x, double y, double half) {
   add(s, x, y);
   s.low.push_back(y - half);
   s.high.push_back(y + half);
 }
 
-// Ends a line; the next value begins another.
+// Ends a line; the next value begins a new one.
 inline void lift_pen(StudySeries& s, double x) { add(s, x, std::nan("")); }
 
 }  // namespace sandhopper::paper

@@ -15,7 +15,7 @@ constexpr std::array<const char*, kTreatments> kNames{"quasi-static, OLS", "obse
                                                       "observer, weighted"};
 constexpr std::array<const char*, kTreatments> kTreatmentColors{"orange", "purple", "blue"};
 
-// k/k_GT of one cell in each seed that has it.
+// k/k_GT of one cell for each seed that has it.
 std::vector<double> ratios(const CaseResult& result, std::size_t treatment, std::size_t cell) {
   std::vector<double> by_seed;
   for (const auto& seed : result.ratio)
@@ -23,7 +23,7 @@ std::vector<double> ratios(const CaseResult& result, std::size_t treatment, std:
   return by_seed;
 }
 
-// A series for each treatment; `place` gives where the value stands, `values` the value in each seed.
+// One series per treatment. `place` gives the position of a value, `values` the value for each seed.
 struct Bars {
   std::vector<std::size_t> items;
   std::function<double(std::size_t item, std::size_t treatment)> place;
@@ -44,12 +44,12 @@ std::vector<StudySeries> treatment_series(const Bars& bars, StudySeries::Mark ma
   return all;
 }
 
-// Beside each other in one category.
+// Position of a treatment within one category.
 double beside(std::size_t item, std::size_t treatment) {
   return static_cast<double>(item) + 0.16 * (static_cast<double>(treatment) - 1.0);
 }
 
-// The cells in which the other figure has `fixed`, over this one.
+// Axis of the cells in which the other property has the value `fixed`.
 struct CellAxis {
   double HopCell::*axis;
   double HopCell::*other;
@@ -209,7 +209,7 @@ StudyTable conditions_table(const ProgrammeResults& r) {
   return table;
 }
 
-// Beside what another program finds with the same definitions.
+// Table that compares the results with those of another program with the same definitions.
 StudyTable reference_table(const ProgrammeResults& r) {
   StudyTable table{.title = "Beside an independent simulation of the same definitions",
                    .columns = {"case", "treatment", "here", "here, ages ignored", "there", "band, ±",

@@ -14,7 +14,7 @@ namespace {
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 using Value = std::function<double(const HopRow&)>;
 
-// A channel over time in ms; rows where it has nothing are left out.
+// A channel over time in ms; rows without a value are left out.
 StudySeries over_time(const HopTrial& trial, std::string label, std::string color, Style style,
                       const Value& value) {
   auto series = curve(std::move(label), std::move(color), style);
@@ -37,7 +37,7 @@ std::vector<std::pair<double, std::string>> events(const HopTrial& trial) {
 
 double mm(double metres) { return 1e3 * metres; }
 
-// A figure over time with the stride's events.
+// A figure over time that shows the stride's events.
 StudyFigure panel(const HopTrial& trial, std::string title, std::string y_label,
                   std::vector<StudySeries> series) {
   return {.title = std::move(title),
@@ -101,7 +101,7 @@ StudyFigure forces(const HopTrial& t) {
                           [](const HopRow& r) { return r.estimate.contact_force_N; })});
 }
 
-// The first 80 ms of contact, each force at the instant it belongs to.
+// The first 80 ms of contact, with each force at its own instant.
 StudyFigure touchdown(const HopTrial& t) {
   auto truth = curve("true", "text", Style::dashed);
   auto cell = curve("load cell", "green");
