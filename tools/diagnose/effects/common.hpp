@@ -71,6 +71,18 @@ void stiffen(Edits& edits, double part, const Share& share) {
 }
 
 // Range of a channel's values over the campaign, at least 1e-12; 1 if the channel is not predicted.
+// Parameters and edit of a sensor that follows with two first-order lags in series. `lag_s` is their sum, the
+// delay of a slow signal; `second_lag_part` of it is the second's. 0: first order; 1/2: two equal lags.
+inline std::vector<EffectParameter> lag_parameters() {
+  return {{.name = "lag_s", .typical = 3e-3, .low = 0.0, .high = 0.1},
+          {.name = "second_lag_part", .typical = 0.25, .low = 0.0, .high = 0.5}};
+}
+inline void add_lag(Edits& edits, const std::string& channel, std::span<const double> values) {
+  const double second_s = values.size() > 1 ? values[1] * values[0] : 0.0;
+  edits.sensor(channel, SensorEdit::Kind::lag_s, values[0] - second_s);
+  if (second_s > 0.0) edits.sensor(channel, SensorEdit::Kind::lag_s, second_s);
+}
+
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);
   return it == context.channels.end() ? 1.0 : std::max(it->second.high - it->second.low, 1e-12);

@@ -58,12 +58,14 @@ ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& chann
     }
   }
   if (samples == 0.0) return scale;
+  scale.noise_rms = median(noises);
+  const double near_end = std::max(std::abs(scale.low), std::abs(scale.high)) - 6.0 * scale.noise_rms;
   for (const auto& trial : trials)
     for (const double v : samples_of(trial, channel).value) {
+      scale.share_near_end += std::abs(v) >= near_end ? 1.0 / samples : 0.0;
       scale.share_at_high += v == scale.high ? 1.0 / samples : 0.0;
       scale.share_at_low += v == scale.low ? 1.0 / samples : 0.0;
     }
-  scale.noise_rms = median(noises);
   scale.step_s = median(steps);
   scale.grid = least_step(trials, channel);
   return scale;

@@ -31,11 +31,12 @@ class Belief {
 // Range, noise and resolution of one recorded channel over the whole campaign.
 struct ChannelScale {
   double low = 0.0, high = 0.0;
-  double noise_rms = 0.0;      // standard deviation of one sample, from fluctuation_rms (plants/inputs.hpp)
-  double step_s = 1e-3;        // median time between samples
-  double share_at_high = 0.0;  // share of the samples that equal `high`
-  double share_at_low = 0.0;   // share of the samples that equal `low`
-  double grid = 0.0;           // smallest change between successive samples: the sensor's resolution
+  double noise_rms = 0.0;       // standard deviation of one sample, from fluctuation_rms (plants/inputs.hpp)
+  double step_s = 1e-3;         // median time between samples
+  double share_at_high = 0.0;   // share of the samples that equal `high`
+  double share_at_low = 0.0;    // share of the samples that equal `low`
+  double share_near_end = 0.0;  // share of the samples within 6 noise_rms of the largest magnitude
+  double grid = 0.0;            // smallest change between successive samples: the sensor's resolution
 };
 
 // Characteristic sizes of the plant in this campaign, from the recordings and the belief. Effects scale the

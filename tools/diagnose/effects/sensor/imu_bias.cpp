@@ -3,6 +3,20 @@
 namespace sandhopper::diagnose {
 namespace {
 
+void apply(const Context&, const std::string& channel, std::span<const double> v, Edits& edits) {
+  edits.sensor(channel, SensorEdit::Kind::offset, v[0]);
+}
+
+// An accelerometer that falls reads next to nothing. It may be off by as much as it reads at rest.
+std::vector<EffectParameter> parameters_in_fall(const Context& c, const std::string& channel) {
+  const double range = std::max(range_of(c, channel), c.belief.value("gravity_mps2", 9.81));
+  return {{.name = "bias_mps2",
+           .typical = 0.02 * range,
+           .low = -0.5 * range,
+           .high = 0.5 * range,
+           .either_sign = true}};
+}
+
 const EffectRegistration kEffect(
     {.id = "imu.bias",
      .port = Port::sensor,
@@ -15,8 +29,17 @@ const EffectRegistration kEffect(
            return std::vector<EffectParameter>{
                {.name = "bias_mps2", .typical = 0.3, .low = -20.0, .high = 20.0, .either_sign = true}};
          },
-     .apply = [](const Context&, const std::string& channel, std::span<const double> v,
-                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::offset, v[0]); }});
+     .apply = apply});
+
+const EffectRegistration kInFall({.id = "imu.bias",
+                                  .port = Port::sensor,
+                                  .statement = "{channel} reads a constant amount off.",
+                                  .equation = "y = x + o",
+                                  .same_as = {"sensor.bias"},
+                                  .plants = {PlantKind::falling_body},
+                                  .channels = accelerometers,
+                                  .parameters = parameters_in_fall,
+                                  .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -6,21 +6,13 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "load_cell.lag",
      .port = Port::sensor,
-     .statement = "The load cell follows with a first-order lag.",
-     .equation = "tau y' + y = F",
+     .statement = "The load cell follows with a lag of first or second order.",
+     .equation = "tau1 tau2 y'' + (tau1 + tau2) y' + y = F, tau1 + tau2 = lag",
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
-     .parameters =
-         [](const Context&, const std::string&) {
-           return std::vector<EffectParameter>{{.name = "lag_s",
-                                                .typical = 3e-3,
-                                                .low = 0.0,
-                                                .high = 0.1,
-                                                .either_sign = false,
-                                                .base = 0.0}};
-         },
+     .parameters = [](const Context&, const std::string&) { return lag_parameters(); },
      .apply = [](const Context&, const std::string& channel, std::span<const double> v,
-                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::lag_s, v[0]); }});
+                 Edits& edits) { add_lag(edits, channel, v); }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

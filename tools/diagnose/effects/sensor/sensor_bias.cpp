@@ -3,8 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The bias is at most half of the channel's range in the campaign. A freely falling accelerometer has almost
-// no range; its range counts as at least gravity.
+// The bias is at most half of the channel's range in the campaign.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
@@ -16,8 +15,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
              .high = 100.0 * typical,
              .either_sign = true}};
   }
-  const double at_rest = channel == "accel_mps2" ? c.belief.value("gravity_mps2", 9.81) : 0.0;
-  const double range = std::max(range_of(c, channel), at_rest);
+  const double range = range_of(c, channel);
   return {{.name = "bias_" + unit_of(channel),
            .typical = 0.02 * range,
            .low = -0.5 * range,
@@ -33,7 +31,7 @@ const EffectRegistration kEffect(
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder},
      .channels =
          [](const Context& c) {
-           auto found = present(c, {"height_m", "accel_mps2", "velocity_radps"});
+           auto found = present(c, {"height_m", "velocity_radps"});
            if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
            if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
            return found;

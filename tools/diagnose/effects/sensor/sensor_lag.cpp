@@ -6,16 +6,13 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "sensor.lag",
      .port = Port::sensor,
-     .statement = "{channel} follows with a first-order lag.",
-     .equation = "tau y' + y = x",
+     .statement = "{channel} follows with a lag of first or second order.",
+     .equation = "tau1 tau2 y'' + (tau1 + tau2) y' + y = x, tau1 + tau2 = lag",
      .plants = {PlantKind::rotary_axis},
      .channels = [](const Context& c) { return present(c, {"velocity_radps"}); },
-     .parameters =
-         [](const Context&, const std::string&) {
-           return std::vector<EffectParameter>{{.name = "lag_s", .typical = 3e-3, .low = 0.0, .high = 0.1}};
-         },
+     .parameters = [](const Context&, const std::string&) { return lag_parameters(); },
      .apply = [](const Context&, const std::string& channel, std::span<const double> v,
-                 Edits& edits) { edits.sensor(channel, SensorEdit::Kind::lag_s, v[0]); }});
+                 Edits& edits) { add_lag(edits, channel, v); }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -3,7 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kPileUp = 0.02;  // Fraction of all samples exactly at the end value.
+constexpr double kPileUp = 0.02;  // Fraction of all samples at the end value, exactly or within the noise.
 
 // A range ends at a value at which samples accumulate. The fitted parameter is the degree of clamping: 1
 // means a hard limit.
@@ -29,9 +29,23 @@ SensorRange sensor_range(const Context& c, const std::string& channel) {
   return range;
 }
 
+// A limit before the noise is added: samples scatter around it, so it is fitted, as 1 / limit.
+std::vector<EffectParameter> limit_under_noise(const Context& c, const std::string& channel) {
+  const auto it = c.channels.find(channel);
+  if (it == c.channels.end() || it->second.share_near_end < kPileUp) return {};
+  const double end = std::max(std::abs(it->second.low), std::abs(it->second.high));
+  if (end == 0.0) return {};
+  return {{.name = "limit_" + unit_of(channel),
+           .typical = 1.0 / end,
+           .low = 0.0,
+           .high = 3.0 / end,
+           .power = -1.0,
+           .shapes = {1.0 / end}}};
+}
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   const SensorRange range = sensor_range(c, channel);
-  if (!range.found) return {};
+  if (!range.found) return limit_under_noise(c, channel);
   return {{.name = "limit_" + unit_of(channel),
            .typical = 1.0,
            .low = 0.0,
@@ -43,6 +57,13 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 
 void apply(const Context& c, const std::string& channel, std::span<const double> v, Edits& edits) {
   const SensorRange range = sensor_range(c, channel);
+  if (!range.found) {
+    if (v[0] <= 0.0) return;
+    const double limit = 1.0 / v[0];
+    edits.sensor_law(channel,
+                     [limit](const SensorState& s) { return std::clamp(s.value, -limit, limit) - s.value; });
+    return;
+  }
   const double share = v[0];
   edits.sensor_law(channel, [range, share](const SensorState& s) {
     return share * (std::clamp(s.value, range.low, range.high) - s.value);
@@ -60,7 +81,7 @@ const EffectRegistration kEffect(
     {.id = "sensor.saturation",
      .port = Port::sensor,
      .statement = "{channel} stops at the end of its range while the quantity goes on.",
-     .equation = "y = min(x, limit)",
+     .equation = "y = min(x, limit), |y| <= limit under noise",
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
      .channels = channels,
      .parameters = parameters,
