@@ -191,12 +191,20 @@ Belief belief_of_silence(CampaignPlant plant);
 // Throws ConfigError with every key that is unknown, of the wrong type or out of range, its place and cure. A
 // key that [sensors] or [spread] do not have is left out with a note: recordings from elsewhere name what
 // their simulator has, and what is not known here limits no conclusion.
-// `key = "?"` is left out, too, with a finding that rules the trials out: its number is still to be written.
+// `key = "?"` is left out, too, and listed in `unstated`: its number is still to be written.
 inline constexpr std::string_view kUnknownNumber = "?";
+struct UnstatedNumber {
+  std::string key;  // "body.mass_kg"
+  std::string file;
+  ConfigPosition position;
+};
 // Set-up keys that give the radius or the area.
 inline constexpr std::array<std::string_view, 3> kDiameterKeys{"diameter_m", "foot_diameter_m",
                                                                "plate_diameter_m"};
-Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
+// It rules a trial out that needs it; else it is a note.
+Finding finding_of(const UnstatedNumber& number, bool is_needed);
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes,
+                   std::vector<UnstatedNumber>& unstated);
 
 // A trial's set-up value whose key is a key of nominal.toml takes its place (never one of [spread]: those say
 // how much trials differ, and some bear the name of a set-up key); `diameter_m`, `foot_diameter_m` and

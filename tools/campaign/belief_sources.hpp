@@ -41,7 +41,4 @@ std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 k
 // file nor the set-up of every trial states. None for the hopper: its belief is this project's robot.
 std::vector<Finding> missing_numbers(const Campaign& campaign);
 
-// The model file holds a `key = "?"`: nothing can be told from its default.
-bool has_unstated(const Campaign& campaign);
-
 }  // namespace sandhopper

@@ -84,7 +84,8 @@ class Loader {
             fmt::format("the model {} does not exist: name a file in this folder, or leave the key out for "
                         "the plant's default",
                         campaign_.model.string()));
-      campaign_.belief = load_belief(campaign_.model, campaign_.plant, campaign_.findings);
+      campaign_.belief =
+          load_belief(campaign_.model, campaign_.plant, campaign_.findings, campaign_.unstated);
     }
   }
 
@@ -228,6 +229,8 @@ class Loader {
     trial.columns.insert(trial.columns.end(), columns_.begin(), columns_.end());
     campaign_.trials.push_back(std::move(trial));
   }
+    for (const auto& number : campaign_.unstated)
+      if (!trial.states(number.key)) trial.unstated.push_back(number);
 
   bool read_kind(const ConfigNode& node, CampaignTrial& trial) {
     const auto kind = enum_of<TrialKind>(node);
@@ -293,7 +296,11 @@ class Loader {
       return add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
                  "is neither number, text nor true/false and is left out",
                  "write one value, its unit in the key");
-    override_belief(trial.belief, node, campaign_.file.string(), problems);
+    if (node.kind == Kind::text && node.text == kUnknownNumber)
+      problems.push_back({campaign_.file.string(), node.key_position, node.key,
+                          fmt::format("is \"{}\": write your own number", kUnknownNumber)});
+    else
+      override_belief(trial.belief, node, campaign_.file.string(), problems);
     trial.setup.push_back(std::move(entry));
   }
 
@@ -325,6 +332,17 @@ bool CampaignTrial::states_diameter() const {
 std::optional<double> CampaignTrial::number(std::string_view key) const {
   for (const auto& entry : setup)
     if (entry.key == key)
+bool CampaignTrial::states(std::string_view path) const {
+  const auto key = path.substr(path.rfind('.') + 1);
+  if (number(key)) return true;
+  if (key == "radius_m") return states_diameter();
+  return key == "stiffness_N_per_m" && number("stiffness_per_area_N_per_m");
+}
+
+bool CampaignTrial::is_unstated(std::string_view path) const {
+  return std::ranges::find(unstated, path, &UnstatedNumber::key) != unstated.end();
+}
+
       if (const auto* value = std::get_if<double>(&entry.value)) return *value;
   return std::nullopt;
 }

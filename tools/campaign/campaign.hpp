@@ -75,7 +75,12 @@ struct CampaignTrial {
   ConfigPosition position{};  // of its [[trial]]
   // What its recording is read against: the campaign's belief with the set-up's own values.
   Belief belief{};
+  // Numbers that the model leaves at "?" and the set-up does not state; their places in `belief` hold a
+  // default.
+  std::vector<UnstatedNumber> unstated{};
 
+  bool states(std::string_view path) const;  // "body.mass_kg", or a set-up value that gives it
+  bool is_unstated(std::string_view path) const;
   std::optional<double> number(std::string_view key) const;  // a set-up value
   bool states_diameter() const;                              // by one of kDiameterKeys
   std::optional<std::string> text(std::string_view key) const;
@@ -93,7 +98,8 @@ struct Campaign {
   std::string name;
   CampaignPlant plant{};
   Belief belief{};
-  std::filesystem::path model{};      // empty: the plant's default
+  std::filesystem::path model{};  // empty: the plant's default
+  std::vector<UnstatedNumber> unstated;
   Available available;                // [available]: what the lab can set for its next trial
   std::vector<CampaignTrial> trials;  // those that campaign.toml describes well enough to be read
   std::vector<Finding> findings;      // what is wrong with campaign.toml itself; such trials are left out

@@ -374,8 +374,11 @@ class Reader {
 
 }  // namespace
 
-TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial) {
+TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial,
+                          const std::function<bool(std::string_view key)>& can_do_without) {
   auto recording = Reader(campaign, trial).run();
+  for (const auto& number : trial.unstated)
+    recording.findings.push_back(finding_of(number, !can_do_without(number.key)));
   for (const auto& companion : trial.companions) {
     CampaignTrial other;
     other.name = companion.file.string();
