@@ -180,7 +180,9 @@ class Loader {
       refuse(campaign_.file, {1, 1}, "trial",
              "there is no trial: add one [[trial]] with file = \"…\" and kind = \"…\" for each recording");
     const auto* every = root.find("every_trial");
-    for (const auto& node : trials->children) read_trial(every == nullptr ? node : completed(node, *every));
+    std::size_t entry = 0;
+    for (const auto& node : trials->children)
+      read_trial(every == nullptr ? node : completed(node, *every), ++entry);
   }
 
   // The trial with what [every_trial] says and it does not.
@@ -190,7 +192,7 @@ class Loader {
     return trial;
   }
 
-  void read_trial(const ConfigNode& node) {
+  void read_trial(const ConfigNode& node, std::size_t entry) {
     const auto* file = node.find("file");
     if (file == nullptr || file->kind != Kind::text || file->text.empty()) {
       add(FindingKind::set_up, FindingSeverity::trial_unusable, node.position, "file",
@@ -204,6 +206,7 @@ class Loader {
     trial.position = file->position;
     trial.belief = campaign_.belief;
     trial.index = campaign_.trials.size();
+    trial.entry = entry;
     trial.format = format_;
     bool usable = true;
     std::vector<ConfigProblem> problems;
@@ -226,11 +229,11 @@ class Loader {
       add(FindingKind::set_up, FindingSeverity::trial_unusable, problem.position, problem.key, problem.text,
           "correct the value in this [[trial]]");
     if (!usable || !problems.empty()) return;
+    for (const auto& number : campaign_.unstated)
+      if (!trial.states(number.key)) trial.unstated.push_back(number);
     trial.columns.insert(trial.columns.end(), columns_.begin(), columns_.end());
     campaign_.trials.push_back(std::move(trial));
   }
-    for (const auto& number : campaign_.unstated)
-      if (!trial.states(number.key)) trial.unstated.push_back(number);
 
   bool read_kind(const ConfigNode& node, CampaignTrial& trial) {
     const auto kind = enum_of<TrialKind>(node);
@@ -329,9 +332,6 @@ bool CampaignTrial::states_diameter() const {
   return std::ranges::any_of(kDiameterKeys, [&](std::string_view key) { return number(key).has_value(); });
 }
 
-std::optional<double> CampaignTrial::number(std::string_view key) const {
-  for (const auto& entry : setup)
-    if (entry.key == key)
 bool CampaignTrial::states(std::string_view path) const {
   const auto key = path.substr(path.rfind('.') + 1);
   if (number(key)) return true;
@@ -343,6 +343,9 @@ bool CampaignTrial::is_unstated(std::string_view path) const {
   return std::ranges::find(unstated, path, &UnstatedNumber::key) != unstated.end();
 }
 
+std::optional<double> CampaignTrial::number(std::string_view key) const {
+  for (const auto& entry : setup)
+    if (entry.key == key)
       if (const auto* value = std::get_if<double>(&entry.value)) return *value;
   return std::nullopt;
 }

@@ -87,6 +87,7 @@ struct CampaignTrial {
   std::optional<bool> flag(std::string_view key) const;
   // The same recording may be named by several trials that select different rows.
   std::size_t index = 0;  // place in the campaign
+  std::size_t entry = 0;  // its [[trial]] in campaign.toml, from 1
 };
 
 // A folder of recordings and what its experimenter says about them. Only names and set-ups are held; a

@@ -11,16 +11,17 @@
 // The rows of a recording once its columns are known.
 namespace sandhopper {
 
-// With fewer a channel cannot be judged (check_times, doubt_time need as many); more than one row is kept.
-inline constexpr std::size_t kFewSelectedRows = 10;
+// With fewer a trial cannot be judged (check_times, doubt_time), and no plant of a diagnosis takes one.
+inline constexpr std::size_t kFewestSelectedRows = 10;
 
 // Rows whose time, in s, and value in `column` (null: of any value) are selected. Lines are chosen as the
 // file is read.
 std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,
                                        const std::vector<double>* column);
 
-// "250 were read from a.csv, from 0 to 0.498 s"
-std::string shown_rows(std::string_view file, const std::vector<double>& t_s);
+// "select leaves 4 of 2000 rows, from 0.2 to 0.206 s; 10 are needed, and a.csv goes from 0 to 3.998 s"
+std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
+                           const std::vector<std::size_t>& keep, std::string_view file);
 
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep);
 
