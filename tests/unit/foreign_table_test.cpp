@@ -244,6 +244,17 @@ TEST(ForeignTable, PhasesMayHaveTheirNames) {
   EXPECT_THAT(told(stance), HasSubstr("taken for compression"));
 }
 
+TEST(ForeignTable, AnUnknownPhaseIsAnErrorThatListsTheNames) {
+  const std::string text = "t_s,phase,load_cell_force_N\n0,flight,0\n0.001,landing,3\n0.002,extension,4\n";
+  const auto unknown = read(text, {.plant = "hopper"});
+  EXPECT_FALSE(unknown.usable());
+  EXPECT_THAT(told(unknown), HasSubstr("a.csv:3:7: phase: \"landing\" is no phase"));
+  EXPECT_THAT(told(unknown), HasSubstr("flight, compression, extension"));
+  const auto elsewhere =
+      read("t_s,phase,force_N\n0,wait,0\n0.001,push,3\n0.002,push,4\n", {.plant = "intruder"});
+  EXPECT_TRUE(elsewhere.usable()) << told(elsewhere) << "no phase of a hop";
+}
+
 TEST(ForeignTable, DatesAndTimesOfDayBecomeSeconds) {
   const auto iso = read(
       "Timestamp,force_N\n2023-09-13T20:41:18.250Z,1\n2023-09-13T20:41:18.500Z,2\n2023-09-13T20:41:19.000Z,"

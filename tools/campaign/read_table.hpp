@@ -30,6 +30,10 @@ const std::vector<double>* find_column(const CsvTable& table, std::string_view n
 // The mapped column of the time, else t_s; null where the file has neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
 
+// The column of a hop's phase, and the words that it may hold in place of 0, 1, 2, in one sentence.
+std::string phase_column(const CampaignTrial& trial);
+std::string phase_names();
+
 // "Time (s)", "timestamp", "t", "millis", "Zeit".
 bool is_called_time(std::string_view name);
 // The column that looks like a time, by its name; t_s is not looked for.
