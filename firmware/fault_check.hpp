@@ -23,6 +23,9 @@ struct FaultCheck {
   std::string_view rule{};      // what a sound robot keeps to: "at most", completed by the limit's number
   std::string_view channels{};  // of the explanation's plots: those that show the quantity
   bool is_plotted = false;      // a plot shows this very quantity, so the limit is drawn in it
+  std::string_view also{};      // a further key in quantity or rule, said with its number
+  std::string_view also_unit{};
+  bool is_allowed_second = false;  // Event::values[1] is what was allowed at that moment, either way
 };
 
 bool has_check(Fault fault);

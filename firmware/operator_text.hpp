@@ -1,12 +1,15 @@
 #pragma once
 #include <string>
 
+#include "config/node.hpp"
 #include "firmware/hop_session.hpp"
 
 // What hopperd says, one JSON object a line; without the line's end. Bytes that are no UTF-8 become U+FFFD.
 namespace sandhopper {
 
-std::string operator_text(const Event& event);  // with "text" where arming was refused because of a drive
+// With "text" where arming was refused because of a drive, and for a fault: what was seen and what is
+// allowed, with the limits of `robot` (robot.toml) where that is given.
+std::string operator_text(const Event& event, const ConfigNode* robot = nullptr);
 std::string operator_text(const StrideResult& result);
 std::string operator_text(const StrengthProfile& profile, const GroundSummary& ground);
 std::string operator_text(const GroundEvents& found);

@@ -35,7 +35,8 @@ nlohmann::ordered_json as_json(const Outcome& outcome, const ReportData& data, c
           {"log", outcome.log.string()},
           {"report", page.string()},
           {"last_state", std::string(name_of(outcome.last_state))},
-          {"fault", std::string(name_of(outcome.last_fault))}};
+          {"fault", std::string(name_of(outcome.last_fault))},
+          {"notes", data.notes}};
 }
 
 // What came of the trials so far.
