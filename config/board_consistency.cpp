@@ -98,10 +98,10 @@ void check_foot_accelerometer(ContradictionList& list, const LinuxBoardConfig& b
                 range_that_carries(needed)});
 }
 
-void check_load_cell(ContradictionList& list, const LoadCellConfig& cell, const RobotConfig& c) {
+// Only the kernel knows the range of an IIO converter; its driver's in_voltage_scale is read at the start.
+void check_load_cell_range(ContradictionList& list, const LoadCellConfig& cell, const RobotConfig& c) {
   const auto& s = c.supervision;
   const double full_scale_V = kAdcFullScale_V[static_cast<std::size_t>(cell.range)];
-  const double rate_Hz = kAdcRate_Hz[static_cast<std::size_t>(cell.rate)];
   list.carries({"load_cell.scale_N_per_V",
                 fmt::format("{:g} with {:g} V of range less zero_V = {:g}", cell.scale_N_per_V, full_scale_V,
                             cell.zero_V),
@@ -110,13 +110,22 @@ void check_load_cell(ContradictionList& list, const LoadCellConfig& cell, const 
                 s.load_cell_range_N,
                 "N",
                 "correct the scale, widen the range or lower the limit"});
-  list.carries({"load_cell.rate",
-                std::string(name_of(cell.rate)),
+}
+
+void check_load_cell(ContradictionList& list, const LoadCellConfig& cell, const RobotConfig& c) {
+  const auto& s = c.supervision;
+  const bool is_iio = cell.is_iio() && cell.iio;
+  if (!is_iio) check_load_cell_range(list, cell, c);
+  const double rate_Hz = is_iio ? cell.iio->rate_Hz : kAdcRate_Hz[static_cast<std::size_t>(cell.rate)];
+  list.carries({is_iio ? "load_cell.iio.rate_Hz" : "load_cell.rate",
+                is_iio ? fmt::format("{:g}", rate_Hz) : std::string(name_of(cell.rate)),
                 rate_Hz,
                 {"supervision.load_cell_rate_Hz", s.load_cell_rate_Hz},
                 s.load_cell_rate_Hz,
                 "samples a second",
-                "a sensor that keeps its rate would be called intermittent: raise the rate"});
+                is_iio ? "a sensor that keeps its rate would be called intermittent: lower the limit to the "
+                         "converter's rate"
+                       : "a sensor that keeps its rate would be called intermittent: raise the rate"});
   list.carries({"load_cell.latency_s",
                 fmt::format("limits.load_cell_age_s = {:g}", c.limits.load_cell_age_s),
                 c.limits.load_cell_age_s,

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/can/drive_error.hpp"
+#include "drivers/transmit_guard/rule.hpp"
 #include "firmware/fault_checks.hpp"
 
 namespace sandhopper {
@@ -55,14 +57,35 @@ std::string with_unit(double value, std::string_view unit) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
-std::string limit_text(const FaultCheck& check, const std::vector<double>& limits) {
-  if (check.limit.empty()) return std::string(check.rule);
+// Name of a value that is a code: of a drive's error, of the transmit guard's rule; empty for any other
+// fault.
+std::string_view name_of_code(Fault fault, double value) {
+  if (!(value >= 0.0 && value < 256.0)) return {};
+  const auto code = static_cast<std::uint8_t>(value);
+  if (fault == Fault::drive_error) return code < kDriveErrors.size() ? drive_error_name(code) : "";
+  const auto& rules = EnumNames<transmit::Rule>::value;
+  return fault == Fault::transmit_refused && code < rules.size() ? rules[code] : "";
+}
+
+// The further key with its number in front: "30 rad/s (limits.motor_speed_radps)".
+std::string with_further_number(const FaultCheck& check, std::string_view words, const ConfigNode* robot) {
+  std::string text(words);
+  if (robot == nullptr || check.also.empty()) return text;
+  const auto at = text.find(check.also);
+  const auto number = number_at(*robot, check.also);
+  if (at == std::string::npos || !number) return text;
+  return text.replace(at, check.also.size(),
+                      fmt::format("{} ({})", with_unit(*number, check.also_unit), check.also));
+}
+
+std::string limit_text(const FaultCheck& check, const std::string& rule, const std::vector<double>& limits) {
+  if (check.limit.empty()) return rule;
   std::string keys(check.limit);
   if (const auto bar = keys.find('|'); bar != std::string::npos) keys.replace(bar, 1, ", ");
-  if (limits.empty()) return fmt::format("{} {}", check.rule, keys);
+  if (limits.empty()) return fmt::format("{} {}", rule, keys);
   if (limits.size() == 2)
     return fmt::format("{} to {} ({})", with_unit(limits[0], ""), with_unit(limits[1], check.unit), keys);
-  return fmt::format("{} {} ({})", check.rule, with_unit(limits[0], check.unit), keys);
+  return fmt::format("{} {} ({})", rule, with_unit(limits[0], check.unit), keys);
 }
 
 }  // namespace
@@ -91,7 +114,7 @@ FaultReading read_fault(const Event& event, const ConfigNode* robot) {
   const FaultCheck check = for_device(check_of(event.fault), event.values[0]);
   FaultReading reading;
   reading.device = device_name(check.device, event.values[0]);
-  reading.quantity = check.quantity;
+  reading.quantity = with_further_number(check, check.quantity, robot);
   reading.unit = check.unit;
   reading.value = event.values[check.value_at];
   reading.channels = check.channels;
@@ -105,7 +128,12 @@ FaultReading read_fault(const Event& event, const ConfigNode* robot) {
   if (check.is_plotted && reading.limits.size() == 1 && check.rule == kEitherWay)
     reading.lines.push_back(-reading.limits[0]);
   reading.value_text = with_unit(reading.value, reading.unit);
-  reading.limit_text = limit_text(check, reading.limits);
+  if (const auto name = name_of_code(event.fault, reading.value); !name.empty())
+    reading.value_text += fmt::format(" ({})", name);
+  reading.limit_text = limit_text(check, with_further_number(check, check.rule, robot), reading.limits);
+  if (check.is_allowed_second)
+    reading.limit_text =
+        fmt::format("{} {}, {}", kEitherWay, with_unit(event.values[1], check.unit), reading.limit_text);
   return reading;
 }
 

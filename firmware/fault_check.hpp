@@ -19,10 +19,13 @@ struct FaultCheck {
   std::size_t value_at = 0;     // index into Event::values of the measured value
   std::string_view quantity{};  // name of that value in words
   std::string_view unit{};      // "" for counts and states
-  std::string_view limit{};     // key of robot.toml, or two as "low|high"; empty: `rule` is complete
-  std::string_view rule{};      // condition of a sound robot, such as "at most"; the limit's number follows
-  std::string_view channels{};  // channels of the explanation's plots that show the quantity
-  bool is_plotted = false;      // a plot shows exactly this quantity, so the limit is drawn in it
+  std::string_view limit{};     // key of robot.toml, or two as "low|high"; empty: the rule says all
+  std::string_view rule{};      // what a sound robot keeps to: "at most", completed by the limit's number
+  std::string_view channels{};  // of the explanation's plots: those that show the quantity
+  bool is_plotted = false;      // a plot shows this very quantity, so the limit is drawn in it
+  std::string_view also{};      // a further key in quantity or rule, said with its number
+  std::string_view also_unit{};
+  bool is_allowed_second = false;  // Event::values[1] is what was allowed at that moment, either way
 };
 
 bool has_check(Fault fault);

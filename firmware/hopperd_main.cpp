@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "config/directory.hpp"
+#include "config/dump.hpp"
 #include "config/files.hpp"
 #include "config/load.hpp"
 #include "config/problem.hpp"
@@ -160,8 +161,9 @@ SessionResult run_session(const Session& s) {
   const auto warn = [&](const std::string& text) {
     if (!text.empty()) s.channel.tell_text("warning", text);
   };
+  const auto limits = to_node(s.robot);
   HopSession session(s.robot, s.board, s.logger,
-                     {.event = [&](const Event& event) { s.channel.tell(event); },
+                     {.event = [&](const Event& event) { s.channel.tell(event, limits); },
                       .stride = [&](const StrideResult& result) { s.channel.tell(result); },
                       .profile = [&](const StrengthProfile& profile,
                                      const GroundSummary& ground) { s.channel.tell(profile, ground); },

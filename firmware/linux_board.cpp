@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "drivers/adc/load_cell_reader.hpp"
+#include "drivers/adc/load_cell_source.hpp"
 #include "drivers/can/can_socket.hpp"
 #include "drivers/can/cubemars_drives.hpp"
 #include "drivers/clock.hpp"
@@ -26,7 +26,7 @@ struct LinuxBoardDevices {
   std::unique_ptr<DriveEnable> drive_enable;
   std::unique_ptr<ImuReader> imu_body;
   std::unique_ptr<ImuReader> imu_foot;
-  std::unique_ptr<LoadCellReader> load_cell;
+  std::unique_ptr<LoadCellSource> load_cell;
   std::unique_ptr<AfbrS50> tof;
   std::unique_ptr<CubeMarsDrives> drives;
   GuardedPort* guard = nullptr;  // owned by `drives`
@@ -94,7 +94,7 @@ std::vector<DeviceReport> open_all(const LinuxBoardConfig& config, LinuxBoardDev
   if (config.drive_enable.fitted()) open_drive_enable(opening, config.drive_enable, d);
   opening.open("imu_body", d.imu_body, "imu_body", config.imu_body);
   opening.open("imu_foot", d.imu_foot, "imu_foot", config.imu_foot);
-  opening.open("load_cell", d.load_cell, config.load_cell);
+  opening.attempt("load_cell", [&] { d.load_cell = open_load_cell(config.load_cell); });
   opening.open("tof", d.tof, config.tof);
   opening.attempt("can", [&] { open_drives(config, d); });
   if (d.drives) {

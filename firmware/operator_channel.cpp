@@ -115,7 +115,9 @@ void OperatorChannel::take_lines(const std::vector<WordReader::Line>& lines, Req
                     "quit");
 }
 
-void OperatorChannel::tell(const Event& event) { outbox_->put(operator_text(event)); }
+void OperatorChannel::tell(const Event& event, const ConfigNode& robot) {
+  outbox_->put(operator_text(event, &robot));
+}
 void OperatorChannel::tell(const StrideResult& result) { outbox_->put(operator_text(result)); }
 void OperatorChannel::tell(const StrengthProfile& profile, const GroundSummary& ground) {
   outbox_->put(operator_text(profile, ground));

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/node.hpp"
 #include "firmware/hop_session.hpp"
 #include "firmware/outbox.hpp"
 #include "firmware/word_reader.hpp"
@@ -36,7 +37,7 @@ class OperatorChannel {
   // Listens on the calling thread until `ended` is set.
   void listen(RequestBox& requests, std::atomic<Quit>& quit, const std::atomic<bool>& ended);
 
-  void tell(const Event& event);
+  void tell(const Event& event, const ConfigNode& robot);  // robot.toml, for the limits of faults
   void tell(const StrideResult& result);
   void tell(const StrengthProfile& profile, const GroundSummary& ground);
   void tell(const GroundEvents& found);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "config/json.hpp"
+#include "firmware/fault_check.hpp"
 #include "firmware/refusal_text.hpp"
 
 namespace sandhopper {
@@ -43,8 +44,9 @@ std::string stiffness(const Estimate& k) {
 
 }  // namespace
 
-std::string operator_text(const Event& e) {
-  const auto text = refusal_text(e);
+std::string operator_text(const Event& e, const ConfigNode* robot) {
+  const bool is_fault = e.kind == EventKind::fault_raised || e.kind == EventKind::disarm_refused;
+  const auto text = is_fault ? in_words(read_fault(e, robot)) : refusal_text(e);
   return fmt::format(
       R"({{"event":"{}","reason":"{}","fault":"{}","stride":{},"time_ns":{},"values":[{},{},{},{}]{}}})",
       name_of(e.kind), name_of(e.reason), name_of(e.fault), e.stride, e.time_ns, number(e.values[0]),

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 
 #include "drivers/clock.hpp"
@@ -25,7 +26,7 @@ std::string word_in(const std::filesystem::path& file) {
   return word;
 }
 
-double scale_of(const IioLoadCellConfig& config, const std::string& role) {
+double scale_of(const IioConverterConfig& config, const std::string& role) {
   const std::filesystem::path device = config.device;
   auto text = word_in(device / ("in_voltage" + std::to_string(config.channel) + "_scale"));
   if (text.empty()) text = word_in(device / "in_voltage_scale");
@@ -39,19 +40,20 @@ double scale_of(const IioLoadCellConfig& config, const std::string& role) {
 
 }  // namespace
 
-IioLoadCell::IioLoadCell(const IioLoadCellConfig& config) : config_(config) {
-  const std::string role = "load_cell (IIO " + config.device + ")";
-  const std::filesystem::path device = config.device;
+IioLoadCell::IioLoadCell(const LoadCellConfig& config) : config_(config) {
+  const auto iio = config.iio.value_or(IioConverterConfig{});
+  const std::string role = "load_cell (IIO " + iio.device + ")";
+  const std::filesystem::path device = iio.device;
   chip_ = word_in(device / "name");
   if (chip_.empty())
     throw DeviceError(role, "is not there",
                       "Load its overlay and driver (hx711 or nau7802): cat /sys/bus/iio/devices/*/name");
-  const auto raw = device / ("in_voltage" + std::to_string(config.channel) + "_raw");
+  const auto raw = device / ("in_voltage" + std::to_string(iio.channel) + "_raw");
   raw_ = UniqueFd(::open(raw.c_str(), O_RDONLY | O_CLOEXEC));
   if (raw_.get() < 0)
     throw DeviceError(role, errno_cause("cannot open " + raw.string()),
                       "Name another channel, or run as root");
-  volts_per_count_ = scale_of(config, role);
+  volts_per_count_ = scale_of(iio, role);
 }
 
 bool IioLoadCell::read_raw(long& raw) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "config/fields.hpp"
@@ -32,8 +33,32 @@ struct EnumNames<AdcRate> {
                                                          "128SPS", "250SPS", "475SPS", "860SPS"};
 };
 
-// The foot's load cell behind an amplifier, on an ADS1115. Force = sign . scale . (voltage - zero).
+// What digitises the load cell: an ADS1115 behind an amplifier, or a converter behind the kernel's IIO.
+enum class LoadCellConverter : std::uint8_t { ads1115, iio };
+template <>
+struct EnumNames<LoadCellConverter> {
+  static constexpr std::array<std::string_view, 2> value{"ads1115", "iio"};
+};
+
+// An HX711 (10 or 80 conversions a second) or NAU7802 (10 to 320) as an IIO device of the kernel, which holds
+// its gain and rate.
+struct IioConverterConfig {
+  std::string device = "/sys/bus/iio/devices/iio:device0";
+  int channel = 0;
+  double rate_Hz = 80.0;  // at which the converter is set up
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("device", self.device);
+    visit("channel", self.channel, Range{0, 15});
+    visit("rate_Hz", self.rate_Hz, Range{10.0, 320.0});
+  }
+};
+
+// The foot's load cell. Force = sign . scale . (voltage - zero). `device` to `rate` are the ADS1115's; an IIO
+// converter has [load_cell.iio] besides and does not use them.
 struct LoadCellConfig {
+  std::optional<LoadCellConverter> converter = LoadCellConverter::ads1115;  // left out: ads1115
   std::string device = "/dev/i2c-1";
   int address = 0x48;
   LineConfig ready{.chip = "", .line = "", .active_low = true};  // ALERT/RDY: a falling edge per conversion
@@ -47,9 +72,13 @@ struct LoadCellConfig {
   // amplifier's delay.
   double latency_s = 0.00058;
   int thread_priority = 55;  // SCHED_FIFO; 0: ordinary scheduling
+  std::optional<IioConverterConfig> iio{};
+
+  bool is_iio() const noexcept { return converter == LoadCellConverter::iio; }
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
+    visit("converter", self.converter);
     visit("device", self.device);
     visit("address", self.address, Range{0x48, 0x4B});
     visit("ready", self.ready);
@@ -61,12 +90,17 @@ struct LoadCellConfig {
     visit("sign", self.sign, Range{-1, 1});
     visit("latency_s", self.latency_s, Range{0, 0.1});
     visit("thread_priority", self.thread_priority, Range{0, 98});
+    visit("iio", self.iio);
   }
 
   template <class Problem>
   void check(Problem&& problem) const {
     if (sign == 0) problem("sign", "must be 1 or -1");
-    if (!ready.fitted())
+    if (is_iio() && !iio)
+      problem("converter", "\"iio\" needs a table [load_cell.iio] with device, channel and rate_Hz");
+    if (!is_iio() && iio)
+      problem("iio", "is not used by an ADS1115: write converter = \"iio\", or take the table out");
+    if (!is_iio() && !ready.fitted())
       problem("ready",
               "chip and line of the ADS1115's ALERT/RDY pin must be given: its conversions cannot be timed "
               "without it");

@@ -2,24 +2,23 @@
 #include <string>
 
 #include "drivers/adc/ads1115.hpp"
-#include "drivers/device_counters.hpp"
+#include "drivers/adc/load_cell_source.hpp"
 #include "drivers/gpio/gpio.hpp"
 #include "drivers/i2c/i2c_device.hpp"
-#include "drivers/samples.hpp"
 
 namespace sandhopper {
 
-// The load cell on its device nodes, for a thread of its own. Opens and starts the converter; throws
+// The load cell on an ADS1115. Opens and starts the converter; throws
 // DeviceError.
-class LoadCellReader {
+class LoadCellReader : public LoadCellSource {
  public:
   explicit LoadCellReader(const LoadCellConfig& config);
 
-  // Waits for the next conversion: 50 ms, or two conversions at the slowest rates. Its time is the ready edge
-  // minus `latency_s`.
-  bool acquire(LoadCellSample& sample) noexcept;
+  // Waits (50 ms; at the slowest rates two conversions) for the next conversion. Stamp: its ready edge less
+  // `latency_s`.
+  bool acquire(LoadCellSample& sample) noexcept override;
 
-  const DeviceCounters& counters() const noexcept { return counters_; }
+  const DeviceCounters& counters() const noexcept override { return counters_; }
 
  private:
   LoadCellConfig config_;

@@ -19,6 +19,8 @@ TEST(FaultMatrix, EveryCellReachesItsStateInTimeAndStandsInTheLog) {
     const auto result = run_cell(cell, setup);
     EXPECT_EQ(result.problem, "") << cell.name() << " at " << name_of(cell.phase);
     unseen += cell.expected == Fault::none;
+    EXPECT_EQ(result.message.find("; allowed: ") != std::string::npos, result.found != Fault::none)
+        << cell.name() << ": " << result.message;
     if (cell.expected != Fault::none)
       slowest[cell.expected] = std::max(slowest[cell.expected], result.cycles);
   }

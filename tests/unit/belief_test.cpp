@@ -14,7 +14,8 @@ using ::testing::HasSubstr;
 std::string refusal(const CampaignFolder& folder, CampaignPlant plant) {
   try {
     std::vector<Finding> notes;
-    load_belief(folder.path() / "nominal.toml", plant, notes);
+    std::vector<UnstatedNumber> unstated;
+    load_belief(folder.path() / "nominal.toml", plant, notes, unstated);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -98,8 +99,9 @@ TEST(Belief, AnUnknownSensorOrSpreadKeyIsNotedAndLeftOut) {
   folder.write("nominal.toml",
                "[sensors]\nlidar_noise_m = 0.01\nmocap_noise_m = 0.001\n[spread]\nmood = 3\n");
   std::vector<Finding> notes;
-  const auto belief =
-      std::get<HopperBelief>(load_belief(folder.path() / "nominal.toml", CampaignPlant::hopper, notes));
+  std::vector<UnstatedNumber> unstated;
+  const auto belief = std::get<HopperBelief>(
+      load_belief(folder.path() / "nominal.toml", CampaignPlant::hopper, notes, unstated));
   EXPECT_EQ(belief.sensors.robot.mocap_noise_m, 0.001);
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_THAT(to_string(notes[0]), HasSubstr("nominal.toml:2:1: sensors.lidar_noise_m"));

@@ -9,6 +9,8 @@
 #include "campaign_folder.hpp"
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/terrain/campaign_analysis.hpp"
+#include "tools/terrain/strength_curve.hpp"
 
 // A campaign written for a foreign file, and a belief with who said what.
 namespace sandhopper {
@@ -35,6 +37,14 @@ Drafted drafted(CampaignFolder& folder, const std::string& text,
   return out;
 }
 
+// A draft's nominal.toml with 0.2 for each number that only its owner knows.
+std::string with_numbers(std::string nominal) {
+  const std::string unknown = "= \"?\"";
+  for (auto at = nominal.find(unknown); at != std::string::npos; at = nominal.find(unknown))
+    nominal.replace(at, unknown.size(), "= 0.2");
+  return nominal;
+}
+
 std::string rows(const std::string& header, char separator, int columns) {
   std::string text = header;
   for (int i = 0; i < 40; ++i)
@@ -58,7 +68,7 @@ TEST(CampaignDraft, APlateOfATestingMachine) {
   const std::string drafted_way = "foot_z_m = { column = \"Weg\", unit = \"mm\" }";
   ASSERT_NE(corrected.find(drafted_way), std::string::npos) << corrected;
   corrected.replace(corrected.find(drafted_way), drafted_way.size(), way);
-  folder.write("campaign.toml", corrected);
+  folder.write("campaign.toml", corrected).write("nominal.toml", with_numbers(got.draft.nominal_toml));
   const auto campaign = load_campaign(folder.path());
   const auto recording = read_trial(campaign, campaign.trials.at(0));
   ASSERT_TRUE(recording.usable()) << to_string(recording.findings.front());
@@ -126,6 +136,45 @@ TEST(CampaignDraft, AHeightThatRisesInADropCountsDownward) {
   EXPECT_FALSE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 0.0\n", 4.0).usable());
 }
 
+// A telephone in free fall; `down` is its axis along the fall.
+std::string phone_log(int down) {
+  std::string text =
+      "\"Time (s)\",\"Acceleration x (m/s^2)\",\"Acceleration y (m/s^2)\",\"Acceleration z (m/s^2)\","
+      "\"Absolute acceleration (m/s^2)\"\n";
+  for (int i = 0; i < 40; ++i) {
+    const double along = i < 20 ? 9.8 : 0.1, across = 0.05 * (i % 3);
+    text += fmt::format("{:.3f}", 0.01 * i);
+    for (int axis = 0; axis < 3; ++axis) text += fmt::format(",{:.3f}", axis == down ? along : across);
+    text += fmt::format(",{:.3f}\n", along);
+  }
+  return text;
+}
+
+TEST(CampaignDraft, TheAxisOfAPhoneIsTheOneThatReadsMostAndIsSaid) {
+  for (const auto& [down, letter] : {std::pair{0, "x"}, {1, "y"}, {2, "z"}}) {
+    CampaignFolder folder;
+    const auto got = drafted(folder, phone_log(down), CampaignPlant::falling_body);
+    const auto taken = fmt::format("Acceleration {} (m/s^2)", letter);
+    EXPECT_THAT(got.draft.campaign_toml,
+                HasSubstr(fmt::format("\naccel_mps2 = {{ column = \"{}\", unit = \"m/s^2\" }}", taken)));
+    const auto said = fmt::format("{}", fmt::join(got.draft.said, "\n"));
+    EXPECT_THAT(said, HasSubstr(fmt::format("axis {} of three (x, y, z)", letter)));
+    EXPECT_THAT(said, HasSubstr("name another column"));
+    EXPECT_THAT(got.draft.campaign_toml, HasSubstr(fmt::format("# accel_mps2: axis {} of three", letter)));
+    EXPECT_THAT(got.draft.campaign_toml, HasSubstr("9.8 m/s2 at rest"));
+    ASSERT_TRUE(got.recording.has("accel_mps2"));
+    EXPECT_EQ(got.recording.channel("accel_mps2")[0], 9.8);
+  }
+}
+
+TEST(CampaignDraft, OneColumnIsNoAxisOfThree) {
+  CampaignFolder folder;
+  const auto got = drafted(folder, rows("Time (s),Acceleration x (m/s^2),Acceleration y (m/s^2)\n", ',', 3),
+                           CampaignPlant::falling_body);
+  EXPECT_THAT(fmt::format("{}", fmt::join(got.draft.said, "\n")), Not(HasSubstr("of three")));
+  EXPECT_THAT(got.draft.campaign_toml, Not(HasSubstr("of three")));
+}
+
 TEST(CampaignDraft, ASpreadsheetIsRefusedWithTheWayOut) {
   CampaignFolder folder;
   folder.write("rec.xlsx", "PK\x03\x04 and so on");
@@ -144,8 +193,10 @@ TEST(CampaignDraft, NominalHoldsEveryKeyAndStatesNoPhysics) {
     const auto text = draft_nominal(plant);
     folder.write("nominal.toml", text);
     std::vector<Finding> notes;
-    const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes);
-    for (const auto& note : notes) EXPECT_THAT(note.what, HasSubstr(" = \"?\" in line ")) << note.what;
+    std::vector<UnstatedNumber> unstated;
+    const auto belief = load_belief(folder.path() / "nominal.toml", plant, notes, unstated);
+    EXPECT_TRUE(notes.empty());
+    EXPECT_FALSE(unstated.empty()) << name_of(plant);
     if (plant == CampaignPlant::intruder) {
       EXPECT_THAT(text, HasSubstr("# added_mass_factor = 0.0")) << "what is not stated";
     }
@@ -160,21 +211,44 @@ TEST(CampaignDraft, WhatOnlyTheOwnerKnowsIsAskedFor) {
   EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\nmass_kg = \"?\""));
   EXPECT_THAT(got.draft.nominal_toml, HasSubstr("\ngravity_mps2 = 9.8"));
   std::string told;
-  for (const auto& finding : got.campaign.findings) told += to_string(finding) + "\n";
+  for (const auto& finding : got.recording.findings) told += to_string(finding) + "\n";
   const auto before = got.draft.nominal_toml.substr(0, got.draft.nominal_toml.find("\nmass_kg") + 1);
   EXPECT_THAT(told, HasSubstr(fmt::format("body.mass_kg = \"?\" in line {}: ",
                                           1 + std::count(before.begin(), before.end(), '\n'))));
   EXPECT_THAT(told, HasSubstr("write your own number"));
-  EXPECT_TRUE(has_unstated(got.campaign));
-  auto stated = got.draft.nominal_toml;
-  for (auto at = stated.find("= \"?\""); at != std::string::npos; at = stated.find("= \"?\""))
-    stated.replace(at, 5, "= 0.2");
-  folder.write("nominal.toml", stated);
+  EXPECT_FALSE(got.recording.usable());
+  folder.write("nominal.toml", with_numbers(got.draft.nominal_toml));
   const auto campaign = load_campaign(folder.path());
   EXPECT_TRUE(campaign.findings.empty());
-  EXPECT_FALSE(has_unstated(campaign));
+  for (const auto& finding : read_trial(campaign, campaign.trials.at(0)).findings)
+    EXPECT_THAT(finding.what, Not(HasSubstr("write your own number")));
   EXPECT_TRUE(missing_numbers(campaign).empty());
   EXPECT_EQ(numbers_of(campaign.belief)["body.mass_kg"], 0.2);
+}
+
+// Every verb reads trials through read_trial, so none computes with the default of such a number.
+TEST(CampaignDraft, AnUnstatedNumberRulesOutTheTrialsThatDoNotStateIt) {
+  CampaignFolder folder;
+  std::string press = "t_s,foot_z_m,force_N\n";
+  for (int i = 0; i < 40; ++i) press += fmt::format("{:.2f},{:.4f},{:.2f}\n", 0.1 * i, -5e-4 * i, 0.5 * i);
+  folder.write("nominal.toml", "[terrain]\nstiffness_N_per_m = \"?\"\n[foot]\nradius_m = \"?\"\n")
+      .write("campaign.toml",
+             "plant = \"intruder\"\nmodel = \"nominal.toml\"\n[every_trial]\nkind = \"press\"\n"
+             "[[trial]]\nfile = \"a.csv\"\n[[trial]]\nfile = \"a.csv\"\nplate_diameter_m = 0.08\n"
+             "[[trial]]\nfile = \"a.csv\"\nradius_m = \"?\"\n")
+      .write("a.csv", press);
+  const auto campaign = load_campaign(folder.path());
+  ASSERT_EQ(campaign.trials.size(), 2U) << "\"?\" in a trial is refused as well";
+  EXPECT_THAT(campaign.findings.at(0).what, HasSubstr("write your own number"));
+  for (const auto& trial : campaign.trials) EXPECT_FALSE(read_trial(campaign, trial).usable());
+  const auto results = analyse_campaign(campaign, {});
+  EXPECT_FALSE(results.results.at(0).usable);
+  EXPECT_TRUE(results.results.at(1).usable) << "the ground's stiffness is looked for, not used";
+  std::string told;
+  for (const auto& finding : results.results.at(1).findings) told += to_string(finding) + "\n";
+  EXPECT_THAT(told, HasSubstr("terrain.stiffness_N_per_m = \"?\" in line 2: is not needed here"));
+  EXPECT_THAT(told, Not(HasSubstr("foot.radius_m")));
+  EXPECT_EQ(believed_stiffness_N_per_m(campaign.trials.at(1)), 0.0) << "no default in its place";
 }
 
 TEST(CampaignDraft, ANeededKeyThatIsMissingIsAFinding) {
@@ -208,8 +282,9 @@ TEST(BeliefSources, NoPhysicsThatNobodyStated) {
   CampaignFolder folder;
   folder.write("nominal.toml", "[terrain]\nstiffness_N_per_m = 1200.0\nbulk_density_kg_per_m3 = 1500.0\n");
   std::vector<Finding> notes;
+  std::vector<UnstatedNumber> unstated;
   for (const auto plant : {CampaignPlant::intruder, CampaignPlant::hopper}) {
-    auto numbers = numbers_of(load_belief(folder.path() / "nominal.toml", plant, notes));
+    auto numbers = numbers_of(load_belief(folder.path() / "nominal.toml", plant, notes, unstated));
     EXPECT_EQ(numbers["terrain.added_mass_factor"], 0.0);
     EXPECT_EQ(numbers["terrain.drag_factor"], 0.0);
     EXPECT_EQ(numbers["terrain.unloading_stiffness_ratio"], 1.0);

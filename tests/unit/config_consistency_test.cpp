@@ -50,6 +50,13 @@ void make_servo(Configuration& c) {
   for (auto& motor : c.robot.motor) motor.dialect = Dialect::servo;
 }
 
+// An HX711 at 80 conversions a second, with limits that fit it.
+void make_iio(Configuration& c) {
+  c.board.load_cell.converter = LoadCellConverter::iio;
+  c.board.load_cell.iio = IioConverterConfig{};
+  c.robot.supervision.load_cell_rate_Hz = 80.0;
+}
+
 const Pair kPairs[] = {
     // A drive's ranges carry what it is asked for, on its own side of gear and torque constant.
     {"TorqueRangeTorqueLimit", SET(robot.motor[1].torque_range_Nm), 4.0, 2.7, "motor[1].torque_range_Nm",
@@ -200,6 +207,26 @@ const Pair kPairs[] = {
     {"LoadCellInputRange", SET(board.load_cell.range), 1, 2, "load_cell.scale_N_per_V", "carries 204.8 N"},
     {"LoadCellRate", SET(board.load_cell.rate), 7, 6, "load_cell.rate",
      "475SPS carries 475 samples a second"},
+    {"IioLoadCellRate",
+     [](Configuration& c, double x) {
+       make_iio(c);
+       c.board.load_cell.iio->rate_Hz = x;
+     },
+     80.0, 79.0, "load_cell.iio.rate_Hz",
+     "79 carries 79 samples a second, supervision.load_cell_rate_Hz = 80 asks for 80"},
+    {"IioLoadCellLatency",
+     [](Configuration& c, double x) {
+       make_iio(c);
+       c.board.load_cell.latency_s = x;
+     },
+     0.036, 0.037, "load_cell.latency_s", "limits.load_cell_age_s = 0.05 carries 0.05 s"},
+    {"Ads1115RangeIsNoneOfAnIioConverter",
+     [](Configuration& c, double x) {
+       make_iio(c);
+       c.board.load_cell.scale_N_per_V = 10.0;
+       if (x == 0.0) c.board.load_cell.converter = LoadCellConverter::ads1115;
+     },
+     1.0, 0.0, "load_cell.scale_N_per_V", "10 with 4.096 V of range"},
     {"LoadCellLatency", SET(board.load_cell.latency_s), 0.047, 0.048, "load_cell.latency_s",
      "limits.load_cell_age_s = 0.05 carries 0.05 s"},
     {"LoadCellThreadPriority", SET(board.load_cell.thread_priority), 79, 80, "load_cell.thread_priority",

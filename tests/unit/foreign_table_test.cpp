@@ -206,21 +206,25 @@ TEST(ForeignTable, WhatIsStatedOfTimesIsObeyed) {
 }
 
 TEST(ForeignTable, LinesOfAFileAreSelected) {
-  const std::string two = "t_s,force_N\n0,1\n1,2\n2,3\nt_s,force_N\n0,10\n1,20\n2,30\n";
+  std::string two = "t_s,force_N\n";
+  for (int i = 0; i < 12; ++i) two += fmt::format("{},{}\n", i, i + 1);
+  two += "t_s,force_N\n";
+  for (int i = 0; i < 12; ++i) two += fmt::format("{},{}\n", i, 10 * (i + 1));
   CampaignFolder folder;
   folder
-      .write("campaign.toml",
-             "plant = \"intruder\"\n[[trial]]\nfile = \"a.csv\"\nselect = { to_line = 4 }\n[[trial]]\nfile = "
-             "\"a.csv\"\nselect = { from_line = 6, to_line = 7 }\n")
+      .write(
+          "campaign.toml",
+          "plant = \"intruder\"\n[[trial]]\nfile = \"a.csv\"\nselect = { to_line = 13 }\n[[trial]]\nfile = "
+          "\"a.csv\"\nselect = { from_line = 15, to_line = 25 }\n")
       .write("a.csv", two);
   const auto campaign = load_campaign(folder.path());
   ASSERT_EQ(campaign.trials.size(), 2U);
   const auto first = read_trial(campaign, campaign.trials[0]),
              second = read_trial(campaign, campaign.trials[1]);
   ASSERT_TRUE(first.usable()) << told(first);
-  EXPECT_EQ(first.channel("force_N").back(), 3.0);
+  EXPECT_EQ(first.channel("force_N").back(), 12.0);
   ASSERT_TRUE(second.usable()) << told(second);
-  EXPECT_EQ(second.rows(), 2U);
+  EXPECT_EQ(second.rows(), 11U);
   EXPECT_EQ(second.channel("force_N").front(), 10.0);
 }
 
@@ -238,6 +242,17 @@ TEST(ForeignTable, PhasesMayHaveTheirNames) {
       read("t_s,phase,load_cell_force_N\n0,flight,0\n0.001,stance,3\n0.002,stance,4\n", {.plant = "hopper"});
   EXPECT_EQ(stance.channel("phase")[1], 1.0) << told(stance);
   EXPECT_THAT(told(stance), HasSubstr("taken for compression"));
+}
+
+TEST(ForeignTable, AnUnknownPhaseIsAnErrorThatListsTheNames) {
+  const std::string text = "t_s,phase,load_cell_force_N\n0,flight,0\n0.001,landing,3\n0.002,extension,4\n";
+  const auto unknown = read(text, {.plant = "hopper"});
+  EXPECT_FALSE(unknown.usable());
+  EXPECT_THAT(told(unknown), HasSubstr("a.csv:3:7: phase: \"landing\" is no phase"));
+  EXPECT_THAT(told(unknown), HasSubstr("flight, compression, extension"));
+  const auto elsewhere =
+      read("t_s,phase,force_N\n0,wait,0\n0.001,push,3\n0.002,push,4\n", {.plant = "intruder"});
+  EXPECT_TRUE(elsewhere.usable()) << told(elsewhere) << "no phase of a hop";
 }
 
 TEST(ForeignTable, DatesAndTimesOfDayBecomeSeconds) {

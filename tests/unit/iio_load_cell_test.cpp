@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "config/load.hpp"
 #include "drivers/device_error.hpp"
 
 namespace sandhopper {
@@ -17,7 +18,8 @@ class IioFolder : public ::testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(folder_);
-    config_.device = folder_.string();
+    config_.converter = LoadCellConverter::iio;
+    config_.iio = IioConverterConfig{.device = folder_.string()};
     config_.latency_s = 0.0;
     write("name", "hx711\n");
     write("in_voltage0_scale", "0.000002980\n");  // mV
@@ -36,7 +38,7 @@ class IioFolder : public ::testing::Test {
 
   std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("iio_" + std::to_string(::getpid()));
-  IioLoadCellConfig config_;
+  LoadCellConfig config_;
 };
 
 TEST_F(IioFolder, RawTimesScaleAreMillivolts) {
@@ -71,15 +73,53 @@ TEST_F(IioFolder, AReadThatFailsIsCounted) {
   EXPECT_EQ(cell.counters().failed_transfers, 1U);
 }
 
+TEST_F(IioFolder, TheBoardsFileChoosesTheConverter) {
+  config_.scale_N_per_V = 2000.0;
+  const auto cell = open_load_cell(config_);
+  LoadCellSample sample;
+  ASSERT_TRUE(cell->acquire(sample));
+  EXPECT_NEAR(sample.force_N, 2000.0 * 8388608 * 2.98e-9, 1e-6);
+  EXPECT_EQ(cell->counters().failed_transfers, 0U);
+  config_.converter = LoadCellConverter::ads1115;
+  config_.device = "/nowhere/i2c";
+  try {
+    open_load_cell(config_);
+    FAIL() << "an ADS1115 that is not there";
+  } catch (const DeviceError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/nowhere/i2c"));
+  }
+}
+
 TEST_F(IioFolder, StartErrorsNameCauseAndCure) {
   using ::testing::HasSubstr;
-  config_.channel = 3;
+  config_.iio->channel = 3;
   EXPECT_THAT(start_error(), HasSubstr("in_voltage3_raw"));
-  config_.channel = 0;
+  config_.iio->channel = 0;
   write("in_voltage0_scale", "none\n");
   EXPECT_THAT(start_error(), HasSubstr("\"none\""));
-  config_.device = "/nowhere";
+  config_.iio->device = "/nowhere";
   EXPECT_THAT(start_error(), HasSubstr("hx711 or nau7802"));
+}
+
+std::string config_error(const std::string& text) {
+  try {
+    load_text<LoadCellConfig>("linux.toml", text, MissingKeys::use_default);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LoadCellConverters, TheKeyAndItsTableBelongTogether) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(config_error("converter = \"iio\"\n"), HasSubstr("needs a table [load_cell.iio]"));
+  EXPECT_EQ(config_error("converter = \"iio\"\n[iio]\nrate_Hz = 10\n"), "");
+  const std::string ads = "converter = \"ads1115\"\n[ready]\nline = \"RDY\"\n";
+  EXPECT_EQ(config_error(ads), "");
+  EXPECT_EQ(config_error("[ready]\nline = \"RDY\"\n"), "") << "files of before have no such key";
+  EXPECT_THAT(config_error(ads + "[iio]\nrate_Hz = 10\n"), HasSubstr("is not used by an ADS1115"));
+  EXPECT_THAT(config_error("converter = \"hx711\"\n[iio]\nrate_Hz = 10\n"), HasSubstr("iio"));
+  EXPECT_THAT(config_error("converter = \"iio\"\n[iio]\nrate_Hz = 321\n"), HasSubstr("rate_Hz"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 struct Read {
   RotaryAxisBelief belief{};
   std::vector<Finding> notes{};
+  std::vector<UnstatedNumber> unstated{};
 };
 Read read(const std::string& spread) {
   CampaignFolder folder;
@@ -22,12 +23,12 @@ Read read(const std::string& spread) {
                    spread);
   Read out;
   out.belief = std::get<RotaryAxisBelief>(
-      load_belief(folder.path() / "nominal.toml", CampaignPlant::rotary_axis, out.notes));
+      load_belief(folder.path() / "nominal.toml", CampaignPlant::rotary_axis, out.notes, out.unstated));
   return out;
 }
 
 TEST(KeySpread, NamesANumberByItsQuantityOrByItsKey) {
-  const auto [belief, notes] = read(
+  const auto [belief, notes, unstated] = read(
       "coulomb_friction_relative = 0.05\nviscous_friction_relative = 0.03\ninertia_kg_m2 = 0.002\n"
       "torque_offset_Nm = 0.01\n");
   EXPECT_TRUE(notes.empty());
@@ -43,7 +44,7 @@ TEST(KeySpread, NamesANumberByItsQuantityOrByItsKey) {
 }
 
 TEST(KeySpread, WhatNamesNothingIsLeftOutWithANote) {
-  const auto [belief, notes] = read("friction_relative = 0.05\nposition_noise_relative = 0.1\n");
+  const auto [belief, notes, unstated] = read("friction_relative = 0.05\nposition_noise_relative = 0.1\n");
   EXPECT_TRUE(belief.key_spreads.empty());
   EXPECT_EQ(notes.size(), 2u);
 }

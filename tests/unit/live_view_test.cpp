@@ -7,6 +7,7 @@
 #include "firmware/fault_check.hpp"
 #include "firmware/operator_text.hpp"
 #include "tools/trial/live/ansi_frame.hpp"
+#include "tools/trial/live/idle_close.hpp"
 #include "tools/trial/live/key_decoder.hpp"
 #include "tools/trial/live/operator_key.hpp"
 #include "tools/trial/live/status_panes.hpp"
@@ -303,6 +304,32 @@ TEST(LiveView, TheHistogramShowsASingleOutlierBesideAMillion) {
   counts[3] = 1'000'000;
   counts[10] = 1;
   EXPECT_EQ(log_histogram(counts), "   █      ▁ ");
+}
+
+TEST(LiveView, ItClosesByItselfAfterTheStatedTimeWithoutAKey) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  IdleClose idle(5.0);
+  EXPECT_FALSE(idle.is_due(false, 1 * kSecond_ns));
+  EXPECT_FALSE(idle.is_due(true, 2 * kSecond_ns));
+  EXPECT_FALSE(idle.is_due(true, 7 * kSecond_ns));
+  EXPECT_TRUE(idle.is_due(true, 7 * kSecond_ns + 1));
+  idle.key_pressed();
+  EXPECT_FALSE(idle.is_due(true, 8 * kSecond_ns));
+  EXPECT_TRUE(idle.is_due(true, 14 * kSecond_ns));
+  EXPECT_FALSE(idle.is_due(false, 15 * kSecond_ns)) << "armed again";
+  EXPECT_FALSE(idle.is_due(true, 16 * kSecond_ns));
+  IdleClose never(0.0);
+  EXPECT_FALSE(never.is_due(true, 1 * kSecond_ns));
+  EXPECT_FALSE(never.is_due(true, 1'000'000 * kSecond_ns));
+}
+
+TEST(LiveView, TheHintSaysWhenItClosesByItself) {
+  TrialModel model;
+  model.ready = model.over = true;
+  model.close_after_s = 120.0;
+  EXPECT_NE(hint(model).text.find("after 120 s without a key"), std::string::npos) << hint(model).text;
+  model.close_after_s = 0.0;
+  EXPECT_EQ(hint(model).text.find("closes itself"), std::string::npos) << hint(model).text;
 }
 
 }  // namespace

@@ -38,29 +38,23 @@ void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known,
   });
 }
 
-// Removes every `key = "?"` (written by a draft for a number that nobody stated), with a finding for each.
+// Removes every `key = "?"` (written by a draft for a number that nobody stated) and lists it.
 void leave_out_unstated(ConfigNode& table, const std::string& path, const std::string& file,
-                        std::vector<Finding>& notes) {
+                        std::vector<UnstatedNumber>& unstated) {
   std::erase_if(table.children, [&](ConfigNode& child) {
     const auto key = path.empty() ? child.key : path + "." + child.key;
-    if (child.kind == ConfigNode::Kind::table) leave_out_unstated(child, key, file, notes);
+    if (child.kind == ConfigNode::Kind::table) leave_out_unstated(child, key, file, unstated);
     if (child.kind != ConfigNode::Kind::text || child.text != kUnknownNumber) return false;
-    notes.push_back({.kind = FindingKind::set_up,
-                     .severity = FindingSeverity::trial_unusable,
-                     .file = file,
-                     .line = child.key_position.line,
-                     .column = child.key_position.column,
-                     .what = fmt::format("{} = \"{}\" in line {}: write your own number", key, kUnknownNumber,
-                                         child.key_position.line),
-                     .cure = "or put a # before the line where every trial states it"});
+    unstated.push_back({key, file, child.key_position});
     return true;
   });
 }
 
 template <class Plant>
-Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes) {
+Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes,
+                   std::vector<UnstatedNumber>& unstated) {
   auto document = parse_config_file(file.string());
-  leave_out_unstated(document.root, "", file.string(), notes);
+  leave_out_unstated(document.root, "", file.string(), unstated);
   std::vector<ConfigProblem> problems;
   for (auto& table : document.root.children) {
     if (table.kind != ConfigNode::Kind::table) continue;
@@ -182,9 +176,23 @@ Belief belief_of_silence(CampaignPlant plant) {
   return belief;
 }
 
-Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes) {
-  return std::visit([&](auto base) { return read_belief(file, std::move(base), notes); },
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes,
+                   std::vector<UnstatedNumber>& unstated) {
+  return std::visit([&](auto base) { return read_belief(file, std::move(base), notes, unstated); },
                     belief_of_silence(plant));
+}
+
+Finding finding_of(const UnstatedNumber& number, bool is_needed) {
+  const auto line = static_cast<std::uint64_t>(number.position.line);
+  return {.kind = FindingKind::set_up,
+          .severity = is_needed ? FindingSeverity::trial_unusable : FindingSeverity::note,
+          .file = number.file,
+          .line = line,
+          .column = static_cast<std::uint64_t>(number.position.column),
+          .channel = {},
+          .what = fmt::format("{} = \"{}\" in line {}: {}", number.key, kUnknownNumber, line,
+                              is_needed ? "write your own number" : "is not needed here and not used"),
+          .cure = is_needed ? "or state it in every trial" : ""};
 }
 
 bool override_belief(Belief& belief, const ConfigNode& setup_value, const std::string& file,

@@ -195,15 +195,22 @@ Belief default_belief(CampaignPlant plant);
 Belief belief_of_silence(CampaignPlant plant);
 // Value of a key whose number is still to be written (`key = "?"`).
 inline constexpr std::string_view kUnknownNumber = "?";
+struct UnstatedNumber {
+  std::string key;  // "body.mass_kg"
+  std::string file;
+  ConfigPosition position;
+};
 // Set-up keys that give a radius or an area.
 inline constexpr std::array<std::string_view, 3> kDiameterKeys{"diameter_m", "foot_diameter_m",
                                                                "plate_diameter_m"};
+// The finding of such a key. It makes a trial unusable that needs the number; otherwise it is a note.
+Finding finding_of(const UnstatedNumber& number, bool is_needed);
 // Reads nominal.toml. Throws ConfigError with place and cure of every key that is unknown, of the wrong type
 // or out of range. [spread] also takes the name of any number of the plant (key_spread.hpp). An unknown key
 // in [sensors] or [spread] is only left out with a note, because recordings from elsewhere name what their
-// own simulator has. A `key = "?"` is left out with a finding that makes the
-// trials unusable.
-Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes);
+// own simulator has. A `key = "?"` is left out and listed in `unstated`.
+Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes,
+                   std::vector<UnstatedNumber>& unstated);
 
 // Applies a set-up value to the belief of its trial, if its key is a key of nominal.toml or one of
 // kDiameterKeys. Keys of [spread] are excluded: some have the same name as a set-up key but describe the

@@ -55,14 +55,6 @@ bool is_without_effect(CampaignPlant plant, const std::string& key) {
   return simple && (table == "sensors" || table == "spread");
 }
 
-// True if the trial states the number, or another key that gives it on this plant.
-bool states(const CampaignTrial& trial, const std::string& path) {
-  const auto key = path.substr(path.rfind('.') + 1);
-  if (trial.number(key)) return true;
-  if (key == "radius_m") return trial.states_diameter();
-  return key == "stiffness_N_per_m" && trial.number("stiffness_per_area_N_per_m");
-}
-
 }  // namespace
 
 std::map<std::string, double> numbers_of(const Belief& belief) {
@@ -116,7 +108,7 @@ std::vector<Finding> missing_numbers(const Campaign& campaign) {
     const bool is_elsewhere =
         key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m");
     const bool in_trials =
-        std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return states(trial, key); });
+        std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return trial.states(key); });
     if (!is_needed(key) || lines.contains(key) || is_elsewhere || in_trials) continue;
     missing.push_back({FindingKind::set_up, FindingSeverity::trial_unusable,
                        (campaign.model.empty() ? campaign.file : campaign.model).string(), 1, 1, key,
@@ -126,12 +118,6 @@ std::vector<Finding> missing_numbers(const Campaign& campaign) {
                                               : "write your own number"});
   }
   return missing;
-}
-
-bool has_unstated(const Campaign& campaign) {
-  return std::ranges::any_of(campaign.findings, [&](const Finding& finding) {
-    return finding.severity == FindingSeverity::trial_unusable && finding.file == campaign.model.string();
-  });
 }
 
 double usual_error(const UsedNumber& n) {

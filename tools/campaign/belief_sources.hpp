@@ -40,7 +40,4 @@ std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 k
 // every trial states. None for a hopper, because its belief is this project's robot.
 std::vector<Finding> missing_numbers(const Campaign& campaign);
 
-// True if the model file holds a `key = "?"`. Then no result should be computed from the default.
-bool has_unstated(const Campaign& campaign);
-
 }  // namespace sandhopper

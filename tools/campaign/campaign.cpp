@@ -84,7 +84,8 @@ class Loader {
             fmt::format("the model {} does not exist: name a file in this folder, or leave the key out for "
                         "the plant's default",
                         campaign_.model.string()));
-      campaign_.belief = load_belief(campaign_.model, campaign_.plant, campaign_.findings);
+      campaign_.belief =
+          load_belief(campaign_.model, campaign_.plant, campaign_.findings, campaign_.unstated);
     }
   }
 
@@ -179,7 +180,9 @@ class Loader {
       refuse(campaign_.file, {1, 1}, "trial",
              "there is no trial: add one [[trial]] with file = \"…\" and kind = \"…\" for each recording");
     const auto* every = root.find("every_trial");
-    for (const auto& node : trials->children) read_trial(every == nullptr ? node : completed(node, *every));
+    std::size_t entry = 0;
+    for (const auto& node : trials->children)
+      read_trial(every == nullptr ? node : completed(node, *every), ++entry);
   }
 
   // The trial with the keys of [every_trial] that it does not have itself.
@@ -189,7 +192,7 @@ class Loader {
     return trial;
   }
 
-  void read_trial(const ConfigNode& node) {
+  void read_trial(const ConfigNode& node, std::size_t entry) {
     const auto* file = node.find("file");
     if (file == nullptr || file->kind != Kind::text || file->text.empty()) {
       add(FindingKind::set_up, FindingSeverity::trial_unusable, node.position, "file",
@@ -203,6 +206,7 @@ class Loader {
     trial.position = file->position;
     trial.belief = campaign_.belief;
     trial.index = campaign_.trials.size();
+    trial.entry = entry;
     trial.format = format_;
     bool usable = true;
     std::vector<ConfigProblem> problems;
@@ -225,6 +229,8 @@ class Loader {
       add(FindingKind::set_up, FindingSeverity::trial_unusable, problem.position, problem.key, problem.text,
           "correct the value in this [[trial]]");
     if (!usable || !problems.empty()) return;
+    for (const auto& number : campaign_.unstated)
+      if (!trial.states(number.key)) trial.unstated.push_back(number);
     trial.columns.insert(trial.columns.end(), columns_.begin(), columns_.end());
     campaign_.trials.push_back(std::move(trial));
   }
@@ -293,7 +299,11 @@ class Loader {
       return add(FindingKind::set_up, FindingSeverity::note, node.key_position, node.key,
                  "is neither number, text nor true/false and is left out",
                  "write one value, its unit in the key");
-    override_belief(trial.belief, node, campaign_.file.string(), problems);
+    if (node.kind == Kind::text && node.text == kUnknownNumber)
+      problems.push_back({campaign_.file.string(), node.key_position, node.key,
+                          fmt::format("is \"{}\": write your own number", kUnknownNumber)});
+    else
+      override_belief(trial.belief, node, campaign_.file.string(), problems);
     trial.setup.push_back(std::move(entry));
   }
 
@@ -320,6 +330,17 @@ class Loader {
 
 bool CampaignTrial::states_diameter() const {
   return std::ranges::any_of(kDiameterKeys, [&](std::string_view key) { return number(key).has_value(); });
+}
+
+bool CampaignTrial::states(std::string_view path) const {
+  const auto key = path.substr(path.rfind('.') + 1);
+  if (number(key)) return true;
+  if (key == "radius_m") return states_diameter();
+  return key == "stiffness_N_per_m" && number("stiffness_per_area_N_per_m");
+}
+
+bool CampaignTrial::is_unstated(std::string_view path) const {
+  return std::ranges::find(unstated, path, &UnstatedNumber::key) != unstated.end();
 }
 
 std::optional<double> CampaignTrial::number(std::string_view key) const {

@@ -79,13 +79,19 @@ struct CampaignTrial {
   ConfigPosition position{};  // position of its [[trial]]
   // The campaign's belief with the values of this set-up.
   Belief belief{};
+  // Numbers that the model leaves at "?" and the set-up does not state; their places in `belief` hold a
+  // default.
+  std::vector<UnstatedNumber> unstated{};
 
-  std::optional<double> number(std::string_view key) const;  // set-up value of a number
-  bool states_diameter() const;                              // True if one of kDiameterKeys is set.
+  bool states(std::string_view path) const;  // "body.mass_kg", or a set-up value that gives it
+  bool is_unstated(std::string_view path) const;
+  std::optional<double> number(std::string_view key) const;  // a set-up value
+  bool states_diameter() const;                              // by one of kDiameterKeys
   std::optional<std::string> text(std::string_view key) const;
   std::optional<bool> flag(std::string_view key) const;
-  // Position in the campaign. Several trials may use the same file and select different rows.
-  std::size_t index = 0;
+  // The same recording may be named by several trials that select different rows.
+  std::size_t index = 0;  // place in the campaign
+  std::size_t entry = 0;  // its [[trial]] in campaign.toml, from 1
 };
 
 // A folder of recordings and its description. Only names and set-ups are kept in memory; read_trial reads one
@@ -98,10 +104,11 @@ struct Campaign {
   std::string name;
   CampaignPlant plant{};
   Belief belief{};
-  std::filesystem::path model{};      // empty: the plant's defaults
-  Available available;                // [available]: possible set-ups of the next trial
-  std::vector<CampaignTrial> trials;  // Trials without errors in campaign.toml.
-  std::vector<Finding> findings;      // Errors in campaign.toml. Trials with such errors are left out.
+  std::filesystem::path model{};  // empty: the plant's default
+  std::vector<UnstatedNumber> unstated;
+  Available available;                // [available]: what the lab can set for its next trial
+  std::vector<CampaignTrial> trials;  // those that campaign.toml describes well enough to be read
+  std::vector<Finding> findings;      // what is wrong with campaign.toml itself; such trials are left out
 };
 
 // Reads FOLDER/campaign.toml (or that file itself) and its model. Besides name, plant, model, [columns] and

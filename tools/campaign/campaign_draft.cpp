@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "firmware/log/csv_import.hpp"
@@ -13,6 +14,7 @@
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/unit_check.hpp"
+#include "tools/campaign/vector_axes.hpp"
 #include "tools/campaign/written_unit.hpp"
 
 namespace sandhopper {
@@ -94,9 +96,41 @@ class Drafter {
       if (time_ == i || table_.names[i] == "t_s") continue;
       if (auto guess = guess_column(table_.names[i], unit_of(i), out_.plant, guesses_)) {
         guess->column = i;
+        choose_axis(*guess);
         guesses_.push_back(*guess);
       }
     }
+  }
+
+  // Of three axes the one that reads most: gravity, a drop and a push show along one of them. A length has no
+  // zero of its own, so there the first that fits stays.
+  void choose_axis(ColumnGuess& guess) {
+    auto axes = axes_of(table_, guess.column);
+    if (!axes.found()) return;
+    const auto unit = unit_of_channel(guess.channel);
+    if (!unit || unit->dimension != "length") {
+      const auto most = std::ranges::max_element(axes.mean_size);
+      axes.taken = static_cast<std::size_t>(most - axes.mean_size.begin());
+      guess.column = axes.columns[axes.taken];
+    }
+    axes_of_channel_[guess.channel] = axes;
+  }
+
+  // "axis z of three (x, y, z)…", for the owner to correct; empty: the channel's column is no axis.
+  std::string axis_words(const std::string& channel) const {
+    const auto found = axes_of_channel_.find(channel);
+    if (found == axes_of_channel_.end()) return "";
+    const auto& axes = found->second;
+    const auto& size = axes.mean_size;
+    return fmt::format(
+        "axis {} of three (x, y, z), which read {:.3g}, {:.3g}, {:.3g} on average; to take another, name "
+        "another "
+        "column{}",
+        axes.letter(), size[0], size[1], size[2],
+        channel != "accel_mps2"
+            ? ""
+            : ". The axis along the fall is needed: it reads 9.8 m/s2 at rest. The norm of the "
+              "three is no substitute: it has no sign and takes a turning body for a force");
   }
 
   bool is_taken(std::string_view channel) const {
@@ -119,6 +153,9 @@ class Drafter {
                                  guess.is_downward      ? ", counted downward"
                                  : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
                                                         : ""));
+    for (const auto& guess : guesses_)
+      if (const auto words = axis_words(guess.channel); !words.empty())
+        said.push_back(fmt::format("{}: {}", guess.channel, words));
     if (const auto other = time_ ? other_part_of_time() : std::nullopt)
       said.push_back(fmt::format("t_s is column \"{}\" and column \"{}\"", table_.names[*time_],
                                  table_.names[other->first]));
@@ -231,6 +268,8 @@ class Drafter {
     for (const auto& g : guesses_) {
       const auto wanted = unit_of_channel(g.channel);
       const bool unknown = !g.unit && wanted && g.channel != table_.names[g.column];
+      if (const auto words = axis_words(g.channel); !words.empty())
+        text += fmt::format("# {}: {}\n", g.channel, words);
       text += mapping(g.channel, table_.names[g.column],
                       g.unit    ? g.unit->text
                       : unknown ? kUnknownUnit
@@ -326,6 +365,7 @@ class Drafter {
   CsvTable table_;
   std::optional<std::size_t> time_;
   std::vector<ColumnGuess> guesses_;
+  std::map<std::string, VectorAxes> axes_of_channel_;
   CampaignDraft out_;
 };
 

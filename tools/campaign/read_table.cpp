@@ -140,8 +140,7 @@ class TableReader {
     options.list_repeats = false;
     options.max_issues = 1000;
     options.format = trial_.format;
-    const auto* phase = mapping_of(trial_, "phase");
-    options.words = phase_words(phase == nullptr ? "phase" : phase->column);
+    options.words = phase_words(phase_column(trial_));
     const auto* time = mapping_of(trial_, "t_s");
     if (!trial_.rows.column.empty()) options.check_order = false;
     options.first_line = trial_.rows.from_line;
@@ -211,6 +210,18 @@ const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view cha
   for (const auto& mapping : trial.columns)
     if (mapping.channel == channel) return &mapping;
   return nullptr;
+}
+
+std::string phase_column(const CampaignTrial& trial) {
+  const auto* mapping = mapping_of(trial, "phase");
+  return mapping == nullptr ? "phase" : mapping->column;
+}
+
+std::string phase_names() {
+  std::vector<std::string_view> others;
+  for (const auto& word : phase_words(""))
+    if (std::ranges::find(kCsvPhaseNames, word.text) == kCsvPhaseNames.end()) others.push_back(word.text);
+  return fmt::format("{}, or {}", fmt::join(kCsvPhaseNames, ", "), fmt::join(others, ", "));
 }
 
 const std::vector<double>* find_column(const CsvTable& table, std::string_view name) {

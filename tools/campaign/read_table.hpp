@@ -31,7 +31,11 @@ const std::vector<double>* find_column(const CsvTable& table, std::string_view n
 // The mapped time column, else t_s; null if there is neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
 
-// True for names like "Time (s)", "timestamp", "t", "millis", "Zeit".
+// The column of a hop's phase, and the words that it may hold in place of 0, 1, 2, in one sentence.
+std::string phase_column(const CampaignTrial& trial);
+std::string phase_names();
+
+// "Time (s)", "timestamp", "t", "millis", "Zeit".
 bool is_called_time(std::string_view name);
 // Column that looks like a time by its name or unit; t_s itself is not considered.
 std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant plant);

@@ -333,11 +333,11 @@ class Reader {
     }
     const auto keep = selected_rows(rows, out_.t_s, column);
     table_ = {};
-    if (rows.selects() && keep.size() < kFewSelectedRows)
-      complain(FindingKind::empty_file, keep.empty() ? trial_unusable : note,
-               fmt::format("select leaves {} rows: {}", keep.size(), shown_rows(file_, out_.t_s)),
-               "from_s and to_s are seconds, after unit, scale and offset of t_s: correct select in this "
-               "trial, or the unit of the time");
+    if (rows.selects() && keep.size() < kFewestSelectedRows)
+      complain_at(trial_.position, FindingKind::empty_file, trial_unusable,
+                  fmt::format("trial {}", trial_.entry), told_selection(rows, out_.t_s, keep, file_),
+                  "from_s and to_s are seconds, after unit, scale and offset of t_s: correct select in this "
+                  "trial, or the unit of the time");
     if (!keep.empty() && keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);
   }
 
@@ -376,8 +376,11 @@ class Reader {
 
 }  // namespace
 
-TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial) {
+TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial,
+                          const std::function<bool(std::string_view key)>& can_do_without) {
   auto recording = Reader(campaign, trial).run();
+  for (const auto& number : trial.unstated)
+    recording.findings.push_back(finding_of(number, !can_do_without(number.key)));
   for (const auto& companion : trial.companions) {
     CampaignTrial other;
     other.name = companion.file.string();

@@ -113,14 +113,32 @@ std::string cure_of(const CsvIssue& issue) {
   return std::string(cure_for(issue.fault));
 }
 
+// A hop is cut into its phases by these names: one that is not known would move its parts in silence.
+Finding unknown_phase(const CsvIssue& issue, const std::string& file) {
+  const auto word = issue.text.substr(0, issue.text.rfind(" is not a number"));
+  return {FindingKind::non_numeric_cell,
+          trial_unusable,
+          file,
+          issue.line,
+          issue.column,
+          issue.name,
+          fmt::format("{} is no phase{}", word, repeats(issue)),
+          fmt::format("write {}, or 0, 1, 2", phase_names())};
+}
+
 }  // namespace
 
-void translate_issues(const Campaign&, const CampaignTrial& trial, TrialTable& table,
+void translate_issues(const Campaign& campaign, const CampaignTrial& trial, TrialTable& table,
                       std::vector<Finding>& findings) {
   std::uint64_t dropped = 0, line = 0;
   for (const auto& issue : table.table.issues) {
     const std::uint64_t count = issue.repeats + 1;
     if (issue.fault == CsvFault::no_time_column && !table.table.names.empty()) continue;
+    if (campaign.plant == CampaignPlant::hopper && issue.fault == CsvFault::not_a_number &&
+        issue.name == phase_column(trial)) {
+      findings.push_back(unknown_phase(issue, table.file));
+      continue;
+    }
     const auto severity = severity_of(issue, table, trial);
     if (severity == channel_unusable || issue.fault == CsvFault::duplicate_column)
       table.unusable_columns.push_back(issue.name);

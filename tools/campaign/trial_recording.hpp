@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,9 +49,12 @@ class TrialRecording {
   bool is_saturated(std::string_view name, std::size_t row) const;
 };
 
-// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or a folder that holds
-// one of them. Does not throw for bad input: `findings` lists the problems, and usable() says if enough is
-// left.
-TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial);
+// Reads a trial's recording: a table (.csv, .txt, …), a .mcap log of this firmware, or the folder of a hop
+// that holds one of either. Never throws for bad input; findings say what is wrong, and usable() whether
+// enough is left. A trial with a number that nobody stated ("?") is ruled out, unless `can_do_without` is
+// true for its key: then a note says that it was not needed.
+TrialRecording read_trial(
+    const Campaign& campaign, const CampaignTrial& trial,
+    const std::function<bool(std::string_view key)>& can_do_without = [](std::string_view) { return false; });
 
 }  // namespace sandhopper

@@ -28,10 +28,19 @@ std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vect
   return keep;
 }
 
-std::string shown_rows(std::string_view file, const std::vector<double>& t_s) {
-  if (t_s.empty()) return fmt::format("none was read from {}", file);
+std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
+                           const std::vector<std::size_t>& keep, std::string_view file) {
+  if (t_s.empty()) return fmt::format("select leaves none of the rows: none was read from {}", file);
+  const bool by_line = rows.from_line > 0 || rows.to_line < RowSelection{}.to_line;
+  const auto whole = by_line ? std::string("rows") : fmt::format("of {} rows", t_s.size());
   const auto [first, last] = std::ranges::minmax(t_s);
-  return fmt::format("{} were read from {}, from {:.9g} to {:.9g} s", t_s.size(), file, first, last);
+  const auto goes =
+      fmt::format("{} {} from {:.9g} to {:.9g} s", file, by_line ? "has these" : "goes", first, last);
+  if (keep.empty()) return fmt::format("select leaves none {}; {}", whole, goes);
+  double from_s = t_s[keep.front()], to_s = from_s;
+  for (const auto row : keep) from_s = std::min(from_s, t_s[row]), to_s = std::max(to_s, t_s[row]);
+  return fmt::format("select leaves {} {}, from {:.9g} to {:.9g} s; {} are needed, and {}", keep.size(),
+                     whole, from_s, to_s, kFewestSelectedRows, goes);
 }
 
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep) {

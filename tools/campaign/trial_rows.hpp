@@ -11,17 +11,17 @@
 // Operations on the rows of a recording after its columns were assigned.
 namespace sandhopper {
 
-// With fewer rows a channel cannot be checked (check_times and doubt_time need as many), so a note is
-// written.
-inline constexpr std::size_t kFewSelectedRows = 10;
+// With fewer a trial cannot be judged (check_times, doubt_time), and no plant of a diagnosis takes one.
+inline constexpr std::size_t kFewestSelectedRows = 10;
 
 // Indices of the rows whose time (s) and value in `column` are selected; null: any value. Selection by line
 // is done when the file is read.
 std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,
                                        const std::vector<double>* column);
 
-// Text like "250 were read from a.csv, from 0 to 0.498 s".
-std::string shown_rows(std::string_view file, const std::vector<double>& t_s);
+// "select leaves 4 of 2000 rows, from 0.2 to 0.206 s; 10 are needed, and a.csv goes from 0 to 3.998 s"
+std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
+                           const std::vector<std::size_t>& keep, std::string_view file);
 
 // Keeps only the given rows, in `recording` and in `places`.
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep);

@@ -54,6 +54,16 @@ Finding device_node(const std::string& key, const std::string& path, const std::
                       group ? group->gr_name : std::to_string(node.st_gid).c_str())};
 }
 
+// The folder of the kernel's IIO device, with its chip's name.
+Finding iio_device(const std::string& path) {
+  const auto what = "load_cell.iio.device " + path;
+  std::ifstream file(path + "/name");
+  std::string chip;
+  if (file >> chip) return {Health::ok, what, chip, ""};
+  return {Health::fail, what, "is no IIO device",
+          "load the converter's overlay and driver (hx711 or nau7802): cat /sys/bus/iio/devices/*/name"};
+}
+
 Finding gpio_line(const std::string& key, const LineConfig& line) {
   const auto what = fmt::format("{} \"{}\"", key, line.line);
   if (!line.fitted()) return {Health::ok, what, "not fitted", ""};
@@ -74,14 +84,16 @@ std::vector<Finding> examine_devices(const LinuxBoardConfig& board) {
       "enable the SPI controller and its spidev nodes in the device tree; ls /dev/spidev*";
   const std::string i2c = "enable the I2C controller and load i2c-dev: modprobe i2c-dev; ls /dev/i2c-*";
   const std::string serial = "connect the time-of-flight sensor's companion controller; ls /dev/serial/by-id";
+  const auto& cell = board.load_cell;
   return {can_interface(board.can.interface),
           device_node("imu_body.device", board.imu_body.device, spi),
           device_node("imu_foot.device", board.imu_foot.device, spi),
-          device_node("load_cell.device", board.load_cell.device, i2c),
+          cell.is_iio() && cell.iio ? iio_device(cell.iio->device)
+                                    : device_node("load_cell.device", cell.device, i2c),
           device_node("tof.device", board.tof.device, serial),
           gpio_line("imu_body.data_ready", board.imu_body.data_ready),
           gpio_line("imu_foot.data_ready", board.imu_foot.data_ready),
-          gpio_line("load_cell.ready", board.load_cell.ready),
+          gpio_line("load_cell.ready", cell.is_iio() ? LineConfig{} : cell.ready),
           gpio_line("estop", board.estop),
           gpio_line("catch", board.body_catch),
           gpio_line("drive_enable", board.drive_enable)};

@@ -129,6 +129,7 @@ TrialModel TrialRunner::model_of(int number, const fs::path& log) const {
   if (sheet_) model.sheet = entries_of(*sheet_);
   model.config = cycle_config(robot_);
   model.robot = to_node(robot_);
+  model.close_after_s = options_.close_after_s;
   return model;
 }
 

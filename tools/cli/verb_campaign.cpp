@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "config/files.hpp"
 #include "config/load.hpp"
@@ -42,15 +43,30 @@ nlohmann::ordered_json to_json(const UsedNumber& n) {
   return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
 }
 
+// Findings, each once: trials may share one.
+class Told {
+ public:
+  explicit Told(Session& session) : session_(session) {}
+  bool tell(const Finding& finding) {  // false: again
+    auto line = fmt::format("{} ({})", to_string(finding), name_of(finding.severity));
+    if (!told_.insert(line).second) return false;
+    session_.say_line(line);
+    return true;
+  }
+
+ private:
+  Session& session_;
+  std::set<std::string> told_;
+};
+
 ExitCode check(Session& session, const Options& options) {
   const auto campaign = load_campaign(options.folder);
   auto findings = nlohmann::ordered_json::array();
   std::size_t usable = 0;
+  Told told(session);
   const auto tell = [&](const std::vector<Finding>& found) {
-    for (const auto& finding : found) {
-      session.say("{} ({})", to_string(finding), name_of(finding.severity));
-      findings.push_back(as_json(finding));
-    }
+    for (const auto& finding : found)
+      if (told.tell(finding)) findings.push_back(as_json(finding));
   };
   tell(campaign.findings);
   const auto missing = missing_numbers(campaign);
@@ -154,11 +170,10 @@ ExitCode import_files(Session& session, const Options& options) {
   session.say("{} is taken for:", files.front().string());
   for (const auto& line : draft.said) session.say("  {}", line);
   const auto campaign = load_campaign(folder);
-  for (const auto& finding : campaign.findings)
-    session.say("{} ({})", to_string(finding), name_of(finding.severity));
+  Told told(session);
+  for (const auto& finding : campaign.findings) told.tell(finding);
   for (const auto& trial : campaign.trials)
-    for (const auto& finding : read_trial(campaign, trial).findings)
-      session.say("{} ({})", to_string(finding), name_of(finding.severity));
+    for (const auto& finding : read_trial(campaign, trial).findings) told.tell(finding);
   session.say("wrote {} and nominal.toml: correct what is wrong there, then 'hop campaign check {}'",
               (folder / "campaign.toml").string(), folder.string());
   session.result = {{"folder", folder.string()}, {"plant", name_of(draft.plant)}, {"taken_for", draft.said}};

@@ -95,7 +95,6 @@ ExitCode diagnose(Session& session, const Options& options) {
   for (const auto& finding : input.findings) session.say_line(to_string(finding));
   const std::filesystem::path folder =
       options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
-  if (has_unstated(campaign)) return tell_nothing_usable(session, folder, campaign.trials.size());
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;

@@ -48,6 +48,7 @@ void say_cell(Session& session, const Cell& cell, const CellResult& r) {
               cell.expected == Fault::none ? "- (cannot be seen)" : name_of(r.found),
               r.cycles < 0 ? "-" : std::to_string(r.cycles), name_of(r.state), r.torque,
               r.logged ? "yes" : "-", r.problem.empty() ? cell.note : "WRONG: " + r.problem);
+  if (!r.message.empty()) session.say("{:<26} {}", "", r.message);
   session.result["cells"].push_back({{"device", std::string(name_of(cell.device))},
                                      {"kind", std::string(name_of(cell.kind))},
                                      {"phase", std::string(name_of(cell.phase))},
@@ -58,6 +59,7 @@ void say_cell(Session& session, const Cell& cell, const CellResult& r) {
                                      {"state", std::string(name_of(r.state))},
                                      {"torque", r.torque},
                                      {"logged", r.logged},
+                                     {"message", r.message},
                                      {"problem", r.problem}});
 }
 

@@ -35,7 +35,8 @@ nlohmann::ordered_json as_json(const Outcome& outcome, const ReportData& data, c
           {"log", outcome.log.string()},
           {"report", page.string()},
           {"last_state", std::string(name_of(outcome.last_state))},
-          {"fault", std::string(name_of(outcome.last_fault))}};
+          {"fault", std::string(name_of(outcome.last_fault))},
+          {"notes", data.notes}};
 }
 
 // What came of the trials so far.
@@ -137,6 +138,23 @@ void add_sheet_options(Arguments& arguments, TrialOptions& options, const Option
   arguments.add_option("--notes", options.notes, "trial sheet: notes");
 }
 
+void add_live_options(Arguments& arguments, TrialOptions& options) {
+  arguments.add_flag(
+      "--plain", options.plain,
+      "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
+      "where standard output is no terminal");
+  arguments.add_option("--speed", options.speed, "of the simulated board in the live view; 1: real time")
+      .in_range(0.05, 10.0)
+      .show_default();
+  arguments
+      .add_option(
+          "--close-after-s", options.close_after_s,
+          "the live view closes so long after the trial if no key is pressed, since the log still grows, by "
+          "about 1 MB a second; 0: only q closes it")
+      .in_range(0.0, 86400.0)
+      .show_default();
+}
+
 Run set_up(Arguments& arguments) {
   auto options = std::make_shared<TrialOptions>();
   arguments
@@ -168,13 +186,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--devices", options->devices,
                        "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
   add_sheet_options(arguments, *options, trials);
-  arguments.add_flag(
-      "--plain", options->plain,
-      "no live view: the trial arms and releases by itself and is told in lines of text, as it is "
-      "where standard output is no terminal");
-  arguments.add_option("--speed", options->speed, "of the simulated board in the live view; 1: real time")
-      .in_range(0.05, 10.0)
-      .show_default();
+  add_live_options(arguments, *options);
   arguments.add_flag("!--no-report", options->report, "write no report page");
   arguments.footer(
       "Below each stride: the ground's force, secant and tangent stiffness at each depth with 95 % "

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/dump.hpp"
+#include "firmware/fault_check.hpp"
 #include "tools/faults/trial_rig.hpp"
 
 namespace sandhopper::faults {
@@ -22,6 +24,7 @@ class CellTrial {
  public:
   CellTrial(const Cell& cell, const MatrixSetup& setup, const RobotConfig& robot)
       : cell_(cell),
+        robot_(to_node(robot)),
         rig_(setup, robot, cell.phase, setup.folder / "cell.mcap"),
         is_frozen_(setup.freeze != nullptr) {}
 
@@ -67,6 +70,7 @@ class CellTrial {
     if (event.kind != EventKind::fault_raised || found_at_ != 0) return;
     found_at_ = rig_.cycle();
     result_.found = event.fault;
+    result_.message = in_words(read_fault(event, &robot_));
   }
 
   // A limit is in force from the start; anything else can be seen from its injection on.
@@ -124,6 +128,7 @@ class CellTrial {
   }
 
   const Cell& cell_;
+  ConfigNode robot_;
   TrialRig rig_;
   bool is_frozen_;
   Injected injected_;

@@ -29,6 +29,7 @@ struct CellResult {
   std::string torque;          // what the drives were told after the reaction
   bool logged = false;         // the event stands in the log, read back from the file
   double time_s = 0.0;         // of the trial
+  std::string message;         // of the fault found: what was seen and what is allowed
   std::string problem;         // empty: as it must be
 };
 

@@ -45,7 +45,7 @@ void PressTrials::analyse(const CampaignTrial& trial, const TrialRecording& reco
                             {.source = CurveSource::rig,
                              .diameter_m = 2.0 * belief.foot.radius_m,
                              .held_out = trial.flag("held_out").value_or(false),
-                             .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief)}),
+                             .believed_stiffness_N_per_m = believed_stiffness_N_per_m(trial)}),
              result);
 }
 

@@ -172,7 +172,9 @@ StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const Cur
   return points_of(solver, summarise(solver), 1.0, greatest_N, facts);
 }
 
-double believed_stiffness_N_per_m(const IntruderBelief& belief) {
+double believed_stiffness_N_per_m(const CampaignTrial& trial) {
+  if (trial.is_unstated("terrain.stiffness_N_per_m")) return 0.0;
+  const auto& belief = std::get<IntruderBelief>(trial.belief);
   const double radius_m = belief.foot.radius_m;
   const double per_area = belief.terrain.stiffness_per_area_N_per_m3;
   return per_area > 0.0 ? per_area * std::numbers::pi * radius_m * radius_m

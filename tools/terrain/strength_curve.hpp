@@ -5,7 +5,7 @@
 
 #include "terrain/ground_summary.hpp"
 #include "terrain/pooled_value.hpp"
-#include "tools/campaign/belief.hpp"
+#include "tools/campaign/campaign.hpp"
 #include "tools/terrain/trial_result.hpp"
 
 namespace sandhopper {
@@ -75,8 +75,8 @@ StrengthCurve curve_of_press(std::span<const double> depth_m, std::span<const do
 // Curve after the strides of a hop. `greatest_N` is the largest force of the ground.
 StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const CurveFacts& facts);
 
-// Stiffness of the bed under this foot; zero if the belief has none.
-double believed_stiffness_N_per_m(const IntruderBelief& belief);
+// Stiffness of an intruder's bed under its foot; zero where the belief has none or nobody stated it.
+double believed_stiffness_N_per_m(const CampaignTrial& trial);
 
 // A curve is stored in its trial's series, one for each source.
 void keep_curve(const StrengthCurve& curve, TrialResult& result);

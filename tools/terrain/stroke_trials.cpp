@@ -29,6 +29,7 @@ class Stroke {
  public:
   Stroke(const CampaignTrial& trial, const TrialRecording& recording, TrialResult& result)
       : belief_(std::get<IntruderBelief>(trial.belief)),
+        believed_stiffness_N_per_m_(believed_stiffness_N_per_m(trial)),
         held_out_(trial.flag("held_out").value_or(false)),
         in_(recording),
         out_(result) {}
@@ -177,7 +178,7 @@ class Stroke {
     keep_curve(curve_of(loading, {.source = CurveSource::rig,
                                   .diameter_m = 2.0 * belief_.foot.radius_m,
                                   .held_out = held_out_,
-                                  .believed_stiffness_N_per_m = believed_stiffness_N_per_m(belief_)}),
+                                  .believed_stiffness_N_per_m = believed_stiffness_N_per_m_}),
                out_);
   }
 
@@ -228,6 +229,7 @@ class Stroke {
   }
 
   const IntruderBelief& belief_;
+  double believed_stiffness_N_per_m_;
   bool held_out_;
   const TrialRecording& in_;
   TrialResult& out_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "drivers/clock.hpp"
+#include "tools/trial/live/idle_close.hpp"
 #include "tools/trial/live/live_terminal.hpp"
 #include "tools/trial/live/operator_key.hpp"
 #include "tools/trial/live/signal_watch.hpp"
@@ -18,14 +19,11 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
-// Time after the trial until the log is closed. A log grows by 1 MB/s, so an absent operator costs 30 MB, not
-// a full disk.
-constexpr std::int64_t kOverShown_ns = 30'000'000'000;
 
 class LiveTrial {
  public:
   LiveTrial(CycleLink& link, TrialModel& model, SignalWatch& signals)
-      : link_(link), model_(model), signals_(signals) {}
+      : link_(link), model_(model), signals_(signals), idle_(model.close_after_s) {}
 
   bool run() {
     while (!link_ended_) {
@@ -74,12 +72,8 @@ class LiveTrial {
   }
 
   void close_after_trial() {
-    if (!model_.over || model_.state() != State::idle || model_.quitting) {
-      over_since_ns_ = 0;
-      return;
-    }
-    if (over_since_ns_ == 0) over_since_ns_ = monotonic_ns();
-    if (monotonic_ns() - over_since_ns_ > kOverShown_ns) quit();
+    const bool is_over = model_.over && model_.state() == State::idle && !model_.quitting;
+    if (idle_.is_due(is_over, monotonic_ns())) quit();
   }
 
   void hear_link() {
@@ -96,7 +90,7 @@ class LiveTrial {
   }
 
   void press(char32_t typed) {
-    over_since_ns_ = 0;
+    idle_.key_pressed();
     const auto* key = operator_key(typed);
     if (key == nullptr) {
       model_.refusal = "no such key; the keys are on the line below";
@@ -121,7 +115,7 @@ class LiveTrial {
   LiveTerminal terminal_;
   std::array<pollfd, 4> fds_{};
   std::int64_t next_frame_ns_ = 0;
-  std::int64_t over_since_ns_ = 0;  // 0: the trial is not over, or the operator has acted since
+  IdleClose idle_;
   bool link_ended_ = false;
   bool connection_lost_ = false;
 };

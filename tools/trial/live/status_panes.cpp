@@ -101,7 +101,12 @@ Hint hint(const TrialModel& model) {
   if (model.state() == State::fault)
     return {"do what the cure says, then d to disarm, or q to close the log", Style::caution};
   if (model.over)
-    return {"the trial is over: q closes the log, which closes itself after 30 s without a key", Style::good};
+    return {model.close_after_s > 0.0
+                ? fmt::format(
+                      "the trial is over: q closes the log, which closes itself after {:g} s without a key",
+                      model.close_after_s)
+                : "the trial is over: q closes the log, which grows until then",
+            Style::good};
   if (model.state() == State::idle) return {model.to_do, Style::plain};
   if (model.state() == State::armed && model.zero_checked)
     return {"hands off the robot, then r releases it", Style::good};

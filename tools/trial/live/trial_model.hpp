@@ -36,7 +36,8 @@ struct TrialModel {
   std::string log;                                         // path of the log
   std::vector<std::pair<std::string, std::string>> sheet;  // the trial sheet: name, text
   CycleConfig config{};
-  ConfigNode robot{};  // robot.toml: limits of faults
+  ConfigNode robot{};          // robot.toml: limits of faults
+  double close_after_s = 0.0;  // of the view, once the trial is over and no key is pressed; 0: never
   std::string to_do = "a arms: the drives hold the leg, the encoders are checked";  // before arming
 
   bool ready = false;         // accepts words
