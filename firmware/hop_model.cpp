@@ -20,7 +20,8 @@ HopModel hop_model_of(const CycleConfig& cycle) {
           .greatest_leg_force_N = [leg, torque_Nm](double length_m) {
             const auto kinematics = leg.kinematics(leg.angle_at_length(length_m));
             return torque_Nm / std::abs(kinematics.dlength_m_per_rad);
-          }};
+          },
+          .gravity_mps2 = kGravity_mps2};
 }
 
 }  // namespace sandhopper

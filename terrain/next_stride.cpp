@@ -9,7 +9,6 @@ namespace sandhopper {
 namespace {
 
 constexpr double kStep_s = 1e-3;  // time step, equal to the cycle's
-constexpr double kGravity_mps2 = 9.80665;
 constexpr int kLongest_steps = 800;
 constexpr int kFirst_steps = 10;  // least number of steps before the leg extends
 constexpr double kPitch_m = 0.0025;
@@ -44,7 +43,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   ProfileRegression regression(config, robot.foot_radius_m, robot.foot_mass_kg);
   const double c = std::max(solver.profile().stride > 0 ? solver.profile().added_mass_factor : 1.0, 0.0);
   const double falling_kg = robot.body_mass_kg + robot.foot_mass_kg;
-  const double fall_mps2 = kGravity_mps2 - robot.rail_friction_N / falling_kg;
+  const double fall_mps2 = robot.gravity_mps2 - robot.rail_friction_N / falling_kg;
   const double speed = std::sqrt(2.0 * fall_mps2 * std::max(setup.drop_height_m, 0.0));
   Hop hop{.foot_mps = speed, .body_mps = speed};
   double deepest_m = 0.0;
@@ -58,7 +57,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
     const auto curve = solver.force_N(std::min(hop.depth_m, kProfileDepth_m));
     const double virgin_N = std::max(curve.value + deviations * curve.sd, 0.0);
     const double drag_N = c * cone.added_mass_gradient_kg_per_m(hop.depth_m) * hop.foot_mps * hop.foot_mps;
-    const double push_N = robot.foot_mass_kg * kGravity_mps2 + leg_N;
+    const double push_N = robot.foot_mass_kg * robot.gravity_mps2 + leg_N;
     const double added_kg = c * cone.added_mass_kg(hop.depth_m);
     double accel = (push_N - virgin_N - drag_N) / (robot.foot_mass_kg + added_kg);
     if (hop.foot_mps <= 0.0 && accel < 0.0) accel = 0.0;  // the foot rests
@@ -72,7 +71,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
     deepest_m = std::max(deepest_m, hop.depth_m);
     hop.foot_mps = std::max(0.0, hop.foot_mps + accel * kStep_s);
     const double friction_N = hop.body_mps > 0.0 ? robot.rail_friction_N : -robot.rail_friction_N;
-    hop.body_mps += (kGravity_mps2 - (leg_N + friction_N) / robot.body_mass_kg) * kStep_s;
+    hop.body_mps += (robot.gravity_mps2 - (leg_N + friction_N) / robot.body_mass_kg) * kStep_s;
     hop.depth_m += hop.foot_mps * kStep_s;
     hop.body_m += hop.body_mps * kStep_s;
   }

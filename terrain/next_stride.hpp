@@ -24,6 +24,7 @@ struct HopModel {
   // Largest push of the motors [N] at this length of the leg [m].
   std::function<double(double)> greatest_leg_force_N = [](double) { return 50.0; };
   double rail_friction_N = 4.0;
+  double gravity_mps2 = 9.81;
 };
 
 struct StrideSetup {

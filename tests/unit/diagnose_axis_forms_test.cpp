@@ -43,16 +43,6 @@ TEST(DiagnoseAxisForms, AShaftThatTwistsIsACompliance) {
   }
 }
 
-// 0.1 kg m^2 and 2 N m are the pendulum's of `swings`.
-TEST(DiagnoseAxisForms, FrictionOfABearingGrowsWithItsLoad) {
-  const auto d = diagnose(swings(
-      [](double, double w, double) { return -0.04 * std::hypot(2.0, 0.2 * w * w) * std::tanh(w / 0.02); }, 52,
-      8));
-  ASSERT_EQ(d.effects.size(), 1u);
-  EXPECT_EQ(d.effects.front().id, "axis.load_dependent");
-  EXPECT_NEAR(value_of(d.effects.front(), "centripetal_ratio"), 2.0, 0.3);
-}
-
 // Two equal lags in series, 30 ms together, of an accelerometer that falls through air.
 TEST(DiagnoseAxisForms, ALagMayBeOfSecondOrder) {
   const auto drag = [](double, double, double v) { return -0.5 * 1.2 * 0.01 * 3.0 * std::abs(v) * v; };

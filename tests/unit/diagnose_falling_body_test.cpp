@@ -31,6 +31,18 @@ TEST(DiagnoseFallingBody, WhereTheBodyMayHaveLandedNoHeightCounts) {
   EXPECT_EQ(heights(prepare(recordings).problem), all);
 }
 
+// Heights that go on below 0 are not those of a body that lies on the ground at 0; those that stay there are.
+TEST(DiagnoseFallingBody, ABodyThatFallsOnBelowZeroHasNotLanded) {
+  auto recordings = drops([](double, double, double) { return 0.0; }, 1, 1);
+  const std::size_t all = heights(prepare(recordings).problem);
+  auto& trial = recordings.trials.front();
+  for (double& h : trial.channels["height_m"]) h -= 1.0;
+  trial.setup["release_height_m"] -= 1.0;
+  EXPECT_EQ(heights(prepare(recordings).problem), all);
+  for (double& h : trial.channels["height_m"]) h = std::max(h, -0.02);
+  EXPECT_LT(heights(prepare(recordings).problem), all);
+}
+
 // Heights that read 60 mm too much and stand still at the end: it lies there. What sinks slowly and what is
 // only slow to be sampled goes on.
 TEST(DiagnoseFallingBody, HeightsThatStandStillAtTheEndAreTheGround) {

@@ -143,7 +143,8 @@ TEST(DiagnoseSmall, AFallingAccelerometerMayBeOffByMoreThanItShows) {
   const auto d = diagnose(recordings);
   ASSERT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1u);
-  EXPECT_EQ(d.effects.front().id, "sensor.bias");
+  EXPECT_EQ(d.effects.front().id, "imu.bias");
+  EXPECT_EQ(d.effects.front().indistinguishable_from, std::vector<std::string>{"sensor.bias"});
   EXPECT_NEAR(d.effects.front().parameters.front().value, -0.4, 0.02);
 }
 

@@ -151,9 +151,10 @@ TEST(DiagnoseSignal, ALagFollowsAStepExponentially) {
 }
 
 TEST(DiagnoseEffects, AreAllOffAtZeroAndHaveSoundParameters) {
-  std::set<std::string> ids;
+  std::set<std::pair<std::string, PlantKind>> ids;
   for (const auto& effect : known_effects()) {
-    EXPECT_TRUE(ids.insert(effect.id).second) << effect.id << " twice";
+    for (const auto plant : effect.plants)
+      EXPECT_TRUE(ids.insert({effect.id, plant}).second) << effect.id << " twice";
     EXPECT_FALSE(effect.statement.empty()) << effect.id;
     EXPECT_FALSE(effect.equation.empty()) << effect.id;
     for (const auto plant : effect.plants) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 // Tables as other programs write them: each kind in several forms.
@@ -323,6 +324,22 @@ TEST(ForeignTable, APathOfWindowsIsNamed) {
     EXPECT_EQ(told(recording).find('\r'), std::string::npos);
     EXPECT_EQ(told(recording).find('\t'), std::string::npos);
   }
+}
+
+// A wheel that turns by 0.01 to 0.45 of a turn from sample to sample, read within one turn.
+TEST(ForeignTable, TurnsArePutBackAtAnySpeedBelowHalfATurnARow) {
+  constexpr double kTurn = 6.283185307179586;
+  for (const double per_row : {0.01, 0.08, 0.15, 0.3, 0.45})
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<double> read, whole;
+      for (int i = 0; i < 400; ++i) {
+        whole.push_back(sign * kTurn * per_row * i);
+        read.push_back(whole.back() - kTurn * std::floor(whole.back() / kTurn));
+      }
+      EXPECT_GT(put_turns_back(read), 0u) << per_row;
+      for (std::size_t i = 0; i < read.size(); ++i)
+        ASSERT_NEAR(read[i] - read[0], whole[i] - whole[0], 1e-6) << per_row << " at " << i;
+    }
 }
 
 }  // namespace

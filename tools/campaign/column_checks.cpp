@@ -88,7 +88,7 @@ std::size_t put_turns_back(std::vector<double>& angle_rad) {
     if (std::isnan(value)) continue;
     const double step = value - last;
     last = value;
-    if (std::abs(std::abs(step) / kTurn - 1.0) < 0.1) turns -= std::copysign(kTurn, step), ++steps;
+    if (std::abs(step) > 0.5 * kTurn) turns -= std::copysign(kTurn, step), ++steps;
     value += turns;
   }
   return steps;

@@ -28,8 +28,9 @@ struct TimeDoubt {
 };
 std::optional<TimeDoubt> doubt_time(const std::vector<double>& times, const std::string& column);
 
-// Unwraps an angle that is counted within one turn. Only if the values span at most one turn: a step of a
-// whole turn (0.9 to 1.1 of 2 pi) between neighbouring samples is removed. Returns the number of such steps.
+// Unwraps an angle that is counted within one turn: only if the values span 0.9 to 1 turn. A step of more
+// than half a turn between neighbouring samples counts as a turn the other way. So an axis that turns by more
+// than half a turn from sample to sample is read wrongly. Returns the number of such steps.
 std::size_t put_turns_back(std::vector<double>& angle_rad);
 
 // True if every value equals the time of its row: then the names stand above the wrong columns.

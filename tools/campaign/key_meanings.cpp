@@ -51,7 +51,7 @@ constexpr std::array kModel{
     KeyMeaning{"controller.flight_damping_N_s_per_m", "damping of the virtual spring in flight"},
     KeyMeaning{"controller.touchdown_deflection_m",
                "touchdown is declared when the leg is shorter than its neutral length by more than this"},
-    KeyMeaning{"controller.touchdown_rate_mps", "and shortens faster than this, both in the same cycle"},
+    KeyMeaning{"controller.touchdown_rate_mps", "or shortens faster than this"},
     KeyMeaning{"controller.compression_end_min_deflection_m",
                "compression cannot end before the leg has been compressed by this much"},
     KeyMeaning{"controller.liftoff_margin_m",

@@ -19,8 +19,8 @@ struct World {
   double buoyancy_factor = 0.0, added_mass_factor = 0.0;
   bool has_bed = false;
   double surface_height_m = 0.0, bed_stiffness_N_per_m = 0.0;
-  // Range of the release height; fall_m is not used.
-  double least_release_m = 1.0, most_release_m = 10.0, fall_m = 1.0;
+  // Range of the release height.
+  double least_release_m = 1.0, most_release_m = 10.0;
 
   bool has_height = true, has_accel = true;
   double row_rate_Hz = 500.0, height_rate_Hz = 100.0;

@@ -59,7 +59,7 @@ ChannelScale scale_of(const std::vector<Trial>& trials, const std::string& chann
   }
   if (samples == 0.0) return scale;
   scale.noise_rms = median(noises);
-  const double near_end = std::max(std::abs(scale.low), std::abs(scale.high)) - 6.0 * scale.noise_rms;
+  const double near_end = std::max(std::abs(scale.low), std::abs(scale.high)) - kNoiseBand * scale.noise_rms;
   for (const auto& trial : trials)
     for (const double v : samples_of(trial, channel).value) {
       scale.share_near_end += std::abs(v) >= near_end ? 1.0 / samples : 0.0;

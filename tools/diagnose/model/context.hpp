@@ -28,6 +28,9 @@ class Belief {
   std::vector<KeySpread> key_spreads{};
 };
 
+// Samples at a limit that lies before the noise are spread over this many standard deviations.
+inline constexpr double kNoiseBand = 6.0;
+
 // Range, noise and resolution of one recorded channel over the whole campaign.
 struct ChannelScale {
   double low = 0.0, high = 0.0;
@@ -35,7 +38,7 @@ struct ChannelScale {
   double step_s = 1e-3;         // median time between samples
   double share_at_high = 0.0;   // share of the samples that equal `high`
   double share_at_low = 0.0;    // share of the samples that equal `low`
-  double share_near_end = 0.0;  // share of the samples within 6 noise_rms of the largest magnitude
+  double share_near_end = 0.0;  // share of the samples within kNoiseBand noise_rms of the largest magnitude
   double grid = 0.0;            // smallest change between successive samples: the sensor's resolution
 };
 
@@ -45,6 +48,7 @@ struct PlantFacts {
   double weight_N = 1.0, force_N = 1.0, torque_Nm = 1.0;
   double speed_mps = 1.0, speed_radps = 1.0;
   double angle_rad = 1.0;  // largest |angle| of a rotary axis; range of a leg's angle
+  bool is_driven = true;   // false: no trial of an axis has a torque of its drive
   bool moves = true;       // false: the axis is held still, so its friction is not observable
   bool masses_differ = false;
   double depth_m = 0.04, foot_radius_m = 0.04;          // depth in the bed; radius of the foot

@@ -11,7 +11,8 @@ namespace sandhopper::diagnose {
 namespace {
 
 // Longer suffixes first, because "_N" also ends "_m_per_N".
-constexpr std::array<std::pair<const char*, const char*>, 27> kUnits{{{"_N_s2_per_m2", "N s²/m²"},
+constexpr std::array<std::pair<const char*, const char*>, 28> kUnits{{{"_rad_per_Nm", "rad/(N m)"},
+                                                                      {"_N_s2_per_m2", "N s²/m²"},
                                                                       {"_kg_per_m3", "kg/m³"},
                                                                       {"_N_s_per_m", "N s/m"},
                                                                       {"_N_per_m3", "N/m³"},

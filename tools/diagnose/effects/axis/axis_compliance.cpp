@@ -6,6 +6,7 @@ namespace {
 constexpr double kVisibleTwist_rad = 0.01;  // half a degree at the torque that usually acts
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
+  if (!c.facts.is_driven) return {};
   std::vector<EffectParameter> all{{.name = "compliance_rad_per_Nm",
                                     .typical = kVisibleTwist_rad / c.facts.torque_Nm,
                                     .low = 0.0,

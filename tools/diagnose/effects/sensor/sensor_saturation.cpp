@@ -32,9 +32,13 @@ SensorRange sensor_range(const Context& c, const std::string& channel) {
 // A limit before the noise is added: samples scatter around it, so it is fitted, as 1 / limit.
 std::vector<EffectParameter> limit_under_noise(const Context& c, const std::string& channel) {
   const auto it = c.channels.find(channel);
-  if (it == c.channels.end() || it->second.share_near_end < kPileUp) return {};
-  const double end = std::max(std::abs(it->second.low), std::abs(it->second.high));
-  if (end == 0.0) return {};
+  // A hopper's drives and accelerometers have limits of their own: actuator.saturation, imu.clipping.
+  if (it == c.channels.end() || c.plant == PlantKind::hopper) return {};
+  const auto& s = it->second;
+  const double end = std::max(std::abs(s.low), std::abs(s.high));
+  // Twice of what samples spread evenly over the range would give.
+  const double by_chance = 2.0 * kNoiseBand * s.noise_rms / std::max(s.high - s.low, 1e-12);
+  if (end == 0.0 || s.share_near_end < std::max(kPileUp, by_chance)) return {};
   return {{.name = "limit_" + unit_of(channel),
            .typical = 1.0 / end,
            .low = 0.0,

@@ -7,7 +7,7 @@ const EffectRegistration kEffect(
     {.id = "tof.bias",
      .port = Port::sensor,
      .statement = "The height's zero is not the surface.",
-     .equation = "z = z_recorded + o",
+     .equation = "z_recorded = z + o",
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context& c, const std::string&) {

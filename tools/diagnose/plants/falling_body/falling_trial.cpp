@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "tools/campaign/belief.hpp"
@@ -58,6 +59,7 @@ class FallingTrial final : public TrialModel {
     // If neither a height nor the entry is known, fast accelerations are averaged: a stop of some tenths of a
     // second needs no faster rows.
     height_told_ = trial.setup.contains("release_height_m");
+    ground_is_at_zero_ = height_told_ && !goes_on_below_zero(heights);
     const bool height_known = !heights.empty() || height_told_;
     const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
     entry_s_ = entry_of(trial, belief);
@@ -304,6 +306,19 @@ class FallingTrial final : public TrialModel {
     }
   }
 
+  // True if the body still moves below 0: it does not lie there. One that lies a little below 0 has nearly
+  // all of these heights in its place of rest.
+  bool goes_on_below_zero(const Samples& heights) const {
+    const double noise_m = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
+    std::vector<double> below;
+    std::ranges::copy_if(heights.value, std::back_inserter(below),
+                         [&](double h) { return h < -kLanded * noise_m; });
+    if (below.size() < 3) return false;
+    const auto [low, high] = std::ranges::minmax_element(
+        below.begin() + static_cast<std::ptrdiff_t>(below.size() / 2), below.end());
+    return *high - *low > 2.0 * kLanded * noise_m;
+  }
+
   // Chooses between a throw upwards and one downwards. Without heights only the drag shows it: the direction
   // is reversed if the simulation then fits clearly better.
   void choose_direction() {
@@ -321,11 +336,12 @@ class FallingTrial final : public TrialModel {
     if (!(squares() < kClearly * down)) fall_.start_speed_mps = -fall_.start_speed_mps;
   }
 
-  // With a stated release height, heights count from the ground. Within their noise of the ground the body
-  // may lie there.
+  // With a stated release height, heights count from the ground unless they go on below 0. Within their noise
+  // of the ground the body may lie there.
   bool may_have_landed(double time_s, double height_m) const {
     if (time_s > landed_after_s_) return true;
-    return height_told_ && !fall_.bed && height_m < kLanded * fall_.belief.value("sensors.height_noise_m");
+    return ground_is_at_zero_ && !fall_.bed &&
+           height_m < kLanded * fall_.belief.value("sensors.height_noise_m");
   }
 
   // True in the liquid, and up to three rows before the recorded entry, because the simulated one may come
@@ -370,7 +386,8 @@ class FallingTrial final : public TrialModel {
   }
 
   Fall fall_;
-  bool height_told_ = false;   // the set-up states release_height_m
+  bool height_told_ = false;  // the set-up states release_height_m
+  bool ground_is_at_zero_ = false;
   bool from_release_ = false;  // rows before the release are left out
   double height_jitter_s_ = 0.0, stop_s_ = 1e300, landed_after_s_ = 1e300;
   int height_bias_ = -1, height_scale_ = -1, accel_bias_ = -1;

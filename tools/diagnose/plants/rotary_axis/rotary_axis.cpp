@@ -15,6 +15,14 @@
 namespace sandhopper::diagnose {
 namespace {
 
+bool is_driven(const std::vector<Trial>& trials) {
+  return std::ranges::any_of(trials, [](const Trial& trial) {
+    auto torque = samples_of(trial, "torque_Nm");
+    without_noise_alone(torque);
+    return std::ranges::any_of(torque.value, [](double v) { return v != 0.0; });
+  });
+}
+
 // Root mean square of the torque on the axis: of the drive; if that is silent, of gravity; if the belief has
 // none, of inertia times acceleration.
 double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belief) {
@@ -86,6 +94,7 @@ class RotaryAxis final : public PlantModel {
       if (velocities.empty() && positions.value.size() > 10)
         for (const double v : smooth(positions, 5).rate) speed = std::max(speed, std::abs(v));
     }
+    context.facts.is_driven = is_driven(trials);
     context.facts.torque_Nm = torque_that_acts_Nm(trials, context.belief);
     context.facts.speed_radps = std::max(speed, 0.1);
     context.facts.angle_rad = std::max(angle, 0.1);
