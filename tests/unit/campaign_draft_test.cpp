@@ -248,6 +248,10 @@ TEST(CampaignDraft, AnUnstatedNumberRulesOutTheTrialsThatDoNotStateIt) {
   for (const auto& finding : results.results.at(1).findings) told += to_string(finding) + "\n";
   EXPECT_THAT(told, HasSubstr("terrain.stiffness_N_per_m = \"?\" in line 2: is not needed here"));
   EXPECT_THAT(told, Not(HasSubstr("foot.radius_m")));
+  std::string used;
+  for (const auto& number : used_numbers(campaign).numbers) used += to_string(number) + "\n";
+  EXPECT_THAT(used, HasSubstr("foot.radius_m = 0.04 m (set-up of 1 of 2 trials)"));
+  EXPECT_THAT(used, Not(HasSubstr("terrain.stiffness_N_per_m"))) << "nobody stated it";
   EXPECT_EQ(believed_stiffness_N_per_m(campaign.trials.at(1)), 0.0) << "no default in its place";
 }
 

@@ -75,14 +75,19 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
     UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = belief_unit(key)};
-    std::size_t own = 0;
+    // Left at "?", a number is that of the trials which state it; a default is nobody's.
+    const bool is_unstated =
+        std::ranges::find(campaign.unstated, key, &UnstatedNumber::key) != campaign.unstated.end();
+    std::size_t own = 0, seen = 0;
     for (std::size_t i = 0; i < of_trials.size(); ++i) {
       const auto it = of_trials[i].find(key);
-      if (it == of_trials[i].end()) continue;
-      own += it->second != value;
-      number.low = i == 0 ? it->second : std::min(number.low, it->second);
-      number.high = i == 0 ? it->second : std::max(number.high, it->second);
+      if (it == of_trials[i].end() || campaign.trials[i].is_unstated(key)) continue;
+      own += is_unstated || it->second != value;
+      number.low = seen == 0 ? it->second : std::min(number.low, it->second);
+      number.high = seen == 0 ? it->second : std::max(number.high, it->second);
+      ++seen;
     }
+    if (is_unstated && own == 0) continue;
     const auto line = lines.find(key);
     if (own > 0) {
       number.source = UsedNumber::Source::trial_setup;
