@@ -78,6 +78,9 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
   last_foot_z_m_ = e.foot_z_m;
   sample_duration_s_ = static_cast<double>(e.force_time_ns - last_force_time_ns_) * 1e-9;
   last_force_time_ns_ = e.force_time_ns;
+  // A leg can touch down while it still lifts its foot out of the crater. Then the events of the stride begin
+  // after the foot was clear. One cycle later, because the samples of the stance before are read first.
+  if (clear_ && touched_) begin_events(e);
   clear_ = false;
   if (leaving_) follow_leaving_foot(e);
   if (state == State::flight && still_falling(e)) {

@@ -66,32 +66,68 @@ TEST(ProfileMemory, BlowBeforeNewGroundSettlesToo) {
   EXPECT_EQ(regression.sums().samples, 1);
 }
 
-// A foot that goes down and then rests while the estimated depth drifts.
-TEST(StrideRecorder, DriftOfAFootAtRestIsNoNewDepth) {
-  StrideRecorder recorder({}, {kRadius_m, kReducedMass_kg});
-  recorder.on_release(0);
-  std::int64_t now_ns = 0;
-  const auto update = [&](double depth_m, double speed_mps, State state) {
-    now_ns += 1'000'000;
+// Estimates of a foot on the believed bed, a millisecond apart.
+class PushedFoot {
+ public:
+  PushedFoot() { recorder.on_release(0); }
+  void move(double speed_mps, State state) {
+    now_ns_ += 1'000'000;
+    depth_m += 1e-3 * speed_mps;
     Estimate e;
     e.foot_z_m = -depth_m;
     e.force_depth_m = depth_m;
     e.force_velocity_mps = speed_mps;
-    e.force_time_ns = now_ns;
+    e.force_time_ns = now_ns_;
     e.direct_force_N = 5.0 + 1500.0 * depth_m;
     recorder.update(e, state);
-  };
-  update(0.0, 0.2, State::flight);
-  recorder.on_touchdown(now_ns);
+  }
+  void touch_down() { recorder.on_touchdown(now_ns_); }
+  void lift_off() { recorder.on_liftoff(now_ns_); }
+
+  StrideRecorder recorder{{}, {kRadius_m, kReducedMass_kg}};
   double depth_m = 0.0;
-  for (; depth_m < 0.020; depth_m += 2e-4) update(depth_m, 0.2, State::compression);
-  for (; depth_m < 0.024; depth_m += 5e-6) update(depth_m, 0.005, State::compression);
-  EXPECT_NEAR(recorder.new_ground_m(), 0.020, 3e-4);
-  recorder.on_liftoff(now_ns);
-  update(0.0, 0.5, State::flight);
-  recorder.on_touchdown(now_ns);
-  recorder.on_liftoff(now_ns);
-  EXPECT_NEAR(recorder.sums().summary.crater_depth_m, 0.020, 3e-4);
+
+ private:
+  std::int64_t now_ns_ = 0;
+};
+
+// A foot that goes down and then rests while the estimated depth drifts.
+TEST(StrideRecorder, DriftOfAFootAtRestIsNoNewDepth) {
+  PushedFoot foot;
+  foot.move(0.2, State::flight);
+  foot.touch_down();
+  while (foot.depth_m < 0.020) foot.move(0.2, State::compression);
+  while (foot.depth_m < 0.024) foot.move(0.005, State::compression);
+  EXPECT_NEAR(foot.recorder.new_ground_m(), 0.020, 3e-4);
+  foot.lift_off();
+  foot.depth_m = 0.0;
+  foot.move(0.5, State::flight);
+  foot.touch_down();
+  foot.lift_off();
+  EXPECT_NEAR(foot.recorder.sums().summary.crater_depth_m, 0.020, 3e-4);
+}
+
+// The leg can touch down again while it lifts its foot out of a deep crater.
+TEST(StrideRecorder, TouchdownBeforeTheFootIsClearBeginsNewEvents) {
+  PushedFoot foot;
+  foot.move(0.2, State::flight);
+  foot.touch_down();
+  while (foot.depth_m < 0.060) foot.move(0.2, State::compression);
+  foot.lift_off();
+  foot.move(-0.1, State::flight);
+  foot.touch_down();
+  while (foot.depth_m > 0.040) foot.move(-0.2, State::compression);
+  foot.move(0.1, State::compression);
+  EXPECT_TRUE(foot.recorder.foot_is_clear());
+  EXPECT_EQ(foot.recorder.event_sums().stride, 1U);
+  EXPECT_NEAR(foot.recorder.event_sums().deepest_m, 0.060, 3e-4);
+  while (foot.depth_m < 0.065) foot.move(0.2, State::compression);
+  foot.lift_off();
+  const auto& sums = foot.recorder.event_sums();
+  EXPECT_EQ(sums.stride, 2U);
+  EXPECT_NEAR(sums.crater_depth_m, 0.060, 3e-4);
+  for (std::size_t i = 0; i < 119; ++i) EXPECT_EQ(sums.down.bin[i].samples, 0.0F) << i;
+  EXPECT_GT(sums.down.bin[125].samples, 0.0F);
 }
 
 }  // namespace
