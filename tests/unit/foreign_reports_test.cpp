@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <regex>
 
 #include "campaign_folder.hpp"
 #include "foreign_conditions.hpp"
@@ -36,7 +37,9 @@ Imported imported_condition(const ForeignCondition& condition) {
   try {
     const auto draft =
         draft_campaign({folder.path() / "rec.csv"}, condition.plant, folder.path(), condition.names);
-    folder.write("campaign.toml", draft.campaign_toml).write("nominal.toml", draft.nominal_toml);
+    // The user writes his own numbers where the draft asks for them.
+    const auto nominal = std::regex_replace(draft.nominal_toml, std::regex("\"\\?\""), "1.0");
+    folder.write("campaign.toml", draft.campaign_toml).write("nominal.toml", nominal);
     for (const auto& line : draft.said) out.told += line + "\n";
   } catch (const std::runtime_error& error) {
     out.told = error.what();
