@@ -26,7 +26,7 @@ const StepOutput& Cycle::run(const Turn& turn) noexcept {
   if (parts_.freeze != nullptr) parts_.freeze->push(frame_, output, parts_.controller.events());
   if (parts_.controller.stride_finished()) parts_.aftermath.offer(parts_.controller.stride_sums());
   if (parts_.controller.ground_events_complete())
-    parts_.aftermath.offer(parts_.controller.ground_event_sums());
+    parts_.aftermath.offer(parts_.controller.ground_event_sums(), turn.time_ns);
   return output;
 }
 
@@ -72,9 +72,11 @@ void Aftermath::serve() {
     if (listener_.profile) listener_.profile(profile_.profile(), ground);
     strides_.pop();
   }
-  for (const GroundEventSums* sums = stances_.front(); sums != nullptr; sums = stances_.front()) {
-    const GroundEvents found = find_ground_events(*sums, ground_event_config(config_));
-    logger_.push(topics_.ground_events, sums->liftoff_ns, found);
+  for (const Stance* stance = stances_.front(); stance != nullptr; stance = stances_.front()) {
+    const GroundEvents found = find_ground_events(stance->sums, ground_event_config(config_));
+    // The record's time is that of the cycle that completed it: a replay, which reads in the order of time,
+    // has computed it by then.
+    logger_.push(topics_.ground_events, stance->clear_ns, found);
     if (listener_.ground_events) listener_.ground_events(found);
     stances_.pop();
   }

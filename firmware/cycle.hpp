@@ -59,7 +59,10 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): padding 
   // Called by the cycle.
   void offer(const Event& event) noexcept { events_.push(event); }
   void offer(const StrideSums& sums) noexcept { strides_.push(sums); }
-  void offer(const GroundEventSums& sums) noexcept { stances_.push(sums); }
+  // `clear_ns`: when the foot was clear of its crater, and the sums complete.
+  void offer(const GroundEventSums& sums, std::int64_t clear_ns) noexcept {
+    stances_.push({.sums = sums, .clear_ns = clear_ns});
+  }
   void offer(const RequestRecord& answer) noexcept { answers_.push(answer); }
 
  private:
@@ -70,7 +73,11 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): padding 
   Listener listener_;
   SpscRing<Event> events_{1024};
   SpscRing<StrideSums> strides_{64};
-  SpscRing<GroundEventSums> stances_{16};
+  struct Stance {
+    GroundEventSums sums{};
+    std::int64_t clear_ns = 0;
+  };
+  SpscRing<Stance> stances_{16};
   SpscRing<RequestRecord> answers_{2048};
   std::thread thread_;
   std::atomic<bool> stopping_{false};

@@ -63,7 +63,7 @@ void StrideRecorder::on_liftoff(std::int64_t now_ns) noexcept {
   done_.profile.unloading = unloading_.trace();
   done_.profile.reduced_mass_kg = reduced_mass_kg_;
   events_.on_phase_change(event_time_s());
-  events_.close(current_.stride, now_ns);
+  events_.close(current_.stride);
   leaving_ = true;
   rises_ = false;
   // A foot on new ground is at its greatest depth, even if the estimated depth is less than the crater's.

@@ -126,7 +126,6 @@ struct GroundEventSums {
   DepthBins down;  // foot moving down on new ground
   DepthBins up;    // foot leaving
   std::uint32_t stride = 0;
-  std::int64_t liftoff_ns = 0;
   float deepest_m = 0.0F;
   float crater_depth_m = 0.0F;  // of earlier strides
   struct Resumption {
@@ -144,11 +143,8 @@ class GroundEventRecorder {
   GroundEventRecorder(const GroundEventConfig& config, double foot_radius_m);
   // Starts a new stride. crater_depth_m is the deepest point of the earlier ones.
   void restart(double crater_depth_m) noexcept;
-  // Called at liftoff with the number and time of the stride that these samples belong to.
-  void close(std::uint32_t stride, std::int64_t liftoff_ns) noexcept {
-    sums_.stride = stride;
-    sums_.liftoff_ns = liftoff_ns;
-  }
+  // Called at liftoff with the number of the stride that these samples belong to.
+  void close(std::uint32_t stride) noexcept { sums_.stride = stride; }
   // Called at the stance switch and at liftoff, between the samples before and after it.
   void on_phase_change(double since_contact_s) noexcept {
     settled_s_ = since_contact_s + config_.settling_time_s;

@@ -10,7 +10,7 @@
 namespace sandhopper::transmit {
 
 // Protocol of a drive's board: V1/V2 in MIT mode, V1/V2 in servo mode, V3. No two of them have the same
-// frames (CubeMars' AK Series Module Driver User Manual V1.0.18 for the first two, V3.0.1 for the third).
+// frames (the maker's AK Series Module Driver User Manual V1.0.18 for the first two, V3.0.1 for the third).
 enum class Dialect : std::uint8_t { mit, servo, v3 };
 
 // One drive as it is wired and configured, and the limits of its commands. All limits are those of the link.
