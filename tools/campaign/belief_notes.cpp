@@ -52,7 +52,9 @@ constexpr std::array kReasons{
     Reason{"terrain.added_mass_switch_speed_mps", "without added mass it does nothing"},
     Reason{"terrain.stiffness_per_area_N_per_m3", kOff},
     Reason{"terrain.exponent", "a straight line"},
-    Reason{"terrain.rigid", "a bed that gives"}};
+    Reason{"terrain.rigid", "a bed that gives"},
+    Reason{"sensors.encoder_velocity_bandwidth_Hz",
+           "no low-pass; the simulated controller uses this speed, so state yours"}};
 
 }  // namespace
 

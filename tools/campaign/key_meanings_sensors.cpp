@@ -20,8 +20,10 @@ constexpr std::array kSensors{
     KeyMeaning{"sensors.tof_range_m", "greatest height that it measures", "h"},
     KeyMeaning{"sensors.encoder_counts_per_rev", "steps of an encoder in one turn; 0: continuous", "H"},
     KeyMeaning{"sensors.encoder_noise_rad", "noise of one angle", "h"},
-    KeyMeaning{"sensors.encoder_velocity_bandwidth_Hz",
-               "cut-off frequency of the low-pass behind the speed that the drive reports", "hr"},
+    KeyMeaning{
+        "sensors.encoder_velocity_bandwidth_Hz",
+        "cut-off frequency of the low-pass behind the speed that the drive reports and the controller uses",
+        "hr"},
     KeyMeaning{"sensors.encoder_latency_s", "delay of angle and speed", "h"},
     KeyMeaning{"sensors.current_noise_A", "noise of one sample of a motor's current", "H"},
     KeyMeaning{"sensors.current_range_A", "current at which the measurement stops (clips)", "H"},

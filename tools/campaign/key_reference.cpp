@@ -135,7 +135,7 @@ struct Collector {
 
 std::vector<BeliefKey> belief_keys(CampaignPlant plant) {
   Collector collector{plant};
-  std::visit([&](const auto& belief) { collector.walk(belief, ""); }, default_belief(plant));
+  std::visit([&](const auto& belief) { collector.walk(belief, ""); }, belief_of_silence(plant));
   return collector.keys;
 }
 
