@@ -17,10 +17,11 @@ HopModel hop_model_of(const CycleConfig& cycle) {
           .compression_length_m = cycle.controller.compression_length_m,
           .extension_length_m = cycle.controller.extension_length_m,
           .extension_stiffness_N_per_m = cycle.controller.extension_stiffness_N_per_m,
-          .greatest_leg_force_N = [leg, torque_Nm](double length_m) {
-            const auto kinematics = leg.kinematics(leg.angle_at_length(length_m));
-            return torque_Nm / std::abs(kinematics.dlength_m_per_rad);
-          },
+          .greatest_leg_force_N =
+              [leg, torque_Nm](double length_m) {
+                const auto kinematics = leg.kinematics(leg.angle_at_length(length_m));
+                return torque_Nm / std::abs(kinematics.dlength_m_per_rad);
+              },
           .gravity_mps2 = kGravity_mps2};
 }
 

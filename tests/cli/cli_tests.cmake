@@ -2,7 +2,7 @@
 if(TARGET hop AND TARGET hopperd)
   foreach(name broken verbs campaign)
     add_test(NAME cli.${name} COMMAND node ${PROJECT_SOURCE_DIR}/tests/cli/${name}.mjs ${CMAKE_BINARY_DIR})
-    set_tests_properties(cli.${name} PROPERTIES LABELS cli TIMEOUT 120)
+    set_tests_properties(cli.${name} PROPERTIES LABELS cli TIMEOUT 300)
   endforeach()
   add_test(NAME cli.calibrate COMMAND node ${PROJECT_SOURCE_DIR}/tests/cli/calibrate.mjs ${CMAKE_BINARY_DIR})
   set_tests_properties(cli.calibrate PROPERTIES LABELS cli TIMEOUT 300)

@@ -53,10 +53,10 @@ struct Band {
 };
 
 // 75 trials and 8 seeds through the firmware's own controller and estimator. The bands are those an
-// independent simulation gives for the same definitions (tools/experiment/README.md), where this one meets them; where
-// it does not, the band is around what it gives, so that a change shows either way: its estimates are closer
-// to the truth, which makes the quasi-static treatment look better in case A and B and leaves less for the
-// weights to mend.
+// independent simulation gives for the same definitions (tools/experiment/README.md), where this one meets
+// them; where it does not, the band is around what it gives, so that a change shows either way: its estimates
+// are closer to the truth, which makes the quasi-static treatment look better in case A and B and leaves less
+// for the weights to mend.
 TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder) {
   StudySetup setup;
   setup.threads = std::max(1U, std::thread::hardware_concurrency());

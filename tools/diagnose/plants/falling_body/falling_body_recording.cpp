@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sandhopper::diagnose {
 namespace {
@@ -123,6 +124,15 @@ double jitter_s(const std::vector<double>& sampled_s, double row_s) {
     other += rows > 0.5 && rows < 1.5;
   }
   return other > kOften * static_cast<double>(sampled_s.size()) ? row_s / std::sqrt(12.0) : 0.0;
+}
+
+bool goes_on_below_zero(const Samples& heights, double noise_m) {
+  std::vector<double> below;
+  std::ranges::copy_if(heights.value, std::back_inserter(below), [&](double h) { return h < -noise_m; });
+  if (below.size() < 3) return false;
+  const auto half = below.begin() + static_cast<std::ptrdiff_t>(below.size() / 2);
+  const auto [low, high] = std::ranges::minmax_element(half, below.end());
+  return *high - *low > 2.0 * noise_m;
 }
 
 double fastest_mps(const Samples& heights) {

@@ -34,6 +34,10 @@ std::optional<double> gap_around_s(const Samples& accels, double about_s);
 // the same.
 double jitter_s(const std::vector<double>& sampled_s, double row_s);
 
+// True if the body still moves further than `noise_m` below 0: it does not lie there. One that lies a little
+// below 0 has nearly all of these heights in its place of rest.
+bool goes_on_below_zero(const Samples& heights, double noise_m);
+
 // Greatest mean speed over a tenth of the samples; 0 without heights.
 double fastest_mps(const Samples& heights);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "tools/campaign/belief.hpp"
@@ -59,7 +58,8 @@ class FallingTrial final : public TrialModel {
     // If neither a height nor the entry is known, fast accelerations are averaged: a stop of some tenths of a
     // second needs no faster rows.
     height_told_ = trial.setup.contains("release_height_m");
-    ground_is_at_zero_ = height_told_ && !goes_on_below_zero(heights);
+    const double noise_m = std::max(fluctuation_rms(heights), belief.value("sensors.height_noise_m"));
+    ground_is_at_zero_ = height_told_ && !goes_on_below_zero(heights, kLanded * noise_m);
     const bool height_known = !heights.empty() || height_told_;
     const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
     entry_s_ = entry_of(trial, belief);
@@ -304,19 +304,6 @@ class FallingTrial final : public TrialModel {
       times.push_back(samples.time_s[i]);
       rows.push_back({channel, 0, kSlow, samples.time_s[i], samples.value[i]});
     }
-  }
-
-  // True if the body still moves below 0: it does not lie there. One that lies a little below 0 has nearly
-  // all of these heights in its place of rest.
-  bool goes_on_below_zero(const Samples& heights) const {
-    const double noise_m = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
-    std::vector<double> below;
-    std::ranges::copy_if(heights.value, std::back_inserter(below),
-                         [&](double h) { return h < -kLanded * noise_m; });
-    if (below.size() < 3) return false;
-    const auto [low, high] = std::ranges::minmax_element(
-        below.begin() + static_cast<std::ptrdiff_t>(below.size() / 2), below.end());
-    return *high - *low > 2.0 * kLanded * noise_m;
   }
 
   // Chooses between a throw upwards and one downwards. Without heights only the drag shows it: the direction
