@@ -177,6 +177,13 @@ std::optional<UnitOfKey> split_unit(std::string_view key) {
   return UnitOfKey{parts.quantity, parts.unit->suffix, parts.unit->dimension, parts.unit->to_si};
 }
 
+std::string_view last_key(std::string_view path) {
+  if (const auto bracket = path.find_last_of('['); bracket != std::string_view::npos && path.back() == ']')
+    path = path.substr(0, bracket);
+  const auto dot = path.find_last_of('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
+
 std::string unit_of_key(std::string_view key) {
   const auto unit = split_key(key).unit;
   return unit ? std::string(unit->written) : std::string();

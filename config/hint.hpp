@@ -25,6 +25,9 @@ struct UnitOfKey {
 };
 std::optional<UnitOfKey> split_unit(std::string_view key);
 
+// Last key of a path, without an element's index: "mass_kg" of "body.mass_kg". It carries the unit.
+std::string_view last_key(std::string_view path);
+
 // Unit at the end of a key in usual notation ("kg", "N/m"); empty for a key without one.
 std::string unit_of_key(std::string_view key);
 

@@ -43,14 +43,6 @@ std::string what_it_is(const ConfigNode& node) {
   return "?";
 }
 
-// Last key of a path, without an element's index. This key carries the unit.
-std::string_view last_key(std::string_view path) {
-  if (const auto bracket = path.find_last_of('['); bracket != std::string_view::npos && path.back() == ']')
-    path = path.substr(0, bracket);
-  const auto dot = path.find_last_of('.');
-  return dot == std::string_view::npos ? path : path.substr(dot + 1);
-}
-
 std::string interval(Range range) {
   constexpr double kHuge = 1e15;  // larger limits are those of the type and are not shown
   const bool low = range.low > -kHuge, high = range.high < kHuge;

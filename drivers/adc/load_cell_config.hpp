@@ -33,7 +33,7 @@ struct EnumNames<AdcRate> {
                                                          "128SPS", "250SPS", "475SPS", "860SPS"};
 };
 
-// What digitises the load cell: an ADS1115 behind an amplifier, or a converter behind the kernel's IIO.
+// The load cell's converter: an ADS1115 behind an amplifier, or one with a driver of the kernel (IIO).
 enum class LoadCellConverter : std::uint8_t { ads1115, iio };
 template <>
 struct EnumNames<LoadCellConverter> {

@@ -118,9 +118,6 @@ std::optional<ConfigNode> from_diameter(CampaignPlant plant, const ConfigNode& v
 
 }  // namespace
 
-// The largest bandwidth that the key may have: far above what a leg does.
-constexpr double kNoLowPass_Hz = 5000.0;
-
 BeliefSensors BeliefSensors::without_effect() {
   BeliefSensors sensors;
   SensorConfig::fields(sensors.robot, [](std::string_view key, double& value, Range range = {}) {
@@ -175,7 +172,8 @@ Belief belief_of_silence(CampaignPlant plant) {
   if (auto* hopper = std::get_if<HopperBelief>(&belief)) {
     quiet(hopper->terrain);
     hopper->robot.rail_coulomb_N = hopper->robot.joint_coulomb_Nm = hopper->robot.cogging_amplitude_Nm = 0.0;
-    hopper->sensors.robot.encoder_velocity_bandwidth_Hz = kNoLowPass_Hz;
+    hopper->sensors.robot.encoder_velocity_bandwidth_Hz =
+        BeliefSensors::without_effect().robot.encoder_velocity_bandwidth_Hz;
   }
   return belief;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "config/hint.hpp"
-
 namespace sandhopper {
 namespace {
 
@@ -57,8 +55,6 @@ constexpr std::array kReasons{
            "no low-pass; the simulated controller uses this speed, so state yours"}};
 
 }  // namespace
-
-std::string belief_unit(std::string_view key) { return key.ends_with("_Nm_s") ? "N m s" : unit_of_key(key); }
 
 std::string_view reason_of_default(std::string_view path) {
   const auto* found = std::ranges::find(kReasons, path, &Reason::key);

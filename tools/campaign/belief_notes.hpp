@@ -1,11 +1,7 @@
 #pragma once
-#include <string>
 #include <string_view>
 
 namespace sandhopper {
-
-// Unit at the end of a key as text: "N m s" for viscous_friction_Nm_s.
-std::string belief_unit(std::string_view key);
 
 // Reason for the default of a key of nominal.toml. `path`: "table.key".
 std::string_view reason_of_default(std::string_view path);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "config/hint.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/belief_notes.hpp"
 
@@ -74,7 +75,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
-    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = belief_unit(key)};
+    UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
     // Left at "?", a number is that of the trials which state it; a default is nobody's.
     const bool is_unstated =
         std::ranges::find(campaign.unstated, key, &UnstatedNumber::key) != campaign.unstated.end();

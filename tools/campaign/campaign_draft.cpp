@@ -124,8 +124,7 @@ class Drafter {
     const auto& size = axes.mean_size;
     return fmt::format(
         "axis {} of three (x, y, z), which read {:.3g}, {:.3g}, {:.3g} on average; to take another, name "
-        "another "
-        "column{}",
+        "another column{}",
         axes.letter(), size[0], size[1], size[2],
         channel != "accel_mps2"
             ? ""

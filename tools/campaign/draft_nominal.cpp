@@ -5,6 +5,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "config/hint.hpp"
 #include "tools/campaign/belief.hpp"
 #include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/campaign_draft.hpp"
@@ -57,7 +58,7 @@ class NominalWriter {
                         std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
     if (needed && key != "gravity_mps2") value = fmt::format("\"{}\"", kUnknownNumber);
     const auto meaning = meaning_of_key(table.empty() ? std::string(key) : fmt::format("{}.{}", table, key));
-    std::string comment = belief_unit(key);
+    std::string comment = unit_of_key(key);
     if (!meaning.empty()) comment += (comment.empty() ? "" : "; ") + std::string(meaning);
     text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
                          comment.empty() ? "" : "   # " + comment);

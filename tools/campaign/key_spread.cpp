@@ -12,18 +12,12 @@ namespace {
 
 using Kind = ConfigNode::Kind;
 
-constexpr std::string_view kRelative = "_relative", kDampingUnit = "_Nm_s";
+constexpr std::string_view kRelative = "_relative";
 
-std::string_view without_ending(std::string_view key, std::string_view ending) {
-  return key.ends_with(ending) ? key.substr(0, key.size() - ending.size()) : key;
-}
-
-// "viscous_friction" of "axis.viscous_friction_Nm_s".
-std::string_view quantity_of(std::string_view path) {
-  const auto name = path.substr(path.rfind('.') + 1);
-  if (name.ends_with(kDampingUnit)) return without_ending(name, kDampingUnit);
-  const auto parts = split_unit(name);
-  return parts ? parts->quantity : name;
+// "viscous_friction" of "viscous_friction_Nm_s".
+std::string_view quantity_of(std::string_view key) {
+  const auto parts = split_unit(key);
+  return parts ? parts->quantity : key;
 }
 
 bool can_differ(std::string_view path) {
@@ -32,12 +26,12 @@ bool can_differ(std::string_view path) {
 
 // Numbers that `name` may mean.
 std::vector<std::string> named(std::string_view name, const std::map<std::string, double>& numbers) {
+  const bool is_relative = name.ends_with(kRelative);
+  if (is_relative) name.remove_suffix(kRelative.size());
   std::vector<std::string> found;
   for (const auto& [path, value] : numbers) {
-    if (!can_differ(path)) continue;
-    const bool is_it = name.ends_with(kRelative) ? quantity_of(path) == without_ending(name, kRelative)
-                                                 : path.substr(path.rfind('.') + 1) == name;
-    if (is_it) found.push_back(path);
+    const auto key = last_key(path);
+    if (can_differ(path) && (is_relative ? quantity_of(key) : key) == name) found.push_back(path);
   }
   return found;
 }

@@ -25,8 +25,8 @@ struct TrialOptions {
   std::string bed_preparation;
   std::string notes;
   double payload_kg = -1.0;  // negative: not given
-  // Of the live view, after the trial; 0: never. The log grows on, by 1.05 MB/s (3.47 MB for a trial of 3.3
-  // s): an operator who has gone leaves 32 MB, as much as nine trials.
+  // Time after the trial at which the live view closes; 0: never. The log grows by 1.05 MB/s until then
+  // (3.47 MB for a trial of 3.3 s): 32 MB in 30 s, as much as nine trials.
   double close_after_s = 30.0;
   double speed = 1.0;  // of the simulated board in the live view
 };

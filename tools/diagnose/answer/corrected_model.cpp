@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <map>
 
+#include "config/hint.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
 using Numbers = std::map<std::string, double>;
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 // Text of a number that TOML reads as a float.
 std::string real_text(double value) {
@@ -23,10 +23,10 @@ std::string real_text(double value) {
 std::string key_of(const Candidate& candidate, const Numbers& numbers) {
   const auto& name = candidate.parameters.front().name;
   const auto& usual = candidate.effect->belief_key;
-  if (last_part(usual) == name) return usual;
+  if (last_key(usual) == name) return usual;
   std::string found;
   for (const auto& [key, value] : numbers) {
-    if (last_part(key) != name || key.starts_with("sensors.") || key.starts_with("spread.")) continue;
+    if (last_key(key) != name || key.starts_with("sensors.") || key.starts_with("spread.")) continue;
     if (!found.empty()) return {};
     found = key;
   }
@@ -117,7 +117,7 @@ class Corrected {
     return dot == std::string::npos ? "" : key.substr(0, dot);
   }
   static std::string line(const std::string& key, double value) {
-    const auto name = last_part(key);
+    const auto name = last_key(key);
     if (name == "rigid") return fmt::format("rigid = {}\n", value != 0.0);
     if (name == "motor_count") return fmt::format("motor_count = {}\n", static_cast<int>(value));
     return fmt::format("{} = {}\n", name, real_text(value));

@@ -71,6 +71,15 @@ void stiffen(Edits& edits, double part, const Share& share) {
 }
 
 // Range of a channel's values over the campaign, at least 1e-12; 1 if the channel is not predicted.
+// Bias of a sensor: at most half of `range`.
+inline EffectParameter bias_parameter(const std::string& unit, double range) {
+  return {.name = "bias_" + unit,
+          .typical = 0.02 * range,
+          .low = -0.5 * range,
+          .high = 0.5 * range,
+          .either_sign = true};
+}
+
 // Parameters and edit of a sensor that follows with two first-order lags in series. `lag_s` is their sum, the
 // delay of a slow signal; `second_lag_part` of it is the second's. 0: first order; 1/2: two equal lags.
 inline std::vector<EffectParameter> lag_parameters() {

@@ -4,8 +4,8 @@
 
 namespace sandhopper {
 
-// Says when a live view closes by itself: the trial has been over for `after_s` and nobody pressed a key
-// since. 0: never.
+// Decides when a live view closes by itself: `after_s` after the end of the trial, or after the last key
+// pressed since. 0: never.
 class IdleClose {
  public:
   explicit IdleClose(double after_s) noexcept : after_ns_(std::llround(after_s * 1e9)) {}
@@ -24,7 +24,7 @@ class IdleClose {
 
  private:
   std::int64_t after_ns_;
-  std::int64_t since_ns_ = 0;  // 0: it is not over, or somebody did something since
+  std::int64_t since_ns_ = 0;  // start of the waiting time; 0: not waiting
 };
 
 }  // namespace sandhopper

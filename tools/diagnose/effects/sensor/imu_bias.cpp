@@ -9,12 +9,7 @@ void apply(const Context&, const std::string& channel, std::span<const double> v
 
 // An accelerometer that falls reads next to nothing. It may be off by as much as it reads at rest.
 std::vector<EffectParameter> parameters_in_fall(const Context& c, const std::string& channel) {
-  const double range = std::max(range_of(c, channel), c.belief.value("gravity_mps2", 9.81));
-  return {{.name = "bias_mps2",
-           .typical = 0.02 * range,
-           .low = -0.5 * range,
-           .high = 0.5 * range,
-           .either_sign = true}};
+  return {bias_parameter("mps2", std::max(range_of(c, channel), c.belief.value("gravity_mps2", 9.81)))};
 }
 
 const EffectRegistration kEffect(

@@ -3,7 +3,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The bias is at most half of the channel's range in the campaign.
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
     return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
@@ -15,12 +14,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
              .high = 100.0 * typical,
              .either_sign = true}};
   }
-  const double range = range_of(c, channel);
-  return {{.name = "bias_" + unit_of(channel),
-           .typical = 0.02 * range,
-           .low = -0.5 * range,
-           .high = 0.5 * range,
-           .either_sign = true}};
+  return {bias_parameter(unit_of(channel), range_of(c, channel))};
 }
 
 const EffectRegistration kEffect(
