@@ -13,7 +13,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that justifies a fit.
 // Prior probability that a given listed effect is missing.
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 // Prior odds: "something is missing" against "one more effect is missing".
@@ -26,22 +25,11 @@ constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
 // Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
 constexpr double kCaught = 3.0;
-// Sets within this fraction of the explained deviance are extended or used as start points.
-constexpr double kNearlyAsGood = 0.35;
 
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // Settings for the first fit of a set.
 // Skip a nuisance step that gains less than this fraction of the trial's deviance above the noise.
 constexpr double kFarGain = 1e-3;
-constexpr double kRival = 20.0;  // Largest distance in the criterion at which a rival's fit is completed.
-// Possible further drop of a rough fit, relative to the explained deviance: of every set, and of the
-// `kNearestRivals` nearest sets.
-constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
-constexpr std::size_t kNearestRivals = 3;
-// p-value below which an effect is added to the best set by its own dispersion.
-constexpr double kSurely = 1e-8;
-// The real drop of the deviance may be this many times its linear estimate.
-constexpr double kPromiseShort = 1.5;
 constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 // Keep the null fit unless the refit gains at least 2 % of what the closest single effect gained.
@@ -54,8 +42,6 @@ constexpr double kBentLean = 4.0;
 // An effect explains the common nuisance offset if |z| falls below this fraction.
 constexpr double kUnbent = 0.6;
 constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
-// Fraction of the gain of a law of free form that a set must explain to replace the law.
-constexpr double kNearlyAll = 0.9;
 constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // Start values in typical sizes.
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
@@ -195,22 +181,27 @@ void Search::evaluate_straight(const SetFit& from) {
   for (const auto& [candidate, one] : nearest) order.push_back(&one);
   std::ranges::sort(order, {}, &Nearest::deviance);
   double closest = from.fit.deviance;
-  for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i) {
-    SetFit result;
-    result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
-    result.fit = fit_at(order[i]->start, {.max_iterations = kRough.max_iterations, .columns = &columns});
-    result.rough = true;
-    // The nuisances start far from their optimum: finish the fit of every set that comes near.
-    if (result.fit.status == FitStatus::failed &&
-        result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest)) {
-      result.fit = fit_at(Point(result.fit.point), {.columns = &columns});
-      result.rough = false;
-    }
-    closest = std::min(closest, result.fit.deviance);
-    const auto known = sets_.find(result.set);
-    if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
-      sets_[result.set] = std::move(result);
+  for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i)
+    fit_straight(from, order[i]->start, columns, closest);
+}
+
+// Fits one set from a start with the nuisances at their prior means. `closest`: smallest deviance so far.
+void Search::fit_straight(const SetFit& from, const Point& start, const std::vector<KeptColumns>& columns,
+                          double& closest) {
+  SetFit result;
+  result.set = with(from.set, start.hypothesis.candidates.back());
+  result.fit = fit_at(start, {.max_iterations = kRough.max_iterations, .columns = &columns});
+  result.rough = true;
+  // The nuisances start far from their optimum: finish the fit of every set that comes near.
+  if (result.fit.status == FitStatus::failed &&
+      result.fit.deviance < closest + kNearlyAsGood * (from.fit.deviance - closest)) {
+    result.fit = fit_at(Point(result.fit.point), {.columns = &columns});
+    result.rough = false;
   }
+  closest = std::min(closest, result.fit.deviance);
+  const auto known = sets_.find(result.set);
+  if (known == sets_.end() || result.fit.deviance < known->second.fit.deviance)
+    sets_[result.set] = std::move(result);
 }
 
 // True if the nuisance parameters have absorbed something that is missing.
@@ -248,221 +239,6 @@ Fit Search::fit_at(const Point& start, FitOptions options) const {
   options.far_gain = kFarGain;
   options.tolerance *= dispersion_;  // Gains count relative to the scatter between trials.
   return fit_from(*problem_, start, options);
-}
-
-void Search::finish(SetFit& fit) const {
-  if (!fit.rough) return;
-  fit.fit = fit_at(Point(fit.fit.point));
-  fit.rough = fit.judged = false;
-  borrow(fit);
-}
-
-// A trial's deviance can have two minima. If another set found a much lower one for a trial, restart this set
-// from the nuisance parameters found there.
-void Search::borrow(SetFit& fit) const {
-  Point start = fit.fit.point;
-  bool lower = false;
-  for (std::size_t t = 0; t < start.nuisances.size(); ++t) {
-    double least = fit.fit.trial_deviance[t] - kWorthAFit * dispersion_;
-    for (const auto& [set, other] : sets_)
-      if (other.fit.trial_deviance[t] < least) {
-        least = other.fit.trial_deviance[t];
-        start.nuisances[t] = other.fit.point.nuisances[t];
-        lower = true;
-      }
-  }
-  if (!lower) return;
-  Fit again = fit_at(start);
-  if (again.deviance >= fit.fit.deviance) return;
-  fit.fit = std::move(again);
-  fit.judged = false;
-}
-
-// A rival must not lose only because its rough fit stopped early. Complete the fits of near rivals. If one
-// gets ahead, choose again.
-void Search::finish_rivals() {
-  const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
-  const double best_so_far = criterion(best()),
-               limit = best_so_far + std::max(kRival, kUnsettled * explained),
-               far = best_so_far + std::max(kRival, kFarUnsettled * explained);
-  std::vector<SetFit*> order;
-  for (auto& [set, fit] : sets_)
-    if (set.size() <= best_.size()) order.push_back(&fit);
-  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
-  bool ahead = false;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    SetFit& fit = *order[i];
-    const bool near = i <= kNearestRivals && criterion(fit) < far;
-    if (!fit.rough || (!near && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit))
-      continue;
-    finish(fit);
-    ahead = ahead || criterion(fit) < best_so_far;
-  }
-  if (!ahead) return;
-  choose_best();
-  prune();
-}
-
-// The trials may scatter much more in one effect than in another, and the common dispersion would hide the
-// second effect. Add an effect that is certain and lowers the criterion by its own dispersion.
-void Search::grow_best() {
-  const auto pays = [&](SetFit& fit) {
-    if (!fit.judged) judge(fit);
-    if (!fit.needed) return false;
-    const auto added = std::ranges::find_if(
-        fit.evidence, [&](const auto& e) { return !std::ranges::binary_search(best_, e.candidate); });
-    return added->p_value < kSurely &&
-           criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
-  };
-  for (bool grown = true; grown && best_.size() < options_.most_effects;) {
-    std::vector<SetFit*> order;
-    for (auto& [set, fit] : sets_)
-      if (!best_.empty() && set.size() == best_.size() + 1 && std::ranges::includes(set, best_) &&
-          !fit.rough && fit.fit.status != FitStatus::failed)
-        order.push_back(&fit);
-    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
-    const auto found = std::ranges::find_if(order, [&](SetFit* fit) { return pays(*fit); });
-    grown = found != order.end();
-    if (grown) best_ = (*found)->set;
-  }
-}
-
-// Refit with derivatives at the best set itself: only these show the remaining nuisance offsets.
-void Search::settle_best() {
-  SetFit& fit = sets_.at(best_);
-  if (fit.set.empty()) return;
-  columns_ = columns_at(*problem_, fit.fit.point);
-  Fit again = fit_at(Point(fit.fit.point));
-  if (again.deviance < fit.fit.deviance) fit.fit = std::move(again);
-  borrow(fit);
-}
-
-namespace {
-
-std::vector<std::size_t> named_part(const SetFit& fit) {
-  std::vector<std::size_t> part;
-  for (const auto& evidence : fit.evidence)
-    if (!evidence.too_small && !evidence.unnoticed) part.push_back(evidence.candidate);
-  std::ranges::sort(part);
-  return part;
-}
-
-}  // namespace
-
-std::vector<double> Search::deviances_without_one(const SetFit& fit) const {
-  std::vector<double> deviances;
-  for (const auto candidate : fit.set) {
-    const auto parent = sets_.find(without(fit.set, candidate));
-    deviances.push_back(parent == sets_.end() ? -1e300 : parent->second.fit.deviance);
-  }
-  return deviances;
-}
-
-// True if the set was not judged yet, or if a set without one of its effects has since found a lower
-// deviance.
-bool Search::is_to_be_judged(const SetFit& fit) const {
-  if (!fit.judged) return true;
-  const auto now = deviances_without_one(fit);
-  for (std::size_t i = 0; i < fit.beside.size(); ++i)
-    if (now[i] > -1e299 && now[i] < fit.beside[i] - kWorthAFit) return true;
-  return false;
-}
-
-void Search::choose_best() {
-  // Smallest deviance first, to get the dispersion from the best-fitting set that needs all its effects.
-  std::vector<SetFit*> order;
-  for (auto& [set, fit] : sets_)
-    if (fit.fit.status != FitStatus::failed || fit.rough || set.empty()) order.push_back(&fit);
-  std::sort(order.begin(), order.end(),
-            [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
-  const auto needed = [&](SetFit& fit) {
-    if (is_to_be_judged(fit)) judge(fit);
-    // Complete a rough fit only if its effects may be needed.
-    if (fit.rough && !fit.hopeless) {
-      finish(fit);
-      judge(fit);
-    }
-    return fit.needed && (fit.fit.status != FitStatus::failed || fit.set.empty());
-  };
-  for (auto* fit : order)
-    if (needed(*fit)) {
-      dispersion_ = fit->dispersion;
-      break;
-    }
-  std::sort(order.begin(), order.end(),
-            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
-  const auto before = best_;
-  // Sets with a smaller criterion that hold an effect too small to be named.
-  std::vector<const SetFit*> trivial;
-  for (auto* fit : order) {
-    if (needed(*fit)) {
-      best_ = fit->set;
-      break;
-    }
-    const bool differs = std::ranges::any_of(fit->evidence, &EffectEvidence::unnoticed);
-    if (fit->judged && fit->sound && !differs) trivial.push_back(fit);
-  }
-  // A better set may consist of `part` and an effect too small to be named. Then the other effect in the best
-  // set only replaces the small one: name `part` alone.
-  for (const auto* fit : trivial) {
-    const auto part = named_part(*fit);
-    if (part.size() < best_.size() && std::ranges::includes(best_, part) && sets_.contains(part) &&
-        criterion(*fit) + kWorthAFit < criterion(best()) && needed(sets_.at(part)))
-      best_ = part;
-  }
-  if (best_ != before) columns_ = columns_at(*problem_, best().fit.point);
-}
-
-// Fits `part` of the effects of `whole`. A part that was fitted before is only refitted if its deviance is
-// higher than the gains of the other effects can explain: then the earlier fit stopped in a worse minimum.
-// True if a fit was stored.
-bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
-  const auto known = sets_.find(part);
-  if (known != sets_.end()) {
-    double others = kWorthAFit * dispersion_;
-    for (const auto& evidence : whole.evidence)
-      if (!std::ranges::binary_search(part, evidence.candidate)) others += kPromiseShort * evidence.gain;
-    if (!whole.judged || known->second.fit.deviance <= whole.fit.deviance + others) return false;
-  }
-  SetFit fit;
-  fit.set = part;
-  Point start = whole.fit.point;
-  Hypothesis h;
-  for (std::size_t i = 0; i < start.hypothesis.candidates.size(); ++i)
-    if (std::find(part.begin(), part.end(), start.hypothesis.candidates[i]) != part.end()) {
-      h.candidates.push_back(start.hypothesis.candidates[i]);
-      h.values.push_back(start.hypothesis.values[i]);
-    }
-  start.hypothesis = h;
-  fit.fit = fit_at(start);
-  if (known != sets_.end() && known->second.fit.deviance <= fit.fit.deviance) return false;
-  sets_[part] = std::move(fit);
-  return true;
-}
-
-// A set may fit better than the best one but hold an effect it does not need. Fit it without that effect:
-// forward search may never have reached the smaller set.
-void Search::prune() {
-  for (int round = 0; round < 3; ++round) {
-    std::vector<const SetFit*> order;
-    for (const auto& [set, fit] : sets_)
-      if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
-    std::ranges::sort(order, {}, [](const SetFit* fit) { return fit->fit.deviance; });
-    // Key: the needed part. Value: the set with the smallest deviance that contains it.
-    std::map<std::vector<std::size_t>, SetFit> wholes;
-    for (const auto* fit : order) {
-      std::vector<std::size_t> part;
-      for (const auto& evidence : fit->evidence)
-        if (evidence.p_value < kSignificance && !evidence.too_small && !evidence.unnoticed)
-          part.push_back(evidence.candidate);
-      std::sort(part.begin(), part.end());
-      if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
-    }
-    bool tried = false;
-    for (const auto& [part, whole] : wholes) tried = fit_part(whole, part) || tried;
-    if (!tried) return;
-    choose_best();
-  }
 }
 
 // Removes each effect of the best set in turn and tries all others in its place.
@@ -533,45 +309,16 @@ bool Search::try_proposals() {
   return tried;
 }
 
-bool Search::name_small(double gain) {
-  if (gain <= 0.0) return false;
-  const double limit = best().fit.deviance - kNearlyAll * gain;
-  std::vector<SetFit*> order;
-  for (auto& [set, fit] : sets_)
-    if (set.size() > best_.size() && std::ranges::includes(set, best_) && fit.fit.deviance < limit)
-      order.push_back(&fit);
-  std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
-  for (auto* fit : order) {
-    finish(*fit);
-    if (!fit->judged) judge(*fit);
-    if (!fit->sound || fit->fit.status == FitStatus::failed) continue;
-    best_ = fit->set;
-    columns_ = columns_at(*problem_, best().fit.point);
-    return true;
+void Search::fit_seeds(const std::vector<Point>& seeds) {
+  if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
+  for (const auto& seed : seeds) {
+    SetFit fit;
+    fit.set = seed.hypothesis.candidates;
+    std::sort(fit.set.begin(), fit.set.end());
+    fit.rough = true;
+    fit.fit = fit_at(seed, kRough);
+    sets_[fit.set] = std::move(fit);
   }
-  return false;
-}
-
-std::vector<Point> Search::best_points(std::size_t count) const {
-  std::vector<const SetFit*> order;
-  const double limit = best().fit.deviance + kNearlyAsGood * (null().fit.deviance - best().fit.deviance);
-  for (const auto& [set, fit] : sets_)
-    if (!set.empty() && fit.fit.status != FitStatus::failed && fit.fit.deviance <= limit)
-      order.push_back(&fit);
-  std::sort(order.begin(), order.end(),
-            [&](const SetFit* a, const SetFit* b) { return criterion(*a) < criterion(*b); });
-  // Skip sets that only add effects to a better set.
-  std::vector<const SetFit*> chosen;
-  std::vector<Point> points;
-  for (const auto* fit : order) {
-    if (points.size() == count) break;
-    if (std::ranges::any_of(chosen,
-                            [&](const SetFit* less) { return std::ranges::includes(fit->set, less->set); }))
-      continue;
-    chosen.push_back(fit);
-    points.push_back(fit->fit.point);
-  }
-  return points;
 }
 
 const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
@@ -583,15 +330,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
-  if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
-  for (const auto& seed : seeds) {
-    SetFit fit;
-    fit.set = seed.hypothesis.candidates;
-    std::sort(fit.set.begin(), fit.set.end());
-    fit.rough = true;
-    fit.fit = fit_at(seed, kRough);
-    sets_[fit.set] = std::move(fit);
-  }
+  fit_seeds(seeds);
   std::vector<std::vector<std::size_t>> front{{}};
   for (std::size_t size = 1; size <= options_.most_effects; ++size) {
     // Only for the nearest set: this costs as much as a screen with all its fits.

@@ -91,6 +91,9 @@ class Search {
   double cost_of_a_parameter() const;
   void evaluate(const SetFit& from, const Screened& added);
   void evaluate_straight(const SetFit& from);
+  void fit_straight(const SetFit& from, const Point& start, const std::vector<KeptColumns>& columns,
+                    double& closest);
+  void fit_seeds(const std::vector<Point>& seeds);
   bool is_bent(const Fit& fit) const;
   bool unbends(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);

@@ -5,12 +5,17 @@
 
 #include "tools/diagnose/fit/problem.hpp"
 
-// Helpers shared by the search over sets (search.cpp) and its judge (search_judge.cpp).
+// Helpers shared by the search over sets (search.cpp), its choice (search_choice.cpp) and its judge
+// (search_judge.cpp).
 namespace sandhopper::diagnose {
 
 inline constexpr double kSignificance = 0.01;  // Family-wise p-value.
 // Smallest amplitude that is named, in typical sizes.
 inline constexpr double kSmallestOfTypical = 0.08;
+inline constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that justifies a fit.
+// Sets within this fraction of the explained deviance are extended or used as start points.
+inline constexpr double kNearlyAsGood = 0.35;
+inline constexpr double kRival = 20.0;  // Largest distance in the criterion at which a rival's fit is completed.
 
 // The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {
