@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "tools/diagnose/discrepancy/left_over.hpp"
 #include "tools/diagnose/evidence/proposals.hpp"
@@ -190,6 +191,7 @@ void Search::fit_straight(const SetFit& from, const Point& start, const std::vec
                           double& closest) {
   SetFit result;
   result.set = with(from.set, start.hypothesis.candidates.back());
+  result.straight = true;
   result.fit = fit_at(start, {.max_iterations = kRough.max_iterations, .columns = &columns});
   result.rough = true;
   // The nuisances start far from their optimum: finish the fit of every set that comes near.
@@ -258,23 +260,27 @@ void Search::exchange() {
 // The null fit may be stuck in a local minimum of the nuisances, and an effect may lead out of it. Refit the
 // null from there. Otherwise the effect would get credit for what the nuisances explain.
 void Search::restart_null() {
+  std::set<std::vector<std::size_t>> started_from;
   for (int round = 0; round < kNullRestarts; ++round) {
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
     if (round == 0 && options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
     const SetFit* closest = nullptr;
     for (const auto& [set, fit] : sets_)
-      if (set.size() == 1 && (closest == nullptr || fit.fit.deviance < closest->fit.deviance)) closest = &fit;
+      if (set.size() == 1 && !started_from.contains(set) &&
+          (closest == nullptr || fit.fit.deviance < closest->fit.deviance))
+        closest = &fit;
     if (closest == nullptr || closest->fit.deviance > before - kWorthAFit) return;
+    started_from.insert(closest->set);
     Point start = closest->fit.point;
     start.hypothesis = {};
     Fit again = fit_at(start);
     if (again.deviance > before - kFreed * std::max(1.0, before - closest->fit.deviance)) return;
     SetFit freed = null();
     freed.fit = std::move(again);
-    sets_.clear();
+    std::erase_if(sets_, [](const auto& entry) { return !entry.second.straight; });
     screens_.clear();
-    straight_.clear();
+    if (!sets_.empty()) straight_[{}] = freed.fit.deviance;
     sets_[{}] = std::move(freed);
   }
 }

@@ -32,6 +32,8 @@ struct SetFit {
   std::vector<EffectEvidence> evidence;
   double dispersion = 1.0;  // Mean of the effects' dispersions.
   bool rough = false;       // Fitted with few iterations only; `finish` completes the fit.
+  // Fitted from the prior means of the nuisance parameters: the fit does not depend on that of the null.
+  bool straight = false;
   bool judged = false;
   std::vector<double> beside;  // Deviances of the sets without one of the effects, at the time of judging.
   bool needed = false;    // Every effect is significant, large enough and noticeable; valid after `judge`.
