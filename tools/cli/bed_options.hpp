@@ -13,7 +13,7 @@
 
 namespace sandhopper::cli {
 
-// Options that every experiment on families of beds has.
+// Options common to all experiments on families of beds.
 struct BedOptions {
   std::uint64_t seed = 1;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
@@ -25,7 +25,7 @@ struct BedOptions {
     arguments.add_option("--beds", beds, "only these families").type_name("NAMES");
   }
 
-  // A set-up of the experiment with these options and the robot and world of the configuration.
+  // Setup of the experiment from these options and the configuration's robot and world.
   template <class Setup>
   Setup setup(Session& session) const {
     const auto robot = load_robot(session.config_directory());
@@ -39,7 +39,7 @@ struct BedOptions {
   }
 };
 
-// scored(setup); a family that is not there is a wrong command line.
+// Calls scored(setup). An unknown bed family is reported as a wrong command line.
 template <class Scored, class Setup>
 auto scored_beds(Scored&& scored, const Setup& setup) {
   try {
