@@ -169,7 +169,7 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
   ASSERT_NE(trial, nullptr) << why;
   std::vector<double> out(trial->rows.size());
   trial->predict({}, std::vector<double>(trial->nuisance_count(), 0.0), out);
-  // Of each stretch what is not how it began: a share of the motion.
+  // Fits the error of each block with a constant, a drift and a share of the motion. The share must be 0.
   for (std::uint32_t b = 0; b < trial->blocks; ++b) {
     std::vector<Eigen::Vector3d> columns;
     std::vector<double> short_by;
