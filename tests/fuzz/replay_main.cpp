@@ -12,9 +12,9 @@ namespace {
 int run_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  // Names the input that ends the program.
+  // Prints the name of the input before it runs, so that the input of a crash is known.
   std::fprintf(stderr, "%s\n", file.filename().c_str());
-  // A copy of just this size, so that AddressSanitizer sees a read behind it.
+  // A copy of exactly this size, so that AddressSanitizer finds a read beyond its end.
   const std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
   return LLVMFuzzerTestOneInput(input.data(), input.size());
 }
