@@ -36,7 +36,7 @@ struct Row {
   double position_rad, velocity_radps, torque_Nm;  // as printed in the file
   int position, velocity, torque;                  // in counts of the reply's fields
 
-  // True if the sample equals the printed digits and the doubles of the count's formula.
+  // is_near: equal to the printed digits. is_exactly: the same doubles as the formula of the counts gives.
   bool is_near(const MotorSample& s) const {
     constexpr double kPrinted = 0.501e-8;
     return std::abs(s.position_rad - position_rad) <= kPrinted &&

@@ -20,8 +20,9 @@ double loss_W(const SupervisionConfig& c, double current_A) {
 }
 
 // Solution for two heat capacities in series that start at ambient temperature, with a constant loss in the
-// first: x(t) = (1 - exp(A t)) x_end,  exp(A t) = (exp(p t) (A - q) - exp(q t) (A - p)) / (p - q) with the
-// eigenvalues p, q of A.
+// first:
+//   x(t) = (1 - exp(A t)) x_end,  exp(A t) = (exp(p t) (A - q) - exp(q t) (A - p)) / (p - q)
+// with the eigenvalues p, q of A.
 Temperatures closed_form(const SupervisionConfig& c, double loss_W, double time_s) {
   const double rw = c.winding_resistance_K_per_W, rh = c.housing_resistance_K_per_W;
   const double cw = c.winding_capacity_J_per_K, ch = c.housing_capacity_J_per_K;
