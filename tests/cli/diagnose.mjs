@@ -28,7 +28,7 @@ const answer = (folder, name) => {
 };
 const named = diagnosis => (diagnosis.effects ?? []).map(effect => effect.id).sort().join(' + ') || 'nothing';
 
-// Concealed campaigns made here; what is hidden is large enough to be beyond doubt.
+// Concealed campaigns; the hidden effect is large enough to be certain.
 const made = [
   { plant: 'falling_body', effect: 'air.quadratic_drag', seed: '11' },
   { plant: 'intruder', effect: 'terrain.depth_power_law', seed: '13' },
@@ -56,7 +56,8 @@ function rewritten(source, one, target) {
   writeFileSync(join(target, 'campaign.toml'), join_trials(toml));
 }
 
-// On the model that the first run corrected, beside its recordings: nothing is missing, and the model stays as it is.
+// With the corrected model of the first run, beside its recordings: nothing may be missing, and the model
+// must not change.
 function second_run({ plant, folder }) {
   const target = join(scratch, `second-${plant}`);
   cpSync(folder, target, { recursive: true });
@@ -94,7 +95,7 @@ for (const campaign of made) {
   }
 }
 
-// From elsewhere: other column names and units, speed and acceleration not there, one file that is no table.
+// A foreign folder: other column names and units, no speed and acceleration, and one file that is no table.
 const source = made.find(one => one.plant === 'intruder').folder;
 const foreign = join(scratch, 'foreign');
 cpSync(source, foreign, { recursive: true });

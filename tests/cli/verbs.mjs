@@ -71,7 +71,7 @@ expect(replay.status === 0 && is_one_object(replay.stdout), 'hop replay --json')
 const { identical, cycles, x_real_time } = JSON.parse(replay.stdout);
 expect(identical === true && cycles > 1000 && x_real_time > 1, 'identical, cycles, x_real_time');
 
-// A log cut in the middle: what can be read of it is a log again, and the cut one stays as it is.
+// A log cut in the middle: the readable part becomes a log again, and the cut log does not change.
 const cut = told.log.replace('.mcap', '_cut.mcap');
 const half = readFileSync(told.log).subarray(0, Math.floor(statSync(told.log).size / 2));
 writeFileSync(cut, half);
