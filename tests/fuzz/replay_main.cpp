@@ -1,5 +1,6 @@
-// Runs one target over the files of a folder, once each: how the corpora are tested with any compiler, and
-// how a crash found elsewhere is looked at.  replay_NAME FOLDER_OR_FILE…
+// Runs one target once over each file of a folder. The corpora are tested with it, with any compiler, and
+// crashes found elsewhere are reproduced.
+//   replay_NAME FOLDER_OR_FILE…
 #include <filesystem>
 #include <fstream>
 #include <iterator>

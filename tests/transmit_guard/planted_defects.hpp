@@ -29,7 +29,7 @@ struct Defect {
   std::function<void(const StepOutput& output, Command& command, Fault& told)> command{};
   // Replaces each frame by any number of frames, from the start.
   std::function<void(const can_frame& frame, const Send& send)> frames{};
-  int begin_cycles = 1;  // how often the driver begins and sends a cycle's frames in one cycle
+  int begin_cycles = 1;  // number of times that the driver begins and sends a cycle's frames in one cycle
 };
 
 std::vector<Defect> all_defects();

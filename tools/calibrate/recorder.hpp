@@ -18,7 +18,7 @@ struct Step {
   std::string prompt;  // instruction to the person, before the recording
   Fixture fixture{};   // acts for the person on the simulated board and on the virtual bench
   double seconds = 3.0;
-  std::string during{};  // what the person does during the recording; empty: nothing
+  std::string during{};  // task of the person during the recording; empty: nothing
   // Torque of each motor at this time of the recording, N m; empty: the drives stay off.
   std::function<std::array<double, kMotorCount>(double time_s)> torque_Nm{};
 };

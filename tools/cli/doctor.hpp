@@ -16,7 +16,7 @@ struct Finding {
   Health health;
   std::string what;   // name of the check: "SCHED_FIFO", "can0"
   std::string found;  // result: "priority 80 granted"
-  std::string cure;   // what the user can do; empty if ok
+  std::string cure;   // for the user; empty if ok
 };
 
 // Kernel, priorities, memory locking, processors, clocks, disk space.

@@ -13,11 +13,11 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::uint64_t kLongest_cycles = 8000;
-constexpr std::uint64_t kUnseen_cycles = 600;   // how long a fault that cannot be detected is watched
-constexpr std::uint64_t kAfter_cycles = 20;     // how long the reaction is watched
-constexpr std::uint64_t kFrozen_cycles = 1010;  // how long it is watched for a freeze frame, which shows the
-                                                // second after the fault
-constexpr std::uint64_t kSoft_cycles = 3000;    // how long a soft stop is watched
+constexpr std::uint64_t kUnseen_cycles = 600;   // watching time for a fault that cannot be detected
+constexpr std::uint64_t kAfter_cycles = 20;     // watching time for the reaction
+constexpr std::uint64_t kFrozen_cycles = 1010;  // watching time for a freeze frame, which shows the second
+                                                // after the fault
+constexpr std::uint64_t kSoft_cycles = 3000;    // watching time for a soft stop
 constexpr int kZeroWithin_cycles = 2;           // after this no torque may be commanded, but in a soft stop
 constexpr double kLimpTorque_Nm = 1e-9;
 

@@ -13,8 +13,8 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::uint64_t kLongestPair_cycles = 9000;
-constexpr std::uint64_t kWatched_cycles = 600;  // how long a fault that cannot be detected is watched
-constexpr std::uint64_t kQuiet_cycles = 30;     // how long drives that are off are watched: longer than their
+constexpr std::uint64_t kWatched_cycles = 600;  // watching time for a fault that cannot be detected
+constexpr std::uint64_t kQuiet_cycles = 30;     // watching time for drives that are off; longer than their
                                                 // timeout
 
 // One of the two faults. Times are counts of cycles that ran (TrialRig::turns()), 0: not yet. set_at:

@@ -89,7 +89,7 @@ struct Study {
   std::string verdict_mark{};  // good, partly or bad
   std::vector<StudyAnswer> answers{};
   std::vector<std::pair<std::string, std::string>> facts{};  // label, text
-  std::vector<std::string> warnings{};                       // what the reader must know first
+  std::vector<std::string> warnings{};                       // important for the reader, shown first
   std::vector<StudySection> sections{};
 };
 
