@@ -13,6 +13,7 @@ struct PosePair {
   Recording shortened;
 };
 
+// Known pose, and the widest accepted interval of a zero.
 struct EncoderSetup {
   double known_length_m;     // from hip axis to toe joint
   double length_accuracy_m;  // half of the 95 % interval of known_length_m

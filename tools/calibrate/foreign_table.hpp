@@ -15,6 +15,7 @@ struct ForeignTableError : std::runtime_error {
   std::string cure;
 };
 
+// One column of the table against time.
 struct ForeignTable {
   ForeignRecording recording;
   std::vector<std::string> notes;  // problems found in a table that can still be used

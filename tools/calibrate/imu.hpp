@@ -7,6 +7,7 @@
 
 namespace sandhopper::calibrate {
 
+// Gravity at the place of the recordings, and limits of an acceptable fit. A larger value is a refusal.
 struct ImuLimits {
   double gravity_mps2;
   double max_residual_mps2 = 0.05;  // of the length of a pose's mean, beyond noise

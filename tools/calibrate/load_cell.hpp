@@ -12,6 +12,7 @@ struct WeighedPoint {
   Recording recording;  // forces converted with the configuration `before`
 };
 
+// Gravity at the place of the recordings, and limits of an acceptable fit. A larger value is a refusal.
 struct LoadCellLimits {
   double gravity_mps2;
   double max_ci95_relative = 0.01;      // of the scale

@@ -17,6 +17,7 @@ struct CalibratedValue {
   bool whole = false;  // true: an integer key
 };
 
+// robot.toml or the board's file.
 enum class ConfigFile { robot, board };
 
 // Result of a calibration. It is written to the files only if `refusals` is empty.

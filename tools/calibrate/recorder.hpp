@@ -23,6 +23,7 @@ struct Step {
   std::function<std::array<double, kMotorCount>(double time_s)> torque_Nm{};
 };
 
+// Assumed configuration of robot and board. `progress` gets the share of the recording that is done, 0 to 1.
 struct RecorderSetup {
   const RobotConfig& robot;
   const LinuxBoardConfig& board;  // with the robot's motors in can.motor

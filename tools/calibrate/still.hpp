@@ -32,6 +32,7 @@ struct StillMean {
   double duration_s = 0.0;
 };
 
+// Requirements of still_mean(). max_wander has the unit of the quantity.
 struct StillLimits {
   std::size_t min_samples = 100;
   double min_duration_s = 0.5;

@@ -16,6 +16,7 @@ struct ForeignRecording {
   Series signal;
 };
 
+// Sensors to compare, and the widest accepted intervals.
 struct TimingSetup {
   TapSensor reference = TapSensor::imu_foot;  // sensor whose time stamps are taken as correct
   std::vector<TapSensor> others;              // sensors whose latency is to be found

@@ -12,6 +12,7 @@ struct HeightPoint {
   Recording recording;
 };
 
+// Limits of an acceptable fit. A larger value is a refusal.
 struct TofLimits {
   double max_ci95_m = 0.003;
   double max_residual_m = 0.004;  // beyond noise

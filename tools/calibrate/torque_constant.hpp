@@ -17,9 +17,12 @@ struct PressProgram {
   int motor_count = 2;
 
   double duration_s() const;
+  // Torque of each motor at this time of the recording.
   std::array<double, kMotorCount> torque_Nm(double time_s) const;
 };
 
+// Uncertainty of the load cell, and limits of an acceptable fit relative to the constant and to the span of
+// torque.
 struct TorqueConstantSetup {
   double load_cell_ci95_relative = 0.0;  // of the load cell's scale; such an error is also one of the torque
                                          // constants

@@ -24,6 +24,7 @@ class Option {
   template <class Number>
   Option& in_range(Number low, Number high);
   Option& non_negative();
+  // Accepts only these words.
   Option& one_of(std::vector<std::string> words);
   Option& existing_file();
   Option& existing_folder();
@@ -32,6 +33,7 @@ class Option {
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
 
+  // True if the command line has this option.
   bool given() const;
 
  private:
@@ -52,11 +54,14 @@ class Arguments {
   Option add_flag(const std::string& name, bool& value, const std::string& help);
 
   Arguments add_verb(const std::string& name, const std::string& summary);
+  // The user must name one of the sub-verbs.
   void require_verb();
+  // The user may name one of the sub-verbs.
   void allow_one_verb();
   void leave_the_rest();  // parses only the options common to all verbs and leaves the other words
   bool parsed() const;    // true if the command line names this verb
 
+  // Text below the list of options in the help.
   void footer(const std::string& text);
 
  private:

@@ -19,6 +19,7 @@ struct BedOptions {
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> beds;
 
+  // `first`: the thing that the seed belongs to, for the help text.
   void add_to(Arguments& arguments, const std::string& first) {
     arguments.add_option("--seed", seed, "of the first " + first).show_default();
     arguments.add_option("--threads", threads, "default: one a core").in_range(1U, 1024U);

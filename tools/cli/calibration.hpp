@@ -22,6 +22,7 @@ struct Calibration {
     // Recordings to make, in this order; --from needs as many files. Throws Failure(usage) if the options
     // contradict each other.
     std::function<std::vector<calibrate::Step>(const CalibrationInput&)> steps;
+    // Computes the calibration from the recordings, in the order of `steps`.
     std::function<calibrate::Outcome(const std::vector<calibrate::Recording>&, const CalibrationInput&)> fit;
     std::function<void(CalibrationInput&)> prepare{};  // changes the assumed configuration before recording
   };

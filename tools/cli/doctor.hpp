@@ -10,8 +10,10 @@
 // The checks of `hop doctor`. They energise no drive and change no setting.
 namespace sandhopper::cli {
 
+// warn: the robot can run; fail: it cannot.
 enum class Health : std::uint8_t { ok, warn, fail };
 
+// Result of one check.
 struct Finding {
   Health health;
   std::string what;   // name of the check: "SCHED_FIFO", "can0"
@@ -54,6 +56,7 @@ class BusListener {
  public:
   explicit BusListener(const std::string& interface);
   ~BusListener();
+  // Lists the identifiers. Fails if there are none although the drives were asked for their state.
   Finding seen(const CanConfig& config);
 
  private:

@@ -11,6 +11,7 @@ namespace sandhopper::cli {
 // printed every ten seconds.
 class Progress {
  public:
+  // `total`: amount of work that at() counts up to.
   Progress(std::string label, double total);
   ~Progress();
   Progress(const Progress&) = delete;

@@ -16,6 +16,7 @@ namespace sandhopper::cli {
 class Session {
  public:
   template <class... Args>
+  // Prints a line for people.
   void say(fmt::format_string<Args...> text, Args&&... args) {
     say_line(fmt::format(text, std::forward<Args>(args)...));
   }
@@ -23,6 +24,7 @@ class Session {
 
   // The directory by the rules of config/directory.hpp; determined at the first call.
   const std::filesystem::path& config_directory();
+  // Path of a file in the configuration directory.
   std::string config_file(const std::string& name) { return (config_directory() / name).string(); }
 
   bool json = false;

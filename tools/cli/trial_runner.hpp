@@ -28,6 +28,7 @@ class TrialRunner {
 
   const RobotConfig& robot() const { return robot_; }
   const std::filesystem::path& folder() const { return folder_; }
+  // True if the trials run in the live view.
   bool live() const { return live_; }
   // Runs trial `number`, counted from 0, of `trials`. The sheet is written into its log; the sheet's release
   // height overrides the option.

@@ -64,6 +64,7 @@ class BenchBoard : public Board {
   Fault latched_ = Fault::none;
 };
 
+// The CAN configuration of the robot: its motors, torque limit and number of motors.
 CanConfig can_of(const RobotConfig& robot);
 
 }  // namespace sandhopper::faults

@@ -31,7 +31,9 @@ struct Cell {
   std::string note{};
   Fault or_else = Fault::none;  // also accepted: chance decides which of the two is found first
 
+  // True if `found` is an accepted fault of this cell.
   bool names(Fault found) const { return found == expected || (or_else != Fault::none && found == or_else); }
+  // Device and kind, for example "imu_body off".
   std::string name() const;
 };
 

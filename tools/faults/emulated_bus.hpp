@@ -26,6 +26,7 @@ class EmulatedBus : public CanPort {
   // the bus.
   EmulatedBus(World& world, const CanConfig& drives, std::uint64_t seed);
 
+  // Plants a fault in the bus or a drive; std::nullopt repairs it. Held frames leave when the bus recovers.
   void set(Device device, std::optional<Kind> kind);
 
   // Loses each frame to the drives for which `lost` is true, as a one-shot controller can: send() succeeds,
@@ -44,6 +45,7 @@ class EmulatedBus : public CanPort {
 
   // The last command that each drive received, in link coordinates.
   const MotorCommand& told(Side side) const { return motor_[static_cast<std::size_t>(side)].told; }
+  // True if the last frames put this drive into motor mode.
   bool enabled(Side side) const { return motor_[static_cast<std::size_t>(side)].enabled; }
   void reset_torque() { most_torque_Nm_ = 0.0; }
   double most_torque_Nm() const { return most_torque_Nm_; }
@@ -76,6 +78,7 @@ class EmulatedBus : public CanPort {
   };
 
   MotorSample felt(std::size_t i) const;
+  // Power of a drive is lost: its last command is cleared.
   void take_power(std::size_t i);
   void deliver(const Queued& queued);
   void ask(std::size_t i, const Queued& queued);
@@ -85,6 +88,7 @@ class EmulatedBus : public CanPort {
   bool motor_lost(Motor& motor);
   bool without_power(const Motor& motor) const;
   bool nobody_acknowledges() const;
+  // True while frames stay in the controller: the bus is blocked, or no node acknowledges.
   bool holds_frames() const;
 
   World& world_;

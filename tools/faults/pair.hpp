@@ -13,6 +13,7 @@ struct Pair {
   int delay_cycles;  // from the cycle that raises the first fault (from its injection if it raises none) to
                      // the injection of the second; kTogether: both between the same two cycles
 
+  // For example "imu_body off in flight, 20 cycles later tof off".
   std::string name() const;
 };
 inline constexpr int kTogether = -1;

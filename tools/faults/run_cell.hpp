@@ -10,6 +10,7 @@
 
 namespace sandhopper::faults {
 
+// Robot, world and options common to all cells of a run.
 struct MatrixSetup {
   RobotConfig robot{};
   WorldConfig world{};
@@ -21,6 +22,7 @@ struct MatrixSetup {
   std::function<FreezeRing*(const RobotConfig& robot)> freeze{};
 };
 
+// Result of a cell. Cycles are counts of 1 ms.
 struct CellResult {
   Fault found = Fault::none;   // first fault that was raised
   int cycles = -1;             // from the first cycle that could show the fault to the cycle that raised it

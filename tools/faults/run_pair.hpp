@@ -28,6 +28,7 @@ struct PairResult {
 class PairRunner {
  public:
   explicit PairRunner(MatrixSetup setup) : setup_(std::move(setup)) {}
+  // Runs a pair and judges it against each of its cells alone.
   PairResult run(const Pair& pair);
 
  private:

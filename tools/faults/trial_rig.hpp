@@ -25,9 +25,11 @@ class TrialRig {
   std::uint64_t cycle() const { return cycle_number_; }
   // Number of cycles of this session that ran.
   std::uint64_t turns() const { return turns_; }
+  // Present time of the world; it continues over sessions.
   double time_s() const;
   const StepOutput& output() const { return *output_; }
   const SensorFrame& frame() const;
+  // Events of the last cycle.
   std::span<const Event> events() const;
   BenchBoard& board() { return board_; }
   const std::filesystem::path& log() const { return log_; }

@@ -25,6 +25,7 @@ std::vector<const GroundEvent*> found_in(const GroundEvents& found);
 
 // For example "a crust broke at 12.3 mm: 14.2 N at 0.45 m/s, size 3.1 +- 0.4 N".
 std::string in_words(const GroundEvent& event);
+// Unit of GroundEvent::size.
 std::string_view unit_of_size(GroundEventKind kind);
 
 }  // namespace sandhopper

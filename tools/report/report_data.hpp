@@ -19,6 +19,7 @@ struct ReportColumn {
   std::vector<double> values;
 };
 
+// An event of the firmware.
 struct ReportEvent {
   double time_s = 0.0;
   std::uint32_t stride = 0;
@@ -34,6 +35,7 @@ struct ReportPhase {
   std::string name;
 };
 
+// Stiffness by one treatment, F = intercept + k z, with its 95 % interval.
 struct ReportStiffness {
   double value_N_per_m = 0.0;
   double ci95_low_N_per_m = 0.0;
@@ -45,6 +47,7 @@ struct ReportStiffness {
   double standard_error_N_per_m = 0.0;
 };
 
+// A stride, with its stiffness by the treatments and the ground known after it.
 struct ReportStride {
   std::uint32_t number = 0;
   double contact_s = 0.0;    // time at which the foot meets the ground

@@ -36,6 +36,7 @@ struct StudySeries {
 // < 15 dotted, with rings. Styles repeat from n = 15 on.
 void tell_apart(StudySeries& series, std::size_t n);
 
+// A figure: series over two axes.
 struct StudyFigure {
   std::string title{};
   std::string x_label{};  // with unit: "depth, mm"
@@ -49,6 +50,7 @@ struct StudyFigure {
   bool wide = false;                                    // true: takes the full width of the page
 };
 
+// A table; its cells are text.
 struct StudyTable {
   std::string title{};
   std::vector<std::string> columns{};  // with unit: "stiffness, N/m"
@@ -61,6 +63,7 @@ struct StudyTable {
   bool whole = false;  // true: full height, without a scroll bar of its own
 };
 
+// A section; `folded`: closed until the reader opens it.
 struct StudySection {
   std::string title{};
   std::vector<std::variant<std::string, StudyTable, StudyFigure>>
@@ -83,6 +86,7 @@ struct StudyAnswer {
   int columns = 2;          // width in columns; the page has six
 };
 
+// A page: title, facts and sections, with an optional verdict, answers and warnings.
 struct Study {
   std::string title;
   std::string verdict{};       // one sentence above the answers
@@ -93,6 +97,7 @@ struct Study {
   std::vector<StudySection> sections{};
 };
 
+// The complete HTML text of the page.
 std::string study_page(const Study& study);
 // Throws std::runtime_error with path and cause if the file cannot be written.
 void write_study_page(const Study& study, const std::filesystem::path& path);
