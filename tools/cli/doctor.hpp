@@ -10,7 +10,7 @@
 // The checks of `hop doctor`. They energise no drive and change no setting.
 namespace sandhopper::cli {
 
-// warn: the robot can run; fail: it cannot.
+// fail: the machine is not ready, and `hop doctor` ends with exit status 1.
 enum class Health : std::uint8_t { ok, warn, fail };
 
 // Result of one check.
