@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// `hop calibrate` from the command line, every calibration once: simulated devices that are not what the configuration
-// says, the error found within its interval, the file changed there and nowhere else; and what is refused leaves it alone.
+// `hop calibrate` from the command line, every calibration once. The simulated devices differ from the configuration. The
+// difference must be found within its interval, only the calibrated keys may change, and a refusal must change nothing.
 //   tests/cli/calibrate.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

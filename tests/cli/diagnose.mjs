@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// `hop diagnose` as a new user meets it: the same campaigns renamed, shuffled, on another clock and at another rate
-// must give the same verdict and parameters within their intervals; a folder from elsewhere with its own column names,
-// half of its channels and one broken file must be answered, with what is missing and what is broken named.
+// `hop diagnose` as a new user runs it. The same campaigns renamed, shuffled, on another clock and at another rate
+// must give the same verdict, and parameters within their intervals. A foreign folder with its own column names,
+// half of its channels and one broken file must get an answer that names the missing channels and the broken file.
 //   tests/cli/diagnose.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

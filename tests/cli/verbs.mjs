@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// What every verb of `hop` keeps to, whatever it does: help that exits with 0, wrong options that exit with 2, and with
-// --json one object on standard output. Then the keys of the objects of trial and replay that other programs read.
+// Rules for every verb of `hop`: help exits with 0, wrong options exit with 2, and --json prints one object on standard
+// output. Then the keys of the objects of trial and replay that other programs read.
 //   tests/cli/verbs.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
