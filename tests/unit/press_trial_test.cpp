@@ -9,7 +9,7 @@ namespace sandhopper {
 namespace {
 
 // Pushed to 20 mm, drawn out, pushed to 30 mm. In its own hole the plate meets no ground, so these samples
-// say nothing about the bed.
+// give no information on the bed.
 TEST(PressTrial, ASecondPushCountsFromWhereItGoesDeeper) {
   std::string csv = "t_s,foot_z_m,force_N\n";
   double t = 0.0;
