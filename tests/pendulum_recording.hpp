@@ -13,8 +13,8 @@
 #include "drivers/can/can_config.hpp"
 #include "drivers/can/cubemars.hpp"
 
-// Replies of a real AK80-6, recorded by another laboratory as the values its drive put on the bus. They lie
-// on the reply's grid, so the payloads can be rebuilt bit for bit.
+// Replies of a real AK80-6, recorded by another laboratory as the values that its drive sent. They are exact
+// multiples of the reply's counts, so the payloads can be rebuilt bit for bit.
 namespace sandhopper::pendulum {
 
 struct Grid {
@@ -33,10 +33,10 @@ inline constexpr Grid kTorque{18.0, 4095.0};
 
 struct Row {
   std::int64_t time_ns;
-  double position_rad, velocity_radps, torque_Nm;  // as the file prints them
-  int position, velocity, torque;                  // counts of the grid
+  double position_rad, velocity_radps, torque_Nm;  // as printed in the file
+  int position, velocity, torque;                  // in counts of the reply's fields
 
-  // Equal to the printed digits, and the same doubles as the grid's formula gives.
+  // is_near: equal to the printed digits. is_exactly: the same doubles as the formula of the counts gives.
   bool is_near(const MotorSample& s) const {
     constexpr double kPrinted = 0.501e-8;
     return std::abs(s.position_rad - position_rad) <= kPrinted &&
@@ -61,7 +61,7 @@ struct Row {
   }
 };
 
-// The drive that answered, with currents that are its torques.
+// Configuration of the drive that answered; the recorded torques are used as currents.
 inline CanConfig drive() {
   CanConfig config;
   config.motor_count = 1;
@@ -82,7 +82,7 @@ inline std::filesystem::path folder(const std::filesystem::path& source_director
   return shared / "pendulum_ak80_6";
 }
 
-// Throws std::runtime_error for a file of another kind.
+// Throws std::runtime_error if the file has another format.
 inline std::vector<Row> read(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;

@@ -1,5 +1,5 @@
-# Tests that need the virtual bench's kernel, which is built once and before all of them: some minutes that count
-# towards no test's own time limit.
+# Tests that need the virtual bench's kernel. It is built once before all of them, so that these minutes do not count
+# towards the time limit of a test.
 if(SANDHOPPER_SANITIZE MATCHES "address|thread")
   message(WARNING "The tests on the bench are left out: AddressSanitizer and ThreadSanitizer map more than the 39 address "
     "bits that a process has there. UBSan alone runs there: cmake --preset default -DSANDHOPPER_SANITIZE=undefined")
@@ -28,7 +28,7 @@ add_test(NAME bench.linux_board
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 set_tests_properties(bench.linux_board PROPERTIES LABELS bench TIMEOUT 1200 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 
-# The bench itself: what it promises of any command, its devices, and that two runs are alike.
+# The bench itself: its behaviour for any command, its devices, and identical runs.
 add_executable(spi_probe tests/bench/spi_probe.cpp)
 target_link_libraries(spi_probe PRIVATE sandhopper_options)
 set_target_properties(spi_probe PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
@@ -37,7 +37,7 @@ foreach(name boot devices determinism calibrate watchdog guard)
   set_tests_properties(bench.${name} PROPERTIES LABELS bench TIMEOUT 2400 ENVIRONMENT SANDHOPPER_NO_BUILD=1)
 endforeach()
 
-# hopperd as a process, where it has a bus.
+# hopperd as a process with a CAN bus.
 foreach(name on_the_bus remembers)
   add_test(NAME daemon.${name}
     COMMAND ${PROJECT_SOURCE_DIR}/tools/bench --time-limit 900 ${PROJECT_SOURCE_DIR}/tests/daemon/${name}

@@ -45,7 +45,7 @@ pid_t start_canplayer(std::string trace) {
   return child;
 }
 
-// Reads as the cycle does until the player has ended and nothing more comes.
+// Reads as the cycle does, until the player has ended and no frame is left.
 std::vector<MotorReading> read_while(pid_t player, CubeMarsDrives& drives) {
   std::vector<MotorReading> readings;
   int status = 0;

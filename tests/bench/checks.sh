@@ -1,6 +1,6 @@
-# Sourced by the bench's tests: `check WHAT COMMAND…` runs a condition and says how it went; `finish` ends the test.
+# Sourced by the bench's tests: `check WHAT COMMAND…` runs a condition and prints its result; `finish` ends the test.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-bench=("$root/tools/bench" --time-limit 600) # against one that hangs; a slow machine takes minutes
+bench=("$root/tools/bench" --time-limit 600) # in case it hangs; a slow machine takes minutes
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0

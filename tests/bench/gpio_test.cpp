@@ -10,8 +10,8 @@
 #include "tests/unit/allocation_guard.hpp"
 #include "tools/virtual_bench/control_client.hpp"
 
-// The GPIO driver on gpio-sim: to be run inside tools/bench. The chip is labelled "bench"; its lines 6 and 7
-// have no name and nothing is wired to them.
+// Tests of the GPIO driver on gpio-sim. Run them inside tools/bench. The chip's label is "bench"; its lines 6
+// and 7 have no name and are not connected.
 namespace sandhopper {
 namespace {
 

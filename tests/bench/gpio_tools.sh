@@ -1,4 +1,4 @@
-# Sourced on the bench: the commands of Debian's package gpiod on gpiochip0. Release 2 takes other options than 1.
+# Sourced on the bench: the commands of Debian's package gpiod on gpiochip0. Releases 1 and 2 have different options.
 if [[ $(gpioget --version) == *' v1.'* ]]; then
   read_line=(gpioget gpiochip0)
   read_line_pulled_down=(gpioget --bias=pull-down gpiochip0)

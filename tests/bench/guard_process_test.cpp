@@ -15,8 +15,7 @@
 #include "drivers/clock.hpp"
 #include "firmware/watchdog/shared.hpp"
 
-// The guard process on the virtual bench's bus. Times are virtual, so they show the logic without the
-// scheduler.
+// The guard process on the virtual bench's bus. Times are virtual, so the scheduler has no influence.
 namespace sandhopper {
 namespace {
 
@@ -27,12 +26,12 @@ CanConfig can_config() {
   return load_linux_board(directory / "bench.toml", load_robot(directory)).can;
 }
 
-// Frames for motor 1, by the time at which they were on the bus.
+// Frames for motor 1 with the time at which they were on the bus.
 class Bus {
  public:
   Bus() : socket_(can_config().interface, std::array{exact_standard_id(1)}) {}
 
-  // Times since `from_ns` [ms] of the frames that tell motor 1 to leave motor mode.
+  // Times [ms since `from_ns`] of the frames that make motor 1 leave motor mode.
   std::vector<double> leave_frames_ms(std::int64_t from_ns) {
     std::vector<double> times_ms;
     for (bool more = true; more;)
@@ -46,8 +45,7 @@ class Bus {
   CanSocket socket_;
 };
 
-// Counts its calls in shared memory and writes a byte to its descriptor, and one to the other if that is
-// open.
+// Counts its calls in shared memory, and writes a byte to each of its descriptors that is open.
 class CountingAct : public LastAct {
  public:
   CountingAct(int own, int other) : own_{own}, other_(other) {}
@@ -75,7 +73,7 @@ class GuardProcessOnBench : public ::testing::Test {
     return {
         .cut = cut_, .heart = *heart_, .config = {.cycle_stall_s = 0.020, .priority = 0}, .last_act = act};
   }
-  // The cycle as the guard sees it.
+  // Beats as the cycle does; returns the time of the last beat.
   std::int64_t beat_for(int cycles) {
     for (int i = 0; i < cycles; ++i) {
       heart_->beat(State::flight, Fault::none);

@@ -18,7 +18,7 @@
 #include "tests/unit/allocation_guard.hpp"
 #include "tools/virtual_bench/control_client.hpp"
 
-// The Linux board on the emulated devices: to be run inside tools/bench.
+// Tests of the Linux board on the emulated devices. Run them inside tools/bench.
 namespace sandhopper {
 namespace {
 
@@ -29,7 +29,7 @@ const std::filesystem::path kConfig = std::filesystem::path(SANDHOPPER_SOURCE_DI
 RobotConfig robot() { return load_robot(kConfig); }
 LinuxBoardConfig board_config() { return load_linux_board(kConfig / "bench.toml", robot()); }
 
-// The cycle's timing around a board: read, something with the frame, write.
+// The cycle around a board: read, a callback with the frame, write.
 class Cycle {
  public:
   explicit Cycle(Board& board) : board_(board), next_ns_(monotonic_ns()) {}
@@ -58,8 +58,9 @@ class Cycle {
   SensorFrame frame_{};
 };
 
-// Fresh samples of one sensor: how many, and that none is from the future, too old or out of order. The cycle
-// wakes some microseconds after its grid point, so a sample may be that much younger than the frame's time.
+// Counts fresh samples of one sensor and checks that none is from the future, too old or out of order. The
+// cycle wakes some microseconds after its start time, so a sample may be newer than the frame's time by that
+// much.
 struct Watched {
   double most_age_ms;
   int fresh = 0;

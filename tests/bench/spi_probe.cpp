@@ -1,5 +1,5 @@
-// Reads an ISM330DHCX through spidev with nothing of the driver: spi_probe DEVICE [SAMPLES]. Prints identity,
-// then acceleration along z in m/s^2 of so many samples (default 1), polled from the status register.
+// Reads an ISM330DHCX through spidev without the driver: spi_probe DEVICE [SAMPLES]. Prints the identity,
+// then the acceleration along z in m/s^2 of SAMPLES samples (default 1), polled by the status register.
 #include <fcntl.h>
 #include <linux/spi/spidev.h>
 #include <sys/ioctl.h>
@@ -32,7 +32,7 @@ bool write_register(int fd, std::uint8_t address, std::uint8_t value) {
   return transfer(fd, bytes);
 }
 
-// Address byte replaced by what came with it; the registers follow.
+// Returns the byte received during the address, then the registers.
 template <std::size_t N>
 std::array<std::uint8_t, N + 1> read_registers(int fd, std::uint8_t address) {
   std::array<std::uint8_t, N + 1> bytes{static_cast<std::uint8_t>(address | 0x80)};

@@ -1,5 +1,5 @@
-// Controller::step on a recorded stride: every call timed by itself, so that the tail is seen and not only
-// the mean. The clock's own cost, measured beside it, is included in each figure.
+// Controller::step on a recorded stride. Every call is timed, so that the tail is visible and not only the
+// mean. The cost of reading the clock is included in each figure and printed beside it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void step_each(benchmark::State& state) {
 }
 BENCHMARK(step_each)->Unit(benchmark::kMillisecond)->MinTime(2.0);
 
-// The mean without a clock in between; run this one under `perf stat` or callgrind for instructions.
+// Mean without reading the clock. Run this one under `perf stat` or callgrind to count instructions.
 void step_stride(benchmark::State& state) {
   const auto frames = record_trial();
   for (auto _ : state) {

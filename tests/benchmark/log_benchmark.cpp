@@ -57,7 +57,7 @@ void crc_of_a_chunk(benchmark::State& state) {
 }
 BENCHMARK(crc_of_a_chunk);
 
-// What a cycle pays for its two records, while the logger's thread takes them out.
+// Cost of two records per cycle, while the logger's thread takes them out of the ring.
 void push_a_cycle(benchmark::State& state) {
   std::filesystem::remove(scratch_file());
   TrialLogOptions options;
@@ -73,7 +73,7 @@ void push_a_cycle(benchmark::State& state) {
     frame.time_ns += 1'000'000;
     logger.push(frames, frame.time_ns, frame);
     logger.push(outputs, frame.time_ns, output);
-    if (frame.time_ns % 2'000'000'000 == 0) {  // give the thread the time it has in a trial
+    if (frame.time_ns % 2'000'000'000 == 0) {  // gives the logger's thread as much time as it has in a trial
       state.PauseTiming();
       ::usleep(20'000);
       state.ResumeTiming();
@@ -118,7 +118,7 @@ void write_a_log(benchmark::State& state) {
 }
 BENCHMARK(write_a_log)->Unit(benchmark::kMillisecond);
 
-// Reading as a replay does: CRCs checked, frames and outputs decoded.
+// Reads as a replay does: CRCs checked, frames and outputs decoded.
 void read_a_log(benchmark::State& state) {
   write_log();
   SensorFrame frame;

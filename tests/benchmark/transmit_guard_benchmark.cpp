@@ -1,6 +1,6 @@
-// Price of the transmit guard for a frame: a cycle's two frames and two answers through a port that does
-// nothing, with and without the guard around it, each dialect. The two halves run in turn; the guard's price
-// is their difference over the frames sent.
+// Cost of the transmit guard per frame: a cycle's two frames and two answers through a port that does
+// nothing, with and without the guard, for each dialect. Both variants run in turn; the cost is their
+// difference divided by the number of frames sent.
 #include <benchmark/benchmark.h>
 
 #include <ctime>
@@ -41,7 +41,7 @@ Frames frames_of(Dialect dialect, canid_t id) {
           frame_of(0, static_cast<std::uint64_t>(id) << 56 | 0x80'0080'07FF'4600U)};
 }
 
-// Takes every frame and answers it.
+// Accepts every frame and answers it.
 class Sink final : public CanPort {
  public:
   explicit Sink(Dialect dialect) {
@@ -109,7 +109,7 @@ class Cycles {
   std::int64_t now_ns_ = 0;
 };
 
-// Of this thread only: other programs on the machine do not count.
+// CPU time of this thread, so that other programs do not count.
 double thread_time_ns() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -24,7 +24,7 @@ function run(args, program = 'hop') {
   return { ...done, left: readdirSync(cwd) };
 }
 
-// The verb that would start something with this file.
+// The command that would start something with this file.
 const starting = (file) => (file === 'linux.toml' ? ['trial', '--board', 'linux'] : ['trial']);
 
 function break_configuration({ name, file, from, to }) {

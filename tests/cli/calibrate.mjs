@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// `hop calibrate` from the command line, every calibration once: simulated devices that are not what the configuration
-// says, the error found within its interval, the file changed there and nowhere else; and what is refused leaves it alone.
+// `hop calibrate` from the command line, every calibration once. The simulated devices differ from the configuration. The
+// difference must be found within its interval, only the calibrated keys may change, and a refusal must change nothing.
 //   tests/cli/calibrate.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -30,7 +30,8 @@ function change(file, ...changes) {
   writeFileSync(file, text);
 }
 
-// What the devices really are. The sensors' own spread from trial to trial would add to it.
+// True properties of the devices. The sensors' spread between trials is switched off, because it would add to
+// them.
 change(join(real, 'linux.toml'), ['scale_N_per_V = 100.0', 'scale_N_per_V = 92.5'], ['zero_V = 0.0', 'zero_V = 0.031'],
   ['mount_offset_m = 0.0 ', 'mount_offset_m = 0.0374'], ['accel_bias_mps2 = [0.0, 0.0, 0.0]', 'accel_bias_mps2 = [0.21, -0.34, 0.12]'],
   ['accel_scale = [1.0, 1.0, 1.0]', 'accel_scale = [1.013, 0.992, 1.006]'], ['latency_s = 0.00058', 'latency_s = 0.00158']);
@@ -60,7 +61,8 @@ function calibrate(what, ...options) {
 
 const text_of = (file) => readFileSync(join(believed, file), 'utf8');
 
-// The planted value of each key, found within `times` intervals: 1 fails in one of twenty, 3 in none of thousands.
+// Checks that each planted value is found within `times` intervals: 1 fails in one of twenty cases, 3 almost
+// never.
 function finds(what, file, truths, ...options) {
   const before = text_of(file);
   const dry = calibrate(what, '--dry-run', ...options);
@@ -89,7 +91,7 @@ finds('tof', 'linux.toml', { 'tof.mount_offset_m': 0.0374 });
 finds('torque-constant', 'robot.toml', { 'motor[0].torque_constant_Nm_per_A': 0.0741, 'motor[1].torque_constant_Nm_per_A': 0.0812 });
 finds('timing', 'linux.toml', { 'load_cell.latency_s': 0.00158 });
 
-// Recordings made under the old configuration give the same values under the new one.
+// Recordings made with the old configuration must give the same values with the new one.
 const logs = [1, 2, 3, 4, 5, 6, 7].map((n) => join(first.output, `recording_0${n}.mcap`));
 const again = calibrate('load-cell', '--dry-run', '--from', ...logs);
 for (const value of again.result.values ?? []) {
@@ -97,7 +99,7 @@ for (const value of again.result.values ?? []) {
   expect(Math.abs(value.after - then.after) < 0.2 * value.ci95_half_width + 1e-12, `--from: ${value.key} ${value.after}, then ${then.after}`);
 }
 
-// A table by hand: time and force, three weights, the last one mislabelled.
+// A table written by hand: time and force, three weights, the last one with a wrong label.
 const tables = [0, 1, 2, 3, 3, 0].map((mass_kg, n) => {
   const file = join(folder, `weight_${n}.csv`);
   const rows = Array.from({ length: 900 }, (_, i) => `${(i * 0.001).toFixed(3)},${9.81 * mass_kg + 0.1 * Math.sin(i * i)}`);
@@ -117,7 +119,7 @@ expect(twice.status === 2 && twice.text.includes('is named twice'), `one recordi
 const blind = spawnSync(hop, ['calibrate', 'tof', '--config', believed, '--output', join(folder, 'blind')], { encoding: 'utf8', input: '' });
 expect(blind.status === 2 && blind.stderr.includes('--from'), `without a terminal: ${blind.stderr}`);
 
-// A drive whose velocity field has half the range that is configured.
+// A drive whose velocity field has half of the configured range.
 change(join(real, 'robot.toml'), ['velocity_range_radps = 50.0', 'velocity_range_radps = 25.0'],
   ['motor_speed_radps = 40.0', 'motor_speed_radps = 20.0']);
 const robot = text_of('robot.toml');

@@ -28,7 +28,7 @@ expect(run('campaign', 'check', sound).status === 0, 'a sound campaign has nothi
 const whole = JSON.parse(run('terrain', sound, '--json', '--no-report').stdout);
 expect(whole.usable_trials === 6, 'all six sound trials can be used');
 
-// The third trial is broken; what the other five say must not change.
+// The third trial is broken; the results of the other five must not change.
 const kBroken = 2;
 for (const [index, one] of breakages.entries()) {
   const folder = join(scratch, `broken${index}`);
@@ -63,7 +63,7 @@ for (const [index, one] of breakages.entries()) {
   expect(findings.some(f => one.kinds.includes(f.kind) && f.cure), `hop campaign check finds ${findings.map(f => f.kind)}`);
 }
 
-// Parts and the whole, by files.
+// Parts and the whole, in files.
 const parts = [1, 2, 3, 4].map(part => {
   const out = join(scratch, `part${part}`);
   expect(run('terrain', sound, '--part', `${part}/4`, '--output', out, '--no-report').status === 0, `part ${part}`);

@@ -1,14 +1,14 @@
-// What is broken in a campaign, where that must be said (line:character), and what must stand in the message. `recording`
-// changes the lines of trials/0003.csv (null: removed), `campaign` the text of campaign.toml. `usable`: the trial is
-// still analysed; `keeps` says what must be left of it.
+// Defects of a campaign, the place where each must be reported (line:character), and the text of the message.
+// `recording` changes the lines of trials/0003.csv (null: removed), `campaign` the text of campaign.toml.
+// `usable`: the trial is still analysed; `keeps`: the part of it that must remain.
 
 const kForce = 'load_cell_force_N';
 const columns = rows => rows[0].split(',');
 const cells = row => row.split(',');
-// Character at which a column's cell begins in a line of the file.
+// First character of a column's cell in a line of the file.
 const character = (rows, line, name) => cells(rows[line - 1]).slice(0, columns(rows).indexOf(name)).join(',').length + 2;
 
-// Changes the cells of one column from some line on.
+// Changes the cells of one column from line `from` on.
 function change(rows, name, from, change_cell) {
   const place = columns(rows).indexOf(name);
   return rows.map((row, i) => {

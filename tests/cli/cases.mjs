@@ -1,6 +1,6 @@
-// What is broken, and what must be said about it. A configuration case changes one file of a copy of config/:
-// `change` [file, text there, text instead] (null: the file is removed). A command case is a command line.
-// `says` must all stand in the message; one of them is the cure.
+// Defects, and the text that must be in the message. A configuration case changes one file of a copy of
+// config/: `change` [file, text there, text instead] (null: the file is removed). A command case is a command
+// line. All of `says` must be in the message; one of them is the cure.
 
 const changed = (name, file, from, to, ...says) => ({ name, file, from, to, says });
 const command = (name, args, ...says) => ({ name, args, says });

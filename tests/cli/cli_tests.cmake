@@ -1,4 +1,4 @@
-# The `hop` command as a user types it: broken configurations and command lines, and what every verb keeps to.
+# The `hop` command as a user types it: broken configurations and command lines, and the rules for every verb.
 if(TARGET hop AND TARGET hopperd)
   foreach(name broken verbs campaign)
     add_test(NAME cli.${name} COMMAND node ${PROJECT_SOURCE_DIR}/tests/cli/${name}.mjs ${CMAKE_BINARY_DIR})

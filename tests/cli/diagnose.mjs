@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// `hop diagnose` as a new user meets it: the same campaigns renamed, shuffled, on another clock and at another rate
-// must give the same verdict and parameters within their intervals; a folder from elsewhere with its own column names,
-// half of its channels and one broken file must be answered, with what is missing and what is broken named.
+// `hop diagnose` as a new user runs it. The same campaigns renamed, shuffled, on another clock and at another rate
+// must give the same verdict, and parameters within their intervals. A foreign folder with its own column names,
+// half of its channels and one broken file must get an answer that names the missing channels and the broken file.
 //   tests/cli/diagnose.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -28,7 +28,7 @@ const answer = (folder, name) => {
 };
 const named = diagnosis => (diagnosis.effects ?? []).map(effect => effect.id).sort().join(' + ') || 'nothing';
 
-// Concealed campaigns made here; what is hidden is large enough to be beyond doubt.
+// Concealed campaigns; the hidden effect is large enough to be certain.
 const made = [
   { plant: 'falling_body', effect: 'air.quadratic_drag', seed: '11' },
   { plant: 'intruder', effect: 'terrain.depth_power_law', seed: '13' },
@@ -56,7 +56,8 @@ function rewritten(source, one, target) {
   writeFileSync(join(target, 'campaign.toml'), join_trials(toml));
 }
 
-// On the model that the first run corrected, beside its recordings: nothing is missing, and the model stays as it is.
+// With the corrected model of the first run, beside its recordings: nothing may be missing, and the model
+// must not change.
 function second_run({ plant, folder }) {
   const target = join(scratch, `second-${plant}`);
   cpSync(folder, target, { recursive: true });
@@ -94,7 +95,7 @@ for (const campaign of made) {
   }
 }
 
-// From elsewhere: other column names and units, speed and acceleration not there, one file that is no table.
+// A foreign folder: other column names and units, no speed and acceleration, and one file that is no table.
 const source = made.find(one => one.plant === 'intruder').folder;
 const foreign = join(scratch, 'foreign');
 cpSync(source, foreign, { recursive: true });

@@ -1,5 +1,5 @@
-// Ways to write the same campaign down otherwise: what `hop diagnose` answers must not hang on any of them. A
-// table is { header, rows }, its cells text; an empty cell is a cell without a sample.
+// Other ways to write the same campaign. The answer of `hop diagnose` must not depend on them. A table is {
+// header, rows } with text cells; an empty cell has no sample.
 
 export function parse(text) {
   const [header, ...rows] = text.trimEnd().split('\n').map(line => line.split(','));
@@ -11,7 +11,8 @@ export function shifted(table, by_s) {
   return { header: table.header, rows: table.rows.map(row => [String(Number(row[0]) + by_s), ...row.slice(1)]) };
 }
 
-// Rows at 500 Hz at most: of faster ones those in between are dropped; a slow sensor's sample goes to the next row kept.
+// Rows at 500 Hz at most: rows in between are dropped, and a slow sensor's sample moves to the next row that
+// is kept.
 export function thinned(table, step_s = 0.002) {
   const carried = table.header.map(() => '');
   let next = -Infinity;

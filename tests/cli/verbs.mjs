@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// What every verb of `hop` keeps to, whatever it does: help that exits with 0, wrong options that exit with 2, and with
-// --json one object on standard output. Then the keys of the objects of trial and replay that other programs read.
+// Rules for every verb of `hop`: help exits with 0, wrong options exit with 2, and --json prints one object on standard
+// output. Then the keys of the objects of trial and replay that other programs read.
 //   tests/cli/verbs.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -71,7 +71,7 @@ expect(replay.status === 0 && is_one_object(replay.stdout), 'hop replay --json')
 const { identical, cycles, x_real_time } = JSON.parse(replay.stdout);
 expect(identical === true && cycles > 1000 && x_real_time > 1, 'identical, cycles, x_real_time');
 
-// A log cut in the middle: what can be read of it is a log again, and the cut one stays as it is.
+// A log cut in the middle: the readable part becomes a log again, and the cut log does not change.
 const cut = told.log.replace('.mcap', '_cut.mcap');
 const half = readFileSync(told.log).subarray(0, Math.floor(statSync(told.log).size / 2));
 writeFileSync(cut, half);

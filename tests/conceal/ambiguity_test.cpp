@@ -1,5 +1,5 @@
-// Campaigns whose answer is a class: the best size of the other explanation must leave next to nothing to
-// see.
+// Campaigns whose answer is a class: with its best size the other explanation must leave almost no
+// difference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +9,7 @@
 namespace sandhopper::conceal {
 namespace {
 
-// Ways a rival may turn out (sign, channel) that could mimic the truth: one of each sign, of the truth's
-// channel.
+// Variants of a rival that could imitate the truth: one of each sign, on the channel of the truth.
 std::vector<std::uint64_t> likely_draws(const Case& c, const std::string& rival, const std::string& channel) {
   std::vector<std::uint64_t> draws;
   double sign = 0.0;
@@ -27,7 +26,7 @@ std::vector<std::uint64_t> likely_draws(const Case& c, const std::string& rival,
   return draws;
 }
 
-// Least difference between the truth and the rival over sizes.
+// Least difference between truth and rival over the rival's size.
 double distance(const Case& c, const std::string& rival) {
   double least = 1e9;
   for (const auto draw : likely_draws(c, rival, visibility(c, c.hidden).channel)) {
@@ -72,8 +71,8 @@ TEST_P(Ambiguous, RivalOfTheBestSizeLeavesLittleToSee) {
   for (const bool one : seen) EXPECT_TRUE(one);
 }
 
-// The hopper takes a minute for the same search; its classes (a tilted or mis-scaled accelerometer, a late
-// reading) were measured once: README.
+// The hopper is left out, because its search takes a minute. Its classes (a tilted or mis-scaled
+// accelerometer, a late reading) were measured once: README.
 INSTANTIATE_TEST_SUITE_P(All, Ambiguous, testing::Values("falling_body", "intruder", "rotary_axis"),
                          [](const auto& info) { return info.param; });
 

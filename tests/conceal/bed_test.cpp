@@ -5,8 +5,8 @@
 namespace sandhopper::conceal {
 namespace {
 
-// Two pushes lower the surface by 5 mm each: nothing resists above it, neither grains nor what goes with
-// speed.
+// Two pushes lower the surface by 5 mm each. Above the lowered surface neither the grains nor speed-dependent
+// forces may act.
 TEST(ConcealedBed, NothingResistsAboveALoweredSurface) {
   Bed bed;
   bed.hidden.crater_m_per_push = 5e-3;
@@ -23,7 +23,8 @@ TEST(ConcealedBed, NothingResistsAboveALoweredSurface) {
   EXPECT_NEAR(lowered.moving_mass_kg, plain.moving_mass_kg, 1e-12);
 }
 
-// The container's floor is where it was: as much stiffer 30 mm above it, with a surface 10 mm lower.
+// The container's floor stays in place. With a surface that is 10 mm lower the bed must stiffen as much at
+// the same distance above the floor.
 TEST(ConcealedBed, TheFloorStaysUnderALoweredSurface) {
   Bed bed;
   bed.hidden.crater_m_per_push = 5e-3;

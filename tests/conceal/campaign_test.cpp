@@ -22,7 +22,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-// Every file of a folder by its path within, one after the other.
+// The content of all files of a folder, in the order of their paths.
 std::string all_text(const fs::path& folder) {
   std::set<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -60,7 +60,7 @@ TEST_P(EachPlant, SameSeedGivesTheSameBytes) {
 TEST_P(EachPlant, EveryEffectActsAtTypicalSizeAndNothingActsAtNone) {
   auto request = request_for(GetParam(), std::nullopt);
   request.size = 1.0;
-  request.trials = GetParam() == "hopper" ? 1 : 3;  // one hop holds several touchdowns
+  request.trials = GetParam() == "hopper" ? 1 : 3;  // one hop contains several touchdowns
   const auto* plant = find_plant(GetParam());
   auto effects = plant->listed();
   for (const auto& effect : plant->unlisted()) effects.push_back(effect);
@@ -80,8 +80,8 @@ TEST_P(EachPlant, EveryEffectActsAtTypicalSizeAndNothingActsAtNone) {
   }
 }
 
-// What a file looks like must not say what is in it: header, count of decimals, rows, names, keys and belief
-// are those of the same apparatus with nothing hidden.
+// The form of a file must not reveal what is hidden: header, number of decimals, rows, names, keys and belief
+// must be those of the same apparatus with nothing hidden.
 TEST_P(EachPlant, FilesLookTheSameWhateverIsHidden) {
   for (const auto kind : {Kind::single, Kind::several, Kind::unknown}) {
     const auto hidden = make_case(request_for(GetParam(), kind), 3);
@@ -96,7 +96,7 @@ TEST_P(EachPlant, FilesLookTheSameWhateverIsHidden) {
         EXPECT_EQ(with.columns[c].name, without.columns[c].name);
         EXPECT_EQ(with.columns[c].decimals, without.columns[c].decimals);
       }
-      // A fall may last longer for what slows it; everything else is recorded for a set time.
+      // A fall may last longer if an effect slows it. All other trials are recorded for a fixed time.
       if (GetParam() != "falling_body") {
         EXPECT_EQ(with.columns.front().values, without.columns.front().values);
       }

@@ -1,4 +1,4 @@
-# The maker of concealed campaigns, linked with nothing of the project: were it to use any of it, this would not link.
+# The generator of concealed campaigns, linked with no other code of the project. If it used any, this would not link.
 file(GLOB conceal_test_sources CONFIGURE_DEPENDS tests/conceal/*.cpp)
 add_executable(conceal_tests ${conceal_test_sources})
 target_link_libraries(conceal_tests PRIVATE sandhopper_conceal GTest::gmock GTest::gtest_main)

@@ -1,5 +1,6 @@
-// The hopper of the concealed campaigns against the noise-free strides of ../shared/data/reference_strides:
-// what the default belief of a hopper holds must be what a campaign with nothing hidden does.
+// Compares the hopper of the concealed campaigns with the noise-free strides of
+// ../shared/data/reference_strides. A campaign with nothing hidden must behave as the default belief of a
+// hopper.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-# hopperd as a process: how it ends, who notices that its cycle stands still, what it says of time it lost.
+# hopperd as a process: how it ends, detection of a cycle that stands still, and the report of lost time.
 add_executable(hold_thread tests/daemon/hold_thread.cpp)
 target_link_libraries(hold_thread PRIVATE sandhopper_options)
 add_executable(overruns_in_log tests/daemon/overruns_in_log.cpp)

@@ -40,7 +40,7 @@ pid_t thread_named(const std::string& pid, const std::string& name) {
   return 0;
 }
 
-// 'T' in the third field of stat.
+// True if the state in /proc/PID/stat is 'T'.
 bool stopped(const std::string& pid) {
   std::string text;
   std::getline(std::ifstream("/proc/" + pid + "/stat"), text);

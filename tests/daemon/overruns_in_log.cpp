@@ -1,5 +1,6 @@
-// What a log says of the cycle's overruns: prints each gap (start [ms of CLOCK_MONOTONIC], grid points
-// missed), then their sum, the last frame's own count, and the faults raised.  overruns_in_log FILE
+// Prints the overruns of the cycle in a log: each gap (start [ms of CLOCK_MONOTONIC], cycles missed), then
+// their sum, the last frame's own count, and the faults raised.
+//   overruns_in_log FILE
 #include <cstdio>
 #include <exception>
 #include <string>

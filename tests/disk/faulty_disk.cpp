@@ -32,12 +32,12 @@ struct Disk {
   int sync_delay_ms = 0;
 
   std::mutex mutex;
-  std::map<std::string, std::int64_t> taken_bytes;  // of each file, allocated behind its end included
+  std::map<std::string, std::int64_t> taken_bytes;  // of each file, including space allocated beyond its end
   std::int64_t written_bytes = 0;
 
   std::string place(const char* path) const { return backing + path; }
 
-  // 0, or why the file may not reach to `end`.
+  // Returns 0 or the errno with which the file may not grow to `end`.
   int take(const char* path, std::int64_t end) {
     const std::lock_guard lock(mutex);
     std::int64_t all = 0;

@@ -13,7 +13,7 @@ const guide = fs.readdirSync(path.join(root, 'tools/docs/guide')).filter((name) 
 const pages = process.argv.length > 3 ? process.argv.slice(3)
   : ['README.md', ...guide.sort().map((name) => `tools/docs/guide/${name}`)];
 
-// The first that fits says why a command is not run here.
+// Reasons why a command is not run here; the first that matches counts.
 const reasons = [
   [/^sudo |\bapt-get\b|\badduser\b|^ip link|\bdd if=|\breboot\b|tools\/(image|package)\/build|clean_machine/, 'needs root'],
   [/tools\/bench\b/, 'boots the virtual bench: ctest -L bench'],
@@ -33,7 +33,7 @@ const environment = { ...process.env, SANDHOPPER_NO_BUILD: '1' };
 delete environment.SANDHOPPER_CONFIG;
 delete environment.SANDHOPPER_DATA;
 
-// What is committed (with changes to those files), and nothing else, under a folder that has no `shared` beside it.
+// A folder with the committed files (with changes to them), and nothing else; no `shared` folder beside it.
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'hop-docs-'));
 const clone = path.join(work, 'clone');
 fs.mkdirSync(clone);
@@ -43,8 +43,8 @@ for (const file of execFileSync('git', ['ls-files', '-z'], { cwd: root, encoding
   fs.copyFileSync(path.join(root, file), path.join(clone, file));
 }
 
-// tools/hop of the copy, and `hop`: the programs that are built, with a note of what was run. Exit status 1 is an answer ("no")
-// to all but a replay.
+// Wrappers for `hop` and the copy's tools/hop that start the built programs and record what was run. Exit
+// status 1 is an answer ("no") except for a replay.
 const ran = path.join(work, 'ran');
 fs.writeFileSync(ran, '');
 const wrapper = `#!/bin/bash
@@ -91,7 +91,7 @@ function checkCommand(where, command) {
       problems.push(`${where}: 'hop ${verb.join(' ')}' has no option ${option}`);
 }
 
-// The blocks marked as shell commands: line of the first command, and the lines.
+// Blocks marked as shell commands: line of the first command, and the lines.
 function blocksOf(page) {
   const blocks = [];
   let block;
@@ -115,7 +115,8 @@ function checkInline(page) {
   });
 }
 
-// Lines of a block that begin a command: not those of a here-document, a continued line, or an open quote or loop body.
+// Lines of a block that begin a command, without here-documents, continued lines, open quotes and loop
+// bodies.
 function commandsOf(block) {
   const commands = [];
   let end;

@@ -1,5 +1,5 @@
-# The documentation: its pages and links, paths, the commands in it, its campaigns, the tests behind what its safety page
-# promises, and the pages in a browser.
+# The documentation: pages and links, paths, its commands, its campaigns, the tests behind the promises of its safety page, and
+# the pages in a browser.
 add_test(NAME docs.paths COMMAND ${PROJECT_SOURCE_DIR}/tests/docs/paths)
 add_test(NAME docs.paths_check COMMAND ${PROJECT_SOURCE_DIR}/tests/docs/paths --self-test)
 set_tests_properties(docs.paths docs.paths_check PROPERTIES LABELS docs)

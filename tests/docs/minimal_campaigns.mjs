@@ -16,13 +16,14 @@ function check(folder) {
   return { status, answer: JSON.parse(stdout) };
 }
 
-// Pairs of blocks behind a mark: [plant, campaign.toml, nominal.toml].
+// Pairs of blocks after a mark: [plant, campaign.toml, nominal.toml].
 function campaignsOf(page) {
   const text = fs.readFileSync(path.join(root, page), 'utf8');
   return [...text.matchAll(/<!-- campaign: (\w+) -->\n```toml\n([^]*?)```\n\n```toml\n([^]*?)```/g)].map((match) => match.slice(1));
 }
 
-// A second of motion that has every channel, with a little noise: a value that never changes would be a dead sensor.
+// One second of motion with every channel and a little noise. A value that never changes would look like a
+// dead sensor.
 let state = 1;
 const noise = () => ((state = (state * 48271) % 2147483647) / 2147483647 - 0.5);
 const rows = Array.from({ length: 1000 }, (_, i) => 0.001 * i);
@@ -55,7 +56,7 @@ for (const [plant, campaign, nominal] of campaigns) {
   assert.equal(status, 0);
 }
 
-// The contract's own example: its recordings are not there, and nothing else is wrong.
+// The example of the contract: its recordings are missing, and nothing else may be wrong.
 const contract = fs.readFileSync(path.join(root, 'tools/docs/guide/recordings.md'), 'utf8');
 const example = contract.match(/```toml\n(name  = [^]*?)```/)[1];
 fs.mkdirSync(path.join(work, 'contract'));

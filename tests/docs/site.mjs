@@ -20,7 +20,7 @@ const kSizes = [1366, 800, 400];
 const kLookedAt = ['index.html', 'guide/index.html', 'guide/glossary.html', 'guide/tutorial_terrain.html', 'guide/safety.html',
   'guide/benchmark.html', 'reference/keys.html'];
 
-// No page names a file of a network: links for people are no requests.
+// No page loads a file from a network. Links for readers are no requests.
 for (const page of pages)
   for (const [tag] of readFileSync(join(site, page), 'utf8').matchAll(/<(?:script|link|img|iframe|source)\b[^>]*>/g))
     assert.doesNotMatch(tag, /(?:src|href)="(?:https?:)?\/\//, `${page}: ${tag}`);
@@ -122,7 +122,7 @@ async function checkTheme(browser) {
   const after = (await seen(browser)).paper;
   assert.ok(Math.abs(after - before) > 0.7, `the button did not switch: ${before} to ${after}`);
   let next;
-  for (let i = 0; i < 20 && next !== after; ++i) { // the browser writes the choice down in the background
+  for (let i = 0; i < 20 && next !== after; ++i) {  // the browser saves the choice in the background
     await sleep(500);
     await browser.open(join(site, 'guide/index.html'));
     next = (await seen(browser)).paper;

@@ -7,7 +7,7 @@
 #include "tests/faults/setup.hpp"
 #include "tools/faults/bench_board.hpp"
 
-// The driver against emulated drives of each dialect, which share no code with it.
+// The driver against emulated drives of each dialect. The emulation shares no code with the driver.
 namespace sandhopper::faults {
 namespace {
 
@@ -20,7 +20,7 @@ CanConfig can_with(Dialect dialect) {
   return can;
 }
 
-// Drives of one dialect, a driver that believes another, or the same.
+// Drives of one dialect, and a driver that assumes the same or another one.
 struct Bench {
   Bench(Dialect drives_speak, Dialect driver_believes)
       : world(WorldConfig{}, {}, 0), driver(can_with(driver_believes), make_bus(can_with(drives_speak))) {}
@@ -112,7 +112,7 @@ TEST(Dialects, TheWatchdogsFramesTakeTheTorqueFromEach) {
   }
 }
 
-// A drive error in each dialect while hopping: seen, and the drives off.
+// A drive error while hopping must be found in each dialect and switch the drives off.
 TEST(Dialects, EachHopsAndADriveErrorEndsIt) {
   for (const auto dialect : kDialects) {
     auto setup = shipped_setup();

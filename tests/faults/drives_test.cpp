@@ -11,7 +11,8 @@
 #include "tests/faults/setup.hpp"
 #include "tools/faults/bench_board.hpp"
 
-// Motor mode is confirmed, not assumed: the whole cycle with the robot's driver on the emulated bus.
+// Motor mode must be confirmed, not assumed. The whole cycle runs with the robot's driver on the emulated
+// bus.
 namespace sandhopper::faults {
 namespace {
 
@@ -38,7 +39,7 @@ class Trial {
     run(300);
   }
 
-  // One cycle; the command acts until the next.
+  // Runs one cycle; its command acts until the next one.
   void turn(Request request = Request::none) {
     ++cycle_;
     frame_.time_ns = static_cast<std::int64_t>(cycle_) * kMs;
@@ -55,7 +56,7 @@ class Trial {
     for (int i = 0; i < cycles; ++i) turn();
   }
   void ask(Request request) { turn(request); }
-  // Until such an event comes; nothing when none does.
+  // Runs until an event of this kind; returns null if there is none.
   const Event* until(EventKind kind, int cycles = 3000) {
     const auto seen = events_.size();
     for (int i = 0; i < cycles; ++i) {
@@ -114,7 +115,8 @@ TEST(Arming, OneLostEnterFrameIsSentAgainBeforeTheRobotIsArmed) {
   }
 }
 
-// Servo and v3 have no frame to enter: there a drive that makes no torque stands for it.
+// Servo and v3 have no frame to enter motor mode. In these dialects a drive without torque replaces the drive
+// that is not in motor mode.
 TEST(Arming, ADriveThatIsNotInMotorModeIsNamedAndTheOtherIsNot) {
   for (const auto dialect : kDialects)
     for (const auto side : kSides) {
@@ -191,7 +193,7 @@ TEST(Foreign, OneFrameOfAnotherDialectNeedsARestart) {
   EXPECT_EQ(trial.count(EventKind::armed), 1) << "before the fault";
 }
 
-// The latch of a fault and what the driver remembers agree: whoever can be armed after it has drives that
+// A fault's latch and the driver's state must agree: if the robot can be armed after a fault, its drives must
 // make torque.
 TEST(Faults, NoneOfTheBusLeavesARobotThatArmsWithoutTorque) {
   for (const auto dialect : kDialects)
@@ -215,7 +217,7 @@ TEST(Faults, NoneOfTheBusLeavesARobotThatArmsWithoutTorque) {
     }
 }
 
-// Work done on the leg by the motors, from two cycles after the fault on: the current has gone by then.
+// Work of the motors on the leg, from two cycles after the fault on, when the current has decayed.
 double work_after_fault_J(Trial& trial, int cycles) {
   trial.run(2);
   double work_J = 0.0;

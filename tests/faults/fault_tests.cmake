@@ -1,4 +1,4 @@
-# Its own program, because what it needs of the project is small.
+# A separate program, because it needs only a small part of the project.
 file(GLOB fault_test_sources CONFIGURE_DEPENDS tests/faults/*.cpp)
 add_executable(fault_tests ${fault_test_sources})
 target_link_libraries(fault_tests PRIVATE sandhopper_faults GTest::gmock GTest::gtest_main)

@@ -42,7 +42,7 @@ TEST(FaultMatrix, EveryFaultHasACellAndEveryCellAFault) {
   for (const auto& entry : kFaults) EXPECT_TRUE(covered.contains(entry.fault)) << entry.name;
 }
 
-// The proof that the matrix looks: without a detector at least one of its cells must go wrong.
+// Proves that every detector is needed: without it at least one cell must be wrong.
 TEST(FaultMatrix, WithoutAnyOneDetectorTheMatrixFails) {
   auto setup = shipped_setup();
   const auto cells = all_cells();

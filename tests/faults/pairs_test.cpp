@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kDrawn = 200;
 
-// The cell of the matrix; of one that is not in it (a step of the date, a full disk, a restart) one is made.
+// The cell of the matrix. If there is none (step of the date, full disk, restart), a new cell.
 Cell cell_of(Device device, Kind kind, Phase phase) {
   for (const auto& cell : all_cells())
     if (cell.device == device && cell.kind == kind && cell.phase == phase) return cell;
@@ -58,7 +58,7 @@ TEST(FaultPairs, TheSameSeedDrawsTheSame) {
   EXPECT_NE(a[0].name(), c[0].name());
 }
 
-// Another draw each time. All of them: `hop faults --pairs`.
+// Draws other pairs in each run. `hop faults --pairs` runs all of them.
 TEST(FaultPairs, TwoHundredDrawnAtRandomEndInTimeNoneSilentNoneGentlerThanAlone) {
   const char* const asked = std::getenv("SANDHOPPER_PAIRS_SEED");
   const std::uint64_t seed = asked != nullptr ? std::strtoull(asked, nullptr, 10) : std::random_device()();
@@ -76,11 +76,11 @@ TEST(FaultPairs, TwoHundredDrawnAtRandomEndInTimeNoneSilentNoneGentlerThanAlone)
               static_cast<unsigned long long>(seed));
 }
 
-// The proof that the judge looks.
+// Proves that the judgement detects an unnoticed second fault.
 TEST(FaultPairs, WithoutTheSecondsDetectorThePairIsWrong) {
   auto setup = shipped_setup();
   const auto first = cell_of(Device::tof, Kind::off, Phase::flight);
-  // Not the e-stop: the transmit guard reads its line, too.
+  // The e-stop is left out, because the transmit guard reads its line, too.
   for (const auto& second : {cell_of(Device::motor_left, Kind::error, Phase::flight),
                              cell_of(Device::bus, Kind::refused, Phase::flight),
                              cell_of(Device::bus, Kind::malformed, Phase::flight),
@@ -125,7 +125,7 @@ TEST(FaultPairs, ADrivesErrorIsSeenBesideTheOtherDrivesGarbage) {
   EXPECT_LE(result.cycles, entry_of(Fault::drive_error).cycles);
 }
 
-// A node without power acknowledges nothing; with the last of them gone nobody does.
+// A node without power acknowledges no frame. If both drives have none, no node acknowledges.
 TEST(FaultPairs, BothDrivesWithoutPowerAreABusThatNobodyAcknowledges) {
   const auto left = cell_of(Device::motor_left, Kind::off, Phase::armed);
   const auto right = cell_of(Device::motor_right, Kind::off, Phase::armed);
@@ -148,7 +148,7 @@ TEST(FaultPairs, ANewSessionWhileTheCauseIsThereDoesNotHop) {
   }
 }
 
-// The offset is measured while the robot hangs; without it a fall looks like half a weight.
+// The offset is measured while the robot hangs. Without this a fall would look like half of the weight.
 TEST(FaultPairs, AnOffsetOfTheImuThatArmingMeasuredDoesNotHideTheRelease) {
   const auto biased = cell_of(Device::robot, Kind::biased, Phase::armed);
   const auto result = run(biased, cell_of(Device::computer, Kind::restart, Phase::armed));

@@ -9,7 +9,7 @@
 
 namespace sandhopper::faults {
 
-// The robot as shipped in the default world, and a folder of this process for logs.
+// The shipped robot in the default world, and a log folder of this process.
 inline MatrixSetup shipped_setup() {
   MatrixSetup setup;
   setup.robot = load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config");

@@ -6,7 +6,7 @@
 #include "tests/faults/setup.hpp"
 #include "tools/faults/bench_board.hpp"
 
-// Leaving motor mode is repeated until the drives confirm it, and what was not confirmed is told.
+// Frames to leave motor mode are repeated until the drives confirm it. A missing confirmation is reported.
 namespace sandhopper::faults {
 namespace {
 
@@ -107,7 +107,8 @@ TEST(ShutDown, ABusThatIsOffIsNotWaitedFor) {
   EXPECT_LE(r.world.now_ns() - begin_ns, 2 * kMs);
 }
 
-// The driver's own defence, whatever the cycle asks: servo drives know no gains, so the host works them out.
+// The driver's own protection, independent of the cycle: servo drives have no gains, so the host computes
+// their torque and must not use an old state.
 TEST(HostLaw, IsNotWorkedOutFromAnOldState) {
   Running r(Dialect::servo);
   const auto hold = [&](int cycles) {
@@ -127,7 +128,7 @@ TEST(HostLaw, IsNotWorkedOutFromAnOldState) {
   EXPECT_EQ(hold(5), 0.0);
 }
 
-// In the cycle: the relay in the drives' supply is to open then.
+// Then the cycle opens the relay in the drives' supply.
 TEST(Leaving, ThatIsNotConfirmedBecomesOverdue) {
   for (const auto dialect : kDialects) {
     Running r(dialect);

@@ -9,16 +9,16 @@
 #include "tests/faults/setup.hpp"
 #include "tools/faults/bench_board.hpp"
 
-// No fault where nothing is broken: hops on beds from very soft to rigid, with each spring of the paper's,
-// from low to high drops, one without noise and five whose noise, offsets and bed differ. A soft spring and a
-// high drop drive the leg past the angle it is allowed; the simulated robot's true angle says where that
-// alarm is right. On rigid ground an impact beyond the accelerometers' range can leave the estimate wrong for
-// good; the true height says where that alarm is right.
+// No fault may be raised if nothing is broken: hops on beds from very soft to rigid, with each spring of the
+// paper, from low to high drops, one without noise and five with different noise, offsets and beds. Two
+// alarms are correct: a soft spring and a high drop drive the leg beyond its limit, as the true angle shows;
+// and on rigid ground an impact beyond the accelerometers' range can leave a lasting error of the estimate,
+// as the true height shows.
 namespace sandhopper::faults {
 namespace {
 
 struct Hop {
-  double bed_N_per_m;  // 0: rigid
+  double bed_N_per_m;  // 0: rigid ground
   double spring_N_per_m;
   double drop_m;
   bool noise;
@@ -31,9 +31,9 @@ struct Outcome {
   State state = State::idle;
   EventKind last = EventKind::armed;
   int strides = 0;
-  double largest_angle_rad = 0.0;  // in truth
+  double largest_angle_rad = 0.0;  // true angle
   double smallest_angle_rad = 3.0;
-  double height_error_m = 0.0;  // of the estimate, at the fault
+  double height_error_m = 0.0;  // of the estimate, when the fault is raised
 };
 
 Outcome run(const Hop& hop, const RobotConfig& shipped) {
@@ -76,9 +76,10 @@ Outcome run(const Hop& hop, const RobotConfig& shipped) {
   return out;
 }
 
-// What a hop must come to: rest, or, where the leg was bent too far, the fault that says so.
+// A correct end: rest; or leg_angle_limit if the true angle exceeded its limit; or estimate_diverged if the
+// height was wrong by more than the filter's gate.
 bool right(const Outcome& out, const RobotConfig& robot) {
-  constexpr double kReading_rad = 0.02;  // of an encoder, a millisecond old
+  constexpr double kReading_rad = 0.02;  // tolerance: change of the angle within 1 ms, the age of a reading
   const double over_rad = std::max(out.largest_angle_rad - robot.limits.leg_angle_max_rad,
                                    robot.limits.leg_angle_min_rad - out.smallest_angle_rad);
   if (out.fault.fault == Fault::leg_angle_limit) return over_rad > -kReading_rad;
@@ -124,15 +125,14 @@ TEST(SoundHops, ComeToRestWithoutAFault) {
       "say so; %d came to rest without a liftoff\n",
       hops, wrong, bent_too_far, diverged, without_liftoff);
   EXPECT_EQ(wrong, 0);
-  // Both ends of the sweep are beyond what the robot can hop: were they not, it would prove less than it
-  // says.
+  // The sweep must go beyond what the robot can do at both ends.
   EXPECT_GE(bent_too_far, 3);
   EXPECT_LE(bent_too_far, 20);
   EXPECT_GE(without_liftoff, 5);
   EXPECT_LE(diverged, 10);
 }
 
-// A drive of the MIT dialect cannot say zero velocity: half a count remains, a minute of it is 0.7 rad.
+// A command of the MIT dialect cannot code zero velocity: half a count remains, which is 0.7 rad in a minute.
 TEST(SoundHops, ARobotThatHangsForAMinuteIsLeftAlone) {
   for (const auto dialect : {Dialect::mit, Dialect::servo, Dialect::v3}) {
     auto robot = shipped_setup().robot;

@@ -12,8 +12,8 @@
 namespace sandhopper::faults {
 namespace {
 
-// Level, edge and cut wire, hopping: no torque commanded two cycles later, disarm refused while the line
-// reads open.
+// Level, edge and cut wire while hopping: two cycles later no torque is commanded, and disarm is refused
+// while the line is open.
 TEST(EmergencyStop, TakesTheTorqueWithinTwoCyclesAndStaysLatched) {
   for (const auto kind : {Kind::pressed, Kind::tapped, Kind::wire_cut}) {
     const auto setup = shipped_setup();
@@ -55,15 +55,15 @@ TEST(EmergencyStop, TakesTheTorqueWithinTwoCyclesAndStaysLatched) {
   }
 }
 
-// Hops for as long as SANDHOPPER_SOAK_S says (default ten minutes of virtual time); every trial one random
-// fault or none. Every injected fault that can be seen must be raised, no sound trial may raise one.
+// Hops for SANDHOPPER_SOAK_S seconds of virtual time (default ten minutes). Each trial has one random fault
+// or none. Every injected fault that can be seen must be raised; no sound trial may raise one.
 TEST(Soak, RandomFaultsAreAllNamedAndSoundTrialsAreLeftAlone) {
   const char* const asked = std::getenv("SANDHOPPER_SOAK_S");
   const double longest_s = asked != nullptr ? std::atof(asked) : 600.0;
   auto setup = shipped_setup();
   const auto cells = all_cells();
   Random random(42, 7);
-  // Bytes that are allocated. Resident memory would not do: the kernel joins pages to huge ones as it likes.
+  // Allocated bytes. Resident memory is no measure, because the kernel merges pages into huge ones.
   const auto memory_kB = [] {
     const auto info = mallinfo2();
     return static_cast<long>((info.uordblks + info.hblkhd) / 1024);
@@ -92,7 +92,7 @@ TEST(Soak, RandomFaultsAreAllNamedAndSoundTrialsAreLeftAlone) {
   std::printf("%.0f s of virtual time, %d trials, %d with a fault, %d sound; memory grew by %ld kB\n", time_s,
               trials, faults, sound, growth_kB);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(growth_kB, 2048);  // sanitizers hold freed memory back; they look for leaks themselves
+  EXPECT_LT(growth_kB, 2048);  // not under sanitizers: they keep freed memory and find leaks themselves
 #endif
 }
 

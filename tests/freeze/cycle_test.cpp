@@ -19,7 +19,7 @@ class TestTime : public TimeSource {
   std::int64_t now_ns_ = 0;
 };
 
-// The simulated robot; the watchdog trips in turn 300, and the operator quits five turns later.
+// The simulated robot. The watchdog trips in turn 300, and the operator quits five turns later.
 class TrippedBoard : public Board {
  public:
   explicit TrippedBoard(Heartbeat& heart) : heart_(heart), world_(WorldConfig{}, {}, 0), sim_(world_) {}

@@ -21,8 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// One cell of the fault matrix for each fault: of several the one latest in the hop, where there is most to
-// see.
+// One cell of the fault matrix for each fault; of several the one latest in the hop, because its frame shows
+// most.
 std::vector<faults::Cell> one_cell_a_fault() {
   std::map<Fault, faults::Cell> cells;
   for (const auto& cell : faults::all_cells()) {
@@ -35,14 +35,14 @@ std::vector<faults::Cell> one_cell_a_fault() {
   return result;
 }
 
-// What the robot did must fit the fault's entry: limp switches the drives off, damp damps first where the leg
-// moved, …
+// The robot's reaction must be the one of the fault's entry: limp switches the drives off, damp damps first
+// if the leg moved, …
 void expect_reaction(const Explanation& e, const faults::Cell& cell) {
   const auto& entry = entry_of(e.faults.front().fault);
   ASSERT_FALSE(e.steps.empty());
   const auto& last = e.steps.back();
   if (entry.reaction == Reaction::stop && cell.phase != faults::Phase::idle) {
-    // The soft stop itself takes longer than the second that the frame shows.
+    // The soft stop takes longer than the second after the fault that the frame shows.
     EXPECT_TRUE(
         std::ranges::any_of(e.steps, [](const auto& step) { return step.state == State::soft_stop; }));
     return;
@@ -71,7 +71,7 @@ class FreezeOfTheMatrix {
     setup_.freeze = [this](const RobotConfig& robot) { return begin(robot); };
   }
 
-  // The frames of one cell's trial.
+  // Runs a cell's trial and returns its freeze frames.
   std::vector<std::filesystem::path> run(const faults::Cell& cell) {
     folders_.told.clear();
     const auto result = faults::run_cell(cell, setup_);
@@ -98,7 +98,7 @@ class FreezeOfTheMatrix {
   std::int64_t started_ = 0;
 };
 
-// SANDHOPPER_FREEZE_PAGES names a folder that keeps the page of each fault, to look at.
+// SANDHOPPER_FREEZE_PAGES: folder in which the page of each fault is kept.
 TEST(FreezeFrames, OneOfEveryFaultTellsFaultValueLimitReactionAndCure) {
   Folders folders;
   FreezeOfTheMatrix matrix(folders);

@@ -10,7 +10,7 @@
 
 namespace sandhopper {
 
-// Folders of one test, for frames and for memory, removed at its end.
+// Folders of one test for frames and memory, removed by the destructor.
 class Folders {
  public:
   Folders() {
@@ -47,7 +47,7 @@ class Folders {
   std::filesystem::path root_;
 };
 
-// Pushes cycles of 1 ms; a fault is raised where `fault` says so.
+// Pushes cycles of 1 ms; raises a fault at the cycle that `fault` states.
 class MadeUpCycles {
  public:
   void run(FreezeRing& ring, std::uint64_t cycles) {

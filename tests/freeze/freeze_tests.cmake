@@ -1,5 +1,5 @@
-# Freeze frames: the ring, what becomes of it, the frame of every fault, and what is said of them. A program of its own,
-# because what it needs of the project is small.
+# Freeze frames: the ring, the frames written from it, the frame of every fault, and its text. A separate program, because it
+# needs only a small part of the project.
 file(GLOB freeze_test_sources CONFIGURE_DEPENDS tests/freeze/*.cpp)
 add_executable(freeze_tests ${freeze_test_sources} tests/unit/allocation_guard.cpp)
 target_link_libraries(freeze_tests PRIVATE sandhopper_faults sandhopper_explain GTest::gmock GTest::gtest_main)

@@ -12,7 +12,7 @@
 namespace sandhopper {
 namespace {
 
-// A simulated robot's trial with its log and its freeze ring: from idle over arming to the hop.
+// A trial of the simulated robot with log and freeze ring, from idle to the hop.
 class TrialWithRing {
  public:
   explicit TrialWithRing(Folders& folders) : recorder_(folders.options()) {
@@ -41,7 +41,7 @@ class TrialWithRing {
     logger.close();
   }
 
-  // The log up to a share of its bytes, as a kill would leave it.
+  // The log cut after a share of its bytes, as after a kill.
   std::filesystem::path cut(double share) const {
     auto cut = log_;
     cut.replace_extension(".cut.mcap");
@@ -171,7 +171,7 @@ TEST(FreezeFrameOfATrialWithoutALog, IsWrittenAllTheSame) {
               ::testing::EndsWith("_no_log_watchdog_tripped.freeze.mcap"));
 }
 
-// Cut so early that the ring, which holds 8.2 s, no longer reaches back to the log's end.
+// The log is cut so early that the ring, which holds 8.2 s, does not reach back to the log's end.
 TEST(RecoveryOfTheEnd, CyclesBetweenLogAndRingAreCounted) {
   Folders folders;
   TrialWithRing trial(folders);

@@ -142,8 +142,8 @@ TEST(FreezeRecorder, WithoutAFolderThatTakesFilesTheFrameStaysInMemoryAndTheNext
   EXPECT_TRUE(std::filesystem::is_empty(folders.memory()));
 }
 
-// A process of its own that pushes cycles and is killed; `act` runs in a child of it, like the guard process,
-// when its line to the parent breaks.
+// Pushes cycles in a child process and kills it. With a guard, a child of that process writes the dump when
+// its pipe to the parent breaks, as the guard process does.
 void run_and_kill(const FreezeOptions& options, bool with_guard, std::uint64_t cycles, Fault fault) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
@@ -172,7 +172,7 @@ void run_and_kill(const FreezeOptions& options, bool with_guard, std::uint64_t c
   ASSERT_EQ(::read(ready[0], &told, 1), 1);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  // The guard holds the other end until it has written.
+  // The guard holds its end of the pipe open until it has written.
   while (::read(ready[0], &told, 1) > 0) {
   }
   ::close(ready[0]);
@@ -204,7 +204,7 @@ TEST(FreezeAfterSigkill, TheGuardWritesTheRingToTheDisk) {
   run_and_kill(folders.options(), true, 6500, Fault::none);
   const auto dumps = freeze::files_in(folders.frames(), freeze::kDumpEnding);
   ASSERT_EQ(dumps.size(), 1U);
-  // As after a restart of the computer: the memory is gone.
+  // Without the memory, as after a restart of the computer.
   for (const auto& ring : freeze::files_in(folders.memory(), freeze::kMemoryEnding))
     std::filesystem::remove(ring);
   EXPECT_EQ(read_recording(dumps[0]).cycles.back().first.cycle, 6500U);

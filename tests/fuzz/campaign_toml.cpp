@@ -1,11 +1,11 @@
-// campaign.toml: other people's words about their recordings.
+// Fuzz target of campaign.toml, which describes recordings of other people.
 #include "config/problem.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tools/campaign/campaign.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sandhopper;
-  // A trial may name any file, but the search shall not read what is no business of its.
+  // A trial may name any file. Inputs with a path are skipped, so that the search reads no other files.
   if (fuzz::text_of({data, size}).find("..") != std::string_view::npos) return 0;
   if (fuzz::text_of({data, size}).find("/") != std::string_view::npos) return 0;
   const fuzz::ScratchFile file({data, size}, "campaign.toml");

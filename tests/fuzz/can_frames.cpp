@@ -1,5 +1,5 @@
-// CAN frames to motor readings: drivers/can. Each record of the input: direction, time step, identifier,
-// length, data.
+// Fuzz target of drivers/can: CAN frames to motor readings. Each record of the input: direction, time step,
+// identifier, length, data.
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -20,7 +20,7 @@ void require_sane(const MotorReading& reading) {
   fuzz::require(is_finite_or_unset(reading.sample.current_A), "the current is a number or not measured");
 }
 
-// The fields of a reply, packed again, are the bytes they came from.
+// Packing the fields of a reply again must give the same bytes.
 void require_round_trip(fuzz::Input payload) {
   const MitRanges ranges;
   for (std::size_t f = 0; f < EnumNames<ReplyFlavour>::value.size(); ++f) {
@@ -33,8 +33,8 @@ void require_round_trip(fuzz::Input payload) {
   }
 }
 
-// Commands are cut to whole counts, as the drives' own code does: packed again, a field is the same or one
-// count less.
+// Commands are truncated to whole counts, as the drives' own code does. Packed again, a field is the same or
+// one count less.
 void require_within_a_count(const MitPayload& payload) {
   const MitRanges r;
   const MitCommand once = unpack_mit_command(r, payload);
@@ -54,7 +54,7 @@ can_frame take_frame(fuzz::Bytes& bytes) {
   can_frame frame{};
   const fuzz::Input id = bytes.take(4);
   std::memcpy(&frame.can_id, id.data(), id.size());
-  frame.can_dlc = bytes.byte();  // a broken driver may say anything
+  frame.can_dlc = bytes.byte();  // a broken driver may give any length
   const fuzz::Input data = bytes.take(CAN_MAX_DLEN);
   std::memcpy(frame.data, data.data(), data.size());
   return frame;

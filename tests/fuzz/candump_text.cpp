@@ -1,4 +1,4 @@
-// CAN traffic as text. A line that is read, written and read again is the same frame.
+// Fuzz target of CAN traffic as text. A line that is read, written and read again must be the same frame.
 #include "firmware/log/candump.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,4 +1,4 @@
-// Recordings as CSV, in every way the reader is asked to read them.
+// Fuzz target of recordings as CSV, with all options of the reader.
 #include <cmath>
 #include <sstream>
 

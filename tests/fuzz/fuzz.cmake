@@ -1,5 +1,5 @@
-# One target a file. replay_NAME, with any compiler, runs the committed corpus as a test; fuzz_NAME, with Clang and
-# the preset "fuzz", searches (tests/fuzz/run).
+# One file per target. replay_NAME, built with any compiler, runs the committed corpus as a test. fuzz_NAME, built with Clang
+# and the preset "fuzz", searches (tests/fuzz/run).
 add_library(fuzz_scratch STATIC EXCLUDE_FROM_ALL tests/fuzz/scratch_file.cpp)
 target_link_libraries(fuzz_scratch PUBLIC sandhopper_options)
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-// What every target shares. A target is one file with LLVMFuzzerTestOneInput; it ends the program where the
-// code under test breaks its word, and the sanitizers where it breaks the language's.
+// Shared by all targets. A target is one file with LLVMFuzzerTestOneInput. It aborts if the code under test
+// violates its contract; the sanitizers abort on undefined behaviour.
 namespace sandhopper::fuzz {
 
 using Input = std::span<const std::uint8_t>;
@@ -23,7 +23,7 @@ inline void require(bool holds, const char* what) {
   std::abort();
 }
 
-// Takes an input apart; zeros behind its end.
+// Reads an input piece by piece; beyond its end it returns zeros.
 class Bytes {
  public:
   explicit Bytes(Input input) : rest_(input) {}
@@ -44,7 +44,7 @@ class Bytes {
   Input rest_;
 };
 
-// A file that holds `input`, in memory where that is to be had; gone at the end.
+// A temporary file with `input`, in memory if possible; removed by the destructor.
 class ScratchFile {
  public:
   ScratchFile(Input input, const char* name);

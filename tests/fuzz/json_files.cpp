@@ -1,4 +1,4 @@
-// JSON that is read: the sums of a stride campaign's parts, and other tools' diagnoses that a benchmark
+// Fuzz target of JSON: sums of a stride campaign's parts, and diagnoses of other tools that a benchmark
 // scores.
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
-// MCAP files: reading front to back, with and without CRCs, each record by this build's layout and by the
-// log's own.
+// Fuzz target of MCAP files: reads front to back, with and without CRCs, each record by this build's layout
+// and by the log's own.
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_salvage.hpp"
 #include "firmware/log/record_layout.hpp"

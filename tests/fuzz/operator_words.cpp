@@ -1,6 +1,6 @@
-// The operator's channel from bytes to the cycle and back to JSON: the input is cut into reads, and cycles
-// run between them. Every word is answered once, with valid JSON; where a read has a stop, no arm or release
-// of that read is served, and after a quit none at all.
+// Fuzz target of the operator's channel, from bytes to the cycle and back to JSON. The input is cut into
+// reads, and cycles run between them. Every word must be answered once with valid JSON. No arm or release of
+// a read with a stop may be served, and none after a quit.
 #include <algorithm>
 #include <atomic>
 #include <nlohmann/json.hpp>
@@ -68,7 +68,7 @@ class Channel {
     post_words(words, read_, box_, quit_);
   }
 
-  static constexpr int kTold = 8;  // lines that are turned into text: that takes most of the time
+  static constexpr int kTold = 8;  // number of lines converted to text, which takes most of the time
   WordReader reader_;
   RequestBox box_;
   std::atomic<Quit> quit_{Quit::no};
@@ -83,9 +83,9 @@ class Channel {
 
 }  // namespace
 
-// A byte that ends a piece: its low bits are the cycles that run before the next.
+// A byte that ends a piece: its low bits are the number of cycles before the next piece.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr std::size_t kMost = 4096;  // a read's worth: more is only slower
+  constexpr std::size_t kMost = 4096;  // one read's worth; more only costs time
   Channel channel;
   size = std::min(size, kMost);
   fuzz::Bytes bytes({data, size});

@@ -1,4 +1,4 @@
-// What hop recover does with a file: the copy is a closed log, and recovering it again finds nothing to do.
+// Fuzz target of hop recover: the copy must be a closed log, and recovering it again must change nothing.
 #include <filesystem>
 
 #include "firmware/log/candump.hpp"

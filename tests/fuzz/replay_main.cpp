@@ -1,5 +1,6 @@
-// Runs one target over the files of a folder, once each: how the corpora are tested with any compiler, and
-// how a crash found elsewhere is looked at.  replay_NAME FOLDER_OR_FILE…
+// Runs one target once over each file of a folder. The corpora are tested with it, with any compiler, and
+// crashes found elsewhere are reproduced.
+//   replay_NAME FOLDER_OR_FILE…
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,9 +13,9 @@ namespace {
 int run_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  // Names the input that ends the program.
+  // Prints the name of the input before it runs, so that the input of a crash is known.
   std::fprintf(stderr, "%s\n", file.filename().c_str());
-  // A copy of just this size, so that AddressSanitizer sees a read behind it.
+  // A copy of exactly this size, so that AddressSanitizer finds a read beyond its end.
   const std::vector<std::uint8_t> input(bytes.begin(), bytes.end());
   return LLVMFuzzerTestOneInput(input.data(), input.size());
 }

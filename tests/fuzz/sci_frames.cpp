@@ -1,4 +1,4 @@
-// Bytes of the serial line to the time-of-flight sensor's companion: drivers/tof.
+// Fuzz target of drivers/tof: bytes of the serial line to the time-of-flight sensor's companion.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ void require_round_trip(const SciFrame& frame) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   SciParser parser;
-  // The bytes as they come, and as one frame with a right CRC, which a search seldom hits on.
+  // The raw bytes, and the bytes as one frame with a valid CRC, which a random search seldom finds.
   std::vector<std::uint8_t> stream(data, data + size);
   if (size > 1 && size < 400) {
     const auto framed = sci_encode(static_cast<SciCommand>(data[0] & ~kSciAddressed), {data + 1, size - 1});

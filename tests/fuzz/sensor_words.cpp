@@ -1,4 +1,4 @@
-// Words of the SPI and I2C sensors: the ISM330DHCX's burst, the ADS1115's registers.
+// Fuzz target of the SPI and I2C sensors: burst of the ISM330DHCX, registers of the ADS1115.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace sandhopper;
 
-// A device that answers anything, or nothing.
+// A device with arbitrary answers, or none.
 class AnyBus final : public I2cBus {
  public:
   explicit AnyBus(fuzz::Bytes bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
-// The kept state of a robot: bytes as they are, and the same with a right header, which hands the search the
-// TOML behind the checksum. What is read is within its ranges, is written as it was read, and never makes a
-// motor colder than ambient.
+// Fuzz target of the robot's kept state: the bytes as they are, and with a valid header, so that the search
+// reaches the TOML behind the checksum. A state that is read must be within its ranges, must be written as it
+// was read, and must never make a motor colder than ambient.
 #include <fmt/format.h>
 #include <zlib.h>
 

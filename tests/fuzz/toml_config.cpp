@@ -1,5 +1,5 @@
-// Configuration files: a robot, its devices, its world. What is read is written and read again; what is not
-// comes with problems that name their place.
+// Fuzz target of the configuration files of robot, devices and world. A file that is accepted is written and
+// read again. A file that is rejected must come with problems that name their place.
 #include "config/load.hpp"
 #include "config/robot_config.hpp"
 #include "firmware/linux_board_config.hpp"

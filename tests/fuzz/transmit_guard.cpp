@@ -1,5 +1,6 @@
-// Frames to be sent and received, cycles and times, in any order: drivers/transmit_guard. The input begins
-// with dialects and scales of both motors; then records. What the guard lets pass is held against the rules.
+// Fuzz target of drivers/transmit_guard: frames to be sent and received, cycles and times, in any order. The
+// input begins with dialects and scales of both motors; records follow. Every frame that passes the guard
+// must obey the rules.
 #include "drivers/transmit_guard/transmit_guard.hpp"
 
 #include <cmath>
@@ -20,7 +21,7 @@ double number(fuzz::Bytes& bytes) {
   return value;
 }
 
-// Sound scales, or, where the input asks for it, any numbers at all.
+// Valid scales or, if the input asks for it, arbitrary numbers.
 MotorLimits take_motor(fuzz::Bytes& bytes, std::uint32_t id) {
   MotorLimits motor;
   const std::uint8_t choice = bytes.byte();

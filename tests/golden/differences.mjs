@@ -1,5 +1,5 @@
-// Two answers of `hop diagnose`, compared: words must be the same, numbers of diagnosis.json to a relative 1e-6, and
-// numbers that were rounded for a reader to one unit of their last digit. Times of the run are left out.
+// Compares two answers of `hop diagnose`: words must be equal, numbers of diagnosis.json to a relative 1e-6,
+// and rounded numbers to one unit of their last digit. Times of the run are left out.
 export const tolerance = 1e-6;
 
 // Paths in two JSON values that differ, as lines "path: one, other".
@@ -22,7 +22,7 @@ export function json_differences(one, other, path = '') {
 const run_facts = [
   /[\d.e+-]+ in [\d.e+-]+ s, [\d.e+-]+ a second/g,              // the page
   /^\d+ simulations in .*$/gm,                                   // the text
-  /^(corrected model|answer|page|residuals): .*$/gm,             // the text: places that the caller named
+  /^(corrected model|answer|page|residuals): .*$/gm,  // text: paths that the caller chose
 ];
 const number = /-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g;
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Tests the comparison of golden answers on two that are the same, nearly the same, and different.
+// Tests the comparison of golden answers with equal, almost equal and different answers.
 import assert from 'node:assert/strict';
 
 import { json_differences, text_difference } from './differences.mjs';

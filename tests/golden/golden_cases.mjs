@@ -1,5 +1,5 @@
-// Campaigns whose answers are kept: of each plant, what is hidden, how many, from which seed on, of how many trials.
-// Few trials each, so that all of them take minutes. A hopper's answer takes ten times as long as another's.
+// Campaigns whose answers are kept: plant, what is hidden, number, first seed, number of trials. There are
+// few trials each, so that all of them take minutes. A hopper takes ten times as long as another plant.
 const each = (plant, kind, campaigns, seed, trials) =>
   Array.from({ length: campaigns }, (_, i) => ({ name: `${plant}-${kind}-${seed + i}`, plant, kind, seed: seed + i, trials }));
 
@@ -18,7 +18,7 @@ const hoppers = [
 ];
 const small = [of_each_kind('rotary_axis', 7100), of_each_kind('falling_body', 7200), of_each_kind('intruder', 7300)];
 
-// Plants and kinds mixed: a run that is stopped early has met all of them.
+// Plants and kinds are mixed, so that a run that is stopped early has covered all of them.
 const stride = 7;
 const order = small[0].map((_, i) => (i * stride) % small[0].length);
 export const cases = [...order.flatMap(i => small.map(list => list[i])), ...hoppers];

@@ -1,5 +1,5 @@
 # Sourced by the tests of the live view with the build folder as first argument and, as second, a folder that keeps screens:
-# a terminal (tmux) in which a command runs, keys, what stands on the screen, and what a trial left.
+# a terminal (tmux) in which a command runs, keys, the text on the screen, and the files of a trial.
 build=$(cd "$1" && pwd)/bin
 hop=$build/hop
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -15,7 +15,7 @@ failed=0
 wrong() { echo "FAILED  $1"; tmux capture-pane -p -t hop 2>/dev/null | sed 's/^/        |/' || true; failed=1; }
 ok() { echo "ok      $1"; }
 
-# terminal COLUMNS ROWS COMMAND: in a shell that says when it is done, and lives on.
+# terminal COLUMNS ROWS COMMAND: runs it in a shell that prints a line when it is done and stays open.
 terminal() {
   tmux kill-server 2>/dev/null || true
   terminals=$((terminals + 1))
@@ -24,7 +24,7 @@ terminal() {
   tmux send-keys -t hop "cd $work; clear; $3; echo \$? >$work/status" Enter
 }
 keys() { tmux send-keys -t hop "$@"; }
-# until_shown TEXT: stands on the screen, within 20 s.
+# until_shown TEXT: waits until the text is on the screen, at most 20 s.
 until_shown() {
   for _ in {1..200}; do
     [[ $(tmux capture-pane -p -t hop) == *"$1"* ]] && return 0

@@ -1,6 +1,6 @@
-// confine COMMAND…: runs a command that dies the moment it opens a socket of another family than AF_UNIX and
-// AF_CAN, or changes its user or capabilities. What systemd's RestrictAddressFamilies= does, where there is
-// no systemd.
+// confine COMMAND…: runs a command and kills it if it opens a socket of another family than AF_UNIX and
+// AF_CAN, or changes its user or capabilities. It replaces systemd's RestrictAddressFamilies= on machines
+// without systemd.
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -17,9 +17,9 @@
 namespace {
 
 constexpr std::uint32_t load(std::size_t offset) { return static_cast<std::uint32_t>(offset); }
-constexpr std::size_t kFamily = offsetof(seccomp_data, args);  // socket(2)'s first argument; little-endian
+constexpr std::size_t kFamily = offsetof(seccomp_data, args);  // first argument of socket(2); little-endian
 
-// Jumps are counted in instructions that follow.
+// Jump distances count the instructions to skip.
 constexpr std::array kFilter{
     sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, load(offsetof(seccomp_data, nr))),
     sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_capset, 5, 0),

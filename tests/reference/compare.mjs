@@ -24,7 +24,7 @@ function bits_of(value) {
   return scratch.getBigUint64(0).toString(16).padStart(16, '0');
 }
 
-// Paths and values in the order of the schema, as `reference_log dump` prints them.
+// Paths and values in the order of the schema, in the format of `reference_log dump`.
 function flatten(types, type, object, prefix, out) {
   const definition = types.find(t => t.name === type);
   for (const field of definition.definitions) {
@@ -50,7 +50,7 @@ async function read_indexed() {
   return McapIndexedReader.Initialize({ readable });
 }
 
-// All records in the order of the file; CRCs of chunks and attachments are checked on the way.
+// Reads all records in the order of the file and checks the CRCs of chunks and attachments.
 function read_stream(bytes) {
   const reader = new McapStreamReader();
   reader.append(bytes);
@@ -103,7 +103,7 @@ function compare_messages(records) {
   return { counts, values };
 }
 
-// Every message's end in the file and its time, from the message indexes.
+// End of every message in the file and its time, from the message indexes.
 function message_ends(indexed) {
   const ends = [];
   for (const chunk of indexed.chunkIndexes) {

@@ -21,7 +21,8 @@ namespace {
 template <class T>
 inline constexpr bool kIsArray = cdr::detail::kIsArray<T>;
 
-// Random bits in every field; of a double, any value but those that JavaScript cannot carry (NaN's payload).
+// Fills every field with random bits. A double gets any value that JavaScript can represent (no payload of a
+// NaN).
 struct Filler {
   std::mt19937_64& random;
   template <class T>
@@ -47,7 +48,7 @@ struct Filler {
   }
 };
 
-// Paths and values in the order of encoding: integers in decimals, doubles as their 64 bits.
+// Paths and values in the order of encoding: integers as decimals, doubles as their 64 bits.
 struct Printer {
   std::string paths;
   std::string values;
@@ -157,7 +158,8 @@ int write(const char* file, int seconds) {
     push_random(logger, truths, time_ns, random);
     if (i % 97 == 0) push_random(logger, events, time_ns, random);
     if (i % 401 == 400) push_random(logger, strides, time_ns - 5'000'000, random);
-    if (i % 1'000 == 999) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the ring holds 2.7 s
+    // the ring holds 2.7 s of records
+    if (i % 1'000 == 999) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   logger.stop();
   logger.close();

@@ -1,4 +1,4 @@
-// Headless Chromium steered through chromedriver's WebDriver protocol; nothing but Node and Debian's packages.
+// Controls headless Chromium by chromedriver's WebDriver protocol; needs only Node and Debian's packages.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -58,11 +58,11 @@ export class Browser {
   }
 
   async open(file) {
-    await this.complaints(); // of the page before are not this one's
+    await this.complaints();  // discards complaints of the previous page
     return this.call('POST', `${this.session}/url`, { url: `file://${file}` });
   }
 
-  // Runs a function in the page and returns what it returns.
+  // Runs a function in the page and returns its result.
   run(script, ...args) {
     return this.call('POST', `${this.session}/execute/sync`, { script: `return (${script}).apply(null, arguments)`, args });
   }
@@ -104,9 +104,10 @@ export class Browser {
     writeFileSync(file, Buffer.from(pdf, 'base64'));
   }
 
-  // What the page wrote to its console, and every address it asked for besides its own file, since the last call.
+  // Console messages of the page, and every address that it requested besides its own file, since the last
+  // call.
   async complaints() {
-    // dygraphs 2.2 (Debian 13) notes how many points lie outside a plot that is zoomed.
+    // dygraphs 2.2 (Debian 13) reports the number of points outside a zoomed plot.
     const of_zoomed_plot = /"\d+ points out of [XY] bounds:/;
     const lines = (await this.call('POST', `${this.session}/se/log`, { type: 'browser' }))
       .map(entry => entry.message).filter(message => !of_zoomed_plot.test(message));

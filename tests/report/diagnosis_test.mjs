@@ -25,7 +25,7 @@ function concealed(name, ...what) {
 
 const kAnswers = ['Where', 'What', 'How sure', 'How much better', 'What next'];
 
-// What the first screen shows, and how far down it reaches.
+// Content of the first screen, and its lower end.
 function firstScreen(browser) {
   return browser.run(() => ({
     verdict: document.getElementById('verdict').textContent,

@@ -1,14 +1,15 @@
-// Checks of every page at every width, light and dark: nothing wider than the window, no column or word clipped, no two
-// texts on one another, no short word broken, text that can be read on its paper.
+// Checks of every page at every width, light and dark: nothing wider than the window, no column or word
+// clipped, no overlapping texts, no short word broken, readable contrast of text.
 import { setTimeout as sleep } from 'node:timers/promises';
 
 export const kWidths = [1366, 800, 400];
 export const kThemes = ['light', 'dark'];
 
-// WCAG 2.1, success criterion 1.4.3: contrast of text against what lies behind it.
+// WCAG 2.1, success criterion 1.4.3: contrast of text against its background.
 const kContrast = 4.5;
 
-// Watches the text that a page draws into canvases: such text is in no element. Runs before the page's own scripts.
+// Records the text that a page draws into canvases, because it is in no element. Runs before the page's own
+// scripts.
 function watchCanvases() {
   const plain = CanvasRenderingContext2D.prototype;
   const { fillText, clearRect } = plain;
@@ -36,7 +37,7 @@ function watchCanvases() {
   };
 }
 
-// The functions below run in the page. Each of the checks returns a sentence for each fault.
+// The functions below run in the page. Each check returns a sentence per fault.
 
 const short = (text) => text.trim().replace(/\s+/g, ' ').slice(0, 40);
 
@@ -52,14 +53,14 @@ function widerThanTheWindow() {
   return [`the page is ${top.scrollWidth - top.clientWidth} pixels wider than the window: ${[...new Set(widest)].slice(0, 4).join(', ')}`];
 }
 
-// Columns and words that only a scroll bar of their own, or nothing at all, would show. Code may be scrolled.
+// Columns and words that need a scroll bar of their own, or cannot be seen at all. Code may scroll.
 function clipped() {
   return [...document.body.querySelectorAll('*')].filter((node) => !node.closest('svg, pre, .highlight') && node.clientWidth)
     .filter((node) => getComputedStyle(node).overflowX !== 'visible' && node.scrollWidth > node.clientWidth + 1)
     .map((node) => `${nameOf(node)} hides ${node.scrollWidth - node.clientWidth} pixels of its width: ${short(node.textContent)}`);
 }
 
-// The boxes of a text's lines, cut where a container that scrolls hides them.
+// The boxes of a text's lines, clipped by containers that scroll.
 function boxesOf(node, holder) {
   const range = document.createRange();
   range.selectNodeContents(node);
@@ -86,7 +87,8 @@ function textsOfThePage() {
   return texts;
 }
 
-// Every line of every text, and what canvases hold. Line boxes are higher than letters: neighbours may share a few pixels.
+// Every line of every text, and the text of canvases. Line boxes are higher than letters, so neighbours may
+// overlap by a few pixels.
 function piecesOf(texts) {
   const pieces = texts.flatMap((text) => text.boxes.map((box) => {
     const slack = text.holder instanceof SVGElement ? 0.12 : 0.18;
@@ -108,7 +110,7 @@ function piecesOf(texts) {
 
 function overlapping(pieces) {
   const faults = [];
-  // A sticky element lies over the content that is scrolled under it.
+  // A sticky element covers content that is scrolled below it.
   const stays = (piece) => {
     for (let outer = piece.text.holder; outer; outer = outer.parentElement) if (/sticky|fixed/.test(getComputedStyle(outer).position)) return true;
     return false;
@@ -123,7 +125,7 @@ function overlapping(pieces) {
   return faults;
 }
 
-// A legend stands beside what it explains.
+// A legend must be beside its figure, not on it.
 function legendsOnFigures() {
   const faults = [];
   for (const legend of document.querySelectorAll('.legend')) {
@@ -149,13 +151,13 @@ function outsideOfFigureOrWindow(texts, pieces) {
   }
   const width = document.documentElement.clientWidth;
   for (const piece of pieces) {
-    if (piece.right <= 0 || piece.text.holder.closest('pre')) continue; // meant to be out of sight; code
+    if (piece.right <= 0 || piece.text.holder.closest('pre')) continue;  // hidden on purpose, or code
     if (piece.left < -1 || piece.right > width + 1) faults.push(`'${piece.text.text}' reaches out of the window`);
   }
   return faults;
 }
 
-// Short words in two lines. Paths and identifiers longer than a phone's column may break.
+// Short words broken into two lines. Paths and identifiers longer than a phone's column may break.
 function brokenWords(texts) {
   const faults = [];
   for (const { node, holder, text } of texts) {
@@ -191,7 +193,7 @@ function colorReader() {
 
 const blend = (over, under) => over.slice(0, 3).map((v, i) => v * over[3] + under[i] * (1 - over[3])).concat(1);
 
-// The colour behind an element, and how much of its own ink is left.
+// The background colour of an element, and the opacity of its text.
 function paperOf(node, colorOf) {
   const papers = [];
   let fade = 1;
@@ -200,7 +202,7 @@ function paperOf(node, colorOf) {
     fade *= outer instanceof SVGElement ? 1 : Number(style.opacity);
     const paper = colorOf(style.backgroundColor);
     if (paper[3] > 0) papers.push(paper);
-    // A gradient's stops lie beside one another: the strongest counts.
+    // A gradient has several colours; the strongest counts.
     const stops = [...style.backgroundImage.matchAll(/(?:rgba?|color)\([^()]*\)/g)].map(([shade]) => colorOf(shade));
     if (stops.length) papers.push(stops.reduce((a, b) => (b[3] > a[3] ? b : a)));
   }
@@ -236,7 +238,7 @@ const kFaults = `(least) => {
     ...brokenWords(texts), ...tooPale(texts, pieces, least)])];
 }`;
 
-// Opens a page at a width in a theme, everything unfolded, as high as it is; returns its faults.
+// Opens a page at a width in a theme with everything unfolded, at full height; returns its faults.
 export class Layout {
   static async of(browser) {
     const layout = new Layout();
@@ -268,7 +270,7 @@ export class Layout {
     return this.browser.run(kFaults, kContrast);
   }
 
-  // Faults of a page at every width in both themes, each with the widths and themes where it shows.
+  // Faults of a page at every width in both themes, each with the widths and themes in which it occurs.
   async everywhere(file) {
     const found = new Map();
     for (const width of kWidths)

@@ -30,7 +30,7 @@ function place(browser, selector, n = 0) {
   }, selector, n);
 }
 
-// Share of the pixels of each canvas that are not of its commonest colour.
+// Share of the pixels of each canvas that differ from its most frequent colour.
 function inked(browser, selector) {
   return browser.run(wanted => [...document.querySelectorAll(wanted)].map(canvas => {
     const copy = document.createElement('canvas');
@@ -44,7 +44,7 @@ function inked(browser, selector) {
   }), selector);
 }
 
-// Labels of the time axis of each panel: what part of the trial it shows.
+// Labels of the time axis of each panel: the part of the trial that it shows.
 function axes(browser) {
   return browser.run(() => [...document.querySelectorAll('#time-plots .plot')].map(plot =>
     [...plot.querySelectorAll('.dygraph-axis-label-x')].map(label => Number(label.textContent))));
@@ -138,7 +138,7 @@ function sample(name, strides, idle_s) {
   return file;
 }
 
-// Three strides of the simulated robot, through the log, as `hop trial` leaves them.
+// Report of three strides of the simulated robot, made from the log as `hop trial` does.
 function trial() {
   const folder = join(build, 'report_trial');
   rmSync(folder, { recursive: true, force: true });
@@ -146,7 +146,7 @@ function trial() {
   return join(folder, 'trial_001.html');
 }
 
-// The paper's programme, one repetition; returns its page and what it printed with --json.
+// The paper's programme, one repetition; returns its page and its output with --json.
 function programme() {
   const folder = join(build, 'report_paper');
   const printed = execFileSync(join(build, 'bin', 'hop'), ['experiment', 'paper', '--quick', '--json', '--output', folder],
@@ -154,7 +154,8 @@ function programme() {
   return { page: join(folder, 'paper.html'), numbers: JSON.parse(printed) };
 }
 
-// Every figure of a study holds lines or points of each series shown and names both axes; nothing is wider than the window.
+// Every figure of a study has lines or points of each visible series and names both axes; nothing is wider
+// than the window.
 async function checkStudy(browser, name) {
   await check(`${name}: every figure is drawn, with its axes named`, async () => {
     const figures = await browser.run(() => [...document.querySelectorAll('.figures svg')].filter(svg => svg.closest('figure') && !svg.parentElement.closest('svg'))
@@ -176,7 +177,7 @@ async function checkStudy(browser, name) {
   });
 }
 
-// Nothing overlaps, is clipped or too pale to read, on any screen, in the light and in the dark.
+// Nothing may overlap, be clipped or have too little contrast, on any screen, light or dark.
 function checkLayout(layout, name, file) {
   return check(`${name}: readable at every width, light and dark`, async () => assert.deepEqual(await layout.everywhere(file), []));
 }
@@ -224,7 +225,8 @@ async function everything() {
     });
     await browser.screenshot(join(shots, 'thirty_strides.png'));
 
-    // 20 minutes; the spike is one row three quarters through, and the heights of the whole trial must show it.
+    // 20 minutes. The spike is one row after three quarters of the time, and the height of the plots must
+    // show it.
     await open(browser, sample('sample_long', 20, 60));
     await checkPage(browser, 'twenty minutes', { panels: 6, strides: 20 });
     await check('twenty minutes: one row that stands out is not lost', async () => {

@@ -16,7 +16,7 @@ using namespace sandhopper;
 constexpr double kStance_s = 0.30;
 constexpr double kFlight_s = 0.12;
 
-// Channels of one instant, `t` seconds after touchdown (negative: before).
+// Channels at one instant, `t` seconds after touchdown (negative: before).
 struct Sample {
   double depth_m = 0.0;
   double speed_mps = 0.0;
@@ -80,7 +80,7 @@ ReportData made_up(std::uint32_t strides, double idle_s) {
     const double t_s = static_cast<double>(row) * 1e-3;
     const double in_period_s = std::fmod(t_s, period_s);
     const Sample now = sample_at(std::min(in_period_s - kFlight_s, kStance_s));
-    // One row in a long silence stands out; thinning must not lose it.
+    // A single outlier in a long silence, which thinning must not lose.
     const double spike = row == 3 * rows / 4 ? 500.0 : 0.0;
     const double values[] = {now.leg_m,
                              0.12 + now.leg_m - now.depth_m,

@@ -2,7 +2,7 @@
 // wider than a laptop, no complaint, no request.
 import assert from 'node:assert/strict';
 
-// What stands in each figure: marks of every shown series, words of the axes.
+// Content of each figure: marks of every visible series, words of the axes.
 function figures(browser) {
   return browser.run(() => [...document.querySelectorAll('figure.panel')].map(figure => ({
     title: figure.querySelector('figcaption b').textContent,
@@ -20,7 +20,7 @@ function figures(browser) {
   })));
 }
 
-// Two curves of a figure differ by more than a shade of one colour, which no reader tells apart.
+// Two curves of a figure must differ by more than a shade of one colour, which readers cannot distinguish.
 function checkLooks(figure) {
   const look = ({ mark, color, shade, dashed, dotted, hollow }) => [mark, color, dashed, dotted, hollow, mark === 'band' ? shade : 0].join();
   const known = new Map();
@@ -31,7 +31,7 @@ function checkLooks(figure) {
   }
 }
 
-// One quantity has one unit wherever it stands on the page.
+// A quantity must have the same unit everywhere on the page.
 function checkUnits(items) {
   const units = new Map();
   const labels = items.flatMap(item => (item.kind === 'figure' ? [item.x_label, item.y_label] : item.kind === 'table' ? item.columns : []));
@@ -70,7 +70,7 @@ export async function checkStudy(browser, file) {
   return drawn;
 }
 
-// A name in a legend hides its series and brings it back.
+// A name in a legend must hide its series and show it again.
 async function checkLegend(browser) {
   const counts = await browser.run(() => {
     const figure = [...document.querySelectorAll('figure.panel')].find(panel => panel.querySelectorAll('g.series').length > 1);

@@ -23,7 +23,7 @@ function simulated(plant) {
   return join(folder, 'terrain.html');
 }
 
-// On a small screen nothing is wider than it, and letters in figures keep their size.
+// On a small screen nothing is wider than the screen, and text in figures keeps its size.
 async function narrow(browser, name) {
   for (const width of [800, 400]) {
     await browser.resize(width, 900);

@@ -27,7 +27,7 @@ void expect_law(const Decoded& got, const LawFields& expected) {
   EXPECT_NEAR(got.torque_Nm, expected.torque_Nm, 36.0 / 4095);
 }
 
-// Vectors in exact arithmetic, for codes cut off and for codes rounded to the nearest.
+// Test vectors from exact arithmetic, for truncated and for rounded codes.
 TEST(TransmitDecoder, ReadsTheTestVectorsOfTheMitDialect) {
   const auto decoder = decoder_of(Dialect::mit);
   expect_law(decoder.command(bytes_of(1, {0x8A, 0x3C, 0x85, 0x10, 0x51, 0x33, 0x38, 0x38})),
@@ -44,7 +44,7 @@ TEST(TransmitDecoder, ReadsTheTestVectorsOfTheMitDialect) {
     EXPECT_EQ(decoder.command(zero).meaning, Meaning::zero);
 }
 
-// The examples of the V3 manual decode with +-12.5, +-50, +-65, to one count.
+// The examples of the V3 manual, decoded with +-12.5, +-50, +-65, to one count.
 TEST(TransmitDecoder, ReadsTheExamplesOfTheV3Dialect) {
   MotorLimits motor;
   motor.dialect = Dialect::v3;
@@ -64,7 +64,7 @@ TEST(TransmitDecoder, ReadsTheExamplesOfTheV3Dialect) {
   EXPECT_NEAR(position.torque_Nm, 0.0, 0.02);
 }
 
-// Servo mode: extended identifier (mode << 8) | id, 32 bits of mA.
+// Servo mode: extended identifier (mode << 8) | id, current in mA as 32 bits.
 TEST(TransmitDecoder, ReadsCurrentsOfTheServoDialect) {
   const auto decoder = decoder_of(Dialect::servo, 0x68);
   const std::uint32_t id = CAN_EFF_FLAG | 0x168U;
@@ -132,7 +132,7 @@ TEST(TransmitDecoder, TakesRepliesFromTheDriveInItsDialectOnly) {
   EXPECT_FALSE(servo.reply(mit_reply(1)));
 }
 
-// What the torque watchdog and the guard process send beside the cycle does not pass the guard's port.
+// The frames of the torque watchdog and of the guard process do not pass through the guard's port.
 TEST(TransmitDecoder, FindsNoTorqueInTheFramesOfTheTorqueCut) {
   for (const auto dialect : {sandhopper::Dialect::mit, sandhopper::Dialect::servo, sandhopper::Dialect::v3}) {
     CanConfig can;

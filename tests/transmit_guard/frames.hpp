@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-// Frames made by hand for these tests, from the tables of the drives' manuals.
+// Frames built for these tests from the tables of the drives' manuals.
 namespace sandhopper::transmit {
 
 inline can_frame bytes_of(std::uint32_t id, std::initializer_list<int> bytes) {

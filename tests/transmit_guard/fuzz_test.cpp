@@ -12,8 +12,8 @@
 #include "tests/transmit_guard/random_robot.hpp"
 
 // Hostile cycles: the real controller and driver behind the guard, on emulated drives. Configurations, sensor
-// values, requests, timing, bus and devices are drawn at random. Nothing may leave that breaks a rule, and a
-// sound driver must not be refused.
+// values, requests, timing, bus and devices are random. No frame that breaks a rule may leave, and a sound
+// driver must not be refused.
 namespace sandhopper::faults {
 namespace {
 
@@ -28,7 +28,7 @@ struct Totals {
   std::map<State, std::uint64_t> states;
 };
 
-// Overwrites measured values for some cycles with what no sensor should say.
+// Overwrites measured values for some cycles with impossible ones.
 class Sabotage {
  public:
   explicit Sabotage(std::uint64_t seed) : random_(seed, 11), rate_(random_.uniform() < 0.6 ? 0.0 : 0.002) {}
@@ -91,7 +91,7 @@ class Sabotage {
   bool relative_ = false;
 };
 
-// A device that breaks, and is whole again, or not.
+// Breaks a device at random and may repair it later.
 class Breakage {
  public:
   explicit Breakage(std::uint64_t seed) : random_(seed, 12), rate_(random_.uniform() < 0.5 ? 0.0 : 0.0015) {}
@@ -118,7 +118,7 @@ class Breakage {
   std::optional<Device> device_;
 };
 
-// An operator who mostly hops, and sometimes presses anything.
+// An operator who mostly arms and releases, and sometimes requests anything.
 class Operator {
  public:
   explicit Operator(std::uint64_t seed) : random_(seed, 13), rate_(random_.uniform() < 0.5 ? 0.0 : 0.005) {}
@@ -147,7 +147,8 @@ void run_trial(const RobotConfig& shipped, std::uint64_t seed, Totals& totals) {
   State before = State::idle;
   std::uint64_t skipped_at = 0;
   while (bench.cycles() < kLongest_cycles) {
-    // Gaps lie apart: several in a row would let arming, which goes by time, end before the drives are on.
+    // Gaps are at least 50 cycles apart. Several in a row would end arming, which depends on time, before the
+    // drives are on.
     const bool skips = random.uniform() < skip_rate && bench.cycles() > skipped_at + 50;
     if (skips) skipped_at = bench.cycles();
     const auto& output = bench.turn(request, skips ? static_cast<std::uint64_t>(whole(random, 1, 30)) : 0);
@@ -179,7 +180,7 @@ std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-// SANDHOPPER_GUARD_CYCLES=10000000 is the long run; SANDHOPPER_GUARD_SEED begins elsewhere.
+// The long run sets SANDHOPPER_GUARD_CYCLES=10000000. SANDHOPPER_GUARD_SEED selects other random trials.
 TEST(GuardFuzz, NothingBeyondTheRulesLeavesAndASoundDriverIsNotRefused) {
   const auto cycles = number_of("SANDHOPPER_GUARD_CYCLES", 60'000);
   const auto first = number_of("SANDHOPPER_GUARD_SEED", 1);

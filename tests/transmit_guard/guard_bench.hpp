@@ -8,15 +8,15 @@
 
 namespace sandhopper::faults {
 
-// What a test may alter on the way through a cycle.
+// Callbacks with which a test alters a cycle.
 struct GuardBenchHooks {
   std::function<void(SensorFrame& frame)> sensors{};
-  // Command and fault as the board is told them; the truth stays what the controller said.
+  // Changes the command and the fault that the board gets. The oracle still knows the controller's own.
   std::function<void(const StepOutput& output, Command& command, Fault& told)> command{};
   BenchStages::Stage driver{};  // between driver and guard
 };
 
-// Controller, driver, guard and emulated drives; an oracle on the wire.
+// Controller, driver, guard and emulated drives, with an oracle at the wire.
 class GuardBench {
  public:
   GuardBench(const RobotConfig& robot, std::uint64_t seed, GuardBenchHooks hooks = {})
@@ -28,7 +28,7 @@ class GuardBench {
   GuardBench(const GuardBench&) = delete;
   GuardBench& operator=(const GuardBench&) = delete;
 
-  // One turn, `skipped` grid points later than the next one.
+  // Runs one cycle after `skipped` missed ones.
   const StepOutput& turn(Request request = Request::none, std::uint64_t skipped = 0) {
     cycle_ += 1 + skipped;
     frame_.time_ns = static_cast<std::int64_t>(cycle_) * 1'000'000;

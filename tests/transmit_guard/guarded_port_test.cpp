@@ -16,7 +16,7 @@ using transmit::enter;
 using transmit::mit_law;
 using transmit::mit_reply;
 
-// A port that keeps the frames sent and delivers planned answers.
+// A port that keeps the frames that were sent and delivers planned answers.
 class Wire final : public CanPort {
  public:
   Wire() { sent.reserve(1000); }
@@ -117,7 +117,7 @@ TEST(GuardedPort, SendsNothingInPlaceOfAnEnterFrameOrOneOfNoMotor) {
   EXPECT_EQ(bench.wire->sent.size(), before);
 }
 
-// A frame that the kernel did not take has not told the drive anything.
+// A frame that the kernel refused has not reached the drive.
 TEST(GuardedPort, DoesNotTakeAnEnterFrameForSentThatThePortDidNotTake) {
   Bench bench;
   bench.wire->blocked = true;

@@ -12,7 +12,7 @@ namespace {
 
 const std::filesystem::path kSource{SANDHOPPER_SOURCE_DIR};
 
-// A header's file and all that it includes, of the project; system headers by name only.
+// Collects a file and all files of the project that it includes; system headers only by name.
 void collect(const std::filesystem::path& file, std::set<std::string>& seen) {
   static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::ifstream in(kSource / file);
@@ -23,8 +23,8 @@ void collect(const std::filesystem::path& file, std::set<std::string>& seen) {
   }
 }
 
-// The guard is written from the drives' manuals alone and must stay so: else one error in the driver would be
-// the guard's, too.
+// The guard is written from the drives' manuals alone. If it used the driver's code, an error there would
+// also be in the guard.
 TEST(TransmitGuardFolder, ReachesNothingOfTheDriverButItsPort) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kSource / "drivers/transmit_guard")) {

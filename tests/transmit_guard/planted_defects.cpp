@@ -13,7 +13,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 using Frame = const can_frame&;
 using Frames = std::function<void(Frame, const Send&)>;
 
-// Frames altered one by one; those of motor mode stay as they are.
+// Frames to enter or leave motor mode, which the defects leave unchanged.
 bool is_special(Frame frame) {
   return frame.can_dlc == 8 && std::all_of(frame.data, frame.data + 7, [](auto b) { return b == 0xFF; });
 }
@@ -44,7 +44,7 @@ void set_current_mA(can_frame& f, std::int32_t value) {
     f.data[i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
 }
 
-// Every motor's command set to the same.
+// Sends the same command to every motor.
 std::function<void(const StepOutput&, Command&, Fault&)> commanding(const MotorCommand& motor) {
   return [motor](const StepOutput&, Command& command, Fault&) {
     command.drive = DriveRequest::run;
@@ -52,7 +52,7 @@ std::function<void(const StepOutput&, Command&, Fault&)> commanding(const MotorC
   };
 }
 
-// The last frame with torque, again.
+// Sends the last frame with torque again.
 Frames resending_torque() {
   return [last = std::vector<can_frame>{}](Frame frame, const Send& send) mutable {
     if (has_torque(frame)) {
@@ -98,7 +98,7 @@ std::vector<Defect> of_the_controller_stopped() {
        .occasion = Occasion::limp_fault,
        .command =
            [n = 0](const StepOutput&, Command& command, Fault&) mutable {
-             if (++n > 20) command.drive = DriveRequest::enable;  // when the drives were left
+             if (++n > 20) command.drive = DriveRequest::enable;  // by then the drives have left motor mode
            }},
   };
 }
@@ -168,7 +168,8 @@ std::vector<Defect> of_the_mit_codec() {
       {.name = "full scale wraps to 2^n", .frames = altering([](can_frame& f) {
                                             if (!has_torque(f)) return;
                                             f.data[6] = static_cast<std::uint8_t>(f.data[6] +
-                                                                                  0x10);  // the carry into Kd
+                                                                                  // carry into the Kd field
+                                                                                  0x10);
                                             set_torque_code(f, 0);
                                           })},
       {.name = "gain at full scale",

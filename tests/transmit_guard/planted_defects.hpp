@@ -7,29 +7,29 @@
 
 namespace sandhopper::faults {
 
-// What goes wrong at the robot meanwhile, so that the defect has its occasion.
+// Event at the robot during which the defect shows.
 enum class Occasion : std::uint8_t {
-  hop,          // nothing: flight and stance
-  stop_tapped,  // the e-stop is open for a moment
-  stop_open,    // and stays open
+  hop,          // no event: flight and stance
+  stop_tapped,  // the e-stop opens for a moment
+  stop_open,    // the e-stop stays open
   limp_fault,   // a drive reports an error
   damp_fault,   // a drive is hot
-  hold_fault    // the foot is too high when armed
+  hold_fault    // the foot is too high when the robot is armed
 };
 
 using Send = std::function<void(const can_frame& frame)>;
 
-// A mistake in controller or driver, made by a stage of the test between the two, or between driver and
-// guard.
+// A defect of controller or driver, planted between the two, or between driver and guard.
 struct Defect {
   std::string name;
   Dialect dialect = Dialect::mit;
   Occasion occasion = Occasion::hop;
-  // What the board is told instead, once the occasion has come (hop: from the first torque on).
+  // Replaces the command and the fault that the board gets, once the occasion has come (hop: from the first
+  // torque on).
   std::function<void(const StepOutput& output, Command& command, Fault& told)> command{};
-  // What the port is given instead of a frame, from the start: any number of frames.
+  // Replaces each frame by any number of frames, from the start.
   std::function<void(const can_frame& frame, const Send& send)> frames{};
-  int begin_cycles = 1;  // how often the driver begins a cycle's frames in one cycle, and sends them
+  int begin_cycles = 1;  // number of times that the driver begins and sends a cycle's frames in one cycle
 };
 
 std::vector<Defect> all_defects();

@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint64_t kLongest_cycles = 4000;
 constexpr std::uint64_t kAfter_cycles = 60;
 
-// Gives the port what the defect makes of each frame. With several begins a cycle the frames of the cycle are
-// sent again after each.
+// Applies the defect to each frame. If the defect begins several cycles, the frames of the last cycle are
+// sent again after each begin.
 class DefectivePort final : public ForwardingPort {
  public:
   DefectivePort(std::unique_ptr<CanPort> port, const Defect& defect)
@@ -44,7 +44,7 @@ struct Caught {
   WireRecord wire;
   Fault fault = Fault::none;
   int cycles = -1;               // from the first refusal to the fault
-  double later_torque_Nm = 0.0;  // that a drive was told after the fault
+  double later_torque_Nm = 0.0;  // largest torque commanded to a drive after the fault
   bool disarmed = false;
   bool hopped = false;
 };
@@ -74,7 +74,7 @@ class Trial {
       out.hopped = out.hopped || output.state == State::compression;
       happen(output);
       if (refused_at == 0 && bench_.refused().count > 0) refused_at = bench_.cycles();
-      // The fault before may be as harsh and stay; it cannot be disarmed away.
+      // An earlier fault that is as harsh may stay; disarming does not clear it.
       if (fault_at == 0 && refused_at != 0 && entry_of(output.fault).reaction == Reaction::limp) {
         fault_at = bench_.cycles();
         out.cycles = static_cast<int>(fault_at - refused_at);
@@ -90,7 +90,7 @@ class Trial {
   }
 
  private:
-  // The occasion, in the second half of a compression; a hold comes by itself.
+  // Plants the occasion in the second half of a compression. A hold needs none, because it occurs by itself.
   void happen(const StepOutput& output) {
     const bool now = output.state == State::compression && ++compressing_ == 20;
     if (tapped_ && bench_.cycles() == tapped_at_ + 5) bench_.board().set(Device::estop, std::nullopt);
@@ -112,7 +112,7 @@ class Trial {
       case Occasion::hop:
         if (output.state != State::compression) return;
         break;
-      case Occasion::stop_tapped:  // does nothing wrong while it is open
+      case Occasion::stop_tapped:  // no defect while the e-stop is open
         if (!tapped_ || bench_.frame().emergency_stop) return;
         break;
       default:
@@ -149,7 +149,7 @@ TEST(GuardDefects, EveryPlantedDefectIsCaughtAndEndsLimp) {
     EXPECT_EQ(out.wire.breach, "");
     EXPECT_LE(out.cycles, entry_of(Fault::transmit_refused).cycles);
     EXPECT_GE(out.cycles, 0) << "no fault";
-    // An e-stop that stays open is as harsh and may stay the one that is named.
+    // An open e-stop is as harsh and may stay the reported fault.
     const bool stopped = defect.occasion == Occasion::stop_open && out.fault == Fault::emergency_stop;
     EXPECT_TRUE(stopped || out.fault == Fault::transmit_refused) << name_of(out.fault);
     EXPECT_LT(out.later_torque_Nm, 0.02);
@@ -159,7 +159,7 @@ TEST(GuardDefects, EveryPlantedDefectIsCaughtAndEndsLimp) {
   EXPECT_GE(defects.size(), 20U);
 }
 
-// The same occasions with a sound controller and driver: nothing is refused.
+// With a sound controller and driver nothing may be refused on the same occasions.
 TEST(GuardDefects, WithoutADefectNothingIsRefused) {
   for (const auto dialect : {Dialect::mit, Dialect::servo, Dialect::v3})
     for (const auto occasion : {Occasion::hop, Occasion::stop_tapped, Occasion::stop_open,

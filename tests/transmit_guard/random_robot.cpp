@@ -14,7 +14,7 @@ void draw_drive(CubeMarsConfig& motor, const LimitsConfig& limits, Random& rando
   motor.drive_torque_constant_Nm_per_A = motor.torque_constant_Nm_per_A * log_uniform(random, 0.7, 1.4);
   const double believed = motor.torque_constant_Nm_per_A / motor.drive_torque_constant_Nm_per_A;
   const double gain = motor.gear_ratio * motor.gear_ratio * believed;
-  // Each full scale carries its limit, by up to fifty times.
+  // Each full scale exceeds its limit by a factor of up to fifty.
   motor.torque_range_Nm =
       limits.motor_torque_Nm / motor.gear_ratio / believed * log_uniform(random, 1.01, 50.0);
   motor.kp_range_Nm_per_rad =
@@ -37,9 +37,9 @@ void draw_limits(RobotConfig& robot, Random& random) {
   limits.strides = whole(random, 1, 5);
   limits.settle_s = log_uniform(random, 0.02, 0.3);
   limits.ramp_down_s = log_uniform(random, 0.05, 1.0);
-  if (chance(random, 0.2)) robot.supervision.foot_height_m = 0.03;  // ends in a hold
+  if (chance(random, 0.2)) robot.supervision.foot_height_m = 0.03;  // raises a fault with the reaction hold
   robot.supervision.cycle_gap = whole(random, 1, 30);
-  robot.supervision.overruns_per_s = 1000;  // else a few gaps end every trial
+  robot.supervision.overruns_per_s = 1000;  // otherwise a few gaps would end every trial
 }
 
 void draw_law(RobotConfig& robot, Random& random) {

@@ -4,12 +4,11 @@
 
 namespace sandhopper::faults {
 
-// A number from low to high, each decade as likely as the other.
+// A random number from low to high, with equal probability in each decade.
 double log_uniform(Random& random, double low, double high);
 int whole(Random& random, int low, int high);
 
-// The shipped robot with drives, limits, laws and times drawn at random within what the configuration's own
-// checks allow.
+// The shipped robot with random drives, limits, laws and times that pass the configuration's own checks.
 RobotConfig random_robot(const RobotConfig& shipped, Random& random);
 
 }  // namespace sandhopper::faults

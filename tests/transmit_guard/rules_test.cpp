@@ -22,7 +22,7 @@ Limits limits_of(Dialect dialect) {
   return limits;
 }
 
-// A guard whose frames are sent as soon as they pass, and a drive that answers.
+// A guard whose port sends every frame that passes, and a drive that answers.
 class Line {
  public:
   explicit Line(Dialect dialect) : Line(limits_of(dialect)) {}
@@ -44,7 +44,7 @@ class Line {
                                                      static_cast<int>(velocity_radps / 0.0498666)));
   }
   can_frame zero() const { return guard.zero_frame(0); }
-  // Into motor mode, as it should be done; ends at the beginning of a cycle.
+  // Enters motor mode by the rules. Ends at the beginning of a cycle.
   void confirm(double position_rad = 0.5, double velocity_radps = 0.0) {
     cycle();
     if (dialect_ == Dialect::mit) {
@@ -94,7 +94,7 @@ TEST(TransmitGuard, CountsWhatTheVelocitySetPointAddsToTheTorque) {
   EXPECT_EQ(judged({.velocity_radps = 5.0, .kd = 0.3, .torque_Nm = 2.0}), Rule::torque);
 }
 
-// A spring that begins where the leg is not jerks it.
+// Stiffness about a position that differs from the leg's position would make the leg jump.
 TEST(TransmitGuard, LetsStiffnessBeginOnlyNearTheMeasuredAngle) {
   EXPECT_EQ(judged({.position_rad = 0.5 + 2.7 / 15.0, .kp = 15.0}), Rule::none);
   EXPECT_EQ(judged({.position_rad = 0.5 + 3.0 / 15.0, .kp = 15.0}), Rule::stiffness_far);
@@ -121,7 +121,7 @@ TEST(TransmitGuard, KnowsIdentifierLengthAndDialectOfItsMotorsOnly) {
   frame.can_dlc = 200;
   EXPECT_EQ(line.send(frame), Rule::length);
   EXPECT_EQ(line.send(set_zero(1)), Rule::set_zero);
-  // The other dialect's layout under this dialect's identifier.
+  // A frame in the other dialect's layout with this dialect's identifier.
   auto swapped = v3_law(1, {});
   swapped.can_id = 1;
   EXPECT_THAT(line.send(swapped), ::testing::AnyOf(Rule::stiffness, Rule::damping)) << "full of gains here";
@@ -291,7 +291,7 @@ TEST(TransmitGuard, KeepsOneCommandOutstanding) {
   EXPECT_EQ(line.send(torque), Rule::none) << "lost by now";
 }
 
-// Two V3 drives take 4 frames of 160 bits a cycle: 64 % of 1 Mbit/s at 1 kHz.
+// Two V3 drives need 4 frames of 160 bits per cycle: 64 % of 1 Mbit/s at 1 kHz.
 TEST(TransmitGuard, KeepsTheBusLoadBelowItsShare) {
   for (const auto& [step_ns, held] : {std::pair{1'000'000, true}, std::pair{600'000, false}}) {
     auto limits = limits_of(Dialect::v3);

@@ -3,14 +3,14 @@
 #include "config/files.hpp"
 #include "tests/transmit_guard/guard_bench.hpp"
 
-// Found by the fuzzed cycles: the first fault's reaction is over and the drives are off; a harsher fault
-// began its own reaction with drives that had to enter motor mode again for it.
+// The reaction to the first fault is over and the drives are off. A harsher second fault must not switch them
+// on again for its own reaction.
 namespace sandhopper::faults {
 namespace {
 
 TEST(SecondFault, DoesNotSwitchDrivesOnAgainThatTheFirstSwitchedOff) {
   auto robot = load_robot(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config");
-  robot.supervision.foot_height_m = 0.03;  // a hold as soon as it is armed
+  robot.supervision.foot_height_m = 0.03;  // raises a fault with the reaction hold at arming
   robot.limits.fault_hold_s = robot.limits.fault_damp_s = 0.1;
   GuardBench bench(robot, 1);
   std::uint64_t off_at = 0;

@@ -1,4 +1,4 @@
-# Its own program, because what it needs of the project is small.
+# A separate program, because it needs only a small part of the project.
 file(GLOB transmit_guard_test_sources CONFIGURE_DEPENDS tests/transmit_guard/*.cpp)
 add_executable(transmit_guard_tests ${transmit_guard_test_sources} tests/unit/allocation_guard.cpp)
 target_link_libraries(transmit_guard_tests PRIVATE sandhopper_faults GTest::gmock GTest::gtest_main)

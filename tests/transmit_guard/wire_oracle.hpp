@@ -9,27 +9,27 @@
 
 namespace sandhopper::faults {
 
-// What holds in this cycle, in truth: written by the test, not by the code under test.
+// True state of this cycle, set by the test and not by the code under test.
 struct Truth {
   bool emergency_stop = true;
   Fault fault = Fault::none;
 };
 
-// What got past the guard. `breach` is empty while no frame broke a rule.
+// Frames that passed the guard. `breach` is empty as long as no frame broke a rule.
 struct WireRecord {
   std::string breach;
   std::uint64_t frames = 0;
   std::uint64_t torque_frames = 0;
   std::uint64_t gain_frames = 0;
-  double most_torque_share = 0.0;  // of the limit
+  double most_torque_share = 0.0;  // relative to the limit
   void note(const std::string& what) {
     if (breach.empty()) breach = what;
   }
 };
 
-// Stands between guard and bus and holds every frame that leaves against the rules, once more and in its own
-// words: decoded by division of plain integers, with counts of its own. The record and the truth must outlive
-// it.
+// Stands between guard and bus and checks every frame that leaves against the rules, with an independent
+// implementation: its own decoding by integer division and its own counts. The record and the truth must
+// outlive it.
 class WireOracle final : public ForwardingPort {
  public:
   WireOracle(std::unique_ptr<CanPort> port, const RobotConfig& robot, const Truth& truth, WireRecord& record);
@@ -45,7 +45,7 @@ class WireOracle final : public ForwardingPort {
   struct Motor {
     bool entered = false;
     int replies = 0;
-    int energising = 0;  // frames in this cycle
+    int energising = 0;  // energising frames in this cycle
     double velocity_radps = 0.0;
   };
   void see(std::size_t i, const can_frame& frame);

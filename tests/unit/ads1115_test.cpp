@@ -10,7 +10,7 @@
 namespace sandhopper {
 namespace {
 
-// Four registers behind a pointer that keeps its place, big-endian, as the chip.
+// Emulates the chip: four big-endian registers behind a pointer that keeps its value.
 class FakeConverter : public I2cBus {
  public:
   bool write(std::uint8_t address, std::span<const std::uint8_t> bytes) noexcept override {
@@ -24,7 +24,7 @@ class FakeConverter : public I2cBus {
     if (address != 0x48) return false;
     bytes[0] = static_cast<std::uint8_t>(registers[pointer] >> 8U);
     bytes[1] = static_cast<std::uint8_t>(registers[pointer] & 0xFFU);
-    if (pointer == kAds1115Config) bytes[0] |= 0x80U;  // reads as idle
+    if (pointer == kAds1115Config) bytes[0] |= 0x80U;  // conversion finished
     return true;
   }
 

@@ -18,14 +18,14 @@
 namespace sandhopper {
 namespace {
 
-// A companion controller on a pseudo-terminal: acknowledges every command, refuses one if asked to, and sends
-// a measurement after "start".
+// A companion controller on a pseudo-terminal. It acknowledges every command, refuses one if asked to, and
+// sends a measurement after "start".
 class FakeCompanion {
  public:
   FakeCompanion() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     if (::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) throw std::runtime_error("no pty");
     path = ::ptsname(master_.get());
-    // Held open so that the line stays up between two openings by the driver.
+    // Held open, so that the line stays up between two openings by the driver.
     slave_ = UniqueFd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios raw{};
     ::tcgetattr(slave_.get(), &raw);
@@ -72,7 +72,7 @@ class FakeCompanion {
       commands_.emplace_back(1, code);
       commands_.back().insert(commands_.back().end(), frame.payload.begin(), frame.payload.end());
     }
-    send(encode_measurement_1d({}));  // still streaming for somebody else
+    send(encode_measurement_1d({}));  // measurements of an earlier session
     if (frame.command == refused)
       send(sci_encode(SciCommand::refuse, std::vector<std::uint8_t>{code, 0xFF, 0xFE}));
     else
@@ -109,7 +109,7 @@ TEST(AfbrS50, MeasurementsBecomeHeightsStampedWithTheirArrivalLessLatency) {
   config.latency_s = 0.002;
   AfbrS50 sensor(config);
   TofSample sample;
-  while (sensor.acquire(sample)) {  // what was sent while starting
+  while (sensor.acquire(sample)) {  // reads the measurements sent during the start
   }
   SciMeasurement m;
   m.range_m = 0.5;
@@ -171,7 +171,7 @@ TEST(TofSample, WarningsErrorsAndImpossibleRangesAreNoMeasurement) {
     m.quality = static_cast<std::uint8_t>(quality);
     EXPECT_DOUBLE_EQ(to_sample(m, TofConfig{}, 5).height_m, 0.4) << "quality " << quality;
   }
-  m.quality = 1;  // the sensor's own verdict
+  m.quality = 1;  // quality flag of the sensor
   EXPECT_TRUE(std::isnan(to_sample(m, TofConfig{}, 5).height_m));
   m.quality = 100;
   for (const double range : {-0.1, 0.0, 5.0}) {
@@ -184,7 +184,8 @@ TEST(CompanionClock, FollowsTheShortestWayAndASlowClock) {
   CompanionClock clock;
   constexpr std::int64_t kMs = 1'000'000;
   constexpr std::int64_t kOffset = 777'000'000;
-  // 100 ppm slow companion, frames 1 to 3 ms late: after a second the map is within the least delay.
+  // The companion's clock is 100 ppm slow and its frames are 1 to 3 ms late. After a second the error is
+  // within the least delay.
   for (int i = 0; i < 5000; ++i) {
     const std::int64_t truth = 2 * kMs * i;
     const std::int64_t device = truth - truth / 10000;
@@ -192,7 +193,7 @@ TEST(CompanionClock, FollowsTheShortestWayAndASlowClock) {
     if (i <= 500) continue;
     ASSERT_NEAR(static_cast<double>(mapped - kOffset - truth), 1.0 * kMs, 0.1 * kMs) << i;
   }
-  // A restart of the companion begins anew.
+  // A restart of the companion starts the mapping anew.
   EXPECT_EQ(clock.map(0, 20'000 * kMs), 20'000 * kMs);
 }
 

@@ -7,8 +7,7 @@ thread_local bool counting = false;
 thread_local std::uint64_t calls = 0;
 }  // namespace
 
-// Sanitizers bring a malloc of their own; there the count stays zero and the test that plants an allocation
-// says so.
+// Sanitizers replace malloc. Then the count stays zero, and the test that plants an allocation reports this.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t);

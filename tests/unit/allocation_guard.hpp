@@ -3,7 +3,7 @@
 
 namespace sandhopper {
 
-// Counts calls of malloc and its relatives, whoever makes them, on this thread while one exists.
+// Counts calls of malloc and related functions on this thread during its lifetime.
 class AllocationGuard {
  public:
   AllocationGuard();

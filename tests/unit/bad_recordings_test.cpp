@@ -8,8 +8,8 @@
 #include "campaign_folder.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// Every kind of bad input: named with file, line and column, with a cure, and no more left out than
-// necessary.
+// Every kind of bad input must be reported with file, line, column and a cure, and no more data may be left
+// out than necessary.
 namespace sandhopper {
 namespace {
 
@@ -41,7 +41,7 @@ void expect_finding(const TrialRecording& recording, FindingKind kind, FindingSe
   EXPECT_EQ(recording.usable(), severity != trial_unusable);
 }
 
-// An intrusion at 0.1 m/s with the channel written by `cell`; lines 2 to `rows + 1`.
+// A push at 0.1 m/s; `cell` writes the force of each row. The data are in lines 2 to `rows + 1`.
 std::string intrusion(int rows, const std::function<std::string(int)>& force,
                       const std::string& header = "t_s,foot_z_m,force_N") {
   std::string text = header + "\n";
@@ -196,7 +196,7 @@ TEST(BadRecording, RestAndHeldValuesAndConstantChannelsAreNotStuck) {
       "force_N,"
       "imu_foot_accel_z_mps2,phase\n";
   for (int i = 0; i < 1000; ++i) {
-    const double moving = i < 400 ? 0.0 : 0.01 * (i - 400);  // the leg; the body falls all the time
+    const double moving = i < 400 ? 0.0 : 0.01 * (i - 400);  // motion of the leg; the body falls all the time
     text +=
         fmt::format("{:.3f},{:.4f},31,0,{:.4f},0,{:.4f},0\n", 1e-3 * i, 1.2 + std::round(100 * moving) / 100,
                     0.3 + 0.0001 * (i / 20 * 20), 9.81 + 0.02 * std::sin(1.7 * i) + moving);
@@ -208,7 +208,7 @@ TEST(BadRecording, RestAndHeldValuesAndConstantChannelsAreNotStuck) {
   EXPECT_EQ(recording.channels.size(), 7U);
 }
 
-// The encoder's steps are coarse, the speed's sensor is noise about `speed_radps`.
+// The encoder always reads one count; the speed sensor shows noise and `speed_radps` times a sine.
 std::string axis_whose_encoder_reads_one_angle(double speed_radps) {
   std::string text = "t_s,position_rad,velocity_radps,torque_Nm\n";
   for (int i = 0; i < 1000; ++i) {

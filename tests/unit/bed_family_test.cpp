@@ -41,7 +41,7 @@ double tangent_N_per_m(const Bed& bed, double depth_m) {
   return (bed.quasi_static_force_N(depth_m + h) - bed.quasi_static_force_N(depth_m - h)) / (2 * h);
 }
 
-// The plain bed's law as its header states it, written a second time.
+// The plain bed's law from the header, implemented a second time.
 double plain_force_N(const BedParameters& p, double z, double v, double z_max, double mass_kg, double accel) {
   const double line = p.unloading_stiffness_ratio * p.stiffness_N_per_m;
   const auto curve = [&](double depth) {
@@ -87,7 +87,7 @@ TEST(BedFamily, ForceIsContinuousAndStartsAtZero) {
     constexpr double step = 1e-6;
     for (double z = step; z < 0.1; z += step) {
       const double change = bed.quasi_static_force_N(z + step) - bed.quasi_static_force_N(z);
-      // A micrometre: a brittle crust of 30 N breaks over half a millimetre.
+      // Limit per micrometre: a brittle crust of 30 N breaks over half a millimetre.
       ASSERT_LT(std::abs(change), 0.1) << name_of(family) << " at " << z;
       ASSERT_GT(bed.quasi_static_force_N(z), 0.0) << name_of(family);
     }
@@ -161,7 +161,7 @@ TEST(BedFamily, CrustBreaksOnceAtItsDepthUnderItsForce) {
   EXPECT_NEAR(crust_N(p.rupture_depth_m()), rupture_N, 1e-9);
   EXPECT_NEAR(crust_N(p.rupture_depth_m() + p.crust_breakage_length_m), rupture_N / std::numbers::e, 1e-9);
   EXPECT_LT(crust_N(p.rupture_depth_m() + 0.005), 0.01);
-  // A later stride in the crater of a broken crust does not meet it again.
+  // In the crater of a broken crust a later stride must not meet the crust again.
   EXPECT_EQ(bed.reaction({p.rupture_depth_m(), 0.5, 0.030, 0.65}).force_N, 0.0);
 }
 
@@ -172,7 +172,7 @@ TEST(BedFamily, WetBedPullsOnlyAFootThatLeavesTheFloorOfItsCrater) {
   EXPECT_NEAR(bed.reaction({peak, -0.1, z_max, 0.65}).at_acceleration(0.0), -p.suction_Pa * kArea_m2, 1e-9);
   EXPECT_EQ(bed.reaction({peak, 0.1, z_max, 0.65}).at_acceleration(0.0), 0.0);
   EXPECT_EQ(bed.reaction({floor - 1.01 * p.suction_distance_m, -0.1, z_max, 0.65}).force_N, 0.0);
-  for (double z = 0.0; z < z_max; z += 1e-5) {  // no jump while it leaves
+  for (double z = 0.0; z < z_max; z += 1e-5) {  // no jump of the force while the foot leaves
     const double change =
         bed.reaction({z + 1e-5, -1e-3, z_max, 0.0}).force_N - bed.reaction({z, -1e-3, z_max, 0.0}).force_N;
     ASSERT_LT(std::abs(change), 0.6) << z;
@@ -196,7 +196,7 @@ TEST(BedFamily, FloorOfTheBoxStopsTheFoot) {
   EXPECT_NEAR(boxed.quasi_static_force_N(0.032) - open.quasi_static_force_N(0.032), 80.0, 1e-9);
 }
 
-// A foot that falls, stands and is lifted: the plant's own memory of the deepest point, in every family.
+// The plant's memory of the deepest point, in every family: a foot falls, stands and is lifted.
 TEST(BedFamily, StridesInTheCraterStartAtItsFloor) {
   for (const auto family : all_families()) {
     WorldConfig config;

@@ -43,7 +43,7 @@ TEST(BedTrial, LandingsErrAsTheirPriorSays) {
         landings += 1.0;
       }
   ASSERT_GE(landings, 30.0);
-  // Three standard errors of a root mean square of 30 are 39 %.
+  // Three standard errors of an rms of 30 values are 39 %.
   EXPECT_GT(std::sqrt(squares_m2 / landings), 0.61 * prior_m);
   EXPECT_LT(std::sqrt(squares_m2 / landings), 1.39 * prior_m);
 }
@@ -61,7 +61,7 @@ TEST(BedTrial, EveryStrideOfACrustIsSearchedAndTheRuptureFoundOnce) {
   }
 }
 
-// The shape of a rupture whose place is a millimetre off is no boundary of layers.
+// A rupture at a depth that is 1 mm off must not be taken for a boundary of layers.
 TEST(BedTrial, CrustsHaveFewBoundaries) {
   int ruptures = 0, boundaries = 0;
   constexpr std::uint64_t kTrials = 100;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRadius_m = 0.040;
 
-// Deepest point, kept as the plant keeps it, for motions at a given speed.
+// Tracks the deepest point as the plant does, for motions at a given speed.
 class Pushed {
  public:
   explicit Pushed(const Bed& bed, double damping_mass_kg = 0.0)
@@ -70,7 +70,7 @@ TEST(Bed, AnsweringAccelerationLowersTheForceByTheAddedMass) {
   const auto ground = bed.reaction({0.02, 0.5, 0.02, 0.0});
   EXPECT_NEAR(ground.at_acceleration(0.0) - ground.at_acceleration(10.0), 10.0 * bed.added_mass_kg(0.02),
               1e-12);
-  EXPECT_EQ(ground.at_acceleration(1e4), 0.0);  // grains do not pull
+  EXPECT_EQ(ground.at_acceleration(1e4), 0.0);  // the bed cannot pull
 }
 
 TEST(Bed, ForceIsContinuousWhereTheFootTouchesAndWhereItTurns) {

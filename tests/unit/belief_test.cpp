@@ -22,7 +22,7 @@ std::string refusal(const CampaignFolder& folder, CampaignPlant plant) {
   return "";
 }
 
-// What the entries of one trial make of the campaign's belief.
+// The campaign's belief after the entries of one trial.
 Belief believed(const std::string& plant, const std::string& model, const std::string& setup) {
   CampaignFolder folder;
   folder.write("nominal.toml", model)
@@ -125,7 +125,8 @@ TEST(Belief, TheReleaseHeightOfATrialIsNotTheSpreadOfReleaseHeights) {
   EXPECT_EQ(belief.spread.robot.release_height_m, 0.0);
 }
 
-// A hand throws from anywhere: heights and speeds of release spread far more than those of a robot.
+// A hand throws from anywhere, so heights and speeds of release have a much larger spread than those of a
+// robot.
 TEST(Belief, AThrowMayStartAnywhere) {
   const auto body = std::get<FallingBodyBelief>(
       believed("falling_body", "[spread]\nrelease_height_m = 0.5\nrelease_speed_mps = 2.0\n", ""));

@@ -20,7 +20,7 @@ class BenchmarkRunner : public testing::Test {
     fs::create_directories(folder);
   }
 
-  // A tool of a few lines of shell; its calls are counted in `calls`.
+  // A tool as a short shell script; `calls` counts its calls.
   RunOptions options(const std::string& script) {
     const auto file = folder / "tool.sh";
     std::ofstream(file) << "echo \"$1\" >> '" << (folder / "calls").string() << "'\n" << script << "\n";
@@ -84,8 +84,8 @@ TEST_F(BenchmarkRunner, AddsTheTrialTheToolAskedForWhereItNamedAClass) {
   EXPECT_EQ(calls(), 3);
 }
 
-// A tool that names the mass alone once a trial is added. Where it recommended none to tell the class, only
-// the random trial is done, and that one shows that some trial would have.
+// A tool that names the mass alone after a trial was added. If it recommended no trial to split the class,
+// only the random trial is done, which then shows that some trial splits it.
 TEST_F(BenchmarkRunner, CountsATrialAsSplittingOnlyWhereItWasRecommendedForThat) {
   const std::string effect =
       "{\"verdict\": \"missing_physics\", \"effects\": [{\"id\": \"body.mass\", "

@@ -70,7 +70,7 @@ TEST(BenchmarkJudge, ExactSetAllowsNothingMissingAndNothingMore) {
   EXPECT_FALSE(judge(truth, saying("missing_physics", {named("tof.bias", 0.9), named("rail.coulomb", 0.7),
                                                        named("imu.bias", 0.1)}))
                    .exact);
-  // A class may not stand for two of what is hidden.
+  // A class must not count for two hidden effects.
   EXPECT_FALSE(judge(truth, saying("missing_physics", {named("tof.bias", 0.9, {"rail.coulomb"})})).exact);
 }
 
@@ -133,7 +133,7 @@ TEST(BenchmarkScore, CountsFiguresCalibrationAndLadder) {
   EXPECT_EQ(s.figures[0].of, 2u);
   EXPECT_FALSE(s.figures[0].met());
   EXPECT_EQ(s.figures[1].count, 1u);
-  EXPECT_EQ(s.figures[1].of, 1u);  // the small one is not of typical size
+  EXPECT_EQ(s.figures[1].of, 1u);  // the small one does not count, because it is below the typical size
   EXPECT_NEAR(s.expected_calibration_error, (0.6 + 0.2) / 2.0, 1e-12);
   EXPECT_EQ(s.ladder[0].cases, 1u);
   EXPECT_EQ(s.ladder[0].right, 0u);

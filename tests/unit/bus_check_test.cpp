@@ -13,7 +13,7 @@ FaultFound see(BusCheck& check, const BusSample& bus) {
   return findings.worst();
 }
 
-// What a bus that was well says when one thing is changed.
+// Finding of the check after one change of a bus without faults.
 template <class Change>
 FaultFound changed(Change&& change) {
   BusCheck check;
@@ -62,14 +62,14 @@ TEST(BusCheck, ACountIsAFaultOnceAndItsOverflowIsNone) {
   BusSample bus;
   bus.errors = UINT32_MAX;
   see(check, bus);
-  bus.errors = 0;  // one more
+  bus.errors = 0;  // the counter overflows: one more error
   const auto found = see(check, bus);
   EXPECT_EQ(found.fault, Fault::bus_fault);
   EXPECT_EQ(found.values[0], 1.0);
   EXPECT_EQ(see(check, bus).fault, Fault::none);
 }
 
-// An answer read late is one too many once; a second drive with the same identifier answers every time.
+// A late answer is one surplus answer once. A second drive with the same identifier gives one every time.
 TEST(BusCheck, OneAnswerTooManyIsNothingFiveAreASecondDrive) {
   BusCheck check;
   BusSample bus;

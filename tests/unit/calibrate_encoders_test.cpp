@@ -13,9 +13,9 @@ struct Bench {
   std::uint64_t seed = 1;
   int repeats = 3;
   double shorten_rad = 0.4;
-  double misplaced_m = 0.0;  // the known pose is not quite what it ought to be
+  double misplaced_m = 0.0;  // error of the known pose
   double swing_rad = 0.6;
-  std::array<double, kMotorCount> velocity_range_radps{50.0, 50.0};  // 50 is what is configured
+  std::array<double, kMotorCount> velocity_range_radps{50.0, 50.0};  // the configured value is 50
 };
 
 RobotConfig real_robot() {
@@ -155,7 +155,7 @@ TEST(CalibrateVelocityRange, OfADriveThatIsWhatItIsBelievedToBeHoldsOne) {
   }
 }
 
-// The ratio is what is believed over what is true.
+// The ratio is the configured range divided by the true one.
 TEST(CalibrateVelocityRange, ThatIsWrongIsFoundAndSaidWithTheLikelyOne) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (const double real : {25.0, 37.5, 45.0, 60.0, 100.0}) {

@@ -35,7 +35,7 @@ LinuxBoardConfig believed_board() {
   return board;
 }
 
-// A sensor whose flaws are those of real_board() and no others.
+// A sensor with exactly the errors of real_board().
 std::vector<Recording> record(std::uint64_t seed, std::size_t poses = kUp.size()) {
   WorldConfig world;
   world.spread.imu_raw_offset_mps2 = world.spread.imu_scale_relative = world.spread.imu_gyro_bias_radps = 0.0;

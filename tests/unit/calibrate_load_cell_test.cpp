@@ -36,7 +36,8 @@ Outcome fit(const std::vector<WeighedPoint>& points) {
   return calibrate_load_cell(points, LoadCellConfig{}, {.gravity_mps2 = kGravity_mps2});
 }
 
-// One figure a weight and a quarter of a newton of noise: for whatever a simulated cell does not do.
+// Readings with one value per weight and 0.25 N of noise, for errors that the simulated load cell cannot
+// have.
 WeighedPoint read_as(double mass_kg, double reading_N, double end_N = 0.0) {
   static std::mt19937 generator(7);
   std::normal_distribution<double> noise(0.0, 0.25);
@@ -59,7 +60,7 @@ TEST(CalibrateLoadCell, FindsScaleZeroAndSignWithinTheirIntervals) {
     zero.see(value_of(outcome, "load_cell.zero_V"), 0.031);
     EXPECT_LT(value_of(outcome, "load_cell.scale_N_per_V").ci95, 0.25);
   }
-  // 95 % of 20: fewer than 16 in one of 400 cases.
+  // 95 % of 20; fewer than 16 have a probability of 1 in 400.
   EXPECT_GE(scale.held, 16);
   EXPECT_GE(zero.held, 16);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kTaps = 10;
 
-// Latencies of the devices, where the firmware believes in those of the default configuration.
+// True latencies of the devices; the firmware assumes those of the default configuration.
 LinuxBoardConfig real_board() {
   LinuxBoardConfig board;
   board.imu_body.latency_s = 0.00031;
@@ -20,7 +20,7 @@ LinuxBoardConfig real_board() {
   return board;
 }
 
-// All sensors with the same bandwidth, so that what is planted is all there is.
+// All sensors have the same bandwidth, so that the planted latencies are the only differences.
 WorldConfig world() {
   WorldConfig out;
   out.sensors.load_cell_bandwidth_Hz = out.sensors.imu_bandwidth_Hz;
@@ -49,8 +49,8 @@ Fitted fit(const Recording& recording, std::optional<ForeignRecording> foreign =
   return out;
 }
 
-// The foot's signal as another computer at `rate_Hz` would record it: its clock is `offset_s` behind and runs
-// fast by `drift`.
+// The foot's signal as another computer at `rate_Hz` records it: its clock is `offset_s` behind and fast by
+// `drift`.
 struct Other {
   double rate_Hz, offset_s, drift;
   std::uint64_t seed;
@@ -97,7 +97,7 @@ TEST(CalibrateTiming, FindsAnotherComputersClock) {
     ASSERT_EQ(reasons(found.outcome), "") << found.outcome.refusals.front().text;
     ASSERT_TRUE(found.clock);
     EXPECT_NEAR(found.clock->drift, -5e-5, 4e-5);
-    // At the middle of the taps: t_recording - t_foreign.
+    // True offset t_recording - t_foreign at the middle of the taps.
     const double truth = 3.2174 - found.clock->middle_s * 5e-5;
     held += std::abs(found.clock->offset_s - truth) < found.clock->ci95_s;
     EXPECT_LT(found.clock->ci95_s, 1e-4);
@@ -109,7 +109,7 @@ TEST(CalibrateTiming, FourTapsAreTooFew) { EXPECT_EQ(reasons(fit(tap(1, 4)).outc
 
 TEST(CalibrateTiming, ADoubleTapIsRefused) {
   auto recording = tap(1);
-  // The third tap bounces: the same again 40 ms later.
+  // The third tap bounces: the same signal again 40 ms later.
   const std::int64_t first_ns = recording.begin_ns + 1'440'000'000;
   for (auto& sample : recording.imu_foot) {
     const double since_s = static_cast<double>(sample.time_ns - first_ns) * 1e-9 - 0.049;

@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<double> kHeights_m{0.40, 0.45, 0.50, 0.45, 0.40};
 
-// The sensor's own bias of every trial comes on top of the mounting: it is part of the offset, and none here.
+// The sensor's bias of each trial would add to the mounting offset, so it is 0 here.
 std::vector<HeightPoint> record(std::uint64_t seed, const std::vector<double>& heights_m = kHeights_m) {
   LinuxBoardConfig real;
   real.tof.mount_offset_m = 0.0374;

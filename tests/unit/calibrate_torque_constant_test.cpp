@@ -24,7 +24,7 @@ std::vector<Recording> press(std::uint64_t seed, double peak_torque_Nm = 0.8, in
   real_board.can.motor = real.motor;
   WorldConfig world;
   world.motor.torque_constant_Nm_per_A = kLeft;
-  world.spread.torque_constant_relative = 0.0;  // what is planted is all there is
+  world.spread.torque_constant_relative = 0.0;  // only the planted errors act
   const PressProgram program{.peak_torque_Nm = peak_torque_Nm};
   Step step{.prompt = "", .fixture = {.clamped = true}, .seconds = program.duration_s()};
   step.torque_Nm = [program](double time_s) { return program.torque_Nm(time_s); };

@@ -8,7 +8,7 @@
 #include "tools/calibrate/outcome.hpp"
 #include "tools/calibrate/recorder.hpp"
 
-// Calibrations on the simulated board: devices that are not what the configuration says.
+// Calibrations on the simulated board, whose devices differ from the configuration.
 namespace sandhopper::calibrate {
 
 inline std::vector<Recording> record_on_sim(const RobotConfig& believed_robot, LinuxBoardConfig believed,
@@ -38,7 +38,7 @@ inline std::string reasons(const Outcome& outcome) {
   return out;
 }
 
-// How often the stated 95 % interval holds the truth.
+// Number of stated 95 % intervals that contain the true value.
 struct Coverage {
   int held = 0;
   int all = 0;

@@ -12,7 +12,7 @@
 #include "tools/terrain/campaign_analysis.hpp"
 #include "tools/terrain/strength_curve.hpp"
 
-// A campaign written for a foreign file, and a belief with who said what.
+// Campaign and belief drafted for a foreign file, with the source of each number.
 namespace sandhopper {
 namespace {
 
@@ -25,7 +25,7 @@ struct Drafted {
   TrialRecording recording;
 };
 
-// The campaign that `hop campaign import` makes of a file, read back.
+// The campaign that `hop campaign import` writes for a file, read back.
 Drafted drafted(CampaignFolder& folder, const std::string& text,
                 std::optional<CampaignPlant> plant = std::nullopt) {
   folder.write("rec.csv", text);
@@ -37,7 +37,7 @@ Drafted drafted(CampaignFolder& folder, const std::string& text,
   return out;
 }
 
-// A draft's nominal.toml with 0.2 for each number that only its owner knows.
+// The draft's nominal.toml with 0.2 for every number that it leaves to the user ("?").
 std::string with_numbers(std::string nominal) {
   const std::string unknown = "= \"?\"";
   for (auto at = nominal.find(unknown); at != std::string::npos; at = nominal.find(unknown))
@@ -108,7 +108,7 @@ TEST(CampaignDraft, APlantThatTheColumnsDoNotTellIsAsked) {
   EXPECT_EQ(drafted(hops, rows("t_s,tof_height_m\n", ',', 2)).draft.plant, CampaignPlant::hopper);
 }
 
-// A fall of 0.8 m; `sign` -1 counts it downward.
+// A body that falls by 0.8 m; `sign` -1: height counted downward.
 TrialRecording dropped(double sign, const std::string& how, const std::string& set_up,
                        double speed_mps = 0.0) {
   CampaignFolder folder;
@@ -136,7 +136,7 @@ TEST(CampaignDraft, AHeightThatRisesInADropCountsDownward) {
   EXPECT_FALSE(dropped(1.0, "unit = \"mm\"", "release_speed_mps = 0.0\n", 4.0).usable());
 }
 
-// A telephone in free fall; `down` is its axis along the fall.
+// A telephone in free fall; `down`: its axis along the fall.
 std::string phone_log(int down) {
   std::string text =
       "\"Time (s)\",\"Acceleration x (m/s^2)\",\"Acceleration y (m/s^2)\",\"Acceleration z (m/s^2)\","
@@ -226,7 +226,7 @@ TEST(CampaignDraft, WhatOnlyTheOwnerKnowsIsAskedFor) {
   EXPECT_EQ(numbers_of(campaign.belief)["body.mass_kg"], 0.2);
 }
 
-// Every verb reads trials through read_trial, so none computes with the default of such a number.
+// All verbs read trials by read_trial(), so none of them computes with the default of such a number.
 TEST(CampaignDraft, AnUnstatedNumberRulesOutTheTrialsThatDoNotStateIt) {
   CampaignFolder folder;
   std::string press = "t_s,foot_z_m,force_N\n";
@@ -298,7 +298,7 @@ TEST(BeliefSources, NoPhysicsThatNobodyStated) {
   }
 }
 
-// Without a `model` the reason "not assumed" stands beside no number that is assumed.
+// Without a `model`, no number that is assumed may be listed with the reason "not assumed".
 TEST(BeliefSources, NoModelAssumesNothing) {
   for (const std::string plant : {"intruder", "hopper"}) {
     CampaignFolder folder;

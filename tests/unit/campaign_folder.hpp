@@ -9,7 +9,7 @@
 
 namespace sandhopper {
 
-// A campaign in a folder of its own, gone with the object.
+// A campaign in a temporary folder, deleted by the destructor.
 class CampaignFolder {
  public:
   CampaignFolder() {
@@ -33,7 +33,7 @@ class CampaignFolder {
   std::filesystem::path path_;
 };
 
-// The first finding of a kind; null where there is none.
+// The first finding of a kind; null if there is none.
 inline const Finding* find(const TrialRecording& recording, FindingKind kind) {
   for (const auto& finding : recording.findings)
     if (finding.kind == kind) return &finding;

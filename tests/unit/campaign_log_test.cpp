@@ -7,8 +7,8 @@
 namespace sandhopper {
 namespace {
 
-// A hop of the simulated robot, as `hop trial` leaves it, is a trial of a campaign: whole, and without a
-// complaint about channels that rest, saturate or stick where they do not.
+// A simulated hop, as `hop trial` records it, must be a complete trial of a campaign without false reports of
+// channels that rest, saturate or stick.
 TEST(CampaignLog, ASimulatedHopIsReadFromItsFolderWithoutComplaint) {
   for (const double height_m : {0.0025, 0.0618}) {
     CampaignFolder folder;

@@ -107,7 +107,7 @@ TEST(Campaign, RowsOfOneFileMayBeSeveralTrials) {
   EXPECT_FALSE(read_trial(campaign, campaign.trials.at(1)).usable()) << "one row is no trial";
 }
 
-// Rows come every 2 ms; the time is written in ms, and may count from an epoch in another column or offset.
+// A row every 2 ms. The time is written in ms and may count from an epoch, by another column or an offset.
 TrialRecording selected(const std::string& time, const std::string& select, double per_s = 1e3,
                         double start = 0.0) {
   CampaignFolder folder;

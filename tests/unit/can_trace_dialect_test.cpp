@@ -80,7 +80,7 @@ class Formats : public ::testing::Test {
     std::ofstream(file_, std::ios::binary) << text;
     return recognise_format(file_);
   }
-  // Runs the cure, a shell line, in the file's folder; gives the converted text.
+  // Runs the cure, a shell command, in the file's folder and returns the converted text.
   std::string converted(const ForeignFormat& format) {
     const auto folder = file_.parent_path();
     const auto command = fmt::format("cd '{}' && {}", folder.string(), format.cure);

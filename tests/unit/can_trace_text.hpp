@@ -14,7 +14,7 @@
 namespace sandhopper::trace {
 
 constexpr double kMs = 1e-3;
-constexpr double kReply = 0.26e-3;  // s after its command
+constexpr double kReply = 0.26e-3;  // seconds after its command
 
 // Makes `candump -L` text line by line.
 class TraceText {
@@ -30,7 +30,7 @@ class TraceText {
     text_ += text;
     return *this;
   }
-  // A command of the MIT dialect without torque, its position code `position`.
+  // A command of the MIT dialect without torque; `position`: code of its position field.
   TraceText& command(double t_s, int drive, unsigned position = 0x8000) {
     return line(t_s, fmt::format("{:03X}#{:04X}8000A3199800", drive, position));
   }
@@ -38,7 +38,7 @@ class TraceText {
     return line(t_s, fmt::format("{:03X}#{:02X}{:04X}66683846{:02X}", id, drive, position, 0));
   }
 
-  // Written to a file of this process, which is removed.
+  // Writes the text to a file of this process, replays it and removes it.
   CanReplayResult replay(const CanReplaySetup& setup = {}) const {
     const auto file = std::filesystem::temp_directory_path() / fmt::format("trace_{}.log", ::getpid());
     std::ofstream(file, std::ios::binary) << text_;
@@ -73,7 +73,8 @@ inline std::string text_of(const TraceReport& report, const std::string& kind) {
   return "";
 }
 
-// A file of the data beside this repository; nothing, said loudly, where it is missing or has no bytes.
+// Path of a file among the data beside this repository. Prints a warning and returns nothing if it is missing
+// or empty.
 inline std::optional<std::filesystem::path> field_input(const std::string& name) {
   const auto file =
       std::filesystem::path(SANDHOPPER_SOURCE_DIR).parent_path() / "shared/data/field_inputs" / name;

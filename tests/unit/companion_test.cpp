@@ -41,7 +41,7 @@ TEST(Campaign, TorqueOfALoopClosedInTheDriveIsAddedToTheFeedForward) {
   const auto torque = recording.channel("command_left_torque_Nm");
   EXPECT_NEAR(torque[0], 0.1 + 1.5 * (0.9 - 1.0), 1e-12);
   EXPECT_NEAR(torque[2], 0.2 + 1.5 * (0.9 - 1.2), 1e-12);
-  EXPECT_NEAR(torque[4], 0.0, 1e-12);  // flight, for which no loop is given
+  EXPECT_NEAR(torque[4], 0.0, 1e-12);  // flight, without a control loop
 }
 
 TEST(Campaign, MissingSecondFileCostsItsChannelsOnly) {

@@ -10,8 +10,8 @@
 #include "config/files.hpp"
 #include "config/load.hpp"
 
-// Every pair of values that can contradict each other, from both sides: the first setting is just right, the
-// second just wrong and refused at its key.
+// Every pair of values that can contradict each other, tested on both sides: the first setting is just valid,
+// the second just invalid and refused at its key.
 namespace sandhopper {
 namespace {
 
@@ -30,8 +30,8 @@ struct Pair {
   std::function<void(Configuration&, double)> set;
   double right;
   double wrong;
-  const char* key;   // of the message
-  const char* says;  // in it
+  const char* key;   // key that the message must name
+  const char* says;  // text that the message must contain
 };
 
 void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
@@ -58,7 +58,8 @@ void make_iio(Configuration& c) {
 }
 
 const Pair kPairs[] = {
-    // A drive's ranges carry what it is asked for, on its own side of gear and torque constant.
+    // A drive's range must include the limits of the controller, on the drive's side of gear and torque
+    // constant.
     {"TorqueRangeTorqueLimit", SET(robot.motor[1].torque_range_Nm), 4.0, 2.7, "motor[1].torque_range_Nm",
      "2.7 carries 2.7 N m, limits.motor_torque_Nm = 2.8 asks for 2.8"},
     {"TorqueLimitTorqueRange", SET(robot.limits.motor_torque_Nm), 3.9, 18.1, "motor[0].torque_range_Nm",
@@ -106,7 +107,7 @@ const Pair kPairs[] = {
      39.0, 40.0, "supervision.bus_voltage_max_V", "a supply over the limit would not be seen"},
     {"GearRatioOfTheRobotAndItsMotor", SET(robot.motor[0].drive_reduction), 1.005, 6.0, "robot.gear_ratio",
      "drive_reduction = 6 make 6"},
-    // Detectors that could never fire.
+    // Limits with which a detector could never fire.
     {"TorqueErrorTorqueLimit", SET(robot.supervision.motor_torque_error_Nm), 2.7, 2.8,
      "supervision.motor_torque_error_Nm", "less than limits.motor_torque_Nm = 2.8"},
     {"VelocityErrorSpeedLimit", SET(robot.supervision.motor_velocity_error_radps), 39.0, 40.0,
@@ -241,7 +242,8 @@ const Pair kPairs[] = {
      "less than real_time.priority = 80"},
     {"BusLoad",
      [](Configuration& c, double x) {
-       for (auto& motor : c.robot.motor) motor.dialect = Dialect::v3;  // of the robot's file, not the board's
+       // the motors come from the robot's file
+       for (auto& motor : c.robot.motor) motor.dialect = Dialect::v3;
        c.board.can.other_load = x;
      },
      0.15, 0.2, "can.other_load", "84 %"},

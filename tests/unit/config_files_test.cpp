@@ -15,7 +15,7 @@ namespace {
 
 const std::filesystem::path kConfig = std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config";
 
-// Keys with their tables, an array's element counted like any other: "motor[0].can_id".
+// Lists keys with their tables; elements of arrays are numbered: "motor[0].can_id".
 void list_keys(const ConfigNode& node, const std::string& path, std::set<std::string>& keys) {
   if (node.kind == ConfigNode::Kind::table) {
     for (const auto& child : node.children) list_keys(child, path + "." + child.key, keys);
@@ -126,7 +126,7 @@ TEST(ConfigFiles, EveryFileIsTested) {
   EXPECT_THAT(files, ::testing::ElementsAre("bench.toml", "linux.toml", "robot.toml", "world.toml"));
 }
 
-// A file that is right but for one line: the first line that starts with `key` is replaced.
+// A valid file except for one line: the first line that starts with `key` is replaced.
 std::string problem_when(const std::string& changes_to, std::string_view table, std::string_view key) {
   auto node = to_node(RobotConfig{});
   auto text = to_toml(node);

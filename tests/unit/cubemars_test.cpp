@@ -43,8 +43,8 @@ TEST(CubeMarsCodec, LinkSideFollowsSignGearAndZero) {
   EXPECT_DOUBLE_EQ(sample.velocity_radps, -2.0);
   EXPECT_DOUBLE_EQ(sample.current_A, -20.0);
 
-  // 1 N m at the link: 0.5 at the drive's output; the drive believes a 25 % larger constant, so asks for less
-  // current than it should unless told 25 % more.
+  // 1 N m at the link is 0.5 N m at the drive's output. The drive assumes a torque constant that is 25 % too
+  // large and would send too little current, so it gets 25 % more torque.
   const auto command = codec.to_drive({1.2, -2.0, 8.0, 0.4, 1.0});
   EXPECT_DOUBLE_EQ(command.position_rad, -1.0);
   EXPECT_DOUBLE_EQ(command.velocity_radps, 4.0);
@@ -105,7 +105,7 @@ TEST(CubeMarsCodec, V3FramesAreThoseOfTheManualToOneCount) {
   const auto frame = codec.frame(DriveAction::run, {.velocity_radps = 6.0, .kd_Nm_s_per_rad = 2.0}, {});
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->can_id, 0x868U | CAN_EFF_FLAG);
-  // The manual's examples differ from each other by one count of the position, velocity and torque fields.
+  // The manual's examples differ from each other by one count in the fields of position, velocity and torque.
   constexpr std::array<int, 8> kManual{0x00, 0x06, 0x66, 0x7F, 0xFF, 0x8F, 0x57, 0xFF};
   const auto field = [](const auto& b, int from_nibble, int nibbles) {
     int value = 0;
@@ -125,7 +125,7 @@ TEST(CubeMarsCodec, StatusFramesAreReadInTheirUnits) {
   config.dialect = Dialect::servo;
   config.pole_pairs = 21;
   const CubeMarsCodec codec(config);
-  // 90.0 deg, 2100 electrical turns a minute (100 a minute of the motor), -3.00 A, 45 C, error 2.
+  // 90.0 deg, 2100 electrical rpm (100 rpm of the motor), -3.00 A, 45 C, error 2.
   const auto frame = frame_of(0x2901 | CAN_EFF_FLAG, {0x03, 0x84, 0x00, 0xD2, 0xFE, 0xD4, 45, 2});
   EXPECT_EQ(codec.match(frame), CubeMarsCodec::Match::reply);
   const auto sample = codec.sample_of(frame, 7);

@@ -20,7 +20,7 @@ constexpr bool kCounted = false;
 constexpr bool kCounted = true;
 #endif
 
-// A board that allocates in one cycle, to prove that the guard would notice.
+// A board that allocates in one cycle. It proves that the guard detects this.
 class LeakyBoard : public Board {
  public:
   LeakyBoard(Board& board, std::uint64_t plant_at) : board_(board), plant_at_(plant_at) {}
@@ -42,10 +42,9 @@ struct Run {
   int strides = 0;
 };
 
-// A whole trial of three strides with its logging and what an operator watches, every turn of the cycle under
-// the guard.
+// A trial of three strides with logging and with the operator's view, each cycle under the guard.
 Run run_trial(std::uint64_t plant_at) {
-  // Of this process alone: the tests of this file run side by side.
+  // The name contains the process id, because tests of this file run in parallel.
   const auto log =
       std::filesystem::temp_directory_path() / fmt::format("sandhopper_allocation_test.{}.mcap", ::getpid());
   std::filesystem::remove(log);

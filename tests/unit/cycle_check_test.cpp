@@ -7,7 +7,7 @@ namespace {
 
 const DetectorMask kAll;
 
-// A cycle on the 1 ms grid that misses grid points when told to.
+// A cycle at 1 kHz that misses cycles if told to.
 class Cycles {
  public:
   FaultFound next(std::uint64_t missed = 0) {
@@ -42,7 +42,7 @@ TEST(CycleCheck, TheFirstCycleHasNoneBeforeIt) {
   EXPECT_EQ(cycles.next(500).fault, Fault::none);
 }
 
-// Every third grid point missed: 51 are missed when 153 have passed.
+// Every third cycle is missed: 51 of 153.
 TEST(CycleCheck, OverrunsAreCountedWithinASecond) {
   Cycles cycles;
   cycles.next();

@@ -103,7 +103,7 @@ TEST(DepthLaw, TooLittleToFitIsNotANumber) {
 
 TEST(SeriesCompliance, StopGivesSlopeToeAndRecovery) {
   std::vector<double> z, f;
-  for (int i = 0; i <= 300; ++i) {  // 0.4 mm of play that closes within 15 N, then 12 um/N
+  for (int i = 0; i <= 300; ++i) {  // 0.4 mm of play that closes below 15 N, then 12 um/N
     f.push_back(i);
     z.push_back(0.048 + 12e-6 * i + 0.4e-3 * (1.0 - std::exp(-i / 15.0)));
   }

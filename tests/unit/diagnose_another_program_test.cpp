@@ -16,11 +16,11 @@
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/intruder/intruder_motion.hpp"
 
-// What recordings by another program differ in, and what is no physics for that.
+// Differences between recordings of other programs and ours that are no physics.
 namespace sandhopper::diagnose {
 namespace {
 
-// A converter with a clock of its own: a sample stands in the first row after it.
+// A converter with its own clock: each sample appears in the first row after it.
 struct Sampled {
   Trial trial;
   std::vector<double> ages_s;
@@ -52,7 +52,8 @@ TEST(DiagnoseAnotherProgram, TheAgeOfASampleIsFoundThoughItsClockIsOff) {
   EXPECT_TRUE(ages_s(sampled_at(600.0, 0.2).trial, "load_cell_force_N", 860.0).empty());
 }
 
-// The leg is let go where the encoder reads what the controller holds: with an offset it stands elsewhere.
+// The leg is released where the encoder reads the angle that the controller holds. With an encoder offset the
+// true angle differs by it.
 TEST(DiagnoseAnotherProgram, ALegIsLetGoWhereItsEncoderReadsIt) {
   const HopperRun run = hop_from(0.04, 0.1);
   Edits off;
@@ -62,7 +63,7 @@ TEST(DiagnoseAnotherProgram, ALegIsLetGoWhereItsEncoderReadsIt) {
   EXPECT_NEAR(simulate_hopper(run, off).angle_rad.values.front(), run.start.angle_rad - 0.02, 1e-12);
 }
 
-// A loop that is ahead by a tenth of a millisecond is so to either side, and by the same impulse.
+// A delay of +-0.1 ms must change the motion symmetrically.
 TEST(DiagnoseAnotherProgram, ADriveMayBeALittleEarlyAsWellAsLate) {
   const HopperRun run = hop_from(0.04, 0.3);
   const auto angle_with = [&](double late_s) {
@@ -80,7 +81,8 @@ TEST(DiagnoseAnotherProgram, ADriveMayBeALittleEarlyAsWellAsLate) {
   EXPECT_LT(skew, 0.1 * apart);
 }
 
-// Of a foot that turns round at `deepest_m`: the bed's force just before, and a little above on the way out.
+// Force of the bed on a foot that turns round at `deepest_m`: just before, and `above_m` above it on the way
+// out.
 struct TurnedRound {
   double before_N, after_N;
 };
@@ -108,7 +110,7 @@ TurnedRound turned_round(const char* id, const std::vector<double>& values, doub
   return {bed.reaction(down).force_N, bed.reaction(up).force_N};
 }
 
-// What resists going in is let go of along the unloading line, or is gone at once: programs differ.
+// Programs differ in how a crust's force ends at the turning point: along the unloading line, or at once.
 TEST(DiagnoseAnotherProgram, ACrustIsUnloadedOrGoneAtOnce) {
   const auto unloaded = turned_round("terrain.crust", {3.0, 0.002, 1.0, 1.0}, 0.02, 1e-9);
   EXPECT_NEAR(unloaded.before_N, 33.0, 1e-3);
@@ -118,9 +120,9 @@ TEST(DiagnoseAnotherProgram, ACrustIsUnloadedOrGoneAtOnce) {
   EXPECT_NEAR(gone.after_N, 30.0, 1e-3);
 }
 
-// 0.4 mm of an unloading line of 45 N/mm are 18 N, those of one a fifth stiffer 21.6 N.
+// An unloading line of 45 N/mm loses 18 N in 0.4 mm, one of 54 N/mm loses 21.6 N.
 TEST(DiagnoseAnotherProgram, AStifferBedMayHaveAStifferUnloadingLine) {
-  const double share = 0.2 / (1.0 - std::exp(-2.0));  // after 4 pushes
+  const double share = 0.2 / (1.0 - std::exp(-2.0));  // gives 20 % after 4 pushes
   const auto whole = turned_round("terrain.compaction", {share, 2.0, 1.0}, 0.02, 4e-4);
   EXPECT_NEAR(whole.before_N, 36.0, 1e-6);
   EXPECT_NEAR(whole.before_N - whole.after_N, 21.6, 1e-6);
@@ -129,7 +131,7 @@ TEST(DiagnoseAnotherProgram, AStifferBedMayHaveAStifferUnloadingLine) {
   EXPECT_NEAR(loading_only.before_N - loading_only.after_N, 18.0, 1e-6);
 }
 
-// A foot that goes 30 mm down and up within 0.2 s, sampled at 1 kHz.
+// A foot that moves 30 mm down and up within 0.2 s, sampled at 1 kHz.
 struct Plunge {
   Samples z, v, a;
   static double depth_m(double t) { return 0.015 * (1.0 - std::cos(10.0 * M_PI * t)); }
@@ -159,13 +161,13 @@ double worst_depth_m(const IntruderMotion& m) {
 TEST(DiagnoseAnotherProgram, AFastFootIsOnAFinerGridThanItsRecording) {
   const auto p = plunge();
   const auto m = intruder_motion(p.z, p.v, p.a);
-  EXPECT_LE(m.step_s * 0.47, 1.6e-4);  // at its fastest, between two steps
+  EXPECT_LE(m.step_s * 0.47, 1.6e-4);  // travel per step at the largest speed, 0.47 m/s
   EXPECT_LT(worst_depth_m(m), 2e-5);
 }
 
-// A camera of 240 frames a second with 0.2 mm of noise, and an accelerometer with an offset that sees the
-// ramps of 1.7 ms, which are over within two of its samples; no speed. At rest camera and accelerometer
-// together know the depth better than five frames do.
+// A camera at 240 Hz with 0.2 mm of noise, and an accelerometer with an offset. The speed ramps last 1.7 ms,
+// two samples of the accelerometer; there is no speed channel. At rest both sensors together must give the
+// depth better than the mean of five frames.
 TEST(DiagnoseAnotherProgram, ASlowCameraAndAnAccelerometerWithAnOffsetAreOneMotion) {
   constexpr double kSpeed_mps = 0.1, kRamp_mps2 = 60.0, kOffset_mps2 = 0.1, kNoise_m = 2e-4;
   constexpr double kDown_s = 0.2003, kStop_s = 0.6, kRamp_s = kSpeed_mps / kRamp_mps2;
@@ -198,12 +200,12 @@ TEST(DiagnoseAnotherProgram, ASlowCameraAndAnAccelerometerWithAnOffsetAreOneMoti
     accel += m.accel_mps2[i];
     ++count;
   }
-  EXPECT_LT(std::sqrt(squares / count), 0.4 * kNoise_m);  // of five frames 0.45
+  EXPECT_LT(std::sqrt(squares / count), 0.4 * kNoise_m);  // the mean of five frames has 0.45
   EXPECT_NEAR(accel / count, 0.0, 0.03);
 }
 
-// Samples at a limit were taken out between the third and the fourth: a mean of both sides would be a
-// reading of an instant at which nothing was read.
+// Samples between the third and the fourth were removed at a limit. A mean over the gap would be a reading at
+// a time without a reading.
 TEST(DiagnoseAnotherProgram, NoMeanIsTakenAcrossAGap) {
   const Samples samples{{0.001, 0.002, 0.003, 0.103, 0.104, 0.105}, {5.0, 5.0, 5.0, 5.0, 5.0, 5.0}};
   const auto taken = means(samples, slow_groups(samples, 4, 1.0));
@@ -212,7 +214,7 @@ TEST(DiagnoseAnotherProgram, NoMeanIsTakenAcrossAGap) {
   EXPECT_NEAR(taken.time_s[1], 0.104, 1e-12);
 }
 
-// A straight line over 80 ms of the turn would be off by 5 mm and more.
+// A straight line over the gap of 80 ms would be wrong by 5 mm or more.
 TEST(DiagnoseAnotherProgram, AGapOfThePositionIsBridgedByItsRates) {
   auto p = plunge();
   p.z.time_s.erase(p.z.time_s.begin() + 60, p.z.time_s.begin() + 140);
@@ -220,7 +222,7 @@ TEST(DiagnoseAnotherProgram, AGapOfThePositionIsBridgedByItsRates) {
   EXPECT_LT(worst_depth_m(intruder_motion(p.z, p.v, p.a)), 2e-4);
 }
 
-// The commands of a controller that acts on what it received in the cycle before.
+// Commands of a controller that acts on the samples of the previous cycle.
 TEST(DiagnoseAnotherProgram, ACommandMayGoWithTheLegOfTheRowBefore) {
   const HopperRun run = hop_from(0.04, 0.3);
   Trial trial = recorded(run, {}, 5);
@@ -260,7 +262,8 @@ Recordings few_hops() {
   return r;
 }
 
-// 2 % between trials are believed; all are 3 % off, and alike to 0.02 %.
+// The belief allows 2 % between trials. All trials are off by 3 % and differ by only 0.02 %, so the offset is
+// an effect, no spread.
 TEST(DiagnoseAnotherProgram, WhatAllTrialsShareIsAnEffectsToExplain) {
   auto prepared = prepare(few_hops());
   Problem& problem = prepared.problem;
@@ -298,7 +301,8 @@ TEST(DiagnoseAnotherProgram, WhereTrialsDifferAsBelievedNothingIsShared) {
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].sd, before[i]);
 }
 
-// How readings were written down is by rights the same in all trials.
+// The age of samples must not count as an offset that all trials share: it is expected to be equal in all
+// trials.
 TEST(DiagnoseAnotherProgram, TheAgeOfSamplesDoesNotLean) {
   const auto prepared = prepare(few_hops());
   const auto& problem = prepared.problem;

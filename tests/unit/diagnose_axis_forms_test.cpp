@@ -6,7 +6,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 
-// Further forms of an axis' effects and of its sensors'.
+// Further forms of effects of an axis and of its sensors.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -15,8 +15,8 @@ double value_of(const FoundEffect& effect, const std::string& name) {
   return it == effect.parameters.end() ? std::nan("") : it->value;
 }
 
-// The motor leads the load by `compliance` times its torque, which the position shows, and the velocity where
-// it is the motor's.
+// The motor leads the load by `compliance` times its torque. The position shows this, and so does the
+// velocity if it is the motor's.
 Recordings twisted(bool velocity_of_motor) {
   constexpr double kCompliance_rad_per_Nm = 0.005;
   auto recordings = swings([](double, double, double) { return 0.0; }, 51, 8);
@@ -43,7 +43,7 @@ TEST(DiagnoseAxisForms, AShaftThatTwistsIsACompliance) {
   }
 }
 
-// Two equal lags in series, 30 ms together, of an accelerometer that falls through air.
+// An accelerometer in a fall through air with two equal lags in series, 30 ms together.
 TEST(DiagnoseAxisForms, ALagMayBeOfSecondOrder) {
   const auto drag = [](double, double, double v) { return -0.5 * 1.2 * 0.01 * 3.0 * std::abs(v) * v; };
   auto recordings = drops(drag, 53, 10);
@@ -65,7 +65,7 @@ TEST(DiagnoseAxisForms, ALagMayBeOfSecondOrder) {
   EXPECT_NEAR(value_of(d.effects.front(), "lag_s"), 0.03, 0.006);
 }
 
-// The limit lies before the noise: no two samples at it are alike.
+// The limit acts before the noise, so no two samples at it are equal.
 TEST(DiagnoseAxisForms, ASensorMayStopAtALimitUnderItsNoise) {
   const auto drag = [](double, double, double v) { return -0.5 * 1.2 * 0.01 * 3.0 * std::abs(v) * v; };
   auto recordings = drops(drag, 54, 10);

@@ -104,7 +104,8 @@ std::vector<FreeGain> axis_laws_with(const AxisTorque& left_out) {
   for (const auto& trial : recordings.trials)
     for (auto& balance : balances_of_axis(trial, recordings.belief)) balances.push_back(std::move(balance));
   auto laws = laws_of_balances(problem, balances);
-  // What the drive's constant would leave is not among the known shapes.
+  // Laws of the torque are left out: they look like a wrong torque constant, which is not among the known
+  // shapes.
   std::erase_if(laws, [](const FreeGain& law) { return law.family.variable == "torque_Nm"; });
   return laws;
 }
@@ -131,7 +132,7 @@ TEST(DiagnoseBalance, AnAxisThatAMagnetHoldsShowsItsAngle) {
   EXPECT_LT(laws.front().p_value, 1e-2);
 }
 
-// A spring that yields: after each turn it gives way by twice its yield before it drags.
+// A spring that yields: after each turning point it gives way by twice its yield angle before it slips.
 TEST(DiagnoseBalance, AnAxisOnASpringThatYieldsShowsTheAngleSinceItTurned) {
   constexpr double kYield_rad = 0.1, kStiffness_Nm_per_rad = 5.0;
   double stretch_rad = 0.0, last_rad = 0.0;

@@ -12,11 +12,12 @@
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
-// The believed numbers that an answer rests on.
+// Numbers of the belief on which the answer depends.
 namespace sandhopper::diagnose {
 namespace {
 
-// A free pendulum: I q'' + c q' + m g l sin q = 0, released from rest at four angles, seen with white noise.
+// A free pendulum: I q'' + c q' + m g l sin q = 0, released from rest at four angles, measured with white
+// noise.
 void write_swings(CampaignFolder& folder, double noise_rad) {
   std::mt19937_64 random(20);
   std::normal_distribution<double> noise(0.0, noise_rad);
@@ -69,7 +70,7 @@ TEST(DiagnoseBelief, WhatOnlyTheirRatioTellsIsKnownAlikeToItsShare) {
   CampaignFolder folder;
   write_swings(folder, 1e-3);
   const auto diagnosis = diagnosed(folder);
-  // The motion depends on m g l / I and c / I alone.
+  // The motion depends only on m g l / I and c / I.
   const auto &inertia = number(diagnosis, "axis.inertia_kg_m2"),
              &gravity = number(diagnosis, "axis.gravity_torque_Nm"),
              &friction = number(diagnosis, "axis.viscous_friction_Nm_s");
@@ -78,7 +79,7 @@ TEST(DiagnoseBelief, WhatOnlyTheirRatioTellsIsKnownAlikeToItsShare) {
   EXPECT_GT(friction.error_that_shows / 0.004, 3.0 * gravity.error_that_shows / 0.8)
       << "friction shows least";
   EXPECT_TRUE(inertia.matters()) << "0.012 may be 0.0125, and a far smaller error would show";
-  // A gear of an axis without a motor, and gravity where its torque is stated, move nothing.
+  // The gear of an axis without a motor, and gravity if the gravity torque is stated, have no effect.
   EXPECT_TRUE(std::isinf(number(diagnosis, "gravity_mps2").error_that_shows));
   EXPECT_FALSE(number(diagnosis, "gravity_mps2").matters());
 }

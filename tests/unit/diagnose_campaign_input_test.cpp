@@ -15,7 +15,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// What ails a file that two trials share is told once, what ails another file as well.
+// A problem of a file that two trials share is reported once; the same problem of another file is reported as
+// well.
 TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {
   CampaignFolder folder;
   folder.write("campaign.toml",
@@ -37,8 +38,7 @@ TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {
   EXPECT_EQ(gaps_in("3.csv"), 1);
 }
 
-// Where in its camera's row a body was let go is kept, in any time base; trials with clocks of their own have
-// lost it.
+// The release time within a camera's row is kept in any time base; trials with separate clocks have lost it.
 TEST(DiagnoseCampaignInput, AFallBeginsBetweenTwoRows) {
   const auto first_rows_s = [](double first_s, double second_s) {
     CampaignFolder folder;
@@ -73,8 +73,8 @@ std::string force_rows(const std::function<double(int)>& force_N) {
   return text;
 }
 
-// A load cell at its limit for half of its samples, or at one value, in all trials still shows what it shows;
-// one that failed in a single trial does not.
+// A load cell at its limit for half of its samples, or at one value, in all trials is kept. One that failed
+// in a single trial is not.
 TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   const auto live = [](int i) { return 0.05 * i + 0.01 * ((i * 7919) % 13); };
   const auto limited = [&](int i) { return std::min(live(i), i > 395 ? live(i - 300) : 10.0); };
@@ -96,8 +96,8 @@ TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   EXPECT_EQ(forces_in({live, stuck, live}), 2);
 }
 
-// Nobody records the torque of an axis that runs free: it is 0 there, and that is said. Where a trial is
-// driven its torque must be recorded.
+// The torque of a free axis is usually not recorded. It is 0 there, and the answer states this. The torque of
+// a driven trial must be recorded.
 TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
   const auto torques = [](const char* second, bool with_torque) {
     CampaignFolder folder;
@@ -113,7 +113,7 @@ TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
     folder.write("1.csv", text);
     folder.write("2.csv", with_torque ? with : text);
     const auto input = read_campaign(load_campaign(folder.path()));
-    std::vector<double> first;  // of each trial; not a number: none
+    std::vector<double> first;  // of each trial; NaN: none
     for (const auto& trial : input.recordings.trials) {
       const auto* torque = trial.find("torque_Nm");
       first.push_back(torque == nullptr ? std::nan("") : torque->front());
@@ -135,8 +135,8 @@ TEST(DiagnoseCampaignInput, AnAxisThatRunsFreeNeedsNoTorque) {
   EXPECT_TRUE(mixed_said);
 }
 
-// A pendulum of a noisy encoder that is held at 2 rad for `held_s` and let go, or pushed off at
-// `speed_radps`; 1 s of it, at 200 Hz.
+// A pendulum with a noisy encoder is held at 2 rad for `held_s` and released, or pushed off at `speed_radps`;
+// 1 s at 200 Hz.
 Trial pendulum(double held_s, double speed_radps, double noise_rad = 1e-4) {
   Trial trial;
   double angle = 2.0, speed = speed_radps;

@@ -6,14 +6,14 @@
 #include "tools/diagnose/engine.hpp"
 #include "tools/plant/random.hpp"
 
-// Small campaigns in memory for the tests of the diagnosis. Their own integrator (semi-implicit, 20 us),
-// apart from the one under test.
+// Small campaigns in memory for the tests of the diagnosis. They have their own integrator (semi-implicit, 20
+// us), independent of the one under test.
 namespace sandhopper::diagnose {
 
 using BodyForce = std::function<double(double t_s, double height_m, double velocity_mps)>;
 
-// Drops of a 0.2 kg body from 2 to 7 m, height at 100 Hz with 3 mm of noise, accelerometer at 200 Hz with
-// 0.05 m/s^2; `force_N` is what the belief does not know.
+// Drops of a body of 0.2 kg from 2 to 7 m; height at 100 Hz with 3 mm of noise, accelerometer at 200 Hz with
+// 0.05 m/s^2. `force_N`: a force that the belief does not contain.
 inline Recordings drops(const BodyForce& force_N, std::uint64_t seed = 1, std::size_t trials = 8,
                         double height_scale = 1.0) {
   constexpr double kMass_kg = 0.2, kGravity_mps2 = 9.81, kStep_s = 2e-5;
@@ -53,7 +53,8 @@ inline Recordings drops(const BodyForce& force_N, std::uint64_t seed = 1, std::s
 
 using AxisTorque = std::function<double(double angle_rad, double velocity_radps, double torque_Nm)>;
 
-// A pendulum of 0.1 kg m^2 and 2 N m moved by sums of sines for 2.5 s, position and velocity at 250 Hz.
+// A pendulum of 0.1 kg m^2 and 2 N m that is driven by sums of sines for 2.5 s; position and velocity at 250
+// Hz.
 inline Recordings swings(const AxisTorque& unknown_Nm, std::uint64_t seed = 1, std::size_t trials = 5) {
   constexpr double kInertia_kg_m2 = 0.1, kGravityTorque_Nm = 2.0, kStep_s = 2e-5;
   Recordings r;
@@ -93,10 +94,10 @@ inline Recordings swings(const AxisTorque& unknown_Nm, std::uint64_t seed = 1, s
 }
 
 using BedForce = std::function<double(double depth_m, double speed_mps)>;
-using BedMemory = std::function<double(double since_touch_s)>;  // added to the quasi-static force, relative
+using BedMemory = std::function<double(double since_touch_s)>;  // relative change of the quasi-static force
 
-// A plate pressed 30 mm into a bed of 1500 N/m and drawn out again at several speeds, recorded at 500 Hz; the
-// set-ups differ in how often the bed was pushed, how long it waited and how deep it is.
+// A plate is pressed 30 mm into a bed of 1500 N/m and drawn out again at several speeds, recorded at 500 Hz.
+// The set-ups differ in the number of earlier pushes, the waiting time and the depth of the bed.
 inline Recordings presses(const BedForce& unknown_N, std::uint64_t seed = 1, std::size_t trials = 6,
                           const BedMemory& memory = {}) {
   constexpr double kStiffness_N_per_m = 1500.0, kUnloadingRatio = 30.0, kDeepest_m = 0.03, kAbove_m = 0.005;

@@ -10,7 +10,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The number of `key` in a table of `toml`, whose keys stand one to a line.
+// The number of `key` in a table of `toml`, which has one key per line.
 std::optional<double> number(const std::string& toml, const std::string& table, const std::string& key) {
   const auto start = toml.find("\n[" + table + "]\n");
   if (start == std::string::npos) return {};
@@ -26,10 +26,10 @@ Recordings believing(Recordings recordings, const std::string& key, double value
   return recordings;
 }
 
-// What is added to something believed already is reported twice, as the whole and as the change; the whole is
-// the key of nominal.toml. A second run on it finds nothing.
+// A change of a number of the belief is reported as the change and as the new total. nominal.toml gets the
+// total, and a second run with it must find nothing.
 TEST(DiagnoseCorrectedModel, HoldsTheWholeOfWhatWasBelievedInPart) {
-  // 0.12 kg m^2 instead of the 0.1 that are believed.
+  // The true inertia is 0.12 kg m^2; the belief is 0.1.
   const auto recordings = swings([](double angle, double, double torque) {
     return (torque - 2.0 * std::sin(angle)) * (0.1 / 0.12 - 1.0);
   });
@@ -44,7 +44,8 @@ TEST(DiagnoseCorrectedModel, HoldsTheWholeOfWhatWasBelievedInPart) {
 }
 
 TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
-  // 0.25 kg and drag that is known: the air slows it less than the 0.2 kg that are believed.
+  // The true mass is 0.25 kg; the belief is 0.2 kg. The drag is known, so air slows the body less than
+  // believed.
   const auto drag_N = [](double v) { return -0.5 * 1.2 * 0.01 * 0.9 * std::abs(v) * v; };
   auto recordings = drops([&](double, double, double v) { return drag_N(v) * 0.2 / 0.25; });
   recordings = believing(std::move(recordings), "medium.drag_coefficient", 0.9);

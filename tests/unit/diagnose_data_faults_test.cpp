@@ -8,7 +8,7 @@
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 
-// What recordings contradict by themselves.
+// Data faults: contradictions that the recordings show without a simulation.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -26,7 +26,8 @@ TEST(DiagnoseDataFaults, SamplesThatFallToZeroAreADropoutAndNoPhysics) {
   EXPECT_GE(fault->parameters.front().high, 0.015);
 }
 
-// Where the quantity itself is near zero nothing falls; that the sensor fell out elsewhere for as long tells.
+// A dropout to 0 is invisible in samples where the quantity is near 0 itself. Such a stretch counts if other
+// stretches of the same length fell to 0.
 TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
   auto recordings = presses([](double, double) { return 0.0; });
   std::size_t lost = 0;
@@ -44,8 +45,8 @@ TEST(DiagnoseDataFaults, DropoutsAreCountedWhereTheQuantityIsNearZeroToo) {
               0.02 * static_cast<double>(lost) / recorded_s);
 }
 
-// A foot that goes in meanwhile: before such a stretch the force is small, after it large, and the next one
-// follows at once.
+// The foot sinks meanwhile, so the force is small before the first of two stretches of zeros and large after
+// it. The second one follows after two samples.
 TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {
   std::vector<Trial> trials(6);
   for (std::size_t t = 0; t < trials.size(); ++t) {
@@ -64,7 +65,7 @@ TEST(DiagnoseDataFaults, ADropoutRightBeforeAnotherIsOne) {
   for (const auto& trial : trials) EXPECT_TRUE(std::isnan(trial.channels.at("force_N")[115]));
 }
 
-// An accelerometer in free fall reads nothing but its noise, which does not give the same value six times.
+// An accelerometer in free fall reads only its noise. Noise does not give the same value six times in a row.
 TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (auto& trial : recordings.trials) {
@@ -79,7 +80,8 @@ TEST(DiagnoseDataFaults, DropoutsOfAChannelThatNeverLeavesZeroAreFound) {
   EXPECT_EQ(d.effects.front().channel, "accel_mps2");
 }
 
-// A torque in coarse steps repeats wherever it moves slowly; that it did not just around a stretch is chance.
+// A torque in coarse steps repeats values where it changes slowly. A stretch without repeats around the
+// tested one is chance.
 TEST(DiagnoseDataFaults, WhatRepeatsElsewhereIsNotStuck) {
   auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
   for (auto& trial : trials) {
@@ -93,8 +95,8 @@ TEST(DiagnoseDataFaults, WhatRepeatsElsewhereIsNotStuck) {
   EXPECT_TRUE(remove_data_faults(trials).empty());
 }
 
-// Friction holds an axis: its encoder repeats itself, and its speed is the converter's noise, half a step
-// low.
+// Friction holds the axis: the encoder repeats one count, and the velocity is the noise of its converter,
+// half a step low.
 TEST(DiagnoseDataFaults, AnAxisThatStandsStillIsNotStuckButOneThatGoesOnIs) {
   for (const bool stands : {true, false}) {
     auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
@@ -115,8 +117,8 @@ TEST(DiagnoseDataFaults, AnAxisThatStandsStillIsNotStuckButOneThatGoesOnIs) {
   }
 }
 
-// Where an axis turns round its encoder shows one count for a while, and its speed says that it went no
-// further; one that goes on meanwhile is stuck.
+// At a turning point an encoder shows one count for a while, and the velocity shows that the axis did not
+// move on. If the axis moves on meanwhile, the encoder is stuck.
 TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
   for (const bool turns : {true, false}) {
     constexpr double kCount_rad = 2e-3;
@@ -140,7 +142,7 @@ TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
   }
 }
 
-// A speed counted from an encoder is zero, exactly, for as long as no count comes.
+// A velocity that is computed from encoder counts is exactly 0 while no new count comes.
 TEST(DiagnoseDataFaults, AnEncoderThatStandsWhileTheOtherMotorStandsIsNotStuck) {
   for (const bool both : {true, false}) {
     constexpr double kCount_rad = 4e-4;
@@ -162,7 +164,7 @@ TEST(DiagnoseDataFaults, AnEncoderThatStandsWhileTheOtherMotorStandsIsNotStuck) 
   }
 }
 
-// A single short repeat is no fault, and then its samples stay.
+// A single short repeat is no fault, so its samples must stay.
 TEST(DiagnoseDataFaults, NothingIsTakenOutWhereNoFaultIsFound) {
   auto trials = drops([](double, double, double) { return 0.0; }).trials;
   auto& accel = trials.front().channels["accel_mps2"];
@@ -210,7 +212,7 @@ TEST(DiagnoseDataFaults, RowsThatAreLostAgainAndAgainAreADropout) {
   EXPECT_EQ(d.effects.front().id, "data.dropout");
 }
 
-// A drive that reports in coarse steps and hardly any noise turns round at zero, within one of them.
+// A drive that reports in coarse steps with little noise: the torque turns at zero within one step.
 TEST(DiagnoseDataFaults, ATurnWithinOneStepOfTheGridIsNoDropout) {
   constexpr double kStep_Nm = 0.0088;
   std::vector<Trial> trials(3);
@@ -227,7 +229,7 @@ TEST(DiagnoseDataFaults, ATurnWithinOneStepOfTheGridIsNoDropout) {
   for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout");
 }
 
-// Files may lack rows; a few of a hundred are no fault that anybody hid.
+// A few missing rows of a hundred are usual and no fault.
 TEST(DiagnoseDataFaults, FewRowsThatAreMissingAreNoFault) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (auto& trial : recordings.trials)
@@ -241,7 +243,7 @@ TEST(DiagnoseDataFaults, FewRowsThatAreMissingAreNoFault) {
   EXPECT_TRUE(d.effects.empty());
 }
 
-// Rows `from` to `to` of a trial were not written.
+// Removes the rows from `from` up to, but not including, `to`.
 void lose_rows(Trial& trial, std::ptrdiff_t from, std::ptrdiff_t to) {
   const auto cut = [&](auto& values) { values.erase(values.begin() + from, values.begin() + to); };
   cut(trial.time_s);
@@ -259,7 +261,7 @@ TEST(DiagnoseDataFaults, GapsTwiceInHalfOfTheTrialsAreADropout) {
   EXPECT_EQ(d.effects.front().id, "data.dropout");
 }
 
-// A blow is short: few of all samples are at the limit, but one after the other.
+// An impact is short: few samples are at the limit, but they are consecutive.
 TEST(DiagnoseDataFaults, ALimitThatIsMetInShortBlowsIsASaturation) {
   auto trials = drops([](double, double, double) { return 0.0; }).trials;
   for (auto& trial : trials)
@@ -286,8 +288,8 @@ TEST(DiagnoseDataFaults, SamplesThatPileUpAtALimitAreASaturation) {
   EXPECT_TRUE(named.contains("air.quadratic_drag"));
 }
 
-// A reading that nears its limit slowly, in steps of a thirtieth of its noise: were each sample taken out by
-// its own value, those that are left would be low by half a standard deviation where it ends.
+// A reading that approaches its limit slowly, by 3 % of its noise per sample. If only samples at the limit
+// were removed, the mean of the remaining ones would be low by half a standard deviation at the end.
 TEST(DiagnoseDataFaults, WhatIsLeftBelowALimitIsWhatTheQuantityWas) {
   constexpr double kNoise = 0.05, kLimit = 0.6, kPerSample = 0.0015;
   std::vector<Trial> trials(20);
@@ -309,12 +311,12 @@ TEST(DiagnoseDataFaults, WhatIsLeftBelowALimitIsWhatTheQuantityWas) {
       sum += (left - was) / kNoise;
       ++count;
     }
-  EXPECT_GT(highest, kLimit - 4.0 * kNoise);  // near enough to say something
+  EXPECT_GT(highest, kLimit - 4.0 * kNoise);  // near enough for the bias to show
   EXPECT_LT(highest, kLimit - 1.5 * kNoise);
   EXPECT_LT(std::abs(sum) / count, 4.0 / std::sqrt(count)) << count << " samples";
 }
 
-// Most of the time at the limit there is no noise at all to be seen.
+// At the limit most samples show no noise at all.
 TEST(DiagnoseDataFaults, ALimitThatIsMetMostOfTheTimeIsASaturation) {
   auto trials = drops([](double, double, double v) { return -0.1 * std::abs(v) * v; }).trials;
   for (auto& trial : trials)
@@ -325,7 +327,7 @@ TEST(DiagnoseDataFaults, ALimitThatIsMetMostOfTheTimeIsASaturation) {
   EXPECT_EQ(faults.front().limit, 0.6);
 }
 
-// An accelerometer at its limit from the first sample to the last tells of nothing else.
+// An accelerometer that is at its limit in every sample gives no evidence of anything else.
 TEST(DiagnoseDataFaults, WhereAChannelShowsNothingButItsLimitNothingElseIsNamed) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (auto& trial : recordings.trials) {
@@ -338,8 +340,7 @@ TEST(DiagnoseDataFaults, WhereAChannelShowsNothingButItsLimitNothingElseIsNamed)
   EXPECT_EQ(d.effects.front().id, "sensor.saturation");
 }
 
-// At rest on a hard bed an accelerometer shows its limit from the touch to the end, and comes back from
-// nothing.
+// At rest on a hard bed an accelerometer stays at its limit from contact to the end.
 TEST(DiagnoseDataFaults, ALimitThatIsMetUntilTheEndIsNoDropout) {
   auto trials = drops([](double, double, double) { return 0.0; }).trials;
   for (auto& trial : trials) {
@@ -349,7 +350,7 @@ TEST(DiagnoseDataFaults, ALimitThatIsMetUntilTheEndIsNoDropout) {
   for (const auto& fault : remove_data_faults(trials)) EXPECT_NE(fault.id, "data.dropout");
 }
 
-// At a level that is held a coarse torque repeats one value as often as another, anywhere.
+// A torque in coarse steps at a constant level repeats each of its values often, everywhere.
 TEST(DiagnoseDataFaults, AValueThatOftenRepeatsIsNotStuck) {
   auto trials = swings([](double, double, double) { return 0.0; }, 5, 4).trials;
   for (auto& trial : trials) {
@@ -365,7 +366,7 @@ TEST(DiagnoseDataFaults, AValueThatOftenRepeatsIsNotStuck) {
   EXPECT_TRUE(remove_data_faults(trials).empty());
 }
 
-// An axis that pauses goes on slowly at first; one whose encoder was stuck is somewhere else at once.
+// An axis that pauses starts again slowly. An encoder that was stuck jumps to another angle at once.
 TEST(DiagnoseDataFaults, AQuietEncoderThatPausesIsNotStuck) {
   for (const bool pauses : {true, false}) {
     constexpr double kCount_rad = 2e-3;

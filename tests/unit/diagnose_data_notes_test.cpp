@@ -7,7 +7,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// An accelerometer that stops where its range is believed to end is no fault; one that stops sooner is.
+// An accelerometer that is limited at the end of its stated range has no fault; one that is limited below has
+// one.
 TEST(DiagnoseDataNotes, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
   Belief belief;
   belief.numbers["sensors.imu_range_mps2"] = 156.9;
@@ -24,7 +25,7 @@ TEST(DiagnoseDataNotes, AnAccelerometerAtTheEndOfItsKnownRangeIsNoFault) {
   }
 }
 
-// A stretch that stood still in one of twelve trials is no fault of the sensor.
+// A single stretch of equal samples in one of twelve trials is no fault of the sensor.
 TEST(DiagnoseDataNotes, AStretchThatStoodStillOnceIsAnEvent) {
   DataFault once, often;
   once.id = often.id = "data.stuck";

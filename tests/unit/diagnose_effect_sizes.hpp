@@ -5,7 +5,7 @@
 
 #include "tools/diagnose/fit/problem.hpp"
 
-// What a candidate does to a simulation at so many times its typical size.
+// Effect of a candidate on a simulation, at a multiple of its typical size.
 namespace sandhopper::diagnose {
 
 inline std::vector<double> values_of(const Candidate& candidate, double typicals) {
@@ -31,7 +31,7 @@ inline std::vector<double> predicted(const Problem& problem, std::size_t trial, 
   return predicted(problem, trial, edits_for(problem, one, {}));
 }
 
-// Largest change against nothing, in standard deviations of the channel's noise.
+// Largest change of a row in standard deviations of its channel's noise.
 inline double largest_change(const Problem& problem, std::size_t candidate, double typicals) {
   double most = 0.0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {

@@ -12,14 +12,14 @@
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 
-// What holds for every effect that a plant can have, whichever they are.
+// Properties that every effect of every plant must have.
 namespace sandhopper::diagnose {
 namespace {
 
 Recordings recordings_of(PlantKind plant) {
   const auto none = [](double, double, double) { return 0.0; };
   if (plant == PlantKind::falling_body) {
-    // With the drag that is believed, or the accelerometer of a free fall has nothing to show.
+    // Includes the assumed drag, because the accelerometer shows nothing in a fall without it.
     auto r = drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }, 3, 5);
     r.belief.numbers["medium.drag_coefficient"] = 0.5;
     for (auto& belief : r.beliefs) belief = r.belief;
@@ -29,7 +29,7 @@ Recordings recordings_of(PlantKind plant) {
   return presses([](double, double) { return 0.0; }, 3, 6);
 }
 
-// Something that moves at a port, under a load.
+// State of a moving, loaded body at a port.
 PortState moving(LawPort port, double v) {
   if (port == LawPort::body) return BodyState{.height_m = 0.01, .velocity_mps = v, .depth_m = 3.0};
   if (port == LawPort::axis) return AxisState{.angle_rad = 0.01, .velocity_radps = v, .torque_Nm = 3.0};
@@ -69,9 +69,9 @@ TEST_P(EveryEffect, BringsNoEnergyWhereItIsAFriction) {
     Edits edits;
     candidate.effect->apply(problem.context, candidate.channel, values_of(candidate, 1.0), edits);
     for (const auto& [port, law] : edits.laws) {
-      if (port == LawPort::ground_tension) continue;  // how far the force may go, no force
+      if (port == LawPort::ground_tension) continue;  // a limit of the force, not a force
       for (double v = -2.0; v <= 2.0; v += 0.1) {
-        // On the bed a force upward is positive and speed counts downward.
+        // At the bed a force upward is positive, but speed counts downward.
         const double power = law(moving(port, v)) * (name_of(port).starts_with("ground") ? -v : v);
         EXPECT_LE(power, 1e-12) << candidate.label() << " at " << v;
       }
@@ -87,7 +87,7 @@ TEST_P(EveryEffect, StandsFirstOnTheScreenWhenAlone) {
       const auto with = predicted(problem, t, c, 0.3);
       for (std::size_t k = 0; k < with.size(); ++k) problem.trials[t]->rows[k].measured = with[k];
     }
-    // A skew that the tolerance of its channel's time says as well is asked without that.
+    // The tolerance of a channel's time could explain a skew as well, so it is removed here.
     const bool skew = problem.candidates[c].effect->id == "clock.skew";
     const auto held = skew ? std::exchange(problem.tolerances, {}) : problem.tolerances;
     const auto found = screen(problem, null_point(problem), nullptr,
@@ -96,7 +96,7 @@ TEST_P(EveryEffect, StandsFirstOnTheScreenWhenAlone) {
     const auto own =
         std::find_if(found.begin(), found.end(), [&](const Screened& s) { return s.candidate == c; });
     ASSERT_NE(own, found.end());
-    // Others may look the same; none looks much better.
+    // Another effect may be equivalent, but none may be much better.
     EXPECT_GT(own->gain, 0.9 * found.front().gain)
         << problem.candidates[c].label() << " behind " << problem.candidates[found.front().candidate].label();
   }
@@ -106,7 +106,8 @@ INSTANTIATE_TEST_SUITE_P(OfAPlant, EveryEffect,
                          ::testing::Values(PlantKind::falling_body, PlantKind::rotary_axis,
                                            PlantKind::intruder));
 
-// What cannot be told from an effect of the best set is found by putting it in that effect's place, there.
+// An effect that is equivalent to one of the best set is found by exchanging the two, starting from the best
+// fit.
 TEST(DiagnoseSearch, ProposalsHoldTheBestSetWithOneEffectExchanged) {
   const auto recordings = presses([](double, double speed) { return 8.0 * std::max(0.0, speed); }, 2, 6);
   const Prepared prepared = prepare(recordings);

@@ -51,7 +51,7 @@ TEST(Diagnose, FindsNothingOnAnAxisWhereNothingIsMissing) {
   EXPECT_TRUE(d.effects.empty());
 }
 
-// A drive that is off: what its torque sensor reads is noise and moves nothing.
+// The drive is off: its torque channel is only noise and moves nothing.
 TEST(Diagnose, NoiseOfATorqueThatIsOffIsNoTorque) {
   auto recordings = swings([](double, double, double torque) { return -torque; }, 3, 8);
   Random random(9, 0);
@@ -61,7 +61,7 @@ TEST(Diagnose, NoiseOfATorqueThatIsOffIsNoTorque) {
 }
 
 TEST(Diagnose, NamesAirDragWithItsCoefficient) {
-  // C_d 0.5, A 0.01 m^2, 1.2 kg/m^3
+  // Drag with C_d 0.5, A = 0.01 m^2, 1.2 kg/m^3.
   const auto d =
       diagnose(drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }));
   expect_alone(d, "air.quadratic_drag", 0.48, 0.52);
@@ -81,8 +81,8 @@ TEST(Diagnose, NamesDryFrictionOfAnAxis) {
   expect_alone(d, "axis.coulomb", 0.095, 0.105);
 }
 
-// A name may be the wrong one, so another effect is bounded by the size it would have in the name's place:
-// dry friction of 0.1 N m at speeds of 2 rad/s and more takes viscous friction of up to 0.05 N m s.
+// The name that was found may be wrong. So the upper bound of another effect is the size that it would have
+// instead: dry friction of 0.1 N m at speeds of 2 rad/s and more equals viscous friction of up to 0.05 N m s.
 TEST(Diagnose, BoundsAnEffectByItsSizeInPlaceOfWhatWasFound) {
   const auto d = diagnose(swings([](double, double w, double) { return -0.1 * std::tanh(w / 0.01); }));
   const auto viscous = std::ranges::find(d.absent, "axis.viscous", &Bound::id);
@@ -101,7 +101,7 @@ TEST(Diagnose, NamesATorqueScale) {
   expect_alone(d, "axis.torque_scale", 0.055, 0.065);
 }
 
-// Of up to 2 N m a fifth is lost at 1 N m, and no more of it above.
+// Torques of up to 2 N m; from 1 N m on a fifth is lost.
 TEST(Diagnose, NamesASaturationAndTheTorqueWhereItEnds) {
   const auto d = diagnose(
       swings([](double, double, double torque) { return -0.2 * std::min(1.0, torque * torque) * torque; }));
@@ -112,7 +112,8 @@ TEST(Diagnose, NamesASaturationAndTheTorqueWhereItEnds) {
   EXPECT_NEAR(parameters[1].value, 1.0, 0.1);
 }
 
-// A drive that filters its speed once a row is not late, nor is it early, by the half row that this leaves.
+// A drive filters its speed once per row. The remaining half row must be named neither a delay nor an
+// advance.
 TEST(Diagnose, ALowPassThatRunsOnceARowIsNoSkew) {
   constexpr double kBandwidth_Hz = 20.0;
   auto recordings = swings([](double, double, double) { return 0.0; }, 1, 8);
@@ -131,13 +132,14 @@ TEST(Diagnose, ALowPassThatRunsOnceARowIsNoSkew) {
   EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
-// An axis is simulated in stretches. A reading that is late shows at the start of one what was before.
+// An axis is simulated in blocks. At the start of a block a late reading shows the motion of the block
+// before.
 TEST(Diagnose, ALateReadingOfAnAxisShowsWhatWasBeforeAStretch) {
   const auto recordings = swings([](double, double, double) { return 0.0; }, 1, 1);
   std::string why;
   const auto trial = make_plant(PlantKind::rotary_axis)->trial(recordings.trials[0], recordings.belief, why);
   ASSERT_NE(trial, nullptr) << why;
-  const auto rows = trial->rows.size(), half = rows / 2;  // positions, then velocities
+  const auto rows = trial->rows.size(), half = rows / 2;  // first half: positions; second half: velocities
   const double late_s = trial->rows[1].time_s - trial->rows[0].time_s;
   Edits edits;
   edits.sensor("position_rad", SensorEdit::Kind::delay_s, late_s);
@@ -151,8 +153,9 @@ TEST(Diagnose, ALateReadingOfAnAxisShowsWhatWasBeforeAStretch) {
     if (trial->rows[k].block == trial->rows[k - 1].block) continue;
     ASSERT_EQ(trial->rows[half + k].time_s, trial->rows[k].time_s);
     const double speed = on_time[half + k];
-    EXPECT_NEAR(late[k], on_time[k], 3.0 * read_noise_rad) << k;    // begun where it was read,
-    EXPECT_NEAR(late[k + 1] - late[k], late_s * speed, 3e-4) << k;  // on its way
+    // the block begins at the angle that was read
+    EXPECT_NEAR(late[k], on_time[k], 3.0 * read_noise_rad) << k;
+    EXPECT_NEAR(late[k + 1] - late[k], late_s * speed, 3e-4) << k;  // and then follows with the delay
     swiftest = std::max(swiftest, late_s * std::abs(speed));
     ++stretches;
   }
@@ -161,7 +164,7 @@ TEST(Diagnose, ALateReadingOfAnAxisShowsWhatWasBeforeAStretch) {
 }
 
 TEST(Diagnose, StatesTheClassWhereAConstantForceHasTwoExplanations) {
-  // A constant share of the weight: carried by the medium, or spent on fluid that moves along.
+  // A constant share of the weight: buoyancy, or added mass of the fluid.
   const auto d = diagnose(drops([](double, double, double) { return 0.05 * 0.2 * 9.81; }));
   ASSERT_EQ(d.verdict, Verdict::missing_physics);
   EXPECT_EQ(d.detail, Detail::one_of_class);
@@ -174,7 +177,7 @@ TEST(Diagnose, StatesTheClassWhereAConstantForceHasTwoExplanations) {
 }
 
 TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
-  // A tether that tightens below 3.5 m.
+  // A tether that becomes tight below 3.5 m.
   const auto d = diagnose(
       drops([](double, double h, double) { return 0.4 * std::max(0.0, 3.5 - h) * (h < 3.0 ? 1.0 : 0.0); }));
   EXPECT_EQ(d.verdict, Verdict::unknown_physics) << to_text(d) << ::testing::PrintToString(d.log);
@@ -184,8 +187,7 @@ TEST(Diagnose, SaysUnknownAtThePortWhereNothingOnTheListFits) {
 }
 
 TEST(Diagnose, ANameThatClosesTheGapStaysWhereAnAccelerometerIsFarNoisierThanItsSensor) {
-  // The body tumbles: what it adds to the accelerometer comes and goes, and is twenty times the sensor's
-  // noise.
+  // The body tumbles: this adds a slowly varying part to the accelerometer, twenty times the sensor's noise.
   constexpr double kTumbles_mps2 = 1.0, kStays = 0.998;
   auto recordings = drops([](double, double, double v) { return -0.01 * std::abs(v) * v; });
   for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
@@ -203,7 +205,7 @@ TEST(Diagnose, ANameThatClosesTheGapStaysWhereAnAccelerometerIsFarNoisierThanIts
 }
 
 TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
-  // Drag, and a spring far weaker that begins at 3 m and is on no list.
+  // Drag, and a much weaker spring that begins at 3 m and is on no list.
   const auto d = diagnose(drops(
       [](double, double h, double v) { return -0.03 * std::abs(v) * v + 0.1 * std::max(0.0, 3.0 - h); }));
   EXPECT_EQ(d.verdict, Verdict::missing_physics) << to_text(d);
@@ -220,7 +222,7 @@ TEST(Diagnose, ANameThatClosesMostOfTheGapStaysWhateverIsLeft) {
 }
 
 TEST(Diagnose, ABedThatRemembersTheTouchIsUnknownAtTheGround) {
-  // Softer by half for the first 50 ms, at eight times from the slowest to the fastest press.
+  // The bed is softer after touchdown: by half at first, decaying with a time constant of 50 ms.
   const auto d = diagnose(presses([](double, double) { return 0.0; }, 1, 8,
                                   [](double since_s) { return -0.5 * std::exp(-since_s / 0.05); }));
   EXPECT_EQ(d.verdict, Verdict::unknown_physics) << to_text(d) << ::testing::PrintToString(d.log);
@@ -268,7 +270,7 @@ TEST(Diagnose, TellsWhatAMissingChannelRulesOut) {
   EXPECT_THAT(d.notes, Contains(::testing::HasSubstr("accel_mps2")));
 }
 
-// The rows say what the errors by channel sum up.
+// The squares of the residual rows must sum to the errors that are reported by channel.
 TEST(Diagnose, ItsResidualsAreTheErrorsItReports) {
   const auto d = diagnose(drops([](double, double, double v) { return -0.003 * std::abs(v) * v; }, 1, 6));
   const auto lines = residuals_csv(d);

@@ -15,23 +15,23 @@ std::size_t heights(const Problem& problem) {
       std::ranges::count_if(problem.trials.front()->rows, [](const Row& row) { return row.channel == 0; }));
 }
 
-// A sample that is early against its row may show a body that has landed by then: 30 mm too high at 10 m/s,
-// in every trial.
+// The time of a sample is uncertain within its row, so a height near the ground may be one after landing: 30
+// mm too high at 10 m/s.
 TEST(DiagnoseFallingBody, WhereTheBodyMayHaveLandedNoHeightCounts) {
   auto recordings = drops([](double, double, double) { return 0.0; }, 1, 1);
   const std::size_t all = heights(prepare(recordings).problem);
   auto& height = recordings.trials.front().channels["height_m"];
   const auto last = std::find_if(height.rbegin(), height.rend(), [](double h) { return std::isfinite(h); });
-  *last = 0.008;  // with 3 mm of noise
+  *last = 0.008;  // has 3 mm of noise
   EXPECT_EQ(heights(prepare(recordings).problem), all - 1);
   *last = 0.02;
   EXPECT_EQ(heights(prepare(recordings).problem), all);
   *last = 0.008;
-  recordings.trials.front().setup.erase("release_height_m");  // heights over who knows what
+  recordings.trials.front().setup.erase("release_height_m");  // heights above an unknown zero
   EXPECT_EQ(heights(prepare(recordings).problem), all);
 }
 
-// Heights that go on below 0 are not those of a body that lies on the ground at 0; those that stay there are.
+// A body on the ground stays at height 0. If the heights go on below 0, it has not landed.
 TEST(DiagnoseFallingBody, ABodyThatFallsOnBelowZeroHasNotLanded) {
   auto recordings = drops([](double, double, double) { return 0.0; }, 1, 1);
   const std::size_t all = heights(prepare(recordings).problem);
@@ -43,8 +43,8 @@ TEST(DiagnoseFallingBody, ABodyThatFallsOnBelowZeroHasNotLanded) {
   EXPECT_LT(heights(prepare(recordings).problem), all);
 }
 
-// Heights that read 60 mm too much and stand still at the end: it lies there. What sinks slowly and what is
-// only slow to be sampled goes on.
+// The heights read 60 mm too much and are constant at the end: the body lies on the ground. A slowly sinking
+// body, or one that is sampled slowly, still moves.
 TEST(DiagnoseFallingBody, HeightsThatStandStillAtTheEndAreTheGround) {
   constexpr double kNoise_m = 0.005;
   Random random(5, 0);
@@ -69,7 +69,7 @@ TEST(DiagnoseFallingBody, HeightsThatStandStillAtTheEndAreTheGround) {
   EXPECT_FALSE(landed_after_s(sinks, kNoise_m).has_value());
 }
 
-// A sensor at 180 Hz in rows at 500 Hz: its samples stand three or two rows apart and are up to one old.
+// A sensor at 180 Hz in rows at 500 Hz: its samples are three or two rows apart and up to one row old.
 TEST(DiagnoseFallingBody, HeightsOfAClockOfTheirOwnAreAsUnsureAsTheyAreFast) {
   auto recordings = drops([](double, double, double) { return 0.0; }, 1, 1);
   EXPECT_EQ(prepare(recordings).problem.trials.front()->rows.front().relative_sd, 1.0);
@@ -89,8 +89,8 @@ TEST(DiagnoseFallingBody, HeightsOfAClockOfTheirOwnAreAsUnsureAsTheyAreFast) {
   EXPECT_NEAR(last->relative_sd, fell_mps * 0.005 / std::sqrt(12.0) / 0.003, 0.1 * last->relative_sd);
 }
 
-// Blow taken out where the accelerometer was at its limit: the bed began before it, though a height that is
-// late shows it only afterwards.
+// Samples of the impact were removed at the accelerometer's limit. The bed begins before this gap, even if a
+// delayed height shows it only afterwards.
 TEST(DiagnoseFallingBody, ABlowThatIsNotThereIsWhereTheBedBegan) {
   Samples accels;
   for (int i = 0; i < 200; ++i)
@@ -98,11 +98,12 @@ TEST(DiagnoseFallingBody, ABlowThatIsNotThereIsWhereTheBedBegan) {
   const auto began_s = gap_around_s(accels, 0.112);
   ASSERT_TRUE(began_s.has_value());
   EXPECT_NEAR(*began_s, 0.099, 1e-9);
-  EXPECT_FALSE(gap_around_s(accels, 0.19).has_value());  // that one is something else
+  EXPECT_FALSE(gap_around_s(accels, 0.19).has_value());  // a gap at another time
 }
 
-// A ball thrown upwards with only an accelerometer on it: set-ups give a speed without saying which way. In
-// air that is known the two ways read differently; in none they read the same, and down it stays.
+// A ball thrown upwards with an accelerometer only. The set-up gives the speed without its direction. If the
+// air's drag is known, the directions differ in the recording; without drag they do not, and downward is
+// assumed.
 TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
   const auto thrown = [](double drag_coefficient, double believed) {
     constexpr double kMass_kg = 0.045, kArea_m2 = 0.0113, kDensity = 1.2, kStep_s = 1e-4;
@@ -143,8 +144,8 @@ TEST(DiagnoseFallingBody, WithoutHeightsTheAirTellsAThrowUpwards) {
   EXPECT_EQ(more.effects.front().id, "air.quadratic_drag");
 }
 
-// A typical drag takes a tenth of the weight at the speed that was reached: not that of a fall where a body
-// sinks.
+// The typical drag is a tenth of the weight at the speed that the body reached. A sinking body is slower than
+// in free fall.
 TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
   const auto speed_mps = [](double drag_N_s_per_m) {
     const auto sinking = drops([=](double, double, double v) { return -drag_N_s_per_m * v; });
@@ -154,7 +155,7 @@ TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
   EXPECT_NEAR(speed_mps(1.0), 0.2 * 9.81, 0.1);
 }
 
-// Its drag is of another form than those on the list; a small fault of the camera makes up for that.
+// The drag has another form than those on the list. A small camera fault compensates the difference.
 TEST(DiagnoseFallingBody, ABodyThatOpensHasNoConfidentName) {
   auto recordings =
       drops([](double t_s, double, double v) { return t_s > 0.3 ? -0.006 * std::abs(v) * v : 0.0; }, 4);
@@ -171,8 +172,8 @@ bool says_unknown(const Diagnosis& d) {
   return std::ranges::any_of(d.effects, [](const FoundEffect& e) { return e.id == "unknown@body"; });
 }
 
-// A small fault of a sensor beside a large law is unknown where a law of free form in the fault's place says
-// more, and a fault where it does not.
+// A small sensor fault beside a large law is answered as unknown if a free-form law in place of the fault
+// explains more; otherwise as the fault.
 TEST(DiagnoseFallingBody, AFaultThatOnlyMendsTheFormOfALawIsUnknown) {
   const auto drag = [](double factor_from_0_3_s) {
     return [=](double t_s, double, double v) {
@@ -190,7 +191,8 @@ TEST(DiagnoseFallingBody, AFaultThatOnlyMendsTheFormOfALawIsUnknown) {
     EXPECT_TRUE(std::ranges::any_of(d.effects, [&](const FoundEffect& e) { return e.id == id; })) << id;
 }
 
-// A coefficient means little where a short fall of a heavy body hardly shows it: 0.1 of the weight matters.
+// In a short fall of a heavy body the coefficient is badly determined. The typical size must still be a tenth
+// of the weight.
 TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
   for (const double mass_kg : {0.2, 20.0}) {
     auto recordings = drops([](double, double, double) { return 0.0; }, 1, 2);
@@ -208,7 +210,7 @@ TEST(DiagnoseFallingBody, ADragOfTheTypicalSizeIsFelt) {
   }
 }
 
-// A body that hardly sinks stays within its noise for as long as one that is held would.
+// A body that hardly sinks stays within the noise for as long as a body that is held.
 TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
   constexpr double kCarried = 0.9;  // of its weight
   auto recordings = drops([](double, double, double) { return kCarried * 0.2 * 9.81; });
@@ -224,7 +226,8 @@ TEST(DiagnoseFallingBody, ABodyThatSinksSlowlyWasNotHeld) {
                                      [](const Nuisance& n) { return n.name == "release_time_s"; }));
 }
 
-// Bodies of three masses in water: a balance that reads 5 % too little, or 10 g on each that nobody weighed.
+// Bodies of three masses in water: a balance that reads 5 % too little, or 10 g on each body that were not
+// weighed.
 TEST(DiagnoseFallingBody, WhatIsOnEveryBodyIsAMassAsABalanceThatIsOffIs) {
   constexpr double kVolume_m3 = 1e-4, kLightest_kg = 0.2, kMiddle_kg = 0.3;
   for (const bool in_proportion : {true, false}) {
@@ -232,7 +235,7 @@ TEST(DiagnoseFallingBody, WhatIsOnEveryBodyIsAMassAsABalanceThatIsOffIs) {
     for (std::size_t i = 0; i < 9; ++i) {
       const double mass_kg = kLightest_kg * (1.0 + 0.5 * static_cast<double>(i % 3));
       const double is_kg = in_proportion ? 1.05 * mass_kg : mass_kg + 0.01;
-      // `drops` divides by its own mass and knows neither fluid nor these bodies.
+      // `drops` divides by its own mass and knows neither the fluid nor these bodies.
       auto one = drops(
           [&](double, double, double v) {
             const double force_N =

@@ -11,13 +11,13 @@
 #include "tools/diagnose/fit/signatures.hpp"
 #include "tools/diagnose/model/signal.hpp"
 
-// How fits converge, and the derivatives they rest on.
+// Convergence of fits, and the derivatives that they use.
 namespace sandhopper::diagnose {
 namespace {
 
 constexpr std::size_t kRows = 40;
 
-// One nuisance z; row k predicts curve(z) (1 + k / 40).
+// A model with one nuisance z: row k predicts curve(z) (1 + k / 40).
 class Curve final : public TrialModel {
  public:
   Curve(double (*curve)(double), double measured_at, double sd, double step) : curve_(curve) {
@@ -44,8 +44,8 @@ Problem with(std::unique_ptr<TrialModel> trial) {
   return problem;
 }
 
-// sin(40 z) / 40 has the slope 1 at zero; over +-0.08, two and a half times what z may plausibly move by, its
-// secant has a slope of -0.02.
+// sin(40 z) / 40 has the slope 1 at zero. Over +-0.08, which is 2.5 times the plausible range of z, the
+// secant's slope is -0.02.
 TEST(DiagnoseFit, ADerivativeIsTakenOverNoMoreThanTheNuisanceMayMoveBy) {
   const Problem problem =
       with(std::make_unique<Curve>([](double z) { return std::sin(40.0 * z) / 40.0; }, 0.0, 0.032, 0.08));
@@ -53,7 +53,7 @@ TEST(DiagnoseFit, ADerivativeIsTakenOverNoMoreThanTheNuisanceMayMoveBy) {
   EXPECT_GT(columns.front().shared(0, 0), 0.9);
 }
 
-// A ripple on a slope: where it is flattest, a full step goes three times too far.
+// A slope with a ripple: where it is flattest, a full Newton step goes three times too far.
 TEST(DiagnoseFit, ATrialThatAFullStepOvershootsGoesOnInShorterOnes) {
   const auto ripple = [](double z) { return z + 0.2 * std::sin(4.0 * z); };
   Problem problem = with(std::make_unique<Curve>(ripple, 0.9, 10.0, 0.01));
@@ -77,7 +77,7 @@ Recordings hops(std::size_t count) {
   return r;
 }
 
-// A fit that ended must have nothing to gain from derivatives that are made where it ended.
+// At the end of a fit, derivatives computed there must not promise a further gain.
 TEST(DiagnoseFit, AFitThatEndedGainsNothingFromDerivativesMadeThere) {
   Problem problem = prepare(hops(3)).problem;
   Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
@@ -112,7 +112,7 @@ TEST(DiagnoseFit, SignaturesAreTheSimulationWithALittleOfEachEffect) {
     }
 }
 
-// Of sin(w t) the mean over a window T is sin(w t) sin(w T / 2) / (w T / 2).
+// The mean of sin(w t) over a window T is sin(w t) sin(w T / 2) / (w T / 2).
 TEST(DiagnoseSignal, AShareOfWhatIsRecordedIsTheMeanOverAWindow) {
   constexpr double kOmega = 900.0, kWindow_s = 2e-3;
   Signal signal{0.0, 1e-4, {}};

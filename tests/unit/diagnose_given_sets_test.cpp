@@ -12,11 +12,11 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Recordings of other laboratories with a physicist's answer beside them (given_real_sets.md): what must be
-// named, within his bounds, and how much nearer the model comes to trials it was not fitted to.
+// Recordings of other laboratories with a physicist's answer (given_real_sets.md): effects that must be
+// named, bounds, and the least improvement on held-out trials.
 class DiagnoseGivenSets : public ::testing::Test {
  protected:
-  // False, said loudly, where the recordings are not there.
+  // Prints a warning and returns false if the recordings do not exist.
   bool run(const std::string& name) {
     const auto folder = std::filesystem::path(SANDHOPPER_SOURCE_DIR).parent_path() / "shared/data" / name;
     if (!std::filesystem::exists(folder / "campaign.toml")) {
@@ -62,7 +62,7 @@ TEST_F(DiagnoseGivenSets, AThrownPhoneIsSlowedByTheSquareOfItsSpeed) {
 
 TEST_F(DiagnoseGivenSets, ASphereThatEntersWaterTakesWaterAlong) {
   if (!run("water_entry_sphere")) GTEST_SKIP();
-  constexpr double kDragPerCoefficient = 0.5 * 998.0 * 0.00155179;  // of 1 kg, 1/m
+  constexpr double kDragPerCoefficient = 0.5 * 998.0 * 0.00155179;  // of 1 kg, in 1/m
   ASSERT_TRUE(names("air.quadratic_drag")) << to_text(answer_);
   EXPECT_GT(kDragPerCoefficient * value("air.quadratic_drag"), 0.13);
   EXPECT_LT(kDragPerCoefficient * value("air.quadratic_drag"), 0.42);
@@ -73,8 +73,8 @@ TEST_F(DiagnoseGivenSets, ASphereThatEntersWaterTakesWaterAlong) {
   EXPECT_LT(share_of_error_left(), 0.35);
 }
 
-// The drive is off and its torque zero: what is typical comes from gravity. Four trials, three effects at
-// once and a speed that is late besides: friction of some kind, and inertia or gravity.
+// The drive is off and the torque is 0, so typical sizes come from gravity. Four trials contain three effects
+// and a late velocity: friction of some kind, and inertia or gravity must be named.
 TEST_F(DiagnoseGivenSets, AServoThatSwingsFreeHasFriction) {
   if (!run("servo_passive")) GTEST_SKIP();
   EXPECT_TRUE(names("axis.inertia") || names("axis.gravity")) << to_text(answer_);

@@ -6,11 +6,11 @@
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/plants/ground_laws.hpp"
 
-// What pushes do to a bed, and the line along which it gives back.
+// Effect of earlier pushes on a bed, and its unloading line.
 namespace sandhopper::diagnose {
 namespace {
 
-// Two pushes lowered the surface by 10 mm each; of the 60 mm to the floor 40 are left.
+// Two pushes lowered the surface by 10 mm each, so the floor at 60 mm is 40 mm below it.
 TEST(DiagnoseGround, TheFloorStaysWhereItIsUnderACrater) {
   Edits edits;
   edits.law(LawPort::ground_surface, [](const GroundState& s) { return -0.01 * s.pushes; });
@@ -20,8 +20,8 @@ TEST(DiagnoseGround, TheFloorStaysWhereItIsUnderACrater) {
   EXPECT_NEAR(laws.quasi_static_N(1.0, 0.03), 1.0 + 0.04 - 0.03, 1e-12);
 }
 
-// A line a third as steep as believed, beside a mass beyond the load cell. A yielding rig and a gain do about
-// the same, and the believed line made steeper changes nothing.
+// The true unloading line is a third as steep as the belief, and a mass lies beyond the load cell. A yielding
+// rig and a gain would fit almost as well; making the believed line steeper changes nothing.
 TEST(DiagnoseGround, ASofterUnloadingLineIsNotAYieldingRig) {
   constexpr double kMass_kg = 0.2;
   auto recordings = presses([](double, double) { return 0.0; });

@@ -11,8 +11,8 @@ namespace {
 
 double nothing(const PortState&) { return 0.0; }
 
-// What only a sensor reads otherwise needs no new run; an encoder's law reaches the controller, and one that
-// nothing tells apart from others needs its own.
+// A change that affects only the reading of one sensor needs no new run. A law of an encoder affects the
+// controller; without a key that identifies it, its run cannot be shared.
 TEST(DiagnoseHopperRuns, AreSharedByWhatOnlyASensorReadsOtherwise) {
   const std::vector<double> nuisances{0.1, -0.2};
   Edits plain;
@@ -40,7 +40,7 @@ TEST(DiagnoseHopperRuns, AreSharedByWhatOnlyASensorReadsOtherwise) {
   EXPECT_TRUE(HopperRuns::key(at_port, nuisances).empty());
 }
 
-// A run is made once for all that is read of it, and a sensor's readings once for what others read otherwise.
+// A run is simulated once for all sensors. A sensor's reading is computed again only if this sensor changes.
 TEST(DiagnoseHopperRuns, AReadingIsMadeAgainOnlyWhereItsOwnSensorReadsOtherwise) {
   HopperRuns runs(2);
   Edits plain;
@@ -71,7 +71,7 @@ TEST(DiagnoseHopperRuns, AReadingIsMadeAgainOnlyWhereItsOwnSensorReadsOtherwise)
   read(plain, 1.0, 0.5);
   EXPECT_EQ(made_runs, 1);
   EXPECT_EQ(made_readings, 3);
-  // Of runs that were asked for once the oldest goes; one that was asked for again stays.
+  // The oldest of the runs that were requested once is dropped. A run that was requested again stays.
   for (const double plant : {2.0, 3.0, 4.0}) read(plain, plant, 0.0);
   EXPECT_EQ(made_runs, 4);
   read(plain, 1.0, 0.5);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kSwitch_s = 0.25;
 
-// Its phases are imposed.
+// A simulated hop with given times of the phase changes.
 Trial hop(std::uint64_t seed = 0, double release_m = 0.04, double switch_s = kSwitch_s,
           double compression_stiffness_N_per_m = 375.0) {
   const std::vector<PhaseChange> phases{{0.0, HopperPhase::flight},
@@ -51,8 +51,8 @@ double largest_error(const Trial& trial, const std::string& channel, const Edits
   return largest;
 }
 
-// The command jumps where the phase changes. Without the leg's angle just there (an encoder that shows the
-// same count at its turning point passes for stuck) the jump came gradually: several amperes off.
+// The command jumps at the phase change. An encoder that repeats a count at its turning point may be taken
+// for stuck and removed; then the command must not be interpolated over the jump (error of several amperes).
 TEST(DiagnoseHopper, AnglesThatAreMissingBeforeTheSwitchDoNotSmearTheCommand) {
   Trial trial = hop();
   const double whole_A = largest_error(trial, "motor_left_current_A");
@@ -66,8 +66,8 @@ TEST(DiagnoseHopper, AnglesThatAreMissingBeforeTheSwitchDoNotSmearTheCommand) {
   EXPECT_LT(without_A, whole_A + 0.05);
 }
 
-// The simulated leg follows what was commanded, whatever the controller is believed to be; the commands
-// themselves tell which it was.
+// The simulated leg follows the recorded commands, independent of the assumed controller. So only the command
+// channels may show the controller's true stiffness.
 TEST(DiagnoseHopper, AnotherStiffnessOfTheControllerShowsInTheCommandsAlone) {
   const double factor = 1.12;
   const Trial trial = hop(0, 0.04, kSwitch_s, factor * 375.0);
@@ -83,7 +83,7 @@ TEST(DiagnoseHopper, AnotherStiffnessOfTheControllerShowsInTheCommandsAlone) {
   EXPECT_LT(largest_error(trial, "motor_left_current_A", true_stiffness), 0.5);
 }
 
-// The row of each command with the phase whose noise it has.
+// Time of each row of the commands, and the phase whose noise it has.
 std::vector<std::pair<double, std::string>> command_rows(const Trial& trial) {
   std::string why;
   const auto plant = make_plant(PlantKind::hopper);
@@ -96,7 +96,8 @@ std::vector<std::pair<double, std::string>> command_rows(const Trial& trial) {
   return rows;
 }
 
-// Around an impact a sensor's noise is another one. A command's is not: damped aloft, exact on the ground.
+// Sensors have more noise around an impact. Commands do not: the controller's own phase determines their
+// noise.
 TEST(DiagnoseHopper, ACommandHasTheNoiseOfTheControllersOwnPhase) {
   const auto rows = command_rows(hop(3));
   ASSERT_GT(rows.size(), 100u);
@@ -112,7 +113,8 @@ TEST(DiagnoseHopper, ACommandHasTheNoiseOfTheControllersOwnPhase) {
   }
 }
 
-// Without a recorded speed what is commanded aloft follows from the simulation's own, to a digit too many.
+// Without a recorded speed the commands in flight would follow from the simulated speed, and no error would
+// show.
 TEST(DiagnoseHopper, WithoutASpeedCommandsAreNoEvidence) {
   Trial trial = hop(3);
   for (const char* side : {"left", "right"})
@@ -127,7 +129,7 @@ TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
     EXPECT_EQ(found.size(), 1u);
     return found.empty() ? 0.0 : found.front();
   };
-  // Until the leg turns by itself the motion is the same.
+  // The switch time is imposed, so a later one gives the same motion up to there.
   const double due_s = kSwitch_s - late(kSwitch_s);
   EXPECT_NEAR(late(kSwitch_s + 0.01) - late(kSwitch_s), 0.01, 1e-9);
   const auto broken = [&](double later_s) {
@@ -143,8 +145,8 @@ TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
   EXPECT_NEAR(broken(0.008).front().value, 0.008, 0.001);
 }
 
-// A leg that still swings where it lands, shorter than in flight by hardly more than the rule asks for, may
-// or may not be due: the controller's own reading said that it was not.
+// A leg that still swings at touchdown has a deflection barely above the limit of the switch. The encoder's
+// noise decides if the switch is due, so it must not be called late.
 TEST(DiagnoseHopper, ASwitchThatIsDueByTheEncodersNoiseIsNotLate) {
   auto world = world_of(Belief{}, {});
   const Leg leg(world.robot.leg);
@@ -168,10 +170,10 @@ TEST(DiagnoseHopper, ASwitchThatIsDueByTheEncodersNoiseIsNotLate) {
   const double otherwise = late(0.0);
   EXPECT_EQ(late(0.0042), otherwise);
   EXPECT_LT(otherwise, 0.01);
-  EXPECT_EQ(late(0.006), 0.02);  // as much as is told
+  EXPECT_EQ(late(0.006), 0.02);  // the largest delay that is reported
 }
 
-// A height that is 4 mm off would have it fall further, or begin inside the ground.
+// The height is off by 4 mm. Taken literally the leg would fall further or begin inside the ground.
 TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
   constexpr double kOff_m = 0.004;
   const std::vector<PhaseChange> phases{{0.0, HopperPhase::compression}};
@@ -187,12 +189,12 @@ TEST(DiagnoseHopper, ALegToBeHeldIsAtRestOnTheSurfaceWhereItIsLetGo) {
   EXPECT_EQ(let_go.foot_z_m, 0.0);
   EXPECT_EQ(let_go.foot_velocity_mps, 0.0);
   EXPECT_EQ(let_go.angular_velocity_radps, 0.0);
-  // One that stands is where the height says.
+  // A body that already stands is at the height that is read.
   for (double& a : trial.channels.at("imu_body_accel_z_mps2")) a = 9.81;
   EXPECT_NEAR(course_of(trial, leg, 0.3).hops.front().state.foot_z_m, kOff_m, 2e-3);
 }
 
-// Beds of another stiffness in every trial, as stiff grains as fluctuate, and what `hidden` does to the
+// Hops on beds whose stiffness differs from trial to trial, with fluctuating strength. `hidden` changes the
 // ground.
 Recordings hops_on_sand(const std::function<void(Edits&)>& hidden) {
   constexpr double kStiffness[]{-0.03, 0.02, 0.04, -0.01, 0.03, -0.05};
@@ -217,9 +219,10 @@ Recordings hops_on_sand(const std::function<void(Edits&)>& hidden) {
   return r;
 }
 
-// What differs from trial to trial bends to a law that is missing: a foot that bears only over some depth is
-// taken for a surface and for grains that are the same in all trials. No deviance shows it, the lean does,
-// and only beside the believed nuisances a search sees what bends them.
+// Nuisance parameters absorb a missing law: a foot that bears its full load only below some depth looks like
+// another surface height and like equal strength fluctuations in all trials. The deviance does not show it.
+// The common offset of the nuisances over the trials does, and a search with the nuisances at their prior
+// mean finds the law.
 TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
   const auto tilted = [](Edits& edits) {
     edits.law(LawPort::ground_factor, [](const GroundState& s) { return -std::exp(-s.depth_m / 5e-3); });
@@ -255,7 +258,7 @@ TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
   EXPECT_LT(tilt.left, 4.0);
 }
 
-// Whatever a hopper may have changes nothing when it is off, and something at its typical size.
+// Every effect of the hopper must change nothing at size 0 and something at its typical size.
 TEST(DiagnoseHopper, EveryEffectActsAtItsTypicalSizeAndNothingActsAtNone) {
   Recordings r;
   r.plant = PlantKind::hopper;

@@ -12,7 +12,7 @@
 // Hops in memory for the tests of the diagnosis.
 namespace sandhopper::diagnose {
 
-// A hop from `release_m` for `to_s`, with `edits` in the world.
+// A hop released at `release_m`, lasting `to_s`, with `edits` of the world.
 inline HopperRun hop_from(double release_m, double to_s, const Edits& edits = {}) {
   HopperRun run;
   run.world = world_of(Belief{}, edits);
@@ -22,8 +22,8 @@ inline HopperRun hop_from(double release_m, double to_s, const Edits& edits = {}
   return run;
 }
 
-// A run as accelerometers, encoders, drives, load cell and height sensor would record it at 1 kHz, with the
-// commands, and the phases where they are imposed. `seed` 0: without noise.
+// A run as accelerometers, encoders, drives, load cell and height sensor record it at 1 kHz, with the
+// commands, and with the phases if they are imposed. `seed` 0: no noise.
 inline Trial recorded(const HopperRun& run, const Edits& edits = {}, std::uint64_t seed = 0) {
   const auto traces = simulate_hopper(run, edits);
   const auto& robot = run.world.robot;

@@ -6,7 +6,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 
-// Times, biases and sizes at the edge of what passes for a tolerance.
+// Delays, biases and sizes near the limit of the tolerances.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -16,7 +16,7 @@ constexpr double kPressRow_s = 2e-3;  // of `presses`
 double no_torque(double, double, double) { return 0.0; }
 double no_force(double, double, double) { return 0.0; }
 
-// A channel as it was `rows` before.
+// Delays a channel by `rows` rows.
 void make_late(Recordings& recordings, const std::string& channel, int rows) {
   for (auto& trial : recordings.trials) {
     const auto before = trial.channels[channel];
@@ -27,8 +27,8 @@ void make_late(Recordings& recordings, const std::string& channel, int rows) {
   }
 }
 
-// `swings` holds its torque for a row, which makes everything else half a row late. Two samples' lateness is
-// more than instants of sampling may be off, and no tolerance stands for it.
+// `swings` holds its torque for a row, which makes everything else half a row late. A delay of two samples
+// exceeds the uncertainty of sampling instants, so no tolerance may absorb it.
 TEST(DiagnoseLate, ADriveOutOfTimeIsNamedWithAnIntervalNoNarrowerThanSampling) {
   auto recordings = swings(no_torque, 1, 10);
   for (auto& trial : recordings.trials) trial.channels.erase("velocity_radps");
@@ -41,10 +41,11 @@ TEST(DiagnoseLate, ADriveOutOfTimeIsNamedWithAnIntervalNoNarrowerThanSampling) {
   EXPECT_GT(found.probability, 0.8);
   const auto& late = found.parameters.front();
   EXPECT_NEAR(std::abs(late.value), 1.5 * kRow_s, 1e-3);
-  EXPECT_GT(late.high - late.low, 2.0 * 0.29 * kRow_s);  // standard deviation of an instant within a row
+  EXPECT_GT(late.high - late.low, 2.0 * 0.29 * kRow_s);  // 0.29: standard deviation of an instant that is
+                                                         // uniform within a row
 }
 
-// The torque's and the position's stamps late by the same would say it, too.
+// An equal delay of torque and position would be an equivalent explanation.
 TEST(DiagnoseLate, AVelocityThatIsEarlyIsOneSkew) {
   auto recordings = swings(no_torque, 1, 10);
   make_late(recordings, "velocity_radps", -2);
@@ -56,7 +57,7 @@ TEST(DiagnoseLate, AVelocityThatIsEarlyIsOneSkew) {
   EXPECT_NEAR(d.effects.front().parameters.front().value, -1.5 * kRow_s, 1e-3);
 }
 
-// Late against the force is the position, or the force early: the recorded velocity tells.
+// Position late against force, or force early: the recorded velocity decides.
 TEST(DiagnoseLate, OfAnIntrudersTwoChannelsTheOneThatIsLateIsNamed) {
   const auto bed = [](double, double) { return 0.0; };
   for (const std::string channel : {"foot_z_m", "force_N"}) {
@@ -72,13 +73,13 @@ TEST(DiagnoseLate, OfAnIntrudersTwoChannelsTheOneThatIsLateIsNamed) {
   }
 }
 
-// Over a time without torque an axis is not simulated: what was interpolated there is not what acted.
+// An axis is not simulated while its torque is unknown, because an interpolated torque is not the true one.
 TEST(DiagnoseGaps, AnAxisWhoseTorqueIsUnknownForAWhileShowsNothing) {
   auto recordings = swings(no_torque);
   const auto whole = diagnose(recordings);
   for (auto& trial : recordings.trials) {
     auto& torque = trial.channels["torque_Nm"];
-    for (const std::size_t from : {150u, 300u, 450u})  // 0.24 s of the drive's period of 2.5 s each
+    for (const std::size_t from : {150u, 300u, 450u})  // 0.24 s each; the drive's period is 2.5 s
       for (std::size_t i = from; i < from + 60; ++i) torque[i] = std::nan("");
   }
   const auto d = diagnose(recordings);
@@ -88,7 +89,7 @@ TEST(DiagnoseGaps, AnAxisWhoseTorqueIsUnknownForAWhileShowsNothing) {
     EXPECT_LT(d.fits[c].heldout.after, 1.1 * whole.fits[c].heldout.after) << d.fits[c].channel;
 }
 
-// y = F - m a, a upwards: a mass beyond the cell is positive.
+// y = F - m a with a upwards: a mass beyond the cell has a positive sign.
 TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
   auto recordings = presses([](double, double) { return 0.0; });
   for (auto& trial : recordings.trials) {
@@ -102,8 +103,8 @@ TEST(DiagnoseLoadCell, AMassBeyondItIsPositive) {
   EXPECT_NEAR(d.effects.front().parameters.front().value, 0.15, 0.01);
 }
 
-// Twelve trials show a clock that is fast by 3e-4 with p near 0.02 for all candidates together, by 5e-4 with
-// p < 1e-3.
+// In twelve trials a clock that is fast by 3e-4 is significant with p near 0.02 over all candidates, one by
+// 5e-4 with p < 1e-3.
 TEST(DiagnoseSmall, WhatIsBarelyThereIsNamedAloneButNotConfidently) {
   const auto with_fast_clock = [](double drift) {
     auto recordings = drops(no_force, 7, 12);
@@ -135,7 +136,7 @@ TEST(DiagnoseSmall, ADragOfATwentiethOfItsTypicalSizeIsNoUnknown) {
   EXPECT_NEAR(d.effects.front().parameters.front().value, 0.025, 0.005);
 }
 
-// In a fall it shows nothing but noise: what it may be off is not bounded by that.
+// In free fall an accelerometer shows only noise, which does not bound its offset.
 TEST(DiagnoseSmall, AFallingAccelerometerMayBeOffByMoreThanItShows) {
   auto recordings = drops(no_force);
   for (auto& trial : recordings.trials)
@@ -148,11 +149,11 @@ TEST(DiagnoseSmall, AFallingAccelerometerMayBeOffByMoreThanItShows) {
   EXPECT_NEAR(d.effects.front().parameters.front().value, -0.4, 0.02);
 }
 
-// Where each sample is 50 steps and more from the last, three alike are no chance.
+// In a fall successive samples differ by 50 steps or more, so three equal ones are no chance.
 TEST(DiagnoseSmall, ThreeHeightsAlikeInAFallWereHeld) {
   auto recordings = drops(no_force);
   for (auto& trial : recordings.trials) {
-    auto& height = trial.channels["height_m"];  // every other row
+    auto& height = trial.channels["height_m"];  // fills every other row
     for (double& h : height) h = std::round(1e4 * h) / 1e4;
     const std::size_t at = height.size() / 2 / 2 * 2;
     height[at + 2] = height[at + 4] = height[at];
@@ -165,7 +166,7 @@ TEST(DiagnoseSmall, ThreeHeightsAlikeInAFallWereHeld) {
   EXPECT_EQ(d.effects.size(), 1u);
 }
 
-// Noise of two steps does not rest for fifteen samples, although the torque itself does where it turns.
+// At a turning point the torque itself rests, but noise of two steps does not rest for fifteen samples.
 TEST(DiagnoseSmall, WhatIsHeldAtATurnIsSeenByItsNoise) {
   constexpr double kStep_Nm = 0.05;
   constexpr std::ptrdiff_t kHalf = 7;
@@ -184,7 +185,7 @@ TEST(DiagnoseSmall, WhatIsHeldAtATurnIsSeenByItsNoise) {
   const auto stuck =
       std::ranges::find_if(d.effects, [](const FoundEffect& e) { return e.id == "data.stuck"; });
   ASSERT_NE(stuck, d.effects.end());
-  // One of the ten lies at the very end of the range, where a sensor may rest on its limit.
+  // One of the ten lies at the end of the range, where a sensor may rest at its limit.
   EXPECT_NE(stuck->statement.find("still 9 times"), std::string::npos) << stuck->statement;
 }
 

@@ -8,8 +8,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// 0.8 Nm sin(2 theta) throws the axis onto another course within half a second: what it does to the angle is
-// no multiple of its size, and one linear step does not find that.
+// 0.8 N m sin(2 theta) changes the course of the axis within half a second. The change of the angle is not
+// proportional to the law's size, so one linear step does not find it.
 TEST(DiagnoseLawFit, ALawOfFreeFormIsFittedThroughTheSimulation) {
   constexpr double kScale_Nm = 0.5, kTorque_Nm = 0.8;
   const Problem problem =
@@ -31,8 +31,8 @@ TEST(DiagnoseLawFit, ALawOfFreeFormIsFittedThroughTheSimulation) {
             0.05 * deviance_of(problem, null.point, problem.channels));
 }
 
-// A fit takes several iterations from the null; what is worse than would be of use whatever it still gains is
-// left where it is, and what may come below is not.
+// A fit needs several iterations. It stops early if it cannot reach `of_use_below` any more, and continues if
+// it can.
 TEST(DiagnoseLawFit, WhatCannotComeNearIsGivenUp) {
   const Problem problem =
       prepare(swings([](double, double velocity, double) { return -0.08 * velocity; }, 1, 4)).problem;

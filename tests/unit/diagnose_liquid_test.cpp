@@ -18,8 +18,8 @@ struct Entry {
   double added_mass_kg = 0.0, over_m = 0.006, drag_coefficient = 0.0;
 };
 
-// A body that falls freely for 60 ms and meets water with 2 to 5 m/s; an accelerometer at 2 kHz with
-// 0.05 m/s^2 of noise. Integrated apart from the diagnosis (semi-implicit, 20 us).
+// A body falls freely for 60 ms and enters water at 2 to 5 m/s; accelerometer at 2 kHz with 0.05 m/s^2 of
+// noise. The integrator (semi-implicit, 20 us) is independent of the diagnosis.
 Recordings entries(const Entry& e, std::size_t trials = 8) {
   constexpr double kStep_s = 2e-5, kFree_s = 0.06, kEnd_s = 0.16;
   Recordings r;
@@ -72,7 +72,7 @@ TEST(DiagnoseLiquid, WhatTheBodyTakesAlongIsTakenUpLittleByLittle) {
   ASSERT_TRUE(mass != nullptr && drag != nullptr) << to_text(d);
   EXPECT_GT(mass->probability, 0.5);
   EXPECT_GT(drag->probability, 0.5);
-  // Here the drag begins at once, there over a quarter of the body.
+  // In the recordings the drag begins at once; the diagnosis lets it grow over a quarter of the body.
   EXPECT_NEAR(mass->parameters[0].value, 0.01, 0.003);
   EXPECT_NEAR(mass->parameters[1].value, 0.006, 0.002);
   EXPECT_NEAR(drag->parameters[0].value, 0.45, 0.05);
@@ -85,7 +85,7 @@ TEST(DiagnoseLiquid, TheBlowIsFoundWhereABodyFellFreely) {
     const auto entry_s = liquid_entry_s(accels, kGravity_mps2);
     ASSERT_TRUE(entry_s.has_value());
     EXPECT_NEAR(*entry_s, 0.06, 1e-3);
-    for (double& a : accels.value) a += kGravity_mps2;  // held: it reads its weight
+    for (double& a : accels.value) a += kGravity_mps2;  // the body is held, so it reads its weight
     EXPECT_FALSE(liquid_entry_s(accels, kGravity_mps2).has_value());
   }
 }
@@ -94,7 +94,7 @@ TEST(DiagnoseLiquid, AShareOfTheBodyIsWetted) {
   EXPECT_EQ(wetted_share(-0.01, 0.04), 0.0);
   EXPECT_DOUBLE_EQ(wetted_share(0.01, 0.04), 0.25);
   EXPECT_EQ(wetted_share(0.1, 0.04), 1.0);
-  EXPECT_EQ(wetted_share(-0.01, 0.0), 1.0);  // the medium is all around
+  EXPECT_EQ(wetted_share(-0.01, 0.0), 1.0);  // the medium is everywhere
   Belief belief;
   belief.numbers["body.frontal_area_m2"] = 1e-2 * M_PI;
   EXPECT_DOUBLE_EQ(body_length_m(belief), 0.2);

@@ -52,7 +52,8 @@ TEST(DiagnoseManyTrials, BeginWhereSomeOfThemEnded) {
     EXPECT_EQ(all.candidates[carried.front().hypothesis.candidates[e]].label(), some.candidates[e].label());
 }
 
-// Half a standard deviation in every trial is no more with forty trials than with twelve.
+// An offset of half a standard deviation in every trial must not count more with forty trials than with
+// twelve.
 TEST(DiagnoseManyTrials, LeanAsTwelveOfThemDo) {
   for (const std::size_t trials : {12u, 40u}) {
     const Problem problem = prepare(drops(nothing, 1, trials)).problem;

@@ -74,7 +74,7 @@ TEST(DiagnoseMisfit, TheUnknownIsPlacedAtThePortOfTheNearestPhysicsNotOfASensor)
   EXPECT_EQ(d.effects.size(), 1u);
 }
 
-// A tether that tightens below 3 m.
+// A tether that becomes tight below 3 m.
 double tether(double, double height_m, double) { return 0.4 * std::max(0.0, 3.0 - height_m); }
 double nothing(double, double, double) { return 0.0; }
 
@@ -91,7 +91,7 @@ TEST(DiagnoseMisfit, MoreThanTheNoiseIsLeftWhereSomethingIsMissing) {
   EXPECT_GT(left_of(drops(tether)), 1.5);
 }
 
-// Hum has another phase in every trial: no law of time, depth or force finds it, and it passes for noise.
+// Hum has another phase in every trial. No law of time, depth or force describes it, so it looks like noise.
 TEST(DiagnoseMisfit, WhatScattersFarBeyondItsSensorIsUnknownThere) {
   auto recordings = presses([](double, double) { return 0.0; }, 3, 8);
   EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
@@ -124,7 +124,7 @@ TEST(DiagnoseMisfit, NamesThatLeaveOtherTrialsNoNearerGainNothing) {
   EXPECT_GT(gain(0.9), 0.0);
   EXPECT_EQ(gain(1.0), 0.0);
   EXPECT_LT(gain(1.1), 0.0);
-  // What trials no longer differ by is a gain, too.
+  // A lower prior cost of the nuisance parameters counts as a gain, too.
   const Nuisance& release = problem.trials.front()->trial_nuisances.front();
   ASSERT_TRUE(release.may_lean);
   null.nuisances.front().front() = 3.0 * release.sd;
@@ -150,8 +150,9 @@ TEST(DiagnoseMisfit, TrialsLeanByWhatTheyHaveInCommon) {
   Point point = null_point(problem);
   EXPECT_EQ(largest_lean(problem, point).z, 0.0);
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    point.nuisances[t][0] = -1.5 * problem.trials[t]->trial_nuisances[0].sd;                       // alike
-    point.nuisances[t][1] = (t % 2 == 0 ? 5.0 : -5.0) * problem.trials[t]->trial_nuisances[1].sd;  // not
+    point.nuisances[t][0] = -1.5 * problem.trials[t]->trial_nuisances[0].sd;  // equal in all trials
+    // different between trials
+    point.nuisances[t][1] = (t % 2 == 0 ? 5.0 : -5.0) * problem.trials[t]->trial_nuisances[1].sd;
   }
   const auto lean = largest_lean(problem, point);
   EXPECT_EQ(lean.nuisance, first[0].name);

@@ -11,7 +11,7 @@
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 
-// Model error in the likelihood, and the evidence of a size.
+// Model error in the likelihood, and the evidence of an effect's size.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -42,7 +42,7 @@ TEST(DiagnoseModelError, LowRankWhiteningIsThatOfTheDenseCovariance) {
   EXPECT_LT(low_rank.taken_up(), 5.0);
 }
 
-// Against the trapezoidal rule on a fine grid of the size itself.
+// Compared with the trapezoidal rule on a fine grid of the size.
 TEST(DiagnoseModelError, TheSizeOfAnEffectIsIntegratedUnderItsLogNormalPrior) {
   const auto by_trapezoids = [](double best, double sd, bool either_sign) {
     const double spread = kLimits.size_spread, step = 1e-4;
@@ -60,7 +60,7 @@ TEST(DiagnoseModelError, TheSizeOfAnEffectIsIntegratedUnderItsLogNormalPrior) {
       for (const bool either_sign : {false, true}) {
         if (!either_sign && best < 0.0) continue;
         const double expected = by_trapezoids(best, sd, either_sign);
-        if (expected < -500.0) continue;  // beyond what a double holds
+        if (expected < -500.0) continue;  // below the range of a double
         EXPECT_NEAR(log_integral_over_size(best, sd, either_sign), expected, 2e-3)
             << best << " +- " << sd << (either_sign ? ", either sign" : "");
       }
@@ -83,7 +83,7 @@ Recordings hops_with_liftoff(double later_s, std::size_t count) {
     Trial trial = recorded(run, {}, i + 1);
     for (std::size_t k = 0; k < trial.time_s.size(); ++k)
       trial.channels["phase"][k] = static_cast<double>(phase_at(phases, trial.time_s[k]));
-    // A command is what a controller makes of its phase, exactly.
+    // Commands are left out: they follow exactly from the recorded phase.
     for (const char* side : {"left", "right"})
       trial.channels.erase("command_" + std::string(side) + "_torque_Nm");
     trial.name = std::to_string(i);
@@ -93,7 +93,7 @@ Recordings hops_with_liftoff(double later_s, std::size_t count) {
   return r;
 }
 
-// Deviance of each trial over its rows, with the noise of the sensors and with model error beside it.
+// Mean squared whitened residual per row, with sensor noise alone and with model error added.
 struct PerRow {
   double noise_alone = 0.0, with_model_error = 0.0;
 };
@@ -118,7 +118,8 @@ PerRow per_row(const Recordings& recordings) {
   return out;
 }
 
-// The row in which a phase changed says so to within a row: the other half of it is nobody's physics.
+// A recorded phase change is known only to one row. A liftoff that is half a row off must not count as a
+// misfit.
 TEST(DiagnoseModelError, ALiftoffHalfARowOffTheRecordedOneIsNoMisfit) {
   const auto as_recorded = per_row(hops_with_liftoff(0.0, 4)), off = per_row(hops_with_liftoff(4e-4, 4)),
              far = per_row(hops_with_liftoff(4e-3, 4));

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A tenth more drag than believed: as well a body a tenth lighter.
+// A tenth more drag than believed, or equally a body that is a tenth lighter.
 Recordings more_drag() {
   auto r = drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.55 * std::abs(v) * v; });
   r.belief.numbers["medium.drag_coefficient"] = 0.5;
@@ -20,7 +20,7 @@ Recordings more_drag() {
   return r;
 }
 
-// As more_drag(), and the lab has weights and can throw the body down.
+// As more_drag(), in a lab that has weights and can throw the body down.
 Recordings more_drag_with_payloads() {
   auto r = more_drag();
   r.available["payload_kg"] = {{0.1, 0.2, 0.6}, false, {}};
@@ -43,11 +43,11 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
   double apart = 0.0;
   for (std::size_t i = 0; i < d.next.time_s.size(); ++i)
     apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
-  // Hundreds of samples settle it together; one need not.
+  // Hundreds of samples decide together; a single sample need not.
   EXPECT_GT(apart, 0.3 * d.next.floor);
 }
 
-// A lab that has no weights is told which set-up would help, not sent to buy one.
+// A lab without weights gets the set-up that would help as information, not as a proposal to buy one.
 TEST(DiagnoseNextTrial, ProposesNoSetUpThatTheLabDoesNotHave) {
   const auto d = diagnose(more_drag());
   ASSERT_EQ(d.detail, Detail::one_of_class);
@@ -58,8 +58,8 @@ TEST(DiagnoseNextTrial, ProposesNoSetUpThatTheLabDoesNotHave) {
     EXPECT_LE(d.next.setup.at("release_height_m"), 7.0);
 }
 
-// Air slows the fall by a third: a planned trial lasts until the body as it is now believed lands, not four
-// times a free fall, and counts nothing below the ground.
+// Air slows the fall by a third. A planned trial must last until the body lands according to the corrected
+// model, not four times a free fall, and must not count rows below the ground.
 TEST(DiagnoseNextTrial, PlansADropThatAirSlowsUntilItLands) {
   constexpr double kDrag_kg_per_m = 0.044, kBelieved_kg_per_m = 0.04, kMass_kg = 0.2;
   auto recordings = drops([](double, double, double v) { return -kDrag_kg_per_m * std::abs(v) * v; });
@@ -83,7 +83,7 @@ TEST(DiagnoseNextTrial, PlansADropThatAirSlowsUntilItLands) {
   EXPECT_NEAR(d.next.time_s.back(), landing_s, 0.1 * landing_s);
 }
 
-// A drive that acts late and a torque whose stamps are early are the same recordings, whatever is recorded.
+// A drive that acts late and a torque with early time stamps give the same recordings, whatever is recorded.
 TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
   auto recordings = swings([](double, double, double) { return 0.0; }, 1, 10);
   for (auto& trial : recordings.trials) {
@@ -127,7 +127,7 @@ TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {
   EXPECT_FALSE(json.at("next_trial").at("why").get<std::string>().empty());
 }
 
-// What a page needs: both simulations beside the recording, and errors in every phase that has samples.
+// Contents of a page: both simulations beside the recording, and errors in every phase with samples.
 TEST(DiagnoseReport, ShowsTracesWhoseErrorFallsToTheFloorOnHeldOutTrials) {
   const auto d = diagnose(drops([](double, double, double v) { return -0.01 * v; }));
   ASSERT_FALSE(d.traces.empty());
@@ -149,7 +149,7 @@ TEST(DiagnoseReport, ShowsTracesWhoseErrorFallsToTheFloorOnHeldOutTrials) {
   for (const auto& error : d.phase_errors) EXPECT_LT(error.after, 1.4 * error.floor) << error.channel;
 }
 
-// 1 cm of release height that every trial has more than its set-up says, beside a spread of 5 mm.
+// In every trial the release height is 1 cm larger than in its set-up; the spread is 5 mm.
 TEST(DiagnoseReport, TellsTheMeanOfWhatDiffersFromTrialToTrial) {
   auto recordings = drops([](double, double, double) { return 0.0; });
   for (auto& trial : recordings.trials) trial.setup["release_height_m"] -= 0.01;

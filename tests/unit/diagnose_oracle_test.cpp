@@ -11,7 +11,7 @@
 #include "tools/diagnose/fit/prepare.hpp"
 #include "tools/diagnose/fit/signatures.hpp"
 
-// The linear algebra of the diagnosis against dense matrices that are written down as its equations are.
+// Compares the linear algebra of the diagnosis with dense matrices written as in the equations.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -24,8 +24,8 @@ class EmptyTrial final : public TrialModel {
   void predict(const Edits&, std::span<const double>, std::span<double>) const override {}
 };
 
-// A first-order autoregression of unit variance has the covariance a^|i - j|, cut where a row is not used,
-// where a block ends and between channels.
+// A first-order autoregression of unit variance has the covariance a^|i - j|. It is 0 across an unused row,
+// across the end of a block, and between channels.
 TEST(DiagnoseOracle, WhiteningIsThatOfTheDenseCovarianceOfAnAutoregression) {
   constexpr Index kRows = 24;
   constexpr double kA = 0.7;
@@ -57,7 +57,7 @@ TEST(DiagnoseOracle, WhiteningIsThatOfTheDenseCovarianceOfAnAutoregression) {
   EXPECT_LT((whitening * covariance * whitening.transpose() - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-// X'X - X'Z (Z'Z + S^-1)^-1 Z'X with X and Z by differences of the prediction and dense matrices.
+// X'X - X'Z (Z'Z + S^-1)^-1 Z'X, with X and Z from differences of the prediction, as dense matrices.
 TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
   const auto prepared = prepare(swings([](double, double, double) { return 0.0; }, 1, 2));
   const Problem& problem = prepared.problem;
@@ -73,7 +73,7 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
     MatrixXd x(centre.size(), 1 + static_cast<Index>(directions.size()));
     x.col(0) = residual_of(trial, centre);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-      constexpr double kStep = 0.1;  // of a tolerance's scale
+      constexpr double kStep = 0.1;  // relative to the tolerance's scale
       ASSERT_GE(directions[i].tolerance, 0);
       Edits moved;
       problem.tolerances[static_cast<std::size_t>(directions[i].tolerance)].put(moved, kStep);
@@ -91,7 +91,7 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
           n < shared
               ? trial.trial_nuisances[k]
               : trial.block_nuisances[static_cast<std::size_t>(n - shared) % trial.block_nuisances.size()];
-      // As wide as the program's: over no more than half a standard deviation; one-sided for a block's.
+      // The same step as in the program: at most half a standard deviation, one-sided for a block's nuisance.
       const double step = std::min(nuisance.step, 0.5 * sd), back = n < shared ? step : 0.0;
       auto more = point.nuisances[t], less = more;
       more[k] += step;
@@ -111,7 +111,7 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
   }
 }
 
-// Eliminating columns over all trials together is the Schur complement of the stacked system.
+// Columns that are eliminated over all trials together must give the Schur complement of the stacked system.
 TEST(DiagnoseOracle, EliminatedColumnsLeaveTheSchurComplementOfAllTrials) {
   Random random(3, 0);
   std::vector<TrialLinear> trials(4);
@@ -126,8 +126,8 @@ TEST(DiagnoseOracle, EliminatedColumnsLeaveTheSchurComplementOfAllTrials) {
   const VectorXd prior = Eigen::Vector2d(5.0, 0.1);
   MatrixXd gone = pooled.bottomRightCorner(kGone, kGone);
   gone.diagonal() += prior;
-  // The prior's own part stands in no trial's matrix: with T the regression, sum T'AT + T'PT is the
-  // complement.
+  // The prior's term belongs to no single trial: with T the regression, the Schur complement is sum T'AT +
+  // T'PT.
   const MatrixXd regression = gone.ldlt().solve(pooled.bottomLeftCorner(kGone, kKept));
   const MatrixXd schur =
       pooled.topLeftCorner(kKept, kKept) - pooled.topRightCorner(kKept, kGone) * regression;

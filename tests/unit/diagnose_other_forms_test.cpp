@@ -8,7 +8,7 @@
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/plant/random.hpp"
 
-// Laws written in another form than this project's are the same effects.
+// Effects whose law has another form than in this project must get the same name.
 namespace sandhopper::diagnose {
 namespace {
 
@@ -53,7 +53,8 @@ TEST(DiagnoseOtherForms, AnEccentricEncoderIsEccentricForTheVelocityAsWell) {
   }
 }
 
-// A bed that grows stiffer with every push shows in nothing but the stiffness that trials may differ by.
+// A bed that becomes stiffer with every push: this shows only in the stiffness, which may differ from trial
+// to trial.
 TEST(DiagnoseOtherForms, WhatShowsFromTrialToTrialOnlyIsNamed) {
   auto recordings = presses([](double, double) { return 0.0; }, 24, 9);
   recordings.belief.numbers["spread.bed_stiffness_relative"] = 0.03;
@@ -71,8 +72,8 @@ TEST(DiagnoseOtherForms, WhatShowsFromTrialToTrialOnlyIsNamed) {
   EXPECT_GT(d.effects.front().probability, 0.9);
 }
 
-// A force that comes and goes in time, anew in each trial, goes with nothing recorded; of a body that falls
-// there is one port.
+// A force that varies in time, differently in each trial, correlates with no recorded quantity. A falling
+// body has one port, so it acts there.
 TEST(DiagnoseOtherForms, WhatGoesWithNothingActsAtThePlantsOnlyPort) {
   int trial = -1;
   double before_s = 1e9;

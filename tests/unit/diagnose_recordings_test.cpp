@@ -14,11 +14,11 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The ready campaigns over other laboratories' recordings: what a physicist would sign for, within bounds on
-// both sides, and an error on held-out trials that falls.
+// The ready campaigns of other laboratories. The answer must be one that a physicist would accept, within
+// bounds on both sides, and the error on held-out trials must fall.
 class DiagnoseRecordings : public ::testing::Test {
  protected:
-  // False, said loudly, where the recordings are not there.
+  // Prints a warning and returns false if the recordings do not exist.
   bool run(const std::string& name, std::size_t most_effects) {
     const auto campaign = shared_campaign(name);
     if (!campaign) return false;
@@ -32,13 +32,13 @@ class DiagnoseRecordings : public ::testing::Test {
     return diagnose(read_campaign(campaign).recordings, options);
   }
 
-  // The same recordings against the corrected model.
+  // The same recordings with the corrected model.
   Diagnosis again(std::size_t most_effects) const {
     namespace fs = std::filesystem;
     const fs::path source = fs::path(SANDHOPPER_SOURCE_DIR) / "config/campaigns" / name_;
     std::stringstream campaign;
     campaign << std::ifstream(source / "campaign.toml").rdbuf();
-    // Found by their own place, since the copy lies in another folder.
+    // Finds the recordings from the original folder, because the copy of the campaign is elsewhere.
     ::setenv("SANDHOPPER_DATA", load_campaign(source).recordings.parent_path().c_str(), 1);
     CampaignFolder folder;
     folder.write("campaign.toml", campaign.str());
@@ -99,12 +99,12 @@ TEST_F(DiagnoseRecordings, HeavyBallsAreConsistentAndTheCameraIsNotBlamed) {
   EXPECT_LT(drag->value, 2.0);
 }
 
-// Over these depths a power law and a bed that stiffens towards its floor are nearly one curve.
+// Over these depths a power law and a bed that stiffens towards its floor are almost the same curve.
 TEST_F(DiagnoseRecordings, PlatesMeetABedThatStiffensWithDepth) {
   if (!run("plates_on_springs", 3)) GTEST_SKIP();
   EXPECT_EQ(answer_.verdict, Verdict::missing_physics);
   ASSERT_TRUE(found("terrain.depth_power_law") != nullptr || found("terrain.floor_stiffening") != nullptr);
-  // Found together the two share what stiffens.
+  // If both are found, each explains a part of the stiffening.
   if (found("terrain.depth_power_law") != nullptr && found("terrain.floor_stiffening") == nullptr) {
     EXPECT_GT(value("terrain.depth_power_law"), 1.2);
     EXPECT_LT(value("terrain.depth_power_law"), 1.45);

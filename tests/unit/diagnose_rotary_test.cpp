@@ -16,8 +16,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// The simulated axis follows what the torque's sensor says, noise and all: over half a second 0.1 Nm of white
-// noise at 250 Hz moves 0.1 kg m2 by several times the encoder's noise.
+// The simulated axis follows the recorded torque with its noise. White noise of 0.1 N m at 250 Hz moves 0.1
+// kg m^2 within half a second by several times the encoder's noise.
 TEST(DiagnoseRotary, NoiseOfTheTorquesSensorIsNoErrorOfTheAngle) {
   constexpr double kNoise_Nm = 0.1;
   auto recordings = swings([](double, double, double) { return 0.0; }, 1, 8);
@@ -36,7 +36,7 @@ TEST(DiagnoseRotary, NoiseOfTheTorquesSensorIsNoErrorOfTheAngle) {
   EXPECT_LT(angle->heldout.after, 1.2 * angle->floor);
 }
 
-// A drive that is off acts on nothing; its torque's sensor has a zero of its own that nobody wrote down.
+// A drive that is off makes no torque; its torque sensor has an offset that the belief does not state.
 TEST(DiagnoseRotary, AZeroOfTheTorqueThatNobodyStatedIsNoTorque) {
   auto recordings = swings([](double, double, double torque_Nm) { return -torque_Nm; }, 4, 6);
   recordings.belief.numbers["sensors.torque_noise_Nm"] = 0.03;
@@ -52,8 +52,8 @@ TEST(DiagnoseRotary, AZeroOfTheTorqueThatNobodyStatedIsNoTorque) {
   for (const auto& fit : d.fits) EXPECT_LT(fit.heldout.before, 1.2 * fit.floor) << fit.channel;
 }
 
-// A motion begins where the encoder says: one that is off is an arm that hangs at another angle, in any
-// trial.
+// A simulated motion begins at the encoder's reading. So in every trial an encoder offset equals another rest
+// angle of the arm.
 TEST(DiagnoseRotary, NoTrialTellsAnEncoderThatIsOffFromAnArmThatHangsElsewhere) {
   auto recordings = swings([](double, double, double) { return 0.0; }, 2, 6);
   for (auto& trial : recordings.trials)
@@ -67,7 +67,7 @@ TEST(DiagnoseRotary, NoTrialTellsAnEncoderThatIsOffFromAnArmThatHangsElsewhere) 
   EXPECT_TRUE(d.next.setup.empty()) << d.next.why;
 }
 
-// Of each channel in turn: at the end of 2.5 s it is 50 ms off, six times what a stretch leads in.
+// A fast clock on each channel in turn: 50 ms off after 2.5 s, six times the lead-in of a block.
 TEST(DiagnoseRotary, AClockThatRunsFastIsFoundOnItsChannelAndAlone) {
   constexpr double kDrift = 0.02;
   for (const char* channel : {"position_rad", "velocity_radps", "torque_Nm"}) {
@@ -91,8 +91,8 @@ TEST(DiagnoseRotary, AClockThatRunsFastIsFoundOnItsChannelAndAlone) {
   }
 }
 
-// Inertia, gravity and torque that are all smaller by the same move a frictionless axis as before, with all
-// that is unsure of the torque's sensor.
+// If inertia, gravity and torque are smaller by one factor, a frictionless axis moves as before. The
+// uncertainties of the torque sensor must scale as well.
 TEST(DiagnoseRotary, ATorqueThatActsInPartIsAsUnsureInThatPart) {
   constexpr double kPart = 0.4;
   auto recordings = swings([](double, double, double) { return 0.0; }, 4, 1);
@@ -122,9 +122,9 @@ TEST(DiagnoseRotary, ATorqueThatActsInPartIsAsUnsureInThatPart) {
   EXPECT_GT(moved, 1e-3);
 }
 
-// A hand that pushes once, in one trial, outweighs all friction.
+// A hand that pushes once in one trial has more effect than all friction.
 TEST(DiagnoseRotary, WhatHappensOnceIsToldAndLeftOut) {
-  constexpr long kSteps = 125000, kTrial = 3, kFrom = 70000, kTo = 75000;  // of 20 us
+  constexpr long kSteps = 125000, kTrial = 3, kFrom = 70000, kTo = 75000;  // in steps of 20 us
   constexpr double kCoulomb_Nm = 0.1, kPush_Nm = 20.0;
   long step = 0;
   const auto d = diagnose(swings(
@@ -143,9 +143,9 @@ TEST(DiagnoseRotary, WhatHappensOnceIsToldAndLeftOut) {
   EXPECT_EQ(told, 1);
 }
 
-// Straight lines between 200 rows a second cut the peaks of a torque of 4 Hz by (2 pi 4 / 200)^2 / 12 = 0.13
-// %, and a torque that stays through a step by as much again: together what a scale of 0.25 % would be taken
-// for.
+// Linear interpolation between 200 rows per second reduces the peaks of a torque of 4 Hz by (2 pi 4 / 200)^2
+// / 12 = 0.13 %, and a torque that is held through a step by the same amount. Together this would look like a
+// scale error of 0.25 %.
 TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
   constexpr double kRate_radps = 2.0 * M_PI * 4.0, kAmplitude_rad = 0.3, kRow_s = 5e-3, kInertia_kg_m2 = 0.1;
   Belief belief;
@@ -169,7 +169,7 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
   ASSERT_NE(trial, nullptr) << why;
   std::vector<double> out(trial->rows.size());
   trial->predict({}, std::vector<double>(trial->nuisance_count(), 0.0), out);
-  // Of each stretch what is not how it began: a share of the motion.
+  // Fits the error of each block with a constant, a drift and a share of the motion. The share must be 0.
   for (std::uint32_t b = 0; b < trial->blocks; ++b) {
     std::vector<Eigen::Vector3d> columns;
     std::vector<double> short_by;
@@ -179,7 +179,7 @@ TEST(DiagnoseRotary, ATorqueInSlowRowsIsAsLargeAsItIsBetweenThem) {
       columns.emplace_back(1.0, row.time_s, row.measured);
       short_by.push_back(row.measured - out[i]);
     }
-    if (columns.size() < 60) continue;  // half a swing and more
+    if (columns.size() < 60) continue;  // more than half a swing
     Eigen::MatrixXd a(columns.size(), 3);
     for (std::size_t i = 0; i < columns.size(); ++i) a.row(static_cast<Eigen::Index>(i)) = columns[i];
     const Eigen::Vector3d share =
@@ -194,7 +194,7 @@ TEST(DiagnoseRotary, ANearbySineIsTheSine) {
       EXPECT_NEAR(NearbySine(at)(at + d), std::sin(at + d), 2e-9) << at;
 }
 
-// Three clamped trials, in which torque moves nothing, say nothing of the axis' motion and are left out by
+// In three clamped trials torque moves nothing. They carry no information on the axis and must be left out by
 // name.
 TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
   auto recordings = swings([](double, double, double) { return 0.0; });
@@ -215,10 +215,10 @@ TEST(DiagnoseRotary, AClampedAxisIsNoAxisThatDoesNotFollow) {
   EXPECT_EQ(diagnose(recordings).verdict, Verdict::consistent);
 }
 
-// Without an encoder the angle is where the set-up says, and gravity what it is there: in an axis that stands
-// still, a torque that reads 2.0 / 2.6 of what it is says the same.
+// Without an encoder the trial begins at the angle of its set-up, where gravity is known. For an axis at rest
+// a torque that reads 2.0 / 2.6 of its true value explains the same data.
 TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
-  for (const double gravity_Nm : {2.0, 2.6}) {  // 2 are believed
+  for (const double gravity_Nm : {2.0, 2.6}) {  // the belief is 2.0
     auto recordings = swings([](double, double, double) { return 0.0; }, 1, 8);
     for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
       Random random(9, i);
@@ -247,7 +247,7 @@ TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
   }
 }
 
-// A drive that is off says nothing of what is large: gravity does.
+// The drive is off and gives no scale for the effects; gravity does.
 TEST(DiagnoseRotary, APendulumThatSwingsFreeHasFrictionOfItsOwnSize) {
   constexpr double kInertia_kg_m2 = 0.1, kGravityTorque_Nm = 2.0, kViscous_Nm_s = 0.03, kStep_s = 2e-5;
   Recordings r = swings([](double, double, double) { return 0.0; });

@@ -10,8 +10,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// A camera of 240 frames a second, two plates, speeds from a creep to a blow, and a steep line back: what the
-// camera leaves unsure of the turning depth is newtons on that line, and no physics.
+// Camera at 240 Hz, two plates, speeds from slow to impact, and a steep unloading line. The camera's
+// uncertainty of the turning depth is several newtons on this line and must not be named as physics.
 TEST(DiagnoseSimulatedPresses, OurOwnAgreeWithTheirBelief) {
   CampaignFolder folder;
   CampaignMakerSetup setup;

@@ -45,7 +45,7 @@ TEST(DiagnoseStatistics, SignFlipsCannotSayMoreThanTheNumberOfTrialsAllows) {
   EXPECT_DOUBLE_EQ(sign_flip_p_value(all, 0, 1), 1.0 / 8.0);
 }
 
-// Against all choices of signs, counted out.
+// Compared with an enumeration of all sign combinations.
 TEST(DiagnoseStatistics, SignedRanksCountEverySign) {
   const std::vector<double> all{3.0, 0.1, 40.0, 2.0, 5.0, 0.7, 9.0, 1.0};
   EXPECT_DOUBLE_EQ(signed_rank_p_value(all), 1.0 / 256.0);
@@ -65,21 +65,21 @@ TEST(DiagnoseStatistics, EffectiveTrialsAreThoseThatCarryTheInformation) {
   EXPECT_NEAR((TrialEvidence{{1, 1, 1, 1}, {100, 1e-3, 1e-3, 1e-3}}.effective_trials()), 1.0, 1e-3);
 }
 
-// Products of residual and one column, information h and score u, of a trial.
+// Products of residual and one column of a trial: score u and information h.
 Eigen::MatrixXd gram_of(double u, double h) { return Eigen::MatrixXd{{1e3, u}, {u, h}}; }
 
 TEST(DiagnoseStatistics, WhatOtherTrialsSayNothingOfIsNotPredicted) {
   const Eigen::MatrixXd prior = Eigen::MatrixXd::Constant(1, 1, 0.25);
-  // One trial alone knows the size, the others hardly: their guess must not be held against it.
+  // Only one trial determines the size. The predictions from the others must not count against it.
   const auto alone =
       held_out_gain({gram_of(1e4, 1e4), gram_of(-0.03, 1e-3), gram_of(-0.03, 1e-3)}, {1}, prior);
   EXPECT_NEAR(alone.of_trial[0], 0.0, 100.0);  // at full size it would cost 5,300
-  // Three that agree predict each other.
+  // Three consistent trials predict each other.
   const auto agree = held_out_gain({gram_of(90, 100), gram_of(100, 100), gram_of(110, 100)}, {1}, prior);
   for (const double gain : agree.of_trial) EXPECT_GT(gain, 70.0);
 }
 
-// What is screened beside a tolerance that has gone as far as it may is not held against where it would go.
+// Screening beside a tolerance at its limit must not count on a further change of this tolerance.
 TEST(DiagnoseFit, AToleranceAtItsLimitIsHeld) {
   Problem problem;
   problem.tolerances = {{"time of a channel", 1e-4, "height_m"}, {"time of another", 1e-4, "force_N"}};
@@ -97,7 +97,7 @@ class RowsOnly final : public TrialModel {
 };
 
 TEST(DiagnoseNoise, NoPastPredictsBetterThanTheSensorsOwnNoise) {
-  // A residual as smooth as a wave seems predictable to a thousandth; the sensor's noise of 0.1 is not.
+  // A residual as smooth as a wave seems predictable to a thousandth, but the sensor's noise of 0.1 is not.
   RowsOnly trial;
   constexpr std::size_t kRows = 2000;
   Eigen::VectorXd residual(kRows);
@@ -112,7 +112,8 @@ TEST(DiagnoseNoise, NoPastPredictsBetterThanTheSensorsOwnNoise) {
 }
 
 TEST(DiagnosePlants, GrainsMakeOfAWholePressWhatTheirCorrelationSays) {
-  // Variance of the mean over a depth D of an exponentially correlated fluctuation: about 2 L / D of its own.
+  // Variance of the mean over a depth D of an exponentially correlated fluctuation: about 2 L / D times its
+  // own.
   constexpr double kLength_m = 0.002, kDepth_m = 0.04, kRelative = 0.02;
   const BedGrains grains(kRelative, kLength_m, kDepth_m, kLength_m, 40);
   std::mt19937_64 generator(7);

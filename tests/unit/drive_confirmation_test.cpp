@@ -17,7 +17,7 @@ using ::testing::Not;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-// Two motors whose currents follow the command by `gain`, two cycles late, with an offset.
+// Two motors whose currents follow the command with `gain` and an offset, two cycles late.
 struct Motors {
   std::array<double, kMotorCount> gain{1.0, 1.0};
   double offset_A = 0.0;
@@ -105,7 +105,7 @@ TEST(DriveEnable, IsActiveFromTheStartAndDropsOnceForGood) {
   {
     DriveEnable relay([&](bool active) {
       levels.push_back(active);
-      return levels.size() != 2;  // the first try to open it fails
+      return levels.size() != 2;  // the first attempt to open the relay fails
     });
     EXPECT_EQ(levels, std::vector<bool>{true});
     relay.drop();

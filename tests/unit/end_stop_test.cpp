@@ -13,7 +13,7 @@ bool strikes(double accel_mps2, const CycleConfig& config = cycle_config(RobotCo
   return strikes_end_stop(body, config);
 }
 
-// 1.6 kg and half of 250 N: 78.125 m/s^2.
+// Half of 250 N at a body of 1.6 kg: 78.125 m/s^2.
 TEST(EndStop, IsABlowOfHalfTheLoadCellsRangeOnTheBody) {
   EXPECT_FALSE(strikes(78.0));
   EXPECT_TRUE(strikes(78.2));

@@ -11,12 +11,12 @@
 
 namespace sandhopper {
 
-// A disk with so many bytes free, that fails or dawdles when told to. Room that is allocated is taken, as a
-// file system takes it; one file writes to it.
+// A disk with limited space that can fail or be slow. Allocated space counts as used, as in a file system.
+// Only one file is written to it.
 class FailingDisk {
  public:
   std::atomic<std::int64_t> capacity_bytes{INT64_MAX};
-  std::atomic<int> write_error{0};  // every write fails with it
+  std::atomic<int> write_error{0};  // errno of every write; 0: no error
   std::atomic<int> sync_error{0};
   std::atomic<std::int64_t> delay_us{0};  // of each write
   std::atomic<bool> can_allocate{true};

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGravity = 9.81, kStep_s = 5e-4;
 
-// A body released in water that falls 2 s, meets a bed r = k z^1.5 v^0.2 and comes to rest.
+// A body that is released in water, falls for 2 s, enters a bed with r = k z^1.5 v^0.2 and comes to rest.
 struct Drop {
   std::vector<double> t_s, specific_force_mps2, speed_mps, depth_m;
   std::size_t touchdown = 0;

@@ -10,7 +10,7 @@
 #include "firmware/fault_check.hpp"
 #include "firmware/operator_text.hpp"
 
-// A fault is said with what was seen and what is allowed, as numbers.
+// The message of a fault must contain the measured and the allowed value.
 namespace sandhopper {
 namespace {
 

@@ -15,7 +15,7 @@ struct Reacting {
     for (auto& motor : frame.motor) motor.position_rad = 1.2;
     see(0, {0, 0});
   }
-  // The frame at `time_ms` with motor samples of these ages.
+  // Sets the frame at `time_ms` with motor samples of these ages.
   void see(std::int64_t time_ms, std::array<std::int64_t, kMotorCount> age_ms) {
     frame.time_ns = 1'000 * kMs + time_ms * kMs;
     for (std::size_t i = 0; i < kMotorCount; ++i) frame.motor[i].time_ns = frame.time_ns - age_ms[i] * kMs;

@@ -8,8 +8,8 @@
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/terrain/campaign_analysis.hpp"
 
-// Made-up files as laboratories have them, each in a folder with what a good tool does (expected.txt). They
-// lie beside this repository and are read in place.
+// Made-up files in the formats of laboratories, each in a folder with the expected result (expected.txt). The
+// folders are beside this repository and are read there.
 namespace sandhopper {
 namespace {
 

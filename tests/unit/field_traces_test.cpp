@@ -3,8 +3,8 @@
 
 #include "tests/unit/can_trace_text.hpp"
 
-// The CAN traces among the recordings as labs have them: field_inputs beside this repository, each with what
-// is expected of it.
+// CAN traces in the formats of laboratories, from the folder field_inputs beside this repository, each with
+// its expected result.
 namespace sandhopper::trace {
 namespace {
 

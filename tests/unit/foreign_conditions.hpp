@@ -9,8 +9,8 @@
 
 #include "tools/campaign/plant_kind.hpp"
 
-// Tables as they stand in public reports about other programs, made small: 80 rows of a plate that sinks 0.4
-// mm every 0.1 s, or 80 rows of a swinging axis every 10 ms.
+// Tables as in public reports about other programs, reduced to 80 rows: a plate that sinks 0.4 mm every 0.1
+// s, or a swinging axis every 10 ms.
 namespace sandhopper {
 
 struct PlateRow {
@@ -65,8 +65,8 @@ struct ForeignCondition {
   std::string id;
   std::string text;
   CampaignPlant plant;
-  bool is_usable;                    // and then its numbers are right
-  std::vector<std::string> names{};  // given to the import
+  bool is_usable;                    // true: then the numbers must be right
+  std::vector<std::string> names{};  // names that the user gives to the import
 };
 std::vector<ForeignCondition> conditions_of_times();
 std::vector<ForeignCondition> conditions_of_cells();

@@ -4,12 +4,12 @@ namespace sandhopper {
 namespace {
 using enum CampaignPlant;
 
-// The force's cell in the writer's own way.
+// A row in which the force's cell is written as `cell`.
 std::string row_with_force(PlateRow r, const std::string& cell) {
   return fmt::format("{:.2f},{},{:.5f}", r.t_s, cell, -r.depth_mm / 1000);
 }
 std::string plain_force(PlateRow r) { return fmt::format("{:.3f}", r.force_N); }
-// Every ninth angle in place of a sample, but for the rows that the test looks at.
+// Writes `other` in place of every ninth angle, except in the rows that the test checks.
 std::string row_with_angle(AxisRow r, const std::string& other) {
   return fmt::format("{:.2f},{},{:.6f}", r.t_s,
                      r.i % 9 == 4 ? other : fmt::format("{:.6f}", 57.29578 * r.angle_rad), r.torque_Nm);

@@ -10,9 +10,8 @@
 #include "foreign_conditions.hpp"
 #include "tools/campaign/campaign_draft.hpp"
 
-// Each condition goes the way of its owner: `hop campaign import`, then the campaign as it was written. Where
-// it is used, its numbers are right; where they cannot be, nothing is computed. The words stand in the
-// documentation.
+// Each condition takes the way of its user: `hop campaign import`, then the campaign that it wrote. Either
+// the numbers are right, or nothing is computed. The messages are listed in the documentation.
 namespace sandhopper {
 namespace {
 
@@ -26,7 +25,7 @@ std::vector<ForeignCondition> all_conditions() {
 }
 
 struct Imported {
-  std::string told;  // refusal, what it was taken for, findings
+  std::string told;  // refusal, recognised format, findings
   std::optional<TrialRecording> recording;
 };
 
@@ -37,7 +36,7 @@ Imported imported_condition(const ForeignCondition& condition) {
   try {
     const auto draft =
         draft_campaign({folder.path() / "rec.csv"}, condition.plant, folder.path(), condition.names);
-    // The user writes his own numbers where the draft asks for them.
+    // The user replaces each "?" of the draft by a number.
     const auto nominal = std::regex_replace(draft.nominal_toml, std::regex("\"\\?\""), "1.0");
     folder.write("campaign.toml", draft.campaign_toml).write("nominal.toml", nominal);
     for (const auto& line : draft.said) out.told += line + "\n";
@@ -51,7 +50,7 @@ Imported imported_condition(const ForeignCondition& condition) {
   return out;
 }
 
-// The row 1 s (axis: 0.1 s) behind the first.
+// The row that is 1 s (axis: 0.1 s) after the first.
 std::size_t row_after(const TrialRecording& recording, double step_s) {
   std::size_t row = 0;
   while (row + 1 < recording.rows() && recording.t_s[row] < recording.t_s[0] + step_s - 1e-4) ++row;
@@ -96,7 +95,7 @@ TEST(ForeignReports, AConditionIsReadRightOrNothingIsComputedFromIt) {
   }
 }
 
-// "| condition | `words that hop says` |"
+// Reads rows of the form "| condition | `message of hop` |".
 std::map<std::string, std::vector<std::string>> rows_of_the_page() {
   std::ifstream in(std::string(SANDHOPPER_SOURCE_DIR) + "/tools/docs/guide/foreign_conditions.md");
   std::map<std::string, std::vector<std::string>> rows;

@@ -9,7 +9,7 @@
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// Tables as other programs write them: each kind in several forms.
+// Tables in the formats of other programs, several variants of each.
 namespace sandhopper {
 namespace {
 
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 struct Foreign {
   std::string plant = "rotary_axis";
-  std::string campaign{};  // further lines, before the trial
+  std::string campaign{};  // further lines before the trial
   std::string file = "a.csv";
 };
 
@@ -44,7 +44,7 @@ struct Writing {
   std::string row_end = "\n";
   int rows = 40;
 };
-// An axis that swings: 40 rows of which the third is 0.02, 0.29830, …
+// A table of a swinging axis in the notation `w`: time and three channels.
 std::string swinging(const Writing& w = {}) {
   std::string text = w.header + w.row_end;
   for (int i = 0; i < w.rows; ++i) {
@@ -326,7 +326,7 @@ TEST(ForeignTable, APathOfWindowsIsNamed) {
   }
 }
 
-// A wheel that turns by 0.01 to 0.45 of a turn from sample to sample, read within one turn.
+// A wheel that turns by 0.01 to 0.45 of a turn per sample, recorded modulo one turn.
 TEST(ForeignTable, TurnsArePutBackAtAnySpeedBelowHalfATurnARow) {
   constexpr double kTurn = 6.283185307179586;
   for (const double per_row : {0.01, 0.08, 0.15, 0.3, 0.45})

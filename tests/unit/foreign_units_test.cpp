@@ -11,7 +11,7 @@
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/written_unit.hpp"
 
-// Units that stand in a file, values that no plant has, and times with too few digits.
+// Units that a file states, values that are impossible for the plant, and times with too few digits.
 namespace sandhopper {
 namespace {
 
@@ -34,7 +34,7 @@ TrialRecording read(const std::string& csv, const Rig& rig) {
   return read_trial(campaign, campaign.trials.at(0));
 }
 
-// A plate that sinks 0.3 mm a row, in the units of the file.
+// A plate that sinks 0.33 mm per row, in the units of the file.
 std::string press(const std::string& depth, const std::string& force, double depth_per_m,
                   double force_per_N) {
   std::string text = fmt::format("t,{},{}\n", force, depth);
@@ -102,7 +102,7 @@ TEST(Units, ScaleAndUnitTogetherAreTheUsersWord) {
             FindingSeverity::trial_unusable);
 }
 
-// An axis whose columns have these names and, where given, these units.
+// An axis whose columns have these names and, if given, these units.
 TrialRecording turn(const std::string& names, const std::string& units, const std::string& columns) {
   std::string text = names + "\n" + (units.empty() ? "" : units + "\n");
   for (int i = 0; i < 40; ++i)
@@ -341,7 +341,7 @@ TEST(SampleTimes, CoarseStepsWithoutSharedTimesAreNoted) {
   EXPECT_EQ(find(read(clocked("{:.3f}", 1.0 / 60.0, 5.0), {.plant = "rotary_axis"}), coarse_time), nullptr);
 }
 
-// 2 ms from row to row; of each `of` rows the last is missing.
+// A row every 2 ms; the last of each `of` rows is missing.
 std::string with_lost_rows(int of) {
   std::string text = "t_s,position_rad,torque_Nm\n";
   for (int i = 0; i < 400; ++i)
@@ -353,7 +353,8 @@ std::string with_lost_rows(int of) {
 
 TEST(SampleTimes, LostRowsAreNoCoarseTimes) {
   const Rig axis{.plant = "rotary_axis"};
-  // One row of 6 lost: four of five steps are the shortest. Coarse times with fewer of them are noted.
+  // With one of six rows lost, four of five time steps have the shortest length. If fewer have it, coarse
+  // times are reported.
   for (const int of : {6, 9, 17}) EXPECT_EQ(find(read(with_lost_rows(of), axis), coarse_time), nullptr) << of;
   for (const double step_s : {0.0125, 0.0143, 0.0236})
     EXPECT_NE(find(read(clocked("{:.2f}", step_s, 5.0), axis), coarse_time), nullptr) << step_s;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRadius_m = 0.040;
 
-// A push to `depth_m` from `speed_mps` at 1 kHz and back out, on the bed's true force with 0.5 N of noise.
+// A push to `depth_m` from `speed_mps` at 1 kHz and back out, with the bed's true force and 0.5 N of noise.
 GroundEventSums pushed(const Bed& bed, unsigned seed, double depth_m = 0.040, double speed_mps = 0.8) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> noise(0.0, 0.5);
@@ -80,7 +80,7 @@ TEST(GroundEvents, FindsSuctionWhileTheFootLeaves) {
   const auto wet = bed_family_of(BedFamily::wet);
   const auto found = find_ground_events(pushed(bed_of(wet, 5), 5), {}).suction;
   ASSERT_EQ(found.kind, GroundEventKind::suction) << found.statistic;
-  // The smooth part of the null takes some of the 10 N.
+  // The smooth part of the null hypothesis absorbs some of the 10 N.
   EXPECT_GT(found.size, 0.5 * wet.suction_Pa * 0.005027);
   EXPECT_LT(found.size, 1.2 * wet.suction_Pa * 0.005027);
   EXPECT_NEAR(found.depth_m, 0.040, 0.006);
@@ -150,7 +150,7 @@ TEST(NormalTest, StatisticExceedsItsQuantileNoMoreOftenThanStated) {
     test.add_term(30.0, [](std::size_t i) { return static_cast<double>(i) / kPoints; });
     beyond += test.test(shape).statistic > limit;
   }
-  // At most the stated share: a scale below one is not believed.
+  // At most the stated probability, and not far below: the estimated scale is at least 1.
   EXPECT_LE(beyond, 0.055 * kDraws);
   EXPECT_GE(beyond, 0.02 * kDraws);
 }

@@ -21,7 +21,7 @@ std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
   return rows;
 }
 
-// The value of a column in a row, by the column's name.
+// Value in a row by the name of the column.
 std::string at(const std::vector<std::vector<std::string>>& rows, std::size_t row,
                const std::string& column) {
   for (std::size_t i = 0; i < rows.at(0).size(); ++i)

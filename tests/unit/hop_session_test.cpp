@@ -18,8 +18,7 @@
 #include "tools/plant/sim_board.hpp"
 #include "tools/trial/replay.hpp"
 
-// The session in a test's time: what holds the cycle up is planted, and must be in the log and in the
-// summary.
+// The session in simulated time. Planned delays of the cycle must appear in the log and in the summary.
 namespace sandhopper {
 namespace {
 
@@ -36,18 +35,18 @@ class TestTime : public TimeSource {
   std::int64_t now_ns_ = 0;
 };
 
-// What happens in the turn of this number, counted from 1.
+// Planned events by the number of the turn, counted from 1.
 struct Plan {
   std::map<int, std::int64_t> sleep_ns;
   std::map<int, std::int64_t> step_ns;
   std::map<int, Quit> quit;
-  std::map<int, std::vector<Word>> words;  // one read of the operator's pipe
+  std::map<int, std::vector<Word>> words;  // words that one read of the operator's pipe returns
   int trip_at = 0;
   StartState start{};
   int turns = 1000;
 };
 
-// The simulated robot, and things that happen to the cycle.
+// The simulated robot with the planned events.
 class PlannedBoard : public Board {
  public:
   PlannedBoard(TestTime& time, const Plan& plan, Heartbeat& heart, RequestBox& requests)
@@ -88,13 +87,13 @@ class PlannedBoard : public Board {
 struct Recorded {
   SessionResult result;
   std::uint32_t overruns = 0;       // of the last frame in the log
-  std::uint64_t missed = 0;         // grid points that no frame in the log has
-  std::vector<std::uint64_t> gaps;  // their lengths, in order
+  std::uint64_t missed = 0;         // cycles without a frame in the log
+  std::vector<std::uint64_t> gaps;  // their lengths in cycles, in order
   std::vector<Event> events;
   std::vector<RequestRecord> requests;
-  std::map<std::uint64_t, Request> inputs;  // of the cycles that had one
+  std::map<std::uint64_t, Request> inputs;  // by cycle, only cycles with a request
   std::optional<ReplayMismatch> mismatch;
-  StateSample state{};  // the last one published
+  StateSample state{};  // the last sample published
 };
 
 void read_log(const std::filesystem::path& file, Recorded& out) {
@@ -158,7 +157,7 @@ Recorded run(const Plan& plan) {
   return out;
 }
 
-// Each sleep begins on the grid, so it misses as many grid points as it has whole milliseconds.
+// Each sleep begins at the start of a cycle, so it misses one cycle per whole millisecond.
 std::uint64_t missed_by(const Plan& plan) {
   std::uint64_t missed = 0;
   for (const auto& [turn, sleep] : plan.sleep_ns) missed += static_cast<std::uint64_t>(sleep / kMs);
@@ -245,7 +244,7 @@ TEST(HopSession, AskedTwiceToQuitItDoesNotWaitForTheRobot) {
   EXPECT_EQ(run(at_once).result.cycles, 506U) << "one turn more";
 }
 
-// A robot that hopped on after the operator's stop: arm, release, then both words in one write.
+// The requests and their outcomes, in words.
 std::vector<std::string> answers_of(const Recorded& seen) {
   std::vector<std::string> answers;
   for (const auto& r : seen.requests) {

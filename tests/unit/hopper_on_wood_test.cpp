@@ -40,7 +40,7 @@ TEST_F(HopperOnWood, MasslessLegMissesTheHeldOutHopsByFourteenNewtons) {
 TEST_F(HopperOnWood, InertiaAndFrictionBringItBelowTwoNewtons) {
   EXPECT_NEAR(held_out_N(LegForceForm::joint_row_smooth), 1.32, 0.25);
   EXPECT_LE(held_out_N(LegForceForm::joint_row_smooth), 2.0);
-  // Neither much better nor much worse than each fit hop under the others.
+  // The error of each fit hop, predicted from the others, must be neither much smaller nor much larger.
   EXPECT_NEAR(leg_->cross_validation_N.at(3).second, held_out_N(LegForceForm::joint_row_smooth), 0.3);
 }
 

@@ -58,7 +58,7 @@ TEST_F(IioFolder, RawTimesScaleAreMillivolts) {
 
 TEST_F(IioFolder, TheCommonScaleIsTakenWhereTheChannelHasNone) {
   std::filesystem::remove(folder_ / "in_voltage0_scale");
-  write("in_voltage_scale", "1.5\n");  // as the NAU7802's driver gives it
+  write("in_voltage_scale", "1.5\n");  // value that the NAU7802's driver gives
   LoadCellSample sample;
   config_.scale_N_per_V = 1.0;
   ASSERT_TRUE(IioLoadCell(config_).acquire(sample));

@@ -13,7 +13,7 @@ namespace {
 
 using namespace ism330dhcx;
 
-// The chip's registers, as far as starting it goes: auto-increment, and reset and reboot that clear
+// Emulates the chip's registers for the start: auto-increment, and reset and reboot bits that clear
 // themselves.
 class FakeSensor : public SpiBus {
  public:
@@ -43,8 +43,8 @@ class FakeSensor : public SpiBus {
   std::vector<RegisterValue> written;
   bool dead = false;
   bool read_only = false;
-  bool asleep = false;     // its identity reads as `silence` until a software reset
-  int bad_identities = 0;  // so many reads of the identity give `silence`
+  bool asleep = false;     // until a software reset the identity reads as `silence`
+  int bad_identities = 0;  // number of reads of the identity that give `silence`
   std::uint8_t silence = 0x00;
 };
 

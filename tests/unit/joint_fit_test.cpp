@@ -20,7 +20,7 @@ struct Ground {
   double intercept_depth_m = 0.003;
 };
 
-// A push to `depth_m` that starts at `speed_mps`, rests half-way and goes on: what a hop does.
+// A push to `depth_m` that starts at `speed_mps`, rests half-way and goes on, as in a hop.
 struct Push {
   double speed_mps = 0.8;
   double depth_m = 0.040;
@@ -47,7 +47,7 @@ JointSums sums_of(const Ground& ground, const Push& push, const JointConfig& con
   const double half = 0.5 * push.depth_m;
   double start_s = 0.0;
   for (const double from : {0.0, half}) {
-    // Sine-shaped: speed from `v` to zero within half the depth.
+    // Sine-shaped motion: the speed falls from `v` to zero over half the depth.
     const double v = from == 0.0 ? push.speed_mps : 0.6 * push.speed_mps;
     const double rate = v / half;
     for (double t = 1e-3; rate * t < 1.5; t += 1e-3) {
@@ -83,7 +83,7 @@ TEST(JointFit, IsNotLedAstrayByADepthThatDrifts) {
   const auto e = solve_joint(sums, {});
   EXPECT_LT(believed, 1450.0);
   EXPECT_LT(std::abs(e.value_N_per_m - 1500.0), 0.75 * std::abs(believed - 1500.0));
-  EXPECT_LT(e.depth_drift_mps, -0.001);  // the true depth falls behind the estimated one
+  EXPECT_LT(e.depth_drift_mps, -0.001);  // the true depth increases more slowly than the estimated one
   EXPECT_GT(e.depth_drift_mps, -0.006);
 }
 
@@ -91,7 +91,7 @@ TEST(JointFit, HoldsAddedMassAtZeroWhereTheDataWantItNegative) {
   Push push;
   JointConfig config;
   auto sums = sums_of({1500.0, 0.0, 0.003}, push, config);
-  // A force that falls with speed: no physics of this bed.
+  // A force that falls with speed, which no bed does.
   sums.moment[2] -= 0.3 * sums.normal[kJointTerms * 2 + 2];
   const auto e = solve_joint(sums, {});
   EXPECT_NEAR(e.added_mass_factor, 0.0, 1e-6);
@@ -129,7 +129,7 @@ TEST(JointFit, RefusesWhatCannotTell) {
   EXPECT_EQ(solve_joint(sums_of({}, {.speed_mps = 1.2}, short_range), config).validity, Validity::saturated);
 }
 
-// Sums of plain arithmetic, without exp and tanh, which are the C library's.
+// Sums without exp and tanh, because their last bits depend on the C library.
 JointSums plain_sums() {
   JointSums sums;
   std::uint32_t state = 1;

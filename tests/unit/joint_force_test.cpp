@@ -10,7 +10,7 @@
 namespace sandhopper {
 namespace {
 
-// A leg that stands on rigid ground and moves as the second row of its equation says.
+// A leg that stands on rigid ground and moves by the second row of its equation of motion.
 struct Standing {
   double accel_radps2;
   double force_N;
@@ -65,8 +65,8 @@ TEST(JointForce, ObserverSettlesOnTheForceWithItsOwnDelay) {
     delayed += kGain_per_s * kStep_s * (now.force_N - delayed);
     if (i > 500) worst_N = std::max(worst_N, std::abs(estimate - delayed));
   }
-  EXPECT_LT(worst_N, 1.0);   // of 45 N; L' is not constant within the delay
-  EXPECT_GT(worst_N, 1e-3);  // it is a first-order lag, not the force itself
+  EXPECT_LT(worst_N, 1.0);   // of 45 N; L' changes within the delay
+  EXPECT_GT(worst_N, 1e-3);  // the observer is a first-order lag and must not equal the force
 }
 
 TEST(JointForce, FrictionOpposesTheMotion) {

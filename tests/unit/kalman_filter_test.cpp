@@ -57,7 +57,7 @@ TEST(KalmanFilter, EqualsTheTextbookMatricesWhenNothingIsOld) {
   EXPECT_LT((filter.covariance() - p).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-// A foot that is stopped by twice what its accelerometer can show.
+// A foot that is stopped with twice the range of its accelerometer.
 double speed_error_after_a_blow(bool told) {
   KalmanFilter filter{KalmanConfig{}};
   filter.reset({0.5, 0.0, 0.06, -1.0});
@@ -98,8 +98,8 @@ TEST(KalmanFilter, StateBeforeInvertsThePredictionsExactly) {
   }
 }
 
-// A falling body seen 4 ms late: with its age the reading is worth as much as a prompt one, without it it is
-// wrong by v t.
+// A falling body measured 4 ms late. If its age is known, the reading is as good as a prompt one; otherwise
+// it is wrong by v t.
 TEST(KalmanFilter, ALateReadingIsUsedAtItsOwnAge) {
   const auto final_error = [](bool tell_age) {
     KalmanFilter filter(KalmanConfig{});

@@ -12,7 +12,7 @@
 #include "firmware/state/recollection.hpp"
 #include "firmware/state/state_keeper.hpp"
 
-// The robot's memory from run to run, and its assumptions where that is missing or wrong.
+// State that the robot keeps from run to run, and its assumptions if the state is missing or wrong.
 namespace sandhopper {
 namespace {
 
@@ -143,7 +143,7 @@ TEST(KeptState, ARunThatWasKilledMayHaveHeatedForOnePeriodAtTheTorqueLimit) {
   const auto killed = recall(kept(now, false), kNone, now);
   const auto killed_long =
       recall(kNone, kept(clock_at(100.0, 5000.0), false, 10.0), clock_at(0.0, 5000.0, "b2"));
-  // 1.5 x 62.5 mOhm x (2.8 / 0.0868 A)^2 = 97.6 W in 40 J/K, less what flows off.
+  // 1.5 x 62.5 mOhm x (2.8 / 0.0868 A)^2 = 97.6 W into 40 J/K, minus the heat flow to the housing.
   EXPECT_NEAR(killed.start.winding_C[0] - closed.start.winding_C[0], 97.6 / 40.0, 0.6);
   EXPECT_NEAR(killed_long.start.winding_C[0] - closed.start.winding_C[0], 97.6 * 10.0 / 40.0, 8.0);
   EXPECT_THAT(killed.text, HasSubstr("did not end in order"));
@@ -203,8 +203,8 @@ TEST(KeptState, APositionPastTheDrivesRangeIsTold) {
   EXPECT_EQ(recall(kept(now), kNone, now).positions, "");
 }
 
-// 400 trials, a controller each as in a process each: two seconds at 25 A, five without, another boot
-// after every fiftieth. What each start remembers goes through the file's bytes.
+// 400 trials, each with a new controller as in a new process: two seconds at 25 A, five without current; the
+// computer boots after every 50th. The state passes through the bytes of the file at each start.
 TEST(KeptState, After400TrialsTheModelIsWithin3DegreesOfOneThatRanOnAndAColdStartIsNot) {
   const CycleConfig cold;
   ThermalModel reference(cold.supervision);

@@ -9,7 +9,7 @@
 #include "tools/diagnose/fit/linearise.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 
-// Numbers of the belief that differ from trial to trial, as [spread] states them.
+// Numbers of the belief with a spread from trial to trial, as [spread] states it.
 namespace sandhopper {
 namespace {
 
@@ -45,7 +45,8 @@ TEST(KeySpread, NamesANumberByItsQuantityOrByItsKey) {
   EXPECT_EQ(named("viscous_friction_relative").key, "axis.viscous_friction_Nm_s");
   EXPECT_EQ(named("inertia_kg_m2").key, "axis.inertia_kg_m2");
   EXPECT_FALSE(named("inertia_kg_m2").is_relative);
-  EXPECT_EQ(belief.spread.other.torque_offset_Nm, 0.01);  // the plant's own keys stay the plant's own
+  EXPECT_EQ(belief.spread.other.torque_offset_Nm, 0.01);  // a key of the plant's own [spread] keeps its
+                                                          // meaning
   EXPECT_EQ(numbers_of(Belief(belief)).at("spread.coulomb_friction_relative"), 0.05);
 }
 
@@ -65,7 +66,7 @@ TEST(KeySpread, ANegativeStandardDeviationIsRefused) {
 namespace diagnose {
 namespace {
 
-// Friction of 0.06 N m is believed; the recorded trial had 0.09.
+// The belief has a friction of 0.06 N m, the recorded trial 0.09 N m.
 TEST(DiagnoseKeySpread, AddsANuisanceThatMovesTheNumber) {
   auto recordings = swings([](double, double w, double) { return -0.09 * std::tanh(w / 0.02); }, 41, 4);
   recordings.belief.numbers["axis.coulomb_friction_Nm"] = 0.06;

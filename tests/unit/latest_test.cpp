@@ -19,7 +19,7 @@ TEST(Latest, GivesEachValueOnceAndOnlyTheNewest) {
   EXPECT_FALSE(box.take(value));
 }
 
-// Run under the thread sanitizer too: a value torn between two writes shows as fields that differ.
+// Also run under the thread sanitizer. A value torn between two writes has different fields.
 TEST(Latest, NeverTearsAValueBetweenThreads) {
   struct Wide {
     std::array<std::uint64_t, 16> same{};

@@ -23,8 +23,8 @@ LegParameters massless_leg() {
   return p;
 }
 
-// 0.2 s of stance along a given angle, 0.1 s of flight in which the plate reads its tare. The commanded
-// torque is whatever makes a force that differs from hop to hop.
+// 0.2 s of stance along a given angle, then 0.1 s of flight in which the plate reads its tare. The commanded
+// torque is chosen such that the force differs from hop to hop.
 LegHop made_hop(const Truth& truth, unsigned seed, bool held_out) {
   std::mt19937_64 rng(seed);
   std::normal_distribution<double> normal;
@@ -33,7 +33,8 @@ LegHop made_hop(const Truth& truth, unsigned seed, bool held_out) {
   with_rotor.rotor_inertia_kg_m2 = truth.inertia / with_rotor.motor_count;
   const Leg leg{with_rotor};
   const double phase = 0.3 * normal(rng), amplitude = 0.5 + 0.05 * normal(rng);
-  const double w = 31.0 + 5.0 * normal(rng);  // at one frequency a spring would look like negative inertia
+  const double w = 31.0 + 5.0 * normal(rng);  // several frequencies: at a single one a spring would look like
+                                              // negative inertia
   const auto angle = [&](double t) { return 1.3 - amplitude * std::cos(w * t + phase); };
   const auto rate = [&](double t) { return w * amplitude * std::sin(w * t + phase); };
   const auto accel = [&](double t) { return w * w * amplitude * std::cos(w * t + phase); };

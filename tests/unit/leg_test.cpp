@@ -5,8 +5,8 @@
 namespace sandhopper {
 namespace {
 
-// Reference figures from a symbolic derivation independent of this code; each is compared to half a unit of
-// its last printed digit.
+// Reference figures from a symbolic derivation that is independent of this code. Each is compared to half a
+// unit of its last printed digit.
 struct Vector {
   double angle, dl, m12, m22, mf, beta, c, dmf, length, dm12, dm22;
 };
@@ -99,8 +99,8 @@ TEST(Leg, GeometryThatLocksIsRefused) {
   EXPECT_THROW(Leg{p}, std::invalid_argument);
 }
 
-// Flight with a torsion spring, RK4 at 0.1 ms for 0.4 s: the integrator's error must not show a term missing
-// from the equations.
+// Flight with a torsion spring, RK4 at 0.1 ms for 0.4 s. The integrator's error is so small that a missing
+// term of the equations shows.
 TEST(Leg, EnergyIsKeptInFlight) {
   const Leg leg(LegParameters{});
   const double k_spring = 2.0;

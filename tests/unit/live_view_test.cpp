@@ -13,11 +13,11 @@
 #include "tools/trial/live/status_panes.hpp"
 #include "tools/trial/live/trial_screen.hpp"
 
-// The live view of a trial, without a terminal: what it makes of the cycle's lines, of keys and of a size.
+// The live view without a terminal: its response to status lines, keys and window sizes.
 namespace sandhopper {
 namespace {
 
-// As much of a terminal as ansi_frame speaks to: cursor position, erase, rendition, characters.
+// Emulates the terminal functions that ansi_frame uses: cursor position, erase, rendition, characters.
 std::vector<std::string> played(const Canvas& before, const std::string& bytes, ScreenSize size) {
   std::vector<std::u32string> screen(static_cast<std::size_t>(size.rows),
                                      std::u32string(static_cast<std::size_t>(size.columns), U' '));

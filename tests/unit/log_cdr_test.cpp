@@ -76,7 +76,8 @@ Mixed example() {
   return mixed;
 }
 
-// Laid out by hand from the rule: every field at a multiple of its size, counted from behind the header.
+// Laid out by hand by the rule of CDR: each field at a multiple of its size, counted from the end of the
+// header.
 const std::vector<unsigned> kExampleBytes = {
     0,    1, 0,    0,                        // header
     1,    0, 0,    0,    0, 0, 0,    0,      // first, gap to 8

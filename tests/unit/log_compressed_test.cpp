@@ -36,7 +36,7 @@ std::vector<std::byte> packed(const std::string& with, Bytes records) {
   return out;
 }
 
-// A log as another recorder writes it: its chunks compressed.
+// A log as other recorders write it: with compressed chunks.
 class Compressed : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -113,7 +113,7 @@ class Compressed : public ::testing::TestWithParam<const char*> {
   std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("compressed_" + std::to_string(::getpid()));
   std::vector<std::byte> bytes_;
-  std::vector<std::size_t> chunks_;  // places in bytes_
+  std::vector<std::size_t> chunks_;  // offsets in bytes_
 };
 
 TEST_P(Compressed, IsReadAsThePlainOne) {
@@ -164,7 +164,7 @@ TEST(Recovery, ANumberThatDoesNotBeginAtZeroIsNoLoss) {
   for (std::int64_t i = 0; i < 20; ++i) writer.write(channel, {i, i}, Event{.time_ns = i});
   writer.flush();
   writer.close();
-  // Sequence numbers of another recorder; the CRC of a chunk may be absent (0).
+  // Sequence numbers as another recorder writes them; the CRC of a chunk may be absent (0).
   auto bytes = bytes_in(folder / "plain.mcap");
   for (std::uint64_t at = kMagic.size(); at + kRecordHead <= bytes.size();) {
     const auto length = length_at(bytes, at);

@@ -1,4 +1,4 @@
-// What becomes of a log whose disk is full, fails, or is slow.
+// Logs on a disk that is full, fails, or is slow.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kFramesOfAChunk = 39;  // in the 16 kB of options()
+constexpr int kFramesOfAChunk = 39;  // a chunk has 16 kB, see options()
 
 struct Found {
   std::vector<std::uint64_t> cycles;
@@ -74,7 +74,7 @@ class LogDisk : public ::testing::Test {
     return found;
   }
 
-  // The one gap's times are those of the cycles that are missing.
+  // The gap record must cover exactly the times of the missing cycles.
   static void expect_gap_in_its_place(const Found& found) {
     const LogGap& gap = found.gaps.at(0);
     const auto before = std::adjacent_find(found.cycles.begin(), found.cycles.end(),
@@ -91,12 +91,12 @@ class LogDisk : public ::testing::Test {
 };
 
 TEST_F(LogDisk, OnAFullDiskTheLogIsClosedAndSaysWhatIsMissing) {
-  constexpr int kLast = 145 * kFramesOfAChunk + 4;  // the last chunk is small enough to fit after all
+  constexpr int kLast = 145 * kFramesOfAChunk + 4;  // the last chunk is small enough for the remaining space
   TrialLogger logger(options());
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   logger.start();
   push_cycles(logger, frames, 0, 500);
-  disk_.capacity_bytes = 400'000;  // from now on: less than is allocated already, no more can be had
+  disk_.capacity_bytes = 400'000;  // less than is allocated already: no more space from now on
   push_cycles(logger, frames, 500, kLast);
   logger.stop();
   logger.attach("wake_latency_us.json", "application/json", "[]");
@@ -147,7 +147,7 @@ TEST_F(LogDisk, GapRecordsThatAreLostAreSaidAgain) {
   TrialLogger logger(threaded);
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   disk_.write_error = EROFS;
-  push_cycles(logger, frames, 0, 1'000);  // nobody takes them out: the ring is full
+  push_cycles(logger, frames, 0, 1'000);  // no thread takes them out, so the ring fills up
   logger.start();
   ::usleep(50'000);
   push_cycles(logger, frames, 1'000, 1'004);
@@ -160,9 +160,9 @@ TEST_F(LogDisk, GapRecordsThatAreLostAreSaidAgain) {
   EXPECT_EQ(found.lost(), logger.lost_records());
 }
 
-// Nothing of a piece that failed half-way is in the file, where room cannot be allocated beforehand.
+// If space cannot be allocated beforehand, a write that fails half-way must leave nothing in the file.
 TEST_F(LogDisk, AFileSystemThatCannotAllocateLeavesWholeChunks) {
-  constexpr int kAll = 24 * kFramesOfAChunk + 36;  // a last chunk of 36 frames fits no more than a whole one
+  constexpr int kAll = 24 * kFramesOfAChunk + 36;  // 36 frames need as much space as a whole chunk
   disk_.can_allocate = false;
   TrialLogger logger(options());
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
@@ -170,7 +170,7 @@ TEST_F(LogDisk, AFileSystemThatCannotAllocateLeavesWholeChunks) {
   disk_.capacity_bytes = 100'000;
   push_cycles(logger, frames, 0, kAll);
   logger.stop();
-  disk_.capacity_bytes = 110'000;  // someone makes a little room
+  disk_.capacity_bytes = 110'000;  // a little more space becomes free
   logger.close();
   EXPECT_GT(logger.lost_records(), 100U);
   const Found found = read();
@@ -217,13 +217,13 @@ TEST_F(LogDisk, ASlowDiskCostsRecordsAndNotTheCycle) {
 }
 
 TEST_F(LogDisk, AFullDiskAtTheStartIsRefused) {
-  disk_.capacity_bytes = 100'000;  // less than is kept for the end
+  disk_.capacity_bytes = 100'000;  // less than the reserve for the end of the log
   EXPECT_THROW(TrialLogger{options()}, std::system_error);
 }
 
 TEST_F(LogDisk, AReadOnlyFolderIsRefusedAtTheStart) {
   auto elsewhere = options();
-  elsewhere.mcap_file = "/proc/self/trial.mcap";  // nobody may make a file there, root neither
+  elsewhere.mcap_file = "/proc/self/trial.mcap";  // not even root can create a file there
   EXPECT_THROW(TrialLogger{elsewhere}, std::system_error);
 }
 

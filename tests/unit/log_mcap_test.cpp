@@ -36,7 +36,7 @@ class McapLog : public ::testing::Test {
     return path(name);
   }
 
-  // Frames every millisecond, an event with every seventh.
+  // A frame every millisecond, and an event with every seventh.
   std::filesystem::path write_log(const std::string& name, int frames, std::size_t chunk_bytes) const {
     mcap::WriterOptions options;
     options.chunk_bytes = chunk_bytes;
@@ -59,7 +59,7 @@ class McapLog : public ::testing::Test {
   }
 
   struct Read {
-    std::vector<std::uint64_t> ends;  // where each message's record ends
+    std::vector<std::uint64_t> ends;  // end of each message's record in the file
     std::vector<std::uint64_t> cycles;
     std::uint64_t events = 0;
     std::optional<std::uint64_t> truncated_at;
@@ -84,7 +84,7 @@ class McapLog : public ::testing::Test {
     return result;
   }
 
-  // Every message that ends before the cut, and no other.
+  // Reads every message that ends before the cut, and no other.
   void expect_readable_when_cut(const std::string& whole, const Read& all, std::size_t cut) const {
     mcap::Reader reader(mcap::bytes_of(std::string_view(whole).substr(0, cut)), "cut");
     const Read part = read(reader);
@@ -151,7 +151,7 @@ TEST_F(McapLog, WritesMadeBeforeACrashAreReadWithoutTheSummary) {
   const auto channel = writer.add_channel<Event>("/event");
   writer.write(channel, {}, Event{});
   writer.flush();
-  writer.write(channel, {}, Event{});  // still in the open chunk
+  writer.write(channel, {}, Event{});  // stays in the open chunk
   const Read part = read(path("a.mcap"));
   EXPECT_EQ(part.ends.size(), 1U);
   EXPECT_TRUE(part.truncated_at.has_value());
@@ -190,7 +190,8 @@ TEST_F(McapLog, DamageInAChunkIsNamedWithItsPlace) {
   EXPECT_EQ(rest.cycles.back(), all.cycles.back());
 }
 
-// Any damage, CRCs unchecked: an Error or fewer messages, never more than the file holds, and no fault.
+// Any damage, with CRCs unchecked, must give an Error or fewer messages. It must never read beyond the file
+// or crash.
 TEST_F(McapLog, NoDamageLeadsOutsideTheFile) {
   const std::string whole = content(write_log("a.mcap", 15, 2'048));
   std::mt19937 random(3);

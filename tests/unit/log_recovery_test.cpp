@@ -1,4 +1,4 @@
-// hop recover: what is saved of a log that was cut or damaged, and what is said of the rest.
+// `hop recover`: the messages that are saved from a cut or damaged log, and the report on the rest.
 #include "firmware/log/log_recovery.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace sandhopper {
 namespace {
 
 struct Content {
-  std::vector<std::uint64_t> ends;  // of each message in the file
+  std::vector<std::uint64_t> ends;  // end of each message in the file
   std::vector<std::string> data;
   std::uint64_t gap_lost = 0;
   bool closed = false;
@@ -47,7 +47,7 @@ Content read(const std::filesystem::path& file) {
   return content;
 }
 
-// In memory where that is to be had: each recovery ends with fdatasync(2).
+// A folder in memory if there is one, because each recovery ends with fdatasync(2).
 std::filesystem::path scratch() {
   const std::filesystem::path memory = "/dev/shm";
   const auto parent = ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
@@ -56,7 +56,7 @@ std::filesystem::path scratch() {
 
 class Recover : public ::testing::Test {
  protected:
-  // The first 0.6 s of a simulated trial, made once.
+  // Records the first 0.6 s of a simulated trial once for all tests.
   static void SetUpTestSuite() {
     folder_ = scratch();
     cut_ = folder_ / "cut.mcap";
@@ -96,8 +96,8 @@ TEST_F(Recover, AWholeLogIsSaidToBeWholeAndNotCopied) {
   EXPECT_FALSE(std::filesystem::exists(saved_));
 }
 
-// Every message that lies whole before the cut, bit for bit, in a log that is closed; or, where not even the
-// first record is whole, a clear no.
+// The copy is a closed log with every message that lies whole before the cut, bit for bit. If not even the
+// first record is whole, the log is refused.
 TEST_F(Recover, AThousandCutLogsGiveEveryWholeMessage) {
   std::mt19937_64 random(20);
   std::uniform_int_distribution<std::size_t> anywhere(0, whole_.size() - 1);
@@ -126,8 +126,8 @@ TEST_F(Recover, AThousandCutLogsGiveEveryWholeMessage) {
   EXPECT_LT(refused, 20);
 }
 
-// Each damaged or missing stretch costs whole chunks and no more; what they held is counted and a gap record
-// stands for it.
+// Each damaged or missing stretch costs whole chunks and no more. Their records are counted and a gap record
+// replaces them.
 TEST_F(Recover, DamageAnywhereIsCountedAndTheRestIsSaved) {
   std::mt19937_64 random(21);
   std::uniform_int_distribution<std::size_t> anywhere(all_.ends.front() + 1'000,
@@ -145,7 +145,7 @@ TEST_F(Recover, DamageAnywhereIsCountedAndTheRestIsSaved) {
     else
       std::generate_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count,
                       [&] { return static_cast<char>(byte(random)); });
-    if (bytes == whole_) continue;  // zeros over zeros
+    if (bytes == whole_) continue;  // zeros written over zeros
     const auto found = recover(bytes);
     ASSERT_FALSE(found.whole) << i;
     const Content saved = read(saved_);

@@ -26,7 +26,7 @@ TEST(Ros2Package, EveryTypeIsAFileOfItsOwn) {
   EXPECT_THAT(files.at("CMakeLists.txt"), ::testing::HasSubstr("project(sandhopper_msgs)"));
 }
 
-// The rules of rosidl's own parser for names of fields and constants.
+// Names of fields and constants by the rules of rosidl's own parser.
 TEST(Ros2Package, NamesAreThoseRos2Allows) {
   const std::regex field(R"([a-zA-Z0-9_/]+(\[\d+\])? [a-z](_?[a-z0-9]+)*(  # .*)?)");
   const std::regex constant(R"(u?int\d+ [A-Z](_?[A-Z0-9]+)*=\d+)");

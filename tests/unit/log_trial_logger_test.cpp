@@ -40,7 +40,7 @@ class TrialLog : public ::testing::Test {
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
-  // A second of a trial; a stride's result comes 3 ms after the instant it belongs to.
+  // One second of a trial. The result of a stride comes 3 ms after its instant.
   void run_trial(const TrialLogOptions& options) const {
     TrialLogger logger(options);
     const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
@@ -143,7 +143,7 @@ TEST_F(TrialLog, ATapLogsBothDirectionsOfItsSocket) {
             "(1700000000.000005) can1 123#00AB T\n(1700000000.000006) can1 00000868#00AB R\n");
 }
 
-// A tool that plays the text must not send what was kept back.
+// A tool that plays the text back must not send a frame that the guard refused.
 TEST_F(TrialLog, AFrameRefusedByTheTransmitGuardIsAComment) {
   TrialLogger logger(options("a", false));
   CanLogTap tap(logger, "can1");
@@ -164,10 +164,10 @@ TEST_F(TrialLog, WhatDoesNotFitLeavesAGapRecordInItsPlace) {
   small.slots = 8;
   TrialLogger logger(small);
   const auto events = logger.add_topic<Event>(topic::kEvent);
-  for (int i = 0; i < 20; ++i) logger.push(events, i, Event{.time_ns = i});  // nobody takes them out yet
+  for (int i = 0; i < 20; ++i) logger.push(events, i, Event{.time_ns = i});  // no thread takes them out yet
   EXPECT_EQ(logger.lost_records(), 12U);
   logger.start();
-  for (std::uint64_t lost = 0; lost != logger.lost_records();) {  // until the thread has made room
+  for (std::uint64_t lost = 0; lost != logger.lost_records();) {  // until the thread has made space
     ::usleep(1'000);
     lost = logger.lost_records();
     logger.push(events, 100, Event{.time_ns = 100});
@@ -200,7 +200,7 @@ TEST_F(TrialLog, AFullDiskIsReportedAndStopsNothing) {
   const auto frames = logger.add_topic<SensorFrame>(topic::kFrame);
   ::rlimit before{};
   ::getrlimit(RLIMIT_FSIZE, &before);
-  const ::rlimit small{16'384, before.rlim_max};  // stands for a full disk
+  const ::rlimit small{16'384, before.rlim_max};  // acts like a full disk
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   ::setrlimit(RLIMIT_FSIZE, &small);
   for (int i = 0; i < 200; ++i) logger.push(frames, i, SensorFrame{.time_ns = i});

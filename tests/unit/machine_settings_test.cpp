@@ -13,9 +13,9 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr long kKernels = 0x208040;  // PF_KTHREAD among the flags of a kernel thread, as a real one has them
+constexpr long kKernels = 0x208040;  // flags of a real kernel thread, with PF_KTHREAD
 
-// A folder that stands in for "/": CAN on SPI1, IMUs on SPI0, load cell on I2C1, as on a Raspberry Pi 4.
+// A folder that replaces "/": CAN on SPI1, IMUs on SPI0, load cell on I2C1, as on a Raspberry Pi 4.
 class MachineSettings : public ::testing::Test {
  protected:
   MachineSettings() {
@@ -41,7 +41,7 @@ class MachineSettings : public ::testing::Test {
     fs::create_directories((root_ / path).parent_path());
     fs::create_symlink(root_ / target, root_ / path);
   }
-  // proc(5): fields 3 to 41 after the name; 9 is flags, 40 priority, 41 policy.
+  // proc(5): fields 3 to 41 follow the name; 9 is flags, 40 priority, 41 policy.
   void thread(int pid, const std::string& name, long flags, int priority, int policy) {
     std::string text = std::to_string(pid) + " (" + name + ") S 2 0 0 0 -1 " + std::to_string(flags);
     for (int field = 10; field <= 39; ++field) text += " 0";
@@ -111,7 +111,7 @@ TEST(CpuList, HoldsSinglesAndRanges) {
   EXPECT_TRUE(cpu_list_holds("0-2,6", 6));
   EXPECT_FALSE(cpu_list_holds("0-2,6", 3));
   EXPECT_FALSE(cpu_list_holds("", 0));
-  EXPECT_FALSE(cpu_list_holds("(null)", 0));  // nohz_full of a kernel without it
+  EXPECT_FALSE(cpu_list_holds("(null)", 0));  // content of nohz_full in a kernel without it
 }
 
 TEST_F(MachineSettings, IsolationIsReadForTheCyclesProcessor) {

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr MitRanges kAk80_9{};  // P 12.5, V 50, Kp 500, Kd 5, T 18
+constexpr MitRanges kAk80_9{};  // AK80-9: P 12.5, V 50, Kp 500, Kd 5, T 18
 
 TEST(MitProtocol, CommandsPackToTheTruncatedVectors) {
   EXPECT_THAT(pack_mit_command(kAk80_9, {}), ElementsAre(0x7F, 0xFF, 0x7F, 0xF0, 0x00, 0x00, 0x07, 0xFF));

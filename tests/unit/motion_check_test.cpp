@@ -12,7 +12,7 @@ namespace {
 constexpr double kDt_s = 1e-3;
 const DetectorMask kAll;
 
-// The check alone, one cycle after the other; only what a test sets is fresh.
+// The check alone, cycle by cycle. Only samples that a test sets are fresh.
 class Motion {
  public:
   explicit Motion(CycleConfig config = cycle_config(RobotConfig{})) : config_(std::move(config)) {
@@ -26,7 +26,7 @@ class Motion {
     check_.see(frame, estimate, {state, kDt_s, true}, findings);
     return findings.worst();
   }
-  // The number of the first cycle with a fault; 0: none in so many.
+  // Number of the first cycle with a fault; 0: none in `cycles`.
   template <class Change>
   int first_fault(int cycles, Change&& change, State state = State::flight) {
     for (int k = 1; k <= cycles; ++k) {
@@ -64,7 +64,8 @@ TEST(MotionCheckEnergy, ABallisticFlightKeepsIts) {
             0);
 }
 
-// At constant speed the gain is weight times height: 2 J after 95 ms, said when it has lasted five cycles.
+// At constant speed the energy gain is weight times height: 2 J after 95 ms. The fault needs five cycles
+// above the limit.
 TEST(MotionCheckEnergy, ARobotThatIsLiftedGainsIt) {
   Motion motion;
   const int at = motion.first_fault(400, [&](double t) { motion.move(t, 1.0); });
@@ -92,7 +93,7 @@ TEST(MotionCheckEnergy, EachFlightBeginsAnew) {
   }
 }
 
-// Leaning by so much about y, at rest.
+// The body at rest, tilted by `angle_rad` about y.
 void lean(SensorFrame& frame, double angle_rad) {
   frame.imu_body.fresh = true;
   frame.imu_body.accel_mps2 = {-kGravity_mps2 * std::sin(angle_rad), 0.0,
@@ -111,7 +112,7 @@ TEST(MotionCheckTilt, IsTheDirectionOfGravityAtRest) {
   }
 }
 
-// Free fall shows no gravity: the gyroscope alone, 0.2 rad at 1 rad/s.
+// Free fall shows no gravity, so the gyroscope alone gives the tilt: 0.2 rad at 1 rad/s.
 TEST(MotionCheckTilt, IsTheGyroscopesIntegralInFreeFall) {
   Motion motion;
   lean(motion.frame, 0.0);
@@ -132,7 +133,8 @@ TEST(MotionCheckTilt, AnImpactsSidewaysBlowIsNoTilt) {
 TEST(MotionCheckTilt, AGyroscopesBiasIsHeldBackByGravity) {
   Motion motion;
   lean(motion.frame, 0.0);
-  motion.frame.imu_body.gyro_radps = {0.0, 0.1, 0.0};  // of it 0.5 s remain
+  motion.frame.imu_body.gyro_radps = {0.0, 0.1, 0.0};  // 0.05 rad remain, by the filter's time constant of
+                                                       // 0.5 s
   EXPECT_EQ(motion.first_fault(20'000, [](double) {}), 0);
 }
 
@@ -147,8 +149,7 @@ TEST(MotionCheckHeight, AFilterThatRefusesTwentyReadingsInARowHasDiverged) {
   EXPECT_EQ(motion.found.values[0], -0.07);
 }
 
-// After how many cycles the fault is named, where the reading of cycle i (from 1 on) is off by what
-// `squared_at` says.
+// Number of cycles until the fault; `squared_at`: normalised innovation squared of cycle i, i from 1 on.
 template <class Squared>
 int first_refused(int cycles, Squared&& squared_at) {
   Motion motion;

@@ -37,14 +37,15 @@ TEST(NextStride, GoesWhereTheBandIsWidest) {
   EXPECT_GT(next.range.to_m, solver.profile().depth_max_m);
   EXPECT_GT(next.reach_m, solver.profile().depth_max_m + 0.005);
   EXPECT_LT(next.widest_expected_N, 0.6 * next.widest_now_N);
-  // A set-up that stays above the present depth narrows nothing where the band is widest.
+  // A set-up that stays above the present depth must not narrow the widest part of the band.
   const StrideSetup shallow{0.0025, 500.0};
   ProfileSolver shallower = solver;
   shallower.add(predicted_stride(solver, robot, shallow), 0);
   EXPECT_GT(widest_band_N(shallower, next.range), 0.7 * next.widest_now_N);
 }
 
-// Fresh ground has a surface of its own: its error averages out, which that of one surface does not.
+// Fresh ground has another surface height each time, so the error of the surface averages out. On the same
+// ground it does not.
 TEST(NextStride, FreshGroundAddsToWhatIsKnown) {
   auto solver = after({0.0303, 375.0});
   const double before = solver.force_N(0.005).sd;

@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::Ge;
 using ::testing::Le;
 
-// One repetition of the hop set, shared by the tests.
+// One repetition of the hop set, shared by the tests of this file.
 const ProgrammeResults& small_programme() {
   static const ProgrammeResults results = run_programme(
       {.seeds = 1, .condition_seeds = 0, .threads = std::max(1U, std::thread::hardware_concurrency())});
@@ -51,15 +51,15 @@ TEST(PaperProgramme, TheTableHasAll36ClaimsEachWithAFigureAndAReason) {
   }
 }
 
-// What the simulated world says of the paper's claims; a change of plant or estimator that turns one shows
-// here.
+// Verdict of the simulation on each of the paper's claims. A change of plant or estimator that changes a
+// verdict fails here.
 TEST(PaperProgramme, VerdictsThatDoNotHangOnChance) {
   for (const int number :
        {3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 15, 17, 18, 20, 22, 24, 26, 27, 28, 29, 31, 32, 33, 34, 36})
     EXPECT_EQ(table()[static_cast<std::size_t>(number - 1)].verdict, Verdict::comes_out) << number;
   for (const int number : {1, 2, 16, 25, 30, 35})
     EXPECT_EQ(table()[static_cast<std::size_t>(number - 1)].verdict, Verdict::only_if) << number;
-  EXPECT_EQ(table()[5].verdict, Verdict::does_not);  // the foot's own inertia remains
+  EXPECT_EQ(table()[5].verdict, Verdict::does_not);  // the inertia of the foot remains
 }
 
 TEST(PaperProgramme, AddedMassTakesAThirdAndMoreOffWhatTheMapLeavesFromSevenTenthsOn) {
@@ -80,8 +80,8 @@ TEST(PaperProgramme, TheIntegratedGradientIsTheAddedMassWithinAFifthToThirtyMill
   }
 }
 
-// Slow strokes 1521 N/m with an intercept, 1628 N/m through the origin, map 1525 N/m by an independent
-// simulation.
+// An independent simulation gives 1521 N/m for slow strokes with an intercept, 1628 N/m through the origin,
+// and 1525 N/m from the map.
 TEST(PaperProgramme, StiffnessOfTheActuatorSetDependsOnItsDefinitionAsExpected) {
   const auto& k = small_programme().stiffness;
   EXPECT_NEAR(k.slow_free_intercept, 1521.0, 30.0);

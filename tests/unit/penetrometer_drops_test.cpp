@@ -67,7 +67,7 @@ TEST(PenetrometerDropsProfile, EachDropLiesInTheBandOfTheOthers) {
     depths += drop.at("depths").get<double>();
   }
   EXPECT_GT(inside / depths, 0.9);
-  // Two drops tell little of a third.
+  // Two drops determine the third only roughly.
   EXPECT_NEAR(group.at("exponent").at("value"), 1.68, 0.1);
 }
 

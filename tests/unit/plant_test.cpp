@@ -30,7 +30,7 @@ TEST(Plant, TwoMillimetresOfFreeFallTouchAt198MillimetresPerSecond) {
       0.198, 0.001);
 }
 
-// Drop heights that friction of 4 N makes necessary for the touchdown speeds of the matrix.
+// Drop heights that give the touchdown speeds of the stride matrix with 4 N of rail friction.
 TEST(Plant, RailFrictionCostsTheStatedSpeed) {
   struct Drop {
     double height_m, speed_mps;
@@ -41,7 +41,7 @@ TEST(Plant, RailFrictionCostsTheStatedSpeed) {
                 0.055 * d.speed_mps);
 }
 
-// What is stored in the moving parts, in the spring between toe and foot and in the teeth of the joint.
+// Energy of the moving parts, of the spring between toe and foot, and of the joint's teeth.
 double energy_J(const Plant& plant, const WorldRobotConfig& robot) {
   const auto& s = plant.state();
   const double toe_z_m = s.foot_z_m - s.series_m, toe_mps = s.foot_velocity_mps - s.series_mps;
@@ -58,8 +58,7 @@ double energy_J(const Plant& plant, const WorldRobotConfig& robot) {
   return sum;
 }
 
-// Of every force that is not stored: motors, friction, rail, ground, and what spring and teeth turn into
-// heat.
+// Power of all forces that store no energy: motors, friction, rail, ground, and damping of spring and teeth.
 double power_W(const Plant& plant, const WorldRobotConfig& robot, double torque_Nm) {
   const auto& s = plant.state();
   const auto m = plant.motion(torque_Nm);
@@ -86,7 +85,7 @@ TEST(Plant, EnergyChangesByTheWorkOfEveryForce) {
     NominalController controller(config.controller, 375.0);
     const double start_J = energy_J(plant, config.robot);
     double work_J = 0.0, lost_in_bed_J = 0.0;
-    constexpr int kSteps = 40;  // to a cycle
+    constexpr int kSteps = 40;  // per cycle
     constexpr double kStep_s = 1e-3 / kSteps;
     for (int ms = 0; ms < 500; ++ms) {
       const auto& s = plant.state();
@@ -103,7 +102,7 @@ TEST(Plant, EnergyChangesByTheWorkOfEveryForce) {
         "compliance %g m/N, play %g rad: energy %.4f -> %.4f J, work %.4f J, lost in the bed %.3f J, "
         "mismatch %.1e J\n",
         compliance_m_per_N, play_rad, start_J, end_J, work_J, lost_in_bed_J, end_J - start_J - work_J);
-    EXPECT_NEAR(end_J - start_J, work_J, 2e-3);  // the sum over the steps is coarser than the integration
+    EXPECT_NEAR(end_J - start_J, work_J, 2e-3);  // error of this sum, not of the plant's integration
     EXPECT_GT(lost_in_bed_J, 0.5);
   }
 }
@@ -150,8 +149,8 @@ TEST(Plant, MomentumChangesByWeightContactAndRail) {
   EXPECT_GT(plant.contact_impulse_Ns(), 0.5);
 }
 
-// Thrown out of a crater with a stiff leg: without memory the surface has closed when it comes back, with
-// memory it falls to the crater's floor, stops on the unloading line and goes on where the virgin bed begins.
+// A stiff leg throws the foot out of a crater of 30 mm. Without memory the bed's surface has closed again.
+// With memory the foot falls to the crater's floor, then follows the unloading line and the virgin bed.
 TEST(Plant, LaterStrideLandsOnTheCraterFloor) {
   const WorldConfig config;
   for (const bool memory : {true, false}) {
@@ -190,7 +189,8 @@ TEST(Plant, RigidGroundHoldsTheFootAndCarriesTheWeight) {
   EXPECT_NEAR(plant.contact_impulse_Ns() / 2.0, plant.leg().total_mass_kg() * 9.81,
               2.0);  // mean over the 2 s
 
-  for (int i = 0; i < 2000 && plant.state().foot_z_m == 0.0; ++i) plant.step(-5.0);  // kick off
+  // makes the foot leave the ground
+  for (int i = 0; i < 2000 && plant.state().foot_z_m == 0.0; ++i) plant.step(-5.0);
   EXPECT_GT(plant.state().foot_z_m, 0.0);
   EXPECT_EQ(plant.motion(0.0).contact_force_N, 0.0);
 }
@@ -233,7 +233,8 @@ bed_stiffness_relative = 0.05
                ConfigError);
 }
 
-// Dropped, pressed down and pushed off again: the foot, yields, unloads, yields once more and leaves.
+// The foot is dropped, pressed down and pushed off again: the bed yields, unloads, yields again, and the foot
+// leaves.
 template <class Step>
 PlantState pushed_off(double release_height_m, double step_s, Step&& step) {
   const WorldConfig config;
@@ -258,7 +259,8 @@ TEST(Plant, CoarseStepsEndWhereFineOnesDo) {
   EXPECT_NEAR(coarse.foot_velocity_mps, fine.foot_velocity_mps, 2e-3);
 }
 
-// A fit needs derivatives: the end must not jump when the instants at which the bed yields pass a grid point.
+// A fit needs derivatives. So the final state must not jump when the instant at which the bed yields crosses
+// a step.
 TEST(Plant, TheEndOfCoarseStepsIsSmoothInTheStart) {
   const auto end = [](double height_m) {
     return pushed_off(height_m, 2.5e-4,

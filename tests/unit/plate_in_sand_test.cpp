@@ -42,7 +42,7 @@ TEST_F(PlateInSand, SmallPlatesChooseTheConfinedLayerAndPredictTheLargerOnes) {
 TEST_F(PlateInSand, PressureAtOneDepthThatIgnoresThePlateIsAQuarterTooLow) {
   EXPECT_NEAR(law(DepthLaw::power).relative_error.at(2), -0.25, 0.04);
   EXPECT_NEAR(law(DepthLaw::power).shape.value, 1.48, 0.1);
-  EXPECT_NEAR(fit_.area.at(2).exponent.value, 1.59, 0.1);  // not 1
+  EXPECT_NEAR(fit_.area.at(2).exponent.value, 1.59, 0.1);  // differs from 1
   EXPECT_GT(fit_.area.at(2).exponent.ci95_low, 1.0);
 }
 
@@ -57,7 +57,8 @@ TEST_F(PlateInSand, WhatYieldsOnTheStopDoesNotYieldInTheBed) {
   EXPECT_NEAR(fit_.with_stop_compliance->relative_error.at(2), -0.08, 0.04);
 }
 
-// Held-out depths inside the band of one new trial, by the law that carries the 60 mm plates' profile over.
+// Share of the held-out depths within the band of one new trial, if this law scales the profile of the 60 mm
+// plates.
 double share_inside(const nlohmann::ordered_json& profile, std::string_view law) {
   for (const auto& p : profile.at("held_out"))
     if (p.at("law") == law) return p.at("inside").get<double>() / p.at("depths").get<double>();

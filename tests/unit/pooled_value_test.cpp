@@ -17,8 +17,8 @@ TEST(PooledValue, WithoutErrorsOfTheirOwnIsStudentsInterval) {
   const auto pooled = pool_trials(trials);
   const auto student = mean_over_trials(plain);
   EXPECT_NEAR(pooled.value, student.value, 1e-9);
-  EXPECT_NEAR(pooled.mean_low, student.ci95_low, 1e-3);      // the grid's error is 4e-5
-  EXPECT_GT(pooled.between_sd, student.standard_deviation);  // the median of a skewed posterior
+  EXPECT_NEAR(pooled.mean_low, student.ci95_low, 1e-3);      // the numerical error of the grid is 4e-5
+  EXPECT_GT(pooled.between_sd, student.standard_deviation);  // it is the median of a skewed posterior
   EXPECT_LT(pooled.between_sd, 1.2 * student.standard_deviation);
   const double half = student_t95(3) * student.standard_deviation * std::sqrt(1.25);
   EXPECT_NEAR(pooled.new_high, student.value + half, 1e-3);
@@ -48,7 +48,7 @@ TEST(PooledValue, AnErrorThatAllTrialsShareDoesNotAverageOut) {
   EXPECT_NEAR(pooled.mean_high - 10.0, 1.959964 * 0.5, 0.01);
 }
 
-// Share of 1,000 sets of trials whose interval holds the mean, and a further trial's true value.
+// Share of 1,000 sets of trials whose interval contains the mean, and the true value of a further trial.
 struct Coverage {
   double mean, further;
 };
@@ -71,7 +71,7 @@ Coverage coverage(std::size_t trials, double between, double own) {
   return {static_cast<double>(held) / kSets, static_cast<double>(held_further) / kSets};
 }
 
-// Standard deviation of such a share: 0.007.
+// The standard deviation of such a share is 0.007.
 TEST(PooledValue, IntervalsHoldWhatTheySayWhereTrialsDiffer) {
   for (const std::size_t trials : {3u, 12u})
     for (const double own : {0.0, 1.0}) {
@@ -81,7 +81,8 @@ TEST(PooledValue, IntervalsHoldWhatTheySayWhereTrialsDiffer) {
     }
 }
 
-// Errors as large as what is sought: the interval of a new trial is wider than it need be, never narrower.
+// If the errors of the trials are as large as the difference between trials, the interval of a new trial may
+// be too wide, but never too narrow.
 TEST(PooledValue, IntervalsStillHoldWhereTrialsAreUnsure) {
   for (const double own : {5.0, 10.0}) {
     const auto held = coverage(12, 10.0, own);

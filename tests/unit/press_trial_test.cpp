@@ -8,8 +8,8 @@
 namespace sandhopper {
 namespace {
 
-// Pushed to 20 mm, drawn out, pushed to 30 mm: in its own hole the plate meets nothing, which says nothing
-// about the bed.
+// Pushed to 20 mm, drawn out, pushed to 30 mm. In its own hole the plate meets no ground, so these samples
+// give no information on the bed.
 TEST(PressTrial, ASecondPushCountsFromWhereItGoesDeeper) {
   std::string csv = "t_s,foot_z_m,force_N\n";
   double t = 0.0;
@@ -33,7 +33,7 @@ TEST(PressTrial, ASecondPushCountsFromWhereItGoesDeeper) {
   const auto press = press_from(result);
   ASSERT_GT(press.loading.samples.size(), 50U);
   for (const auto& sample : press.loading.samples) {
-    if (sample.depth_m > 0.0199 && sample.depth_m < 0.0201) continue;  // the turn
+    if (sample.depth_m > 0.0199 && sample.depth_m < 0.0201) continue;  // the turning point
     EXPECT_NEAR(sample.force_N, 1500.0 * sample.depth_m, 0.1);
   }
 }

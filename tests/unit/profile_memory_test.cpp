@@ -11,7 +11,7 @@ namespace {
 constexpr double kRadius_m = 0.040;
 constexpr double kReducedMass_kg = 0.68;
 
-// A slow foot on the believed bed.
+// A slow push on the bed that the prior assumes.
 ProfileSums slow_push(double from_m, double to_m, double duration_s = 1e-3, double too_deep_m = 0.0) {
   ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
   constexpr double kSpeed_mps = 0.1;
@@ -23,7 +23,7 @@ ProfileSums slow_push(double from_m, double to_m, double duration_s = 1e-3, doub
   return regression.sums();
 }
 
-// A sample that weighs next to nothing.
+// A sample with almost no weight.
 ProfileSums touch_at(double depth_m) { return slow_push(depth_m, depth_m + 1e-5, 1e-9); }
 
 TEST(ProfileMemory, BandStaysWhereAStrideAddsNothing) {
@@ -39,7 +39,7 @@ TEST(ProfileMemory, BandStaysWhereAStrideAddsNothing) {
   }
 }
 
-// On a bed that is known the first stride shows its depth error, and the second begins with it.
+// On a known bed the first stride reveals its depth error, and the second stride must start with this error.
 TEST(ProfileMemory, LaterStrideBeginsWithTheDepthErrorOfItsCrater) {
   StiffnessConfig config;
   config.joint.intercept_depth_sd_m = 1e-5;
@@ -66,7 +66,7 @@ TEST(ProfileMemory, BlowBeforeNewGroundSettlesToo) {
   EXPECT_EQ(regression.sums().samples, 1);
 }
 
-// Estimates of a foot on the believed bed, a millisecond apart.
+// Estimates for a foot on the assumed bed, one per millisecond.
 class PushedFoot {
  public:
   PushedFoot() { recorder.on_release(0); }
@@ -91,7 +91,7 @@ class PushedFoot {
   std::int64_t now_ns_ = 0;
 };
 
-// A foot that goes down and then rests while the estimated depth drifts.
+// A foot that goes down and then rests, while the estimated depth drifts.
 TEST(StrideRecorder, DriftOfAFootAtRestIsNoNewDepth) {
   PushedFoot foot;
   foot.move(0.2, State::flight);
@@ -107,7 +107,7 @@ TEST(StrideRecorder, DriftOfAFootAtRestIsNoNewDepth) {
   EXPECT_NEAR(foot.recorder.sums().summary.crater_depth_m, 0.020, 3e-4);
 }
 
-// The leg can touch down again while it lifts its foot out of a deep crater.
+// The leg can touch down again before its foot has left a deep crater.
 TEST(StrideRecorder, TouchdownBeforeTheFootIsClearBeginsNewEvents) {
   PushedFoot foot;
   foot.move(0.2, State::flight);

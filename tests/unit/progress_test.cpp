@@ -10,7 +10,7 @@
 namespace sandhopper::cli {
 namespace {
 
-// Standard error goes into a pipe, as in a script, until this goes.
+// Redirects standard error into a pipe, as in a script, during its lifetime.
 class PipedError {
  public:
   PipedError() : before_(::dup(STDERR_FILENO)) {
@@ -23,7 +23,7 @@ class PipedError {
   PipedError(const PipedError&) = delete;
   PipedError& operator=(const PipedError&) = delete;
 
-  // Waits for it.
+  // Waits for a line and returns it.
   std::string line() const {
     std::string text;
     char letter = 0;

@@ -12,8 +12,8 @@
 
 #include "tools/experiment/nominal_stride.hpp"
 
-// The default robot and bed without noise against 15 strides of an independent program, and against the
-// printed matrix of what those strides show.
+// Default robot and bed without noise, compared with 15 strides of an independent program and with the
+// printed matrix of these strides.
 namespace sandhopper {
 namespace {
 

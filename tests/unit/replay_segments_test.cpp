@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint64_t kCycles = 4000;
 
-// A trial whose log begins a new file whenever one holds 600 kB.
-// `robot_toml`: the configuration the log carries, in place of the whole one.
+// Records a trial whose log begins a new file after 600 kB each. `robot_toml`: configuration to store in the
+// log instead of the full one.
 void record(const std::filesystem::path& file, std::string_view robot_toml = {},
             const WorldConfig& bed = {}) {
   const RobotConfig robot;
@@ -62,7 +62,7 @@ TEST(Replay, ALogInSeveralFilesIsReplayedWhole) {
   std::filesystem::remove_all(folder);
 }
 
-// In a deep crater the foot is clear long after liftoff. A record that comes after that instant is also read
+// In a deep crater the foot is clear long after liftoff. A record later than that instant must also be read
 // after it.
 TEST(Replay, GroundEventsAreTheSameHoweverLateTheFootIsClear) {
   WorldConfig bed;

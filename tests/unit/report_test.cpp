@@ -23,7 +23,7 @@ TEST(Report, Base64AgreesWithTheStandardsOwnVectors) {
   EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
 }
 
-// 1000 s at 1 kHz, one stride from 500.0 s to 500.4 s, and a single outlier at 700.5 s.
+// 1000 s at 1 kHz with one stride from 500.0 s to 500.4 s and a single outlier at 700.5 s.
 ReportData long_trial() {
   ReportData data;
   data.columns.push_back({"load_cell_force_N", {}});

@@ -17,7 +17,8 @@ class RequestBoxTest : public ::testing::Test {
  protected:
   void post(const std::vector<Word>& words) { box.post(words, ++received_ns); }
 
-  // One cycle: what it serves; what is answered is kept as "release overruled stop".
+  // One cycle: returns the request that it serves and keeps the answers as text, for example "release
+  // overruled stop".
   Request turn() {
     const auto taken = box.take(++time_ns, quit);
     answers.clear();
@@ -111,8 +112,8 @@ TEST_F(RequestBoxTest, AnAnswerHasItsTimes) {
   EXPECT_EQ(second.answers[0].number, 2U);
 }
 
-// A cycle that looks at any instant: never a release served with or after the stop of its read, no word
-// without an answer, none with two.
+// A cycle reads at random instants. A release must never be served with or after the stop of the same read,
+// and each word must be answered exactly once.
 TEST_F(RequestBoxTest, UnderTwoPostersAndACycleEachWordIsAnsweredOnceAndNoReleaseOutlivesItsStop) {
   constexpr int kPosts = 2000;
   std::atomic<int> posting{2};

@@ -11,8 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A mass that falls at 1 m/s onto a spring, bounces and falls back to where it began: a cycle that ends as it
-// began, read every 0.5 ms.
+// A mass falls at 1 m/s onto a spring, bounces and falls back to its start; sampled every 0.5 ms.
 LegHop bounce(double stiffness_N_per_m, double mass_kg) {
   constexpr double kStep_s = 1e-5, kGravity = 9.80665;
   LegHop hop{.trial = "bounce"};

@@ -21,8 +21,8 @@ TEST(SeriesGround, OffersNoSetUpBeforeAStrideWasMeasured) {
   EXPECT_FALSE(SeriesGround(RobotConfig{}).next());
 }
 
-// After a shallow stride the ground below it is a guess: the next drop goes deeper and is expected to tell of
-// it, and after it the band is narrower.
+// After a shallow stride the ground below is unknown. The next drop must go deeper, and the band must become
+// narrower.
 TEST(SeriesGround, OffersTheDropThatNarrowsTheBand) {
   const CampaignFolder folder;
   SeriesGround ground(RobotConfig{});

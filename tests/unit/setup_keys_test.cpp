@@ -64,7 +64,7 @@ TEST(SetupKeys, ReachThePlantUnderTheirUsualNameAndAreTold) {
         << key;
 }
 
-// Where one key has its usual name, nothing else is taken for it.
+// If a key has its usual name, no other key may be taken for it.
 TEST(SetupKeys, GiveWayToTheUsualName) {
   CampaignFolder folder;
   folder.write("campaign.toml",

@@ -9,7 +9,8 @@
 
 namespace sandhopper {
 
-// A ready campaign over recordings that are not part of this tree; none, said loudly, where they are missing.
+// A ready campaign whose recordings are not in this source tree. Prints a warning and returns nothing if they
+// are missing.
 inline std::optional<Campaign> shared_campaign(const std::string& name) {
   try {
     return load_campaign(std::filesystem::path(SANDHOPPER_SOURCE_DIR) / "config/campaigns" / name);
@@ -20,7 +21,7 @@ inline std::optional<Campaign> shared_campaign(const std::string& name) {
   }
 }
 
-// The part that `hop terrain` writes under "conclusions"; null where the recordings are missing.
+// The "conclusions" that `hop terrain` writes; null if the recordings are missing.
 inline nlohmann::ordered_json shared_conclusions(const std::string& name) {
   const auto campaign = shared_campaign(name);
   if (!campaign) return nullptr;

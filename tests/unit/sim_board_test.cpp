@@ -35,7 +35,7 @@ TEST(SimBoard, MotorReplyIsTheStateAtTheWriteItAnswersAndComesOnce) {
   EXPECT_TRUE(frame.motor[1].fresh);
   EXPECT_EQ(frame.motor[0].time_ns, 11 * kCycle_ns);
   EXPECT_NEAR(frame.motor[0].position_rad, bench.world.truth().leg_angle_rad, 1e-12);
-  EXPECT_FALSE(bench.read(3).motor[0].fresh);  // nothing was written since
+  EXPECT_FALSE(bench.read(3).motor[0].fresh);  // no command was written since
   EXPECT_EQ(bench.frame.motor[0].time_ns, 11 * kCycle_ns);
 }
 

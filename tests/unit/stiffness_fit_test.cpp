@@ -30,7 +30,7 @@ RegressionSums sums_of(const Samples& samples) {
   return r.sums();
 }
 
-// The same estimator written out with whole matrices.
+// The same estimator with full matrices.
 struct Direct {
   Eigen::Vector2d theta;
   double slope_variance;

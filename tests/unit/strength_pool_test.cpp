@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A slow press of a plate: F = k z^n in units of 20 mm, with the sensor's noise.
+// A slow press of a plate: F = k z^n with z in units of 20 mm, and sensor noise.
 StrengthCurve press(double stiffness_N_per_m, double deepest_m, unsigned seed, double exponent = 1.0,
                     double diameter_m = 0.08) {
   std::mt19937_64 random(seed);
@@ -77,7 +77,7 @@ TEST(StrengthCurve, SurvivesTheResultOfItsTrial) {
   EXPECT_EQ(back[0].force_N, curve.force_N);
   EXPECT_EQ(back[0].shape, curve.shape);
   EXPECT_EQ(back[0].exponent.value, curve.exponent.value);
-  keep_curve({.source = CurveSource::drop}, result);  // without points: nothing to keep
+  keep_curve({.source = CurveSource::drop}, result);  // has no points, so nothing is kept
   EXPECT_EQ(curves_of(result).size(), 1u);
 }
 
@@ -139,11 +139,11 @@ TEST(StrengthPool, GroundOnWhichNoDepthIsSeenIsRigidAtLeastSoMuch) {
   EXPECT_LT(group.at_least_N_per_m, bound);
   EXPECT_GT(group.at_least_N_per_m, 0.95 * bound);
   EXPECT_THAT(profile_answer(group), StartsWith("The ground is rigid: at least 63"));
-  for (auto& curve : curves) curve.greatest_N = 4.0;  // a touch shows nothing
+  for (auto& curve : curves) curve.greatest_N = 4.0;  // a light touch gives no information
   EXPECT_THAT(profile_answer(pool_curves(curves).front()), StartsWith("The ground is not shown to be rigid"));
 }
 
-// Force in proportion to the area: true for these made-up plates, and false by a factor for others.
+// Prediction by the area law: right for the first held-out plate, wrong by a factor of 2 for the second.
 TEST(ProfilePrediction, CarriesTheBandOverToAnotherPlateByItsArea) {
   auto curves = presses(5, 0.05);
   const double area = (0.1 * 0.1) / (0.08 * 0.08);

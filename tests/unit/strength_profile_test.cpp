@@ -29,7 +29,7 @@ struct Push {
   unsigned seed = 1;
 };
 
-// A foot that slows down on its way into virgin ground, on which drag and added mass act.
+// A foot that slows down while it enters virgin ground with drag and added mass.
 ProfileSums sums_of(const Curve& curve, const Push& push) {
   const Bed cone(BedParameters{}, kRadius_m);
   ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
@@ -141,8 +141,8 @@ TEST(GroundSummary, FindsThePowerLawsExponent) {
 
 constexpr double kFoot_kg = 0.68;
 
-// A foot that leaves on a line of this stiffness: its load falls from 60 N to nothing in 0.1 s. `bias_mps2`
-// is that of the accelerometer.
+// A foot that leaves along a line of this stiffness: its load falls from 60 N to 0 in 0.1 s. `bias_mps2`:
+// bias of its accelerometer.
 UnloadingTrace leaving(double line_N_per_m, double bias_mps2 = 0.05) {
   UnloadingRecorder recorder(0.03);
   std::mt19937 engine(5);
@@ -193,8 +193,8 @@ TEST(ReloadingStiffness, IntervalHoldsTheLineOnWhichTheFootLeaves) {
   }
 }
 
-// Between two points of the grid too the interval holds the truth; and many strides make it narrower than the
-// distance of two points, as far as the torque constant's error allows: 2 x 1.96 x 2 %.
+// The interval must contain the true value also between two grid points. With many strides it becomes
+// narrower than the grid, down to the error of the torque constant: 2 x 1.96 x 2 %.
 TEST(ReloadingStiffness, IsFinerThanTheGrid) {
   int holds = 0, lines = 0;
   for (double truth = 25e3; truth < 50e3; truth *= 1.05) {

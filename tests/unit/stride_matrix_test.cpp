@@ -7,21 +7,21 @@
 
 #include "tools/experiment/nominal_stride.hpp"
 
-// What the first stride of the default robot shows, for five touchdown speeds and three compression
-// stiffnesses, beside the figures printed by an independent program. Times count from physical contact;
-// forces and accelerations are means over a millisecond, as logged there (the force has steps inside: the
-// cone of grains lets go as the foot stops).
+// First stride of the default robot for five touchdown speeds and three compression stiffnesses, compared
+// with printed figures of an independent program. Times count from physical contact. Forces and accelerations
+// are means over a millisecond, as that program logged them; the force has steps within one, because the cone
+// of grains separates as the foot stops.
 namespace sandhopper {
 namespace {
 
 struct Figures {
-  double compression_ms, extension_ms;  // contact to switch, switch to liftoff
-  double early_peak_N, early_peak_ms;   // largest local maximum of the first 60 ms
-  double rest_ms;                       // foot slower than 5 % of its touchdown speed
+  double compression_ms, extension_ms;  // from contact to switch, from switch to liftoff
+  double early_peak_N, early_peak_ms;   // largest local maximum in the first 60 ms
+  double rest_ms;                       // when the foot is slower than 5 % of its touchdown speed
   double foot_speed_at_switch_mps;      // downward
   double peak_force_N, max_depth_mm, liftoff_depth_mm;
-  double leg_deflection_mm;                        // from the length at contact
-  double touchdown_accel_mps2, switch_accel_mps2;  // of the foot: highest in 60 ms, lowest in 40 ms
+  double leg_deflection_mm;                        // relative to the length at contact
+  double touchdown_accel_mps2, switch_accel_mps2;  // of the foot: maximum in 60 ms, minimum in 40 ms
 };
 
 struct Cell {
@@ -97,7 +97,7 @@ void print(const char* what, const Figures& f) {
               f.leg_deflection_mm, f.touchdown_accel_mps2, f.switch_accel_mps2);
 }
 
-// 1 %, and half a unit of the last printed digit.
+// Tolerance: 1 %, and half a unit of the last printed digit.
 void expect_printed(double value, double printed, double digit, const char* what) {
   EXPECT_NEAR(value, printed, 0.01 * std::abs(printed) + 0.5 * digit) << what;
 }
@@ -131,7 +131,7 @@ TEST(StrideMatrix, AgreesWithinOnePercentAndTwoMilliseconds) {
   }
 }
 
-// Liftoff [s after release], peak force [N], depth [mm] at 1.0 m/s and 3.75 N/cm on other beds.
+// Liftoff [s after release], peak force [N] and depth [mm] at 1.0 m/s and 375 N/m on other beds.
 TEST(StrideMatrix, OtherBedsAgreeToo) {
   struct Variant {
     double stiffness_N_per_m, added_mass_factor, liftoff_s, peak_force_N, max_depth_mm;

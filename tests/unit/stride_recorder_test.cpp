@@ -9,7 +9,8 @@
 namespace sandhopper {
 namespace {
 
-// The line of a stride whose accelerometer met the end of its range is no line: its solver must be told.
+// If the accelerometer reached its range, the stride's line is not valid. So the solver needs the number of
+// these samples.
 TEST(StrideRecorder, SamplesAtTheAccelerometersRangeOnNewGroundAreCounted) {
   const CampaignFolder folder;
   SimTrialSetup setup{.trial = {.release_height_m = 0.0618}, .log = folder.path() / "clipped.mcap"};

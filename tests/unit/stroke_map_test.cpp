@@ -15,7 +15,7 @@ namespace {
 constexpr double kStiffness_N_per_m = 1500.0, kIntercept_N = 2.0;
 constexpr std::array<double, 3> kDrag{14.0, -600.0, 6000.0};
 
-// A stroke at `speed` that slows down towards its end, with noise of `noise_N`.
+// A stroke that starts with `speed_mps` and slows down towards its end, with noise of `noise_N`.
 StrokeSums stroke(double speed_mps, double noise_N, std::uint64_t seed) {
   Random random(seed, 1);
   StrokeSums sums;
@@ -71,7 +71,7 @@ TEST(StrokeMap, SumsTravelAsNumbers) {
   EXPECT_EQ(StrokeSums::from(std::vector<double>{1.0}).samples(), 0.0);
 }
 
-// Simulated strokes whose speed was not recorded: the bed's stiffness, its added mass, and the area law.
+// Simulated strokes without a recorded speed must give the bed's stiffness, its added mass, and the area law.
 TEST(TerrainStrokes, ASimulatedCampaignTellsItsBed) {
   CampaignFolder folder;
   CampaignMakerSetup setup;
@@ -84,7 +84,7 @@ TEST(TerrainStrokes, ASimulatedCampaignTellsItsBed) {
   const auto& plate = strokes.at("plates").at(0);
   EXPECT_EQ(plate.at("plate_diameter_m").get<double>(), 0.08);
   EXPECT_NEAR(plate.at("stiffness_N_per_m").at("value").get<double>(), 1525.0, 60.0);
-  const double added_mass_kg = 0.168;  // of the cone, fully grown at 34.6 mm
+  const double added_mass_kg = 0.168;  // of the fully grown cone, at 34.6 mm
   EXPECT_NEAR(plate.at("added_mass_at_30mm_kg").at("value").get<double>() / added_mass_kg, 1.0, 0.2);
   const auto& fast = plate.at("fast_strokes");
   EXPECT_LT(fast.at("map_and_added_mass_rms_N").get<double>(), 0.7 * fast.at("map_rms_N").get<double>());

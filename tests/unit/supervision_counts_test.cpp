@@ -5,7 +5,7 @@
 namespace sandhopper {
 namespace {
 
-// Every `period`-th sample is bad.
+// Count after `samples` samples of which every `period`-th is bad.
 double after(double leak, int period, int samples) {
   LeakyCount count{leak};
   for (int i = 1; i <= samples; ++i) count.see(i % period == 0);
@@ -13,7 +13,8 @@ double after(double leak, int period, int samples) {
 }
 
 TEST(LeakyCount, AShareAboveLeakOverOnePlusLeakGrowsWithoutEnd) {
-  // leak 0.25: a fifth. One of four grows by 1 - 3 / 4 each time, one of six loses all of it.
+  // Leak 0.25: up to one bad sample of five is tolerated. With one of four the count grows by 1 - 3 / 4 each
+  // time; with one of six it falls to zero in between.
   EXPECT_DOUBLE_EQ(after(0.25, 4, 400), 25.75);
   EXPECT_DOUBLE_EQ(after(0.25, 5, 500), 1.0);
   EXPECT_DOUBLE_EQ(after(0.25, 6, 600), 1.0);

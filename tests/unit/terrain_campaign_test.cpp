@@ -96,7 +96,7 @@ TEST_F(TerrainCampaign, JointStiffnessFindsTheBed) {
   EXPECT_LT(pooled.at("depth_error_rms_in_stance_m").at("value").get<double>(), 0.0017);
 }
 
-// The recorded channels alone give what the cycle said when it hopped.
+// The recorded channels alone must give the stiffness that the firmware computed while hopping.
 TEST(TerrainHops, ARecordingReplaysToTheFirmwaresOwnStiffness) {
   CampaignFolder folder;
   CampaignMakerSetup setup;
@@ -125,7 +125,7 @@ TEST(TerrainHops, ARecordingReplaysToTheFirmwaresOwnStiffness) {
 }
 
 TrialResult without(const std::filesystem::path& from, const std::vector<std::string>& channels) {
-  // Columns that go are renamed to something nobody knows.
+  // Renames the columns to unknown names.
   CampaignFolder folder;
   std::string text = text_of(from / "trials/0003.csv");
   for (const auto& channel : channels) {

@@ -19,7 +19,8 @@ double loss_W(const SupervisionConfig& c, double current_A) {
   return 1.5 * c.phase_resistance_Ohm * current_A * current_A;
 }
 
-// Of two heat capacities in a row from ambient on, a constant loss in the first:
+// Solution for two heat capacities in series that start at ambient temperature, with a constant loss in the
+// first:
 //   x(t) = (1 - exp(A t)) x_end,  exp(A t) = (exp(p t) (A - q) - exp(q t) (A - p)) / (p - q)
 // with the eigenvalues p, q of A.
 Temperatures closed_form(const SupervisionConfig& c, double loss_W, double time_s) {
@@ -53,7 +54,7 @@ TEST(ThermalModel, StepOfCurrentHasTheClosedFormsResponse) {
   EXPECT_NEAR(closed_form(c, 37.5, 1e5).winding_C, 25.0 + 37.5 * 3.0, 1e-6);
 }
 
-// Faster than heat reaches the housing, all of it stays in the copper.
+// If the pulse is shorter than the heat transfer to the housing, all heat stays in the winding.
 TEST(ThermalModel, AShortPulseHeatsTheWindingAlone) {
   const SupervisionConfig c;
   const auto model = after(c, kCurrent_A, 0.1);

@@ -52,11 +52,11 @@ struct Band {
   double low, high;
 };
 
-// 75 trials and 8 seeds through the firmware's own controller and estimator. The bands are those an
-// independent simulation gives for the same definitions (tools/experiment/README.md), where this one meets
-// them; where it does not, the band is around what it gives, so that a change shows either way: its estimates
-// are closer to the truth, which makes the quasi-static treatment look better in case A and B and leaves less
-// for the weights to mend.
+// 75 trials with 8 seeds through the firmware's own controller and estimator. If the results agree with an
+// independent simulation of the same definitions (tools/experiment/README.md), the bands are those of that
+// simulation. Otherwise the bands are around the present results, so that any change shows. The present
+// estimates are closer to the truth. So the quasi-static treatment looks better in cases A and B, and the
+// weights have less to correct.
 TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder) {
   StudySetup setup;
   setup.threads = std::max(1U, std::thread::hardware_concurrency());
@@ -78,7 +78,8 @@ TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder)
     EXPECT_GE(error, band.low) << band.name << static_cast<int>(band.treatment);
     EXPECT_LE(error, band.high) << band.name << static_cast<int>(band.treatment);
   }
-  // With the true force and state nothing depends on the estimator, and the independent simulation is met.
+  // With the true force and state the result does not depend on the estimator and must agree with the
+  // independent simulation.
   const auto truth = find(study, "T").mean_error();
   EXPECT_NEAR(truth[0], 0.120, 0.02);
   EXPECT_NEAR(truth[1], 0.078, 0.02);
@@ -92,10 +93,10 @@ TEST(Treatments, OverSeventyFiveTrialsAndEightSeedsKeepTheirErrorsAndTheirOrder)
     EXPECT_EQ(find(study, name).seeds_in_order(Treatment::observer_ols, Treatment::observer_wls), 0) << name;
 }
 
-// Where this one differs from the independent simulation, the sensors' ages explain most: with the height
-// sensor's latency not accounted for and forces paired by row, the whole stance (case D, unloading line and
-// all) is met within 0.02, and the unweighted treatments of A, A2 and C lie in their bands or within 0.002 of
-// them.
+// The treatment of the sensors' latencies explains most of the difference to the independent simulation.
+// Without compensation of the height sensor's latency and with forces paired by row, the whole stance (case
+// D, with the unloading line) agrees within 0.02, and the unweighted treatments of A, A2 and C lie within
+// their bands or 0.002 outside.
 TEST(Treatments, WithoutTheSensorsAgesTheErrorsAreThoseOfTheIndependentSimulation) {
   StudySetup setup;
   setup.threads = std::max(1U, std::thread::hardware_concurrency());
@@ -117,7 +118,7 @@ TEST(Treatments, WithoutTheSensorsAgesTheErrorsAreThoseOfTheIndependentSimulatio
   expect_near("T", 0, 0.120, 0.02);
 }
 
-// Root mean square errors in stance are at most those of the independent simulation plus 20 %.
+// The rms errors in stance must not exceed those of the independent simulation by more than 20 %.
 TEST(Treatments, StateAndForceAreEstimatedAsWellAsExpected) {
   struct Expected {
     double quasi_static_N, observer_N, load_cell_N, depth_mm, velocity_mps;

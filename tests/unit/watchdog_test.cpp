@@ -87,7 +87,7 @@ TEST(TorqueWatchdog, LeavesACycleAloneThatHasNotBegunOrHasEnded) {
   EXPECT_FALSE(heart.tripped());
 }
 
-// A service manager as sd_notify(3) sees it.
+// A service manager that receives sd_notify(3) messages.
 class ServiceManager {
  public:
   explicit ServiceManager(const char* watchdog_us) : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
@@ -154,7 +154,7 @@ std::string contents(const std::filesystem::path& file) {
   return text.str();
 }
 
-// An ordinary file in the place of the device shows what it is fed.
+// An ordinary file replaces the device and records what is written to it.
 TEST(Keepalive, FeedsTheKernelsWatchdogAndDisarmsItAtAnOrderlyEnd) {
   const auto device = std::filesystem::temp_directory_path() / ("sh_watchdog." + std::to_string(::getpid()));
   std::ofstream(device).close();

@@ -7,7 +7,7 @@
 
 #include "firmware/operator_text.hpp"
 
-// From bytes of an operator to words, and back to lines of JSON.
+// From the bytes of an operator to words, and back to lines of JSON.
 namespace sandhopper {
 namespace {
 

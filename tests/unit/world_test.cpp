@@ -27,7 +27,7 @@ struct Moments {
   double deviation() const { return std::sqrt(square / n - mean() * mean()); }
 };
 
-// A hop under the nominal controller, one vector of readings a cycle.
+// Readings of a hop under the nominal controller, one vector per cycle.
 std::vector<double> readings_of_a_hop(const WorldConfig& config, std::uint64_t seed, bool noise = true) {
   World world(config, {.seed = seed, .noise = noise}, 0);
   NominalController controller(config.controller, 375.0);
@@ -50,7 +50,7 @@ std::vector<double> readings_of_a_hop(const WorldConfig& config, std::uint64_t s
   return all;
 }
 
-// NaN (not measured yet) equals NaN.
+// Bitwise equality, so that NaN (not measured yet) equals NaN.
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
@@ -112,11 +112,11 @@ TEST(World, HeldByTheCatchItReadsGravityAndStandsStill) {
   world.advance_to(1'010 * kCycle_ns);
   world.open_catch();
   world.advance_to(1'050 * kCycle_ns);
-  EXPECT_LT(world.imu_foot().accel_mps2[2], 1.0);  // falls, but for the rail
+  EXPECT_LT(world.imu_foot().accel_mps2[2], 1.0);  // free fall, apart from the rail's friction
   EXPECT_LT(world.truth().foot_z_m, 0.0618);
 }
 
-// Noise, offsets and rounding of the sensors at rest, held by the catch.
+// Noise, offset and rounding of the sensors at rest, while the catch holds the robot.
 TEST(World, SensorNoiseAtRestHasTheStatedSize) {
   const WorldConfig config;
   Moments imu, gyro, tof, force, current, position, velocity, mocap;
@@ -165,7 +165,7 @@ TEST(World, SensorNoiseAtRestHasTheStatedSize) {
   EXPECT_NEAR(force.rms(), 0.3, 0.01);
   EXPECT_NEAR(current.mean(), 0.10, 0.002);
   EXPECT_NEAR(position.rms(), 1.75e-4,
-              2e-5);  // at one angle, so the rounding depends on where in a count it lies
+              2e-5);  // at one angle: the rounding error depends on the position within a count
   EXPECT_NEAR(velocity.rms(), 0.14, 0.02);
   EXPECT_NEAR(mocap.rms(), 2e-4, 5e-6);
   EXPECT_NEAR(imu_offset.deviation(), 0.2, 0.06);
@@ -206,7 +206,7 @@ TEST(World, ImuBiasThatNoStaticZeroRemovesComesWithTheRelease) {
     appeared.add(falling.mean() - held.mean());
   }
   EXPECT_NEAR(appeared.deviation(), std::hypot(0.05, 0.005 * 8.0),
-              0.02);  // bias, and scale of the lost gravity
+              0.02);  // bias, and scale error of the gravity that is no longer measured
 }
 
 TEST(World, StructureNoiseIsThereInStanceOnly) {
@@ -238,7 +238,7 @@ TEST(World, StructureNoiseIsThereInStanceOnly) {
   EXPECT_LT(flight.mean(), 0.02);
 }
 
-// 860 samples a second against 1000 cycles.
+// The load cell has 860 samples per second, the cycle runs at 1000 Hz.
 TEST(World, FourteenPercentOfCyclesHaveNoFreshLoadCellSample) {
   WorldConfig config;
   config.spread.load_cell_clock_relative = 0.0;
@@ -334,7 +334,8 @@ TEST(World, DriveLimitsLagsAndFollowsItsLaw) {
   world.command(Side::left, {.torque_Nm = 9.0}, true);
   world.advance_to(500'000);  // one time constant
   EXPECT_NEAR(world.read_motor(Side::left).current_A * kt, 2.8 * (1.0 - std::exp(-1.0)), 1e-9);
-  EXPECT_NEAR(world.truth().motor_torque_Nm, 2.8 * (1.0 - std::exp(-1.0)), 1e-9);  // the right one makes none
+  // only the left motor makes torque
+  EXPECT_NEAR(world.truth().motor_torque_Nm, 2.8 * (1.0 - std::exp(-1.0)), 1e-9);
   const double angle_rad = world.truth().leg_angle_rad;
   world.command(Side::left,
                 {.position_rad = angle_rad + 0.01,

@@ -52,7 +52,7 @@ Command command_at(const Step& step, double time_s) {
   return command;
 }
 
-// Why the step cannot go on; empty: it can.
+// Reason why the step must end; empty: it may go on.
 std::string reason_to_end(const Step& step, const SensorFrame& frame, Heartbeat* heart) {
   if (heart != nullptr && heart->take_trip() != 0)
     return "this program stood still and the watchdog took the torque away; end other programs and begin "

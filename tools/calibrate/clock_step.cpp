@@ -12,7 +12,7 @@ namespace {
 constexpr double kSameTap_s = 0.01;
 constexpr std::size_t kFewestOffsets = 6;
 
-// Foreign taps at `offset_s` to one of ours.
+// Pairs of foreign taps and ours that agree if `offset_s` is added to the foreign time.
 struct Match {
   double offset_s = 0.0;
   std::vector<double> ours, theirs;
@@ -29,7 +29,7 @@ Match match_at(double offset_s, const std::vector<double>& taps, const std::vect
   return out;
 }
 
-// All offsets that match at least two; those that match most come first.
+// All offsets that match at least two taps, those with most matches first.
 std::vector<Match> matches(const std::vector<double>& taps, const std::vector<double>& foreign) {
   std::vector<Match> out;
   for (const double here : taps)
@@ -49,7 +49,7 @@ std::vector<double> without(const std::vector<double>& all, const std::vector<do
 
 }  // namespace
 
-// Taps at even intervals fit at many offsets: the pair of offsets that explains most taps is the one.
+// Taps at even intervals match at many offsets. The pair of offsets that explains most taps is chosen.
 std::optional<ClockStep> step_between_taps(const std::vector<double>& taps_s,
                                            const std::vector<double>& foreign_s) {
   const auto candidates = matches(taps_s, foreign_s);
@@ -78,7 +78,7 @@ std::optional<ClockStep> step_in_offsets(std::span<const double> foreign_s, std:
   const auto n = foreign_s.size();
   if (n < kFewestOffsets) return std::nullopt;
   std::optional<ClockStep> best;
-  double largest = 1.0;  // of |s| over its interval
+  double largest = 1.0;  // largest |s| / ci95 so far
   for (std::size_t split = 2; split + 2 <= n; ++split) {
     Eigen::MatrixXd model(n, 3);
     for (std::size_t i = 0; i < n; ++i)

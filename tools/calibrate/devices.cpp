@@ -9,7 +9,8 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
-// Of the drive's output, per unit of what its reply says; between motors of one dialect only.
+// Output speed per unit of the reply's velocity field, up to a common factor: only ratios between motors of
+// one dialect have a meaning.
 double speed_unit(const CubeMarsConfig& motor) {
   return motor.dialect == Dialect::mit ? motor.velocity_range_radps
                                        : 1.0 / (motor.pole_pairs * motor.drive_reduction);

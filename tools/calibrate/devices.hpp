@@ -2,18 +2,18 @@
 #include "drivers/samples.hpp"
 #include "firmware/linux_board_config.hpp"
 
-// What turns a device's raw figures into SI units in the robot's frame: the keys that calibrations change.
-// The motors are those of `can.motor`.
+// Conversions between a device's raw values and SI units in the robot's frame, with the keys that
+// calibrations change. The motors are those of `can.motor`.
 namespace sandhopper::calibrate {
 
-// A sample that was made with the configuration `from`, as `to` would have made it of the same raw figures:
-// signs, zeros, scales, mounting, and the age that is taken off the time stamp.
+// Converts a sample made with the configuration `from` to what the configuration `to` makes of the same raw
+// values: sign, zero, scale, mounting, and the latency that is subtracted from the time stamp.
 MotorSample converted(const MotorSample& sample, const CubeMarsConfig& from, const CubeMarsConfig& to);
 ImuSample converted(const ImuSample& sample, const ImuConfig& from, const ImuConfig& to);
 TofSample converted(const TofSample& sample, const TofConfig& from, const TofConfig& to);
 LoadCellSample converted(const LoadCellSample& sample, const LoadCellConfig& from, const LoadCellConfig& to);
 
-// Voltage at the converter's input that makes this force.
+// Voltage at the converter's input for this force.
 double load_cell_voltage_V(double force_N, const LoadCellConfig& config);
 
 }  // namespace sandhopper::calibrate

@@ -11,17 +11,17 @@
 namespace sandhopper::calibrate {
 namespace {
 
-constexpr double kWander_rad = 0.003;      // allowed in a pose, beyond noise
-constexpr double kLeastMove_rad = 0.1;     // that shows a sign beyond doubt
-constexpr double kSidesDiffer_rad = 0.05;  // between the moves of the two sides
+constexpr double kWander_rad = 0.003;      // allowed drift within a pose, beyond noise
+constexpr double kLeastMove_rad = 0.1;     // least move that determines the sign
+constexpr double kSidesDiffer_rad = 0.05;  // largest difference between the moves of the two sides
 
-// One motor through all pairs, in the drive's own direction.
+// Angles of one motor in all pairs, in the drive's own direction.
 struct Side {
   std::string name;
   std::vector<double> known_rad, moved_rad;
 };
 
-// The drive's position over the gear ratio.
+// Position of the drive divided by the gear ratio, rad.
 double drive_angle_rad(double link_rad, const CubeMarsConfig& motor) {
   return motor.sign * (link_rad - motor.zero_offset_rad);
 }
@@ -41,7 +41,7 @@ double pose_rad(const Recording& recording, std::size_t index, const CubeMarsCon
                         fmt::format("{}, motor {}: the drive's position is at the end of its {:.1f} rad",
                                     recording.name, motor.name, motor.position_range_rad),
                         "set the drive's zero near the middle of its range, or correct position_range_rad"});
-  // Counts may stand still: a stuck encoder shows in the move.
+  // A still encoder may repeat the same count. A stuck encoder is found later, because it does not move.
   std::vector<Refusal> found;
   const auto mean = still_mean(series, {.max_wander = kWander_rad},
                                fmt::format("{}, motor {}, angle in rad", recording.name, motor.name), found);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kShown = 3;
 
-// The first fault of each kind with its place, and how often it came again.
+// The first error of each kind with its place and the number of repeats.
 std::vector<std::string> problems_of(const std::string& name, const CsvTable& table) {
   std::vector<std::string> out;
   for (const auto& issue : table.issues)

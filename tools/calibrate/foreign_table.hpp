@@ -8,21 +8,21 @@
 
 namespace sandhopper::calibrate {
 
-// A table that cannot be used, and what to do.
+// The table cannot be used. `cure` tells the user what to do.
 struct ForeignTableError : std::runtime_error {
   ForeignTableError(const std::string& what, std::string with_cure)
       : std::runtime_error(what), cure(std::move(with_cure)) {}
   std::string cure;
 };
 
+// One column of the table against time.
 struct ForeignTable {
   ForeignRecording recording;
-  std::vector<std::string> notes;  // what the reader found, where the rest can be used
+  std::vector<std::string> notes;  // problems found in a table that can still be used
 };
 
-// Column `column` against t_s. Throws ForeignTableError for a table without these columns, one whose clock
-// goes backwards, and one in which most cells of the column are no number; std::system_error when it cannot
-// be opened.
+// Reads column `column` against t_s. Throws ForeignTableError if a column is missing, if the clock goes
+// backwards, or if most cells of the column are no number; std::system_error if the file cannot be opened.
 ForeignTable read_foreign_table(const std::filesystem::path& file, const std::string& column);
 
 }  // namespace sandhopper::calibrate

@@ -16,15 +16,15 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kFewestPoses = 9;     // six unknowns and something left to tell a bad fit
-constexpr double kAccelWander_mps2 = 0.03;  // allowed in a pose, beyond noise
+constexpr std::size_t kFewestPoses = 9;     // six unknowns, and three poses to detect a bad fit
+constexpr double kAccelWander_mps2 = 0.03;  // allowed drift within a pose, beyond noise
 constexpr double kGyroWander_radps = 0.01;
-constexpr double kNearFace = 0.85;  // cosine to one of the six faces
+constexpr double kNearFace = 0.85;  // least cosine between a pose and a face of the sensor
 
-// A pose as the sensor delivers it, along its own axes.
+// Means over one pose, uncorrected, in the sensor's own axes.
 struct Pose {
   Eigen::Vector3d accel_mps2, gyro_radps;
-  double error_mps2;  // standard error of the mean, of the worst axis
+  double error_mps2;  // standard error of the mean of the worst axis
 };
 
 Pose measure(const Recording& recording, const ImuChoice& which, const ImuConfig& config,
@@ -69,7 +69,7 @@ void check_faces(const std::vector<Pose>& poses, std::vector<Refusal>& refusals)
                         "lay it on each of its six faces, and three or more poses besides"});
 }
 
-// Scale - 1 and bias with what they leave of |force| = g.
+// `value`: scale - 1 (three axes), then bias (three axes). `residual`: |S (m - b)| - g of each pose.
 struct Fit {
   Vector6 value = Vector6::Zero();
   Matrix6 inverse_normal = Matrix6::Zero();

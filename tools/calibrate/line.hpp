@@ -13,25 +13,25 @@ struct Line {
   double intercept_ci95 = 0.0;
   double slope_ci95 = 0.0;
   double residual_sd = 0.0;
-  double largest_residual = 0.0;  // of the absolute values
+  double largest_residual = 0.0;  // largest absolute value of `residual`
   std::vector<double> residual;
 
   double at(double x) const { return intercept + slope * x; }
 };
 
-// At least three points, two of them with different x. The residual's standard deviation is taken to be no
-// smaller than `least_sd`, the points' own errors: three points may lie on a line by luck.
+// Needs at least three points with at least two different x. `least_sd`: error of a single point. The
+// intervals use at least this standard deviation, because three points may lie on a line by chance.
 Line fit_line(std::span<const double> x, std::span<const double> y, double least_sd);
 
-// The line through all points but the one whose leaving out helps most; from five points on, since among
-// fewer any one could be the odd one out.
+// Leaves out the one point whose removal reduces the largest residual most. Needs five points: among fewer,
+// any of them could be the outlier.
 struct LineWithoutOne {
   std::size_t left_out;
-  double largest_residual;  // of the others
+  double largest_residual;  // largest residual of the other points
 };
 std::optional<LineWithoutOne> line_without_worst(std::span<const double> x, std::span<const double> y);
 
-// t value of a square term beside the line, and its 95 % critical value; from four points on.
+// t value of an added square term, and its 95 % critical value. Needs four points.
 struct Curvature {
   double t;
   double t95;

@@ -14,7 +14,7 @@
 namespace sandhopper::calibrate {
 namespace {
 
-// "hold load_N=9.81 …"
+// Command to the virtual bench, for example "hold load_N=9.81 …".
 std::string bench_line(const Fixture& fixture) {
   std::string line = "hold";
   for (const auto& child : to_node(fixture).children) {

@@ -14,16 +14,16 @@
 namespace sandhopper::calibrate {
 namespace {
 
-constexpr double kWander_N = 0.05;  // allowed within a recording, beyond noise
+constexpr double kWander_N = 0.05;  // allowed drift within a recording, beyond noise
 
 struct Weighed {
   std::vector<double> force_N;    // m g
-  std::vector<double> reading_N;  // with the configuration so far
+  std::vector<double> reading_N;  // force by the present configuration
   std::vector<double> error_N;    // standard error of the reading
   std::vector<std::string> name;
 };
 
-// An IIO converter's range is known to its kernel driver alone.
+// Only the kernel driver of an IIO converter knows its range.
 void check_range(const WeighedPoint& point, const LoadCellConfig& config, std::vector<Refusal>& refusals) {
   if (config.is_iio()) return;
   const double full_V = ads1115_full_scale_V(config.range);
@@ -74,14 +74,14 @@ Repeat worst_repeat(const Weighed& w) {
   return out;
 }
 
-// What the whole residual may be: noise of the means, and a share of the span for the cell itself.
+// Allowed residual: 5 standard errors of the means, and a share of the largest force for the cell itself.
 double allowed_N(const Weighed& w, const Line& line, const LoadCellLimits& limits) {
   const double error = *std::ranges::max_element(w.error_N);
   const double largest = *std::ranges::max_element(w.force_N);
   return std::hypot(5.0 * error, limits.max_residual_of_span * largest * std::abs(line.slope));
 }
 
-// Which word fits a residual that is too large.
+// Selects the reason for a residual that is too large.
 Refusal of_residual(const Weighed& w, const Line& line, double allowed) {
   const auto worst = static_cast<std::size_t>(
       std::ranges::max_element(line.residual, {}, [](double r) { return std::abs(r); }) -
@@ -143,7 +143,7 @@ StudySection section_of(const Weighed& w, const Line& line) {
   return section;
 }
 
-// From the line through readings to the keys: a voltage V was read as F_before = s k (V - V0).
+// Converts the line through the readings to keys. The readings were F_before = sign scale (V - zero).
 std::vector<CalibratedValue> values_of(const Line& line, const LoadCellConfig& before) {
   const double scale = before.scale_N_per_V / std::abs(line.slope);
   const double sign = line.slope < 0.0 ? -before.sign : before.sign;

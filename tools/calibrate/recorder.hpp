@@ -15,39 +15,40 @@ namespace sandhopper::calibrate {
 
 // One recording to be made.
 struct Step {
-  std::string prompt;  // what the person does before it
-  Fixture fixture{};   // who does it on the simulated board and on the virtual bench
+  std::string prompt;  // instruction to the person, before the recording
+  Fixture fixture{};   // acts for the person on the simulated board and on the virtual bench
   double seconds = 3.0;
-  std::string during{};  // what the person does meanwhile; empty: nothing
-  // Torques of both motors at a time of the recording [N m]; none: the drives stay off.
+  std::string during{};  // task of the person during the recording; empty: nothing
+  // Torque of each motor at this time of the recording, N m; empty: the drives stay off.
   std::function<std::array<double, kMotorCount>(double time_s)> torque_Nm{};
 };
 
+// Assumed configuration of robot and board. `progress` gets the share of the recording that is done, 0 to 1.
 struct RecorderSetup {
   const RobotConfig& robot;
-  const LinuxBoardConfig& board;  // with the robot's motors
+  const LinuxBoardConfig& board;  // with the robot's motors in can.motor
   std::function<void(double share)> progress{};
 };
 
-// Makes recordings and leaves each as a log, too, for a later `--from`; an empty path: none.
+// Makes recordings. Each recording is also written to `log`, for a later `--from`; an empty path: no log.
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  // Throws DeviceError, and std::runtime_error where a recording had to be ended (e-stop, a motor that runs
-  // away).
+  // Throws DeviceError, or std::runtime_error if the recording was ended early (e-stop, a motor too fast).
   virtual Recording record(const Step& step, const std::filesystem::path& log) = 0;
 };
 
-// The robot's or the virtual bench's devices, through the drivers that hopperd uses, with its lock, its
-// torque watchdog and its guard while there is torque. On the bench the fixture does what the prompt says.
+// Records from the devices of the robot or of the virtual bench, with hopperd's drivers and its lock. While
+// there is torque, hopperd's watchdog and guard process run. On the virtual bench the fixture carries out the
+// prompt.
 std::unique_ptr<Recorder> make_linux_recorder(const RecorderSetup& setup);
 
-// The simulated board. `real`: what the simulated devices are, where `setup` says what they are believed to
-// be; the difference is what a calibration finds. `world` is made for the robot of `real`.
+// Records from the simulated board. `real_*` are the true properties of the simulated devices, `setup` holds
+// the assumed ones; a calibration finds the difference. `world` must be made for real_robot.
 struct SimulatedDevices {
   WorldConfig world;
   RobotConfig real_robot;
-  LinuxBoardConfig real_board;  // with real_robot's motors
+  LinuxBoardConfig real_board;  // with the motors of real_robot
   TrialSetup trial{};
 };
 std::unique_ptr<Recorder> make_sim_recorder(const RecorderSetup& setup, const SimulatedDevices& devices);

@@ -34,7 +34,7 @@ void convert_all(Recording& recording, const LinuxBoardConfig& from, const Linux
   convert_all(recording.load_cell, from.load_cell, to.load_cell);
 }
 
-// The configuration a log carries, or what it lacks of it as in `board`.
+// The configuration that the log carries. Files that it lacks are taken from `board`.
 LinuxBoardConfig recorded_with(const mcap::Reader& log, const std::string& file,
                                const LinuxBoardConfig& board) {
   auto out = board;
@@ -71,13 +71,14 @@ Recording read_log(const std::filesystem::path& file, const LinuxBoardConfig& bo
   return out;
 }
 
-// The columns of one row that are there.
+// The cells of one row, by the name of their column.
 class Row {
  public:
   explicit Row(const CsvTable& table) : table_(table) {}
   void at(std::size_t row) { row_ = row; }
 
-  // True where every one of these cells is filled; a cell that has no column stays as it is.
+  // Returns true if all `needed` cells hold a number. An optional cell without a number leaves its value
+  // unchanged.
   struct Cell {
     std::string name;
     double* value;

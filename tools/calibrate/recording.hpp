@@ -12,10 +12,10 @@
 
 namespace sandhopper::calibrate {
 
-// What the sensors said in one recording, every fresh sample once, at its own time.
+// Sensor samples of one recording: every fresh sample once, with its own time.
 struct Recording {
   std::string name{};
-  std::int64_t begin_ns = 0;  // zero of a table's time, the first cycle of a log
+  std::int64_t begin_ns = 0;  // time 0 of a table, or the first cycle of a log
   std::array<std::vector<MotorSample>, kMotorCount> motor{};
   std::vector<ImuSample> imu_body{};
   std::vector<ImuSample> imu_foot{};
@@ -25,13 +25,13 @@ struct Recording {
   void add(const SensorFrame& frame);
 };
 
-// A trial's or calibration's log (.mcap), or a CSV file with the columns of a recording (README.md). The
-// samples are those that the configuration `board` makes of the devices' raw figures: a log that carries the
-// one it was recorded with (as all logs of `hopperd` and `hop calibrate` on devices do) is converted,
-// anything else is taken to be recorded with `board`. Throws std::runtime_error with file and cause.
+// Reads a trial's or calibration's log (.mcap), or a CSV file with the columns of a recording (README.md). A
+// log that carries its configuration (as logs of `hopperd` and of `hop calibrate` on devices do) is converted
+// from it to `board`. All other samples are taken as recorded with `board`. Throws std::runtime_error with
+// file and cause.
 Recording read_recording(const std::filesystem::path& file, const LinuxBoardConfig& board);
 
-// Time in seconds from the first sample, and one figure.
+// A quantity of the samples against the time in seconds since the first sample.
 template <class Sample, class Figure>
 Series series_of(const std::vector<Sample>& samples, Figure&& figure) {
   Series out;

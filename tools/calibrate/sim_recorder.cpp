@@ -5,7 +5,7 @@
 namespace sandhopper::calibrate {
 namespace {
 
-// Time of a simulation: sleeping costs nothing.
+// Clock of a simulation: sleep_until() returns at once.
 class PlantTime : public TimeSource {
  public:
   std::int64_t now_ns() noexcept override { return now_ns_; }
@@ -15,8 +15,8 @@ class PlantTime : public TimeSource {
   std::int64_t now_ns_ = 0;
 };
 
-// A board whose devices are what `real` says while the firmware believes `believed`. The world's drives all
-// have the torque constant of the first motor.
+// A board with the true devices `real`, while the firmware assumes `believed`. All drives of the simulated
+// world have the torque constant of the first motor.
 class MisjudgedBoard : public Board {
  public:
   MisjudgedBoard(Board& inner, const LinuxBoardConfig& real, const LinuxBoardConfig& believed)
@@ -37,7 +37,8 @@ class MisjudgedBoard : public Board {
     frame.load_cell = converted(raw_.load_cell, real_.load_cell, believed_.load_cell);
   }
 
-  // A torque is sent as the current that makes it with the constant believed in.
+  // The firmware computes the current with the assumed torque constant and sign. The true ones give the
+  // torque.
   void write(const Command& command) noexcept override {
     Command real = command;
     for (std::size_t i = 0; i < kMotorCount; ++i)

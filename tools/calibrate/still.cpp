@@ -48,7 +48,7 @@ Refusal of_wander(const StillMean& mean, const Means& means, const StillLimits& 
                   const std::string& what) {
   const auto found = fmt::format("{} changed by {:.3g} within {:.1f} s, allowed {:.3g} and noise", what,
                                  mean.wander, mean.duration_s, limits.max_wander);
-  // A line explains 97 % of a ramp and 75 % of a step; a step 75 % of a ramp.
+  // A line explains 97 % of the variance of a ramp and 75 % of a step. A step explains 75 % of a ramp.
   const double step = share_of_step(means), line = share_of_line(means);
   if (step > 0.85 && step > line)
     return {"slipped", found + ": it jumped",
@@ -90,8 +90,8 @@ StillMean still_mean(const Series& series, const StillLimits& limits, const std:
   if (out.noise == 0.0 && out.wander == 0.0)
     refusals.push_back({"stuck", fmt::format("{}: every one of {} samples is the same", what, out.samples),
                         "a sensor has noise: check its cable and supply, and its range"});
-  // The range of ten means of white noise is 3.1 of their standard deviations, 6 in one of ten thousand;
-  // twice that for noise that is correlated over some samples.
+  // Limit for noise: the range of ten means of white noise is 3.1 standard deviations on average, and 6 with
+  // probability 1e-4. Doubled, because noise may be correlated over a few samples.
   const double by_noise = 12.0 * out.noise / std::sqrt(static_cast<double>(out.samples) / kStretches);
   if (out.wander > limits.max_wander + by_noise) refusals.push_back(of_wander(out, means, limits, what));
   return out;

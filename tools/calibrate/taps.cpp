@@ -19,7 +19,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// |signal - median|, and 1.48 of its own median: the noise, taps being rare.
+// size = |signal - median|. noise = 1.48 median(size), the standard deviation of normal noise; taps are too
+// rare to change it.
 struct Swings {
   std::vector<double> size;
   double noise;
@@ -32,7 +33,7 @@ Swings swings_of(const Series& signal) {
   return out;
 }
 
-// Another peak after the one at `peak`, once the signal has come down.
+// True if another peak follows the one at `peak` after the signal has come down.
 bool strikes_again(const Series& signal, const std::vector<double>& size, std::size_t peak) {
   bool down = false;
   for (std::size_t i = peak; i < size.size() && signal.time_s[i] < signal.time_s[peak] + kApart_s; ++i) {
@@ -42,7 +43,7 @@ bool strikes_again(const Series& signal, const std::vector<double>& size, std::s
   return false;
 }
 
-// The reference at any time, by the cubic through its neighbours' slopes.
+// Value of the series at any time, by a cubic (Catmull-Rom) between neighbouring samples.
 std::optional<double> cubic_at(const Series& s, double time_s) {
   const auto next = std::ranges::upper_bound(s.time_s, time_s);
   const auto i = next - s.time_s.begin();
@@ -85,7 +86,7 @@ std::vector<double> find_taps(const Series& signal, const TapLimits& limits, std
     const double threshold = std::max(8.0 * noise, *std::ranges::max_element(size) / 3.0);
     for (std::size_t i = 0; i < size.size(); ++i) {
       if (size[i] < threshold || (!taps.empty() && signal.time_s[i] < taps.back() + kApart_s)) continue;
-      std::size_t peak = i;  // the largest of the next 20 ms
+      std::size_t peak = i;  // index of the largest of the next 20 ms
       for (std::size_t k = i; k < size.size() && signal.time_s[k] < signal.time_s[i] + 0.02; ++k)
         if (size[k] > size[peak]) peak = k;
       taps.push_back(signal.time_s[peak]);
@@ -115,7 +116,7 @@ Delay delay_of(const Series& reference, const Series& other, const DelaySearch& 
   if (best == 0 || best + 1 >= left.size() || left[best] > 1.0 || left[best - 1] > 1.0 ||
       left[best + 1] > 1.0)
     return out;
-  // The vertex of the parabola through the best three.
+  // Vertex of the parabola through the three best grid points.
   const double bend = left[best - 1] - 2.0 * left[best] + left[best + 1];
   const double shift = bend > 0.0 ? 0.5 * (left[best - 1] - left[best + 1]) / bend : 0.0;
   out.delay_s = search.centre_s + (static_cast<double>(best) - steps + shift) * kGrid_s;

@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t kFewestTaps = 5;
 constexpr double kSearch_s = 0.010;
-// What taking the reference between its samples, 1 ms apart, may be off by in every tap alike (95 %).
+// Systematic error of interpolating the reference, whose samples are 1 ms apart; the same in all taps (95 %).
 constexpr double kInterpolation_s = 1e-5;
-constexpr double kMostUnexplained = 0.15;  // of a tap's scatter: another shape is another thing
+constexpr double kMostUnexplained = 0.15;  // share of a tap's variance; above it the shapes differ
 
 constexpr std::array<const char*, 3> kNames{"imu_body", "imu_foot", "load_cell"};
 const char* name_of(TapSensor sensor) { return kNames[static_cast<std::size_t>(sensor)]; }
 
-// Times from the recording's first cycle.
+// Series with times relative to the recording's first cycle.
 template <class Sample, class Figure>
 Series timed(const Recording& r, const std::vector<Sample>& samples, Figure&& figure) {
   auto out = series_of(samples, figure);
@@ -63,7 +63,7 @@ void check_range(const Series& signal, const LinuxBoardConfig& board, TapSensor 
                         "tap more softly, or choose a wider range"});
 }
 
-// Delays of one signal against the reference, tap by tap.
+// Delay of one signal against the reference, for each tap.
 struct Delays {
   std::vector<double> tap_s, delay_s;
 };
@@ -129,7 +129,7 @@ void calibrate_sensor(const Recording& r, const LinuxBoardConfig& board, TapSens
                      name_of(setup.reference))});
 }
 
-// Which foreign tap is which, by the times between them; the first offset of all that fits.
+// Offset at which most foreign taps coincide with ours within 10 ms; the first of several equal ones.
 std::optional<double> coarse_offset(const std::vector<double>& taps, const std::vector<double>& foreign) {
   constexpr double kClose_s = 0.01;
   std::optional<double> best;
@@ -169,12 +169,12 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
                             "see that both recordings are of the same taps"});
     return;
   }
-  // Only taps that both have.
+  // Taps that occur in both recordings.
   std::vector<double> common;
   for (const double tap : taps)
     if (std::ranges::any_of(their_taps, [&](double t) { return std::abs(tap - t - *offset) < 0.01; }))
       common.push_back(tap);
-  // The delay of their signal on our time axis is minus the offset.
+  // On our time axis their signal is delayed by minus the offset.
   const auto delays = delays_of(
       reference, foreign.signal, common, [&](double) { return -*offset; }, foreign.name, out.refusals);
   std::vector<double> theirs, offsets;

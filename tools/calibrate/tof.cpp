@@ -12,7 +12,7 @@
 namespace sandhopper::calibrate {
 namespace {
 
-constexpr double kWander_m = 0.002;  // allowed within a recording, beyond noise
+constexpr double kWander_m = 0.002;  // allowed drift within a recording, beyond noise
 
 struct Measured {
   std::vector<double> height_m, reading_m, error_m, offset_m;

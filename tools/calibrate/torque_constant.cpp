@@ -14,19 +14,19 @@ namespace sandhopper::calibrate {
 namespace {
 
 constexpr double kBin_s = 0.05;
-constexpr double kTurning_s = 0.3;      // left out after a turning point
-constexpr double kMostMove_rad = 0.02;  // of a clamped leg
+constexpr double kTurning_s = 0.3;      // left out after a turning point: friction changes its sign gradually
+constexpr double kMostMove_rad = 0.02;  // largest move of a clamped leg
 constexpr double kLeastForce_N = 8.0;
 
-// Means over the bins of one press.
+// Means over the bins of one press. A positive "pressing" current lengthens the leg.
 struct Press {
   std::vector<double> force_N;
   std::array<std::vector<double>, kMotorCount> pressing_A;  // -current
-  std::vector<double> direction;                            // +1 grows, -1 fades, 0 not used
-  double lever_m_per_rad = 0.0;                             // |L'|
+  std::vector<double> direction;  // +1: the currents grow, -1: they fall, 0: bin not used
+  double lever_m_per_rad = 0.0;   // |dL/dphi|
 };
 
-// Mean of each bin from `begin_ns` on; NaN where it has no sample.
+// Mean of each bin, starting at `begin_ns`; NaN for a bin without samples.
 template <class Sample, class Figure>
 std::vector<double> binned(const std::vector<Sample>& samples, std::int64_t begin_ns, std::size_t bins,
                            Figure&& figure) {
@@ -43,7 +43,7 @@ std::vector<double> binned(const std::vector<Sample>& samples, std::int64_t begi
 
 double total_at(const Press& press, std::size_t i) { return press.pressing_A[0][i] + press.pressing_A[1][i]; }
 
-// Where the press grows or fades steadily, and has done so for a while.
+// +1 or -1 in bins in which the current has grown or fallen steadily for kTurning_s, otherwise 0.
 std::vector<double> directions(const Press& press) {
   const std::size_t n = press.force_N.size();
   std::vector<double> slope(n, 0.0);
@@ -119,7 +119,7 @@ Press measure(const Recording& r, const LinuxBoardConfig& board, const Leg& leg,
   return out;
 }
 
-// k_left, k_right, o, f of one press.
+// k_left, k_right, o and f of one press, see calibrate_torque_constant().
 struct PressFit {
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   double residual_Nm = 0.0;

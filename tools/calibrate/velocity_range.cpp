@@ -16,7 +16,8 @@ constexpr std::size_t kStretchSamples = 4;
 constexpr double kMoving_radps = 0.5;  // 20 steps of the MIT dialect's velocity
 constexpr int kMovingStretches = 10;
 constexpr double kSystematic = 0.02;
-constexpr double kWidest = 0.15;  // ranges in the field are wrong by a fifth or more
+constexpr double kWidest = 0.15;  // widest accepted interval; wrong ranges in the field are off by a fifth or
+                                  // more
 constexpr double kNoSpeed = 0.05;
 
 struct Stretch {
@@ -35,7 +36,7 @@ Stretch measure(const MotorSample* first, std::size_t count) {
   return {fit_line(times_s, positions_rad, 0.0).slope, velocity_radps};
 }
 
-// Nothing where the leg moved in too few stretches.
+// std::nullopt if the leg moved in fewer than kMovingStretches stretches.
 std::optional<double> ratio_of(const std::vector<MotorSample>& samples) {
   double products = 0.0, squares = 0.0;
   int moving = 0;
@@ -54,7 +55,7 @@ std::optional<double> ratio_of(const std::vector<MotorSample>& samples) {
   return products / squares;
 }
 
-// What the drive's own figures must be for the ratio to be 1.
+// Suggests the value of the drive's key that would make the ratio 1.
 std::string likely(const CubeMarsConfig& motor, double ratio) {
   if (ratio < kNoSpeed) return "the drive reports hardly any speed: check its mode and firmware";
   if (motor.dialect == Dialect::mit)

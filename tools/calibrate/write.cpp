@@ -19,7 +19,7 @@ int decimals_of(const CalibratedValue& value) {
   return unit > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(unit))), 1, 12) : 6;
 }
 
-// Three significant digits: an interval or a residual has no more.
+// Rounds to three significant digits: an interval or a residual has no more.
 double rounded(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
 CalibrationRecord record_of(const Outcome& outcome, const Outcome::Target& target, const std::string& date) {

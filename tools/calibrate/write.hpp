@@ -5,12 +5,13 @@
 
 namespace sandhopper::calibrate {
 
-// A value as the file will hold it: two digits more than its interval has, or five significant ones.
+// Text of the value as written to the file: two decimals after the first digit of its interval, or five
+// significant digits.
 std::string value_text(const CalibratedValue& value);
 
-// The text of a configuration file, whose name stands in messages, with the values of one target in place and
-// its record at the end, checked by the strict loader. Throws ConfigError and std::invalid_argument; nothing
-// is written.
+// Returns the text of a configuration file with the values of one target replaced in place and its record
+// appended, after the strict loader accepted it. `file_name` is used in messages. Throws ConfigError and
+// std::invalid_argument. No file is written.
 std::string with_calibration(const std::string& file_name, const std::string& text, const Outcome& outcome,
                              const Outcome::Target& target, const std::string& date);
 

@@ -20,7 +20,7 @@ Option& Option::show_default() {
 
 template <class Number>
 Option& Option::in_range(Number low, Number high) {
-  // CLI11 words this message differently from release to release.
+  // The text of CLI11's own message changes between its releases.
   CLI::Validator range = CLI::Range(low, high);
   range.operation([low, high](std::string& text) {
     Number value{};

@@ -13,19 +13,20 @@
 
 namespace sandhopper::cli {
 
-// Options that every experiment on families of beds has.
+// Options common to all experiments on families of beds.
 struct BedOptions {
   std::uint64_t seed = 1;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> beds;
 
+  // `first`: the thing that the seed belongs to, for the help text.
   void add_to(Arguments& arguments, const std::string& first) {
     arguments.add_option("--seed", seed, "of the first " + first).show_default();
     arguments.add_option("--threads", threads, "default: one a core").in_range(1U, 1024U);
     arguments.add_option("--beds", beds, "only these families").type_name("NAMES");
   }
 
-  // A set-up of the experiment with these options and the robot and world of the configuration.
+  // Setup of the experiment from these options and the configuration's robot and world.
   template <class Setup>
   Setup setup(Session& session) const {
     const auto robot = load_robot(session.config_directory());
@@ -39,7 +40,7 @@ struct BedOptions {
   }
 };
 
-// scored(setup); a family that is not there is a wrong command line.
+// Calls scored(setup). An unknown bed family is reported as a wrong command line.
 template <class Scored, class Setup>
 auto scored_beds(Scored&& scored, const Setup& setup) {
   try {

@@ -8,7 +8,7 @@ namespace sandhopper::cli {
 namespace {
 
 struct Options {
-  double length_m = 0.0;  // 0: arming.zero_pose_length_m
+  double length_m = 0.0;  // 0: use arming.zero_pose_length_m
   double length_accuracy_m = 0.0005;
   int repeats = 3;
   double seconds = 2.0;

@@ -36,7 +36,7 @@ calibrate::ForeignTable read_foreign(const Options& options) {
   }
 }
 
-// The foreign table once more, its times on the recording's clock.
+// Writes the foreign table with its times converted to the recording's clock.
 void write_aligned(const Options& options, const calibrate::ForeignClock& clock) {
   const auto table = read_csv(std::filesystem::path(options.foreign));
   std::ofstream out(options.aligned);
@@ -69,8 +69,8 @@ std::vector<calibrate::Step> steps(const Options& options) {
   step.during = fmt::format("tap along the leg {} times, half a second apart, at once", options.taps);
   step.fixture.taps = options.taps;
   step.seconds = 0.5 * options.taps + 1.0;
-  if (!options.foreign.empty()) read_foreign(options);  // a table that cannot be used is said before the taps
-  if (options.foreign.empty()) step.seconds += 2.0;     // a person begins late
+  if (!options.foreign.empty()) read_foreign(options);  // reports an unusable table before the person taps
+  if (options.foreign.empty()) step.seconds += 2.0;     // a person needs time to begin
   return {step};
 }
 

@@ -34,7 +34,8 @@ std::vector<calibrate::Step> steps(const Options& options, const CalibrationInpu
   return std::vector(static_cast<std::size_t>(options.repeats), step);
 }
 
-// Interval of the load cell's scale relative to the scale, as calibrated; 0: never.
+// Half-width of the 95 % interval of the load cell's scale, relative to the scale, from its calibration; 0:
+// never calibrated.
 double load_cell_ci95_relative(const LinuxBoardConfig& board) {
   if (!board.calibration || !board.calibration->load_cell) return 0.0;
   const auto& record = *board.calibration->load_cell;

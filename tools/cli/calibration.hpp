@@ -10,31 +10,32 @@
 
 namespace sandhopper::cli {
 
-// What every calibration is given.
+// Input of every calibration.
 struct CalibrationInput {
   RobotConfig robot;
-  LinuxBoardConfig board;  // with the robot's motors
+  LinuxBoardConfig board;  // with the robot's motors in can.motor
 };
 
-// One word after `hop calibrate`. `set_up` adds its options and returns what is done with them.
+// A calibration, `hop calibrate NAME`. `set_up` adds its options and returns its actions.
 struct Calibration {
   struct Actions {
-    // What is recorded, one step after the other; also how many files --from needs. Throws Failure(usage)
-    // where the options do not fit together.
+    // Recordings to make, in this order; --from needs as many files. Throws Failure(usage) if the options
+    // contradict each other.
     std::function<std::vector<calibrate::Step>(const CalibrationInput&)> steps;
+    // Computes the calibration from the recordings, in the order of `steps`.
     std::function<calibrate::Outcome(const std::vector<calibrate::Recording>&, const CalibrationInput&)> fit;
-    std::function<void(CalibrationInput&)> prepare{};  // changes what is believed before anything is recorded
+    std::function<void(CalibrationInput&)> prepare{};  // changes the assumed configuration before recording
   };
   std::string name;
   std::string summary;
   std::function<Actions(Arguments&)> set_up;
 };
 
-// Options that several calibrations have: how long each recording lasts, and gravity where it is made.
+// Options common to several calibrations: the duration of each recording, and the local gravity.
 void add_seconds(Arguments& arguments, double& seconds);
 void add_gravity(Arguments& arguments, double& gravity_mps2, const std::string& help);
 
-// A constant of this type in a file tools/cli/calibrate_NAME.cpp makes the calibration known.
+// Registers a calibration; define one constant of this type in tools/cli/calibrate_NAME.cpp.
 class CalibrationRegistration {
  public:
   explicit CalibrationRegistration(Calibration calibration);

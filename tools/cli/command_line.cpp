@@ -29,7 +29,8 @@ void add_common_options(CLI::App& app, Session& session) {
       ->group("Every verb");
 }
 
-// Verbs of verbs take the options of the verb above, and unknown words are explained here, not by the parser.
+// A verb accepts the options of the verb above it. Unknown words are left to not_expected(), which suggests
+// the nearest known word.
 void let_options_through(CLI::App& app) {
   app.allow_extras();
   for (auto* sub : app.get_subcommands({})) {
@@ -133,7 +134,7 @@ Failure CommandLine::not_expected(const std::string& word) const {
 }
 
 Failure CommandLine::explain(const CLI::Error& error) const {
-  // A misspelt word often shows as a missing one: explain the word.
+  // The parser often reports a misspelt word as a missing one, so report the unknown word first.
   if (const auto words = app_.remaining(true); !words.empty()) return not_expected(words.front());
   const auto see = fmt::format("'{} --help' shows what it takes", understood());
   const auto verbs = verbs_of(deepest());

@@ -8,19 +8,19 @@
 
 namespace sandhopper::cli {
 
-// The parser of `hop` and of its verbs' programs: each verb with its options, and messages that name the
-// cure.
+// Parser of `hop` and of the verbs' programs. Error messages tell the user what to do.
 class CommandLine {
  public:
   CommandLine(Session& session, const std::vector<Verb>& verbs);
 
-  // What to run. Throws Failure(usage) for a wrong command line, Help when help or the version was asked for.
+  // Returns the function to run. Throws Failure(usage) for a wrong command line, Help if help or the version
+  // was asked for.
   struct Help {
     std::string text;
   };
   Run parse(int argc, char** argv);
 
-  // "hop", "hop trial" or "hop config check": as far as the command line was understood.
+  // The verbs parsed so far: "hop", "hop trial" or "hop config check".
   std::string understood() const;
 
  private:

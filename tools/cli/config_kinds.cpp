@@ -39,7 +39,7 @@ constexpr std::array kKinds{
 }  // namespace
 
 const ConfigKind& kind_of_file(const std::string& path) {
-  if (!std::filesystem::exists(path)) parse_config_file(path);  // says why not
+  if (!std::filesystem::exists(path)) parse_config_file(path);  // throws with the reason
   const auto name = std::filesystem::path(path).filename().string();
   const auto start = name.substr(0, name.find_first_of(".-"));
   for (const auto& kind : kKinds)

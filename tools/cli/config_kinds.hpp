@@ -6,18 +6,18 @@
 
 namespace sandhopper::cli {
 
-// A kind of configuration file, told by how its name starts: "robot.toml", "robot-long-leg.toml".
+// A kind of configuration file, recognised by the start of its name: "robot.toml", "robot-long-leg.toml".
 struct ConfigKind {
   std::string_view name;
   std::string_view about;
-  // Reads the file strictly and gives it back as the program understood it. Throws ConfigError.
+  // Reads the file strictly and returns every key as the program understands it. Throws ConfigError.
   ConfigNode (*load)(const std::string& path);
-  // The same, and refuses values that contradict each other or, for a device file, the robot. Null: such a
-  // file has no rules of this kind.
+  // As `load`; also rejects values that contradict each other or, in a device file, the robot. Null: this
+  // kind has no such rules.
   ConfigNode (*check)(const std::string& path, const RobotConfig* robot);
 };
 
-// Throws ConfigError for a name that starts like no kind.
+// Throws ConfigError if the name starts with no known kind.
 const ConfigKind& kind_of_file(const std::string& path);
 
 }  // namespace sandhopper::cli

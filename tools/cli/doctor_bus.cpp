@@ -16,7 +16,7 @@
 namespace sandhopper::cli {
 namespace {
 
-constexpr std::uint32_t kBitrate = 1'000'000;  // the drives' only one
+constexpr std::uint32_t kBitrate = 1'000'000;  // the only one the drives support
 
 bool is_virtual(const CanLink& link) { return !link.bitrate; }
 
@@ -73,7 +73,7 @@ Finding coalescing(const std::string& what, const std::string& name) {
                   name)};
 }
 
-// Kernel threads and /sys know an interface by its own name only.
+// Names of kernel threads and of /sys contain only the interface's primary name, not an alternative one.
 Finding interface_name(const std::string& what, const std::string& name) {
   std::array<char, IF_NAMESIZE> own{};
   ::if_indextoname(::if_nametoindex(name.c_str()), own.data());
@@ -88,7 +88,7 @@ Finding interface_name(const std::string& what, const std::string& name) {
 std::vector<Finding> examine_bus(const std::string& name) {
   try {
     const auto link = can_link(name);
-    if (!link || !link->up) return {};  // examine_devices() says so
+    if (!link || !link->up) return {};  // reported by examine_devices()
     return {interface_name("can name", name), bitrate("can bit rate", name, *link),
             error_state("can error state", name, *link), queue("can queue", name, *link),
             coalescing("can coalescing", name)};

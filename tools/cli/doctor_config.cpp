@@ -10,7 +10,7 @@
 namespace sandhopper::cli {
 namespace {
 
-// "motor[1].sign" in a document.
+// Node of a key such as "motor[1].sign".
 const ConfigNode* find(const ConfigNode* node, std::string_view key) {
   while (node != nullptr && !key.empty()) {
     if (key.starts_with('[')) {
@@ -33,7 +33,7 @@ double number(const ConfigNode& node) {
   return node.kind == ConfigNode::Kind::integer ? static_cast<double>(node.integer) : node.real;
 }
 
-// The first key that no longer has its calibrated value; empty: none.
+// The first key whose value differs from its calibration; empty: none.
 std::string edited_since(const CalibrationRecord& record, const ConfigNode& configuration) {
   for (std::size_t i = 0; i < record.keys.size(); ++i) {
     const auto* node = find(&configuration, record.keys[i]);

@@ -15,7 +15,7 @@
 namespace sandhopper::cli {
 namespace {
 
-// Number in a file of /sys/class/net, which may be written in hexadecimal; -1 when it is not there.
+// Number in a file of /sys/class/net, decimal or hexadecimal; -1 if it does not exist.
 long interface_attribute(const std::string& interface, const std::string& attribute) {
   std::ifstream file(fmt::format("/sys/class/net/{}/{}", interface, attribute));
   std::string text;
@@ -54,7 +54,7 @@ Finding device_node(const std::string& key, const std::string& path, const std::
                       group ? group->gr_name : std::to_string(node.st_gid).c_str())};
 }
 
-// The folder of the kernel's IIO device, with its chip's name.
+// Checks the folder of the kernel's IIO device and reports its chip's name.
 Finding iio_device(const std::string& path) {
   const auto what = "load_cell.iio.device " + path;
   std::ifstream file(path + "/name");

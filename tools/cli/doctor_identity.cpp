@@ -8,7 +8,7 @@
 namespace sandhopper::cli {
 namespace {
 
-// What is right about a device that a start finds nothing wrong with.
+// Text for a device without a problem.
 struct Named {
   std::string_view device;
   std::string_view what;
@@ -22,7 +22,8 @@ constexpr std::array<Named, 6> kNames{
      {"can", "can socket", "opens"},
      {"motors", "motors", "answer in their dialect"}}};
 
-// "imu_body.device /dev/spidev0.0" is red: its identity would only say so again.
+// True if a finding of this device has failed already, for example "imu_body.device /dev/spidev0.0". Its
+// identity would fail for the same reason.
 bool known_red(const std::vector<Finding>& known, std::string_view device) {
   return std::ranges::any_of(known, [&](const Finding& f) {
     return f.health == Health::fail && f.what.starts_with(device) && f.what.size() > device.size() &&
@@ -33,7 +34,7 @@ bool known_red(const std::vector<Finding>& known, std::string_view device) {
 Finding finding_of(const DeviceReport& report, const Named& named) {
   const std::string what(named.what);
   if (report.problem.empty()) return {Health::ok, what, std::string(named.found), ""};
-  // "device: cause. Cure": the report has them in one.
+  // report.problem holds both, as "device: cause. Cure".
   const auto end = report.problem.find(". ");
   if (end == std::string::npos) return {Health::fail, what, report.problem, "put it right and look again"};
   return {Health::fail, what, report.problem.substr(0, end), report.problem.substr(end + 2)};
@@ -50,7 +51,7 @@ std::vector<Finding> examine_identities(const LinuxBoardConfig& board, const std
     return {{Health::warn, "identities", "not looked at: " + error.cause(), "end hopperd and look again"}};
   }
   auto gentle = board;
-  gentle.body_catch.line.clear();  // a magnet is not switched by looking
+  gentle.body_catch.line.clear();  // a check must not switch the magnet
   BusListener listener(board.can.interface);
   std::vector<Finding> out;
   for (const auto& report : sandhopper::examine_devices(gentle)) {

@@ -8,13 +8,13 @@
 namespace sandhopper::cli {
 namespace {
 
-// PREEMPT_RT gives every interrupt a thread of this priority, SCHED_FIFO.
+// Default SCHED_FIFO priority of interrupt threads under PREEMPT_RT.
 constexpr int kKernelsOwn = 50;
 
-// Priorities between which the threads of the buses belong.
+// The threads of the buses need a priority between these two.
 struct Band {
-  int above;  // threads that wait for the buses, other interrupts
-  int below;  // the cycle
+  int above;  // highest of the threads that wait for the buses, and of other interrupts
+  int below;  // that of the cycle
 };
 
 Band band(const RobotConfig& robot, const LinuxBoardConfig& board) {
@@ -60,7 +60,8 @@ std::vector<Finding> examine_interrupts(const RobotConfig& robot, const LinuxBoa
   return {judge("interrupts of CAN", threads, interrupt_names_of_can("/", board.can.interface), limits),
           judge("interrupts of SPI", threads, spi, limits),
           judge("interrupts of I2C", threads, interrupt_names_of_i2c("/", board.load_cell.device), limits),
-          judge("interrupts of GPIO lines", threads, {"sandhopper"}, limits)};  // hopperd's, while it runs
+          // requested by hopperd while it runs
+          judge("interrupts of GPIO lines", threads, {"sandhopper"}, limits)};
 }
 
 }  // namespace sandhopper::cli

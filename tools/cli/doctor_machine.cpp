@@ -37,7 +37,7 @@ Finding kernel() {
           "install the real-time kernel: apt-get install linux-image-rt-amd64 (or -arm64), then reboot"};
 }
 
-// Asks for the priority in a thread of its own, so that this one keeps its scheduling.
+// Requests the priority in a new thread, so that this thread keeps its scheduling.
 Finding priority(int wanted) {
   if (wanted == 0) return {Health::warn, "SCHED_FIFO", "not asked for", "set real_time.priority to 80"};
   int error = 0;
@@ -51,7 +51,8 @@ Finding priority(int wanted) {
 }
 
 Finding throttling() {
-  constexpr double kLeastShare = 0.9;  // below, a busy but healthy computer may stop the cycle
+  constexpr double kLeastShare = 0.9;  // real-time share of the period; below it the kernel may stop the
+                                       // cycle of a busy but healthy computer
   const std::string restore = "sysctl kernel.sched_rt_runtime_us=950000";
   const auto limit = real_time_limit("/");
   if (!limit) return {Health::ok, "throttling", "none in this kernel", ""};

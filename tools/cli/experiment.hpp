@@ -3,7 +3,7 @@
 
 namespace sandhopper::cli {
 
-// A constant of this type in a file of its own (experiment_NAME.cpp) adds `hop experiment NAME`.
+// Registers `hop experiment NAME`; define one constant of this type in experiment_NAME.cpp.
 class ExperimentRegistration {
  public:
   explicit ExperimentRegistration(Verb experiment);

@@ -93,7 +93,7 @@ double quantile(std::vector<double> values, double probability) {
   return *at;
 }
 
-// The threshold is right where T / u exceeds 1 in no more strides than the stated false-alarm probability.
+// Checks the threshold: T / u must exceed 1 in no more strides than the stated false-alarm probability.
 void say_null(Session& session, const std::vector<BedScore>& scores) {
   session.say(
       "\nstatistic over its threshold in first strides without the event: median, 99 and 99.8 %; above 1");

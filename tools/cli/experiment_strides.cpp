@@ -60,7 +60,7 @@ void write(Session& session, const std::string& file) {
   session.say("sums in {}", file);
 }
 
-// "2/4": the second of four parts.
+// Parses "2/4" as the second of four parts.
 void read_part(const std::string& text, CampaignSetup& setup) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%ld/%ld%c", &setup.part, &setup.parts, &rest) != 2 || setup.parts < 1 ||

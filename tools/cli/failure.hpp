@@ -4,16 +4,15 @@
 
 namespace sandhopper::cli {
 
-// What `hop` returns to the shell.
+// Exit status of `hop`.
 enum class ExitCode : int {
-  ok = 0,     // did what was asked
-  no = 1,     // ran, and the answer is no: a check failed, a replay differs
-  usage = 2,  // the command line or the configuration is wrong; nothing was started
-  fault = 3   // hardware or system
+  ok = 0,     // done
+  no = 1,     // done, and the answer is no: a check failed, a replay differs
+  usage = 2,  // wrong command line or configuration; nothing was started
+  fault = 3   // hardware or system error
 };
 
-// Ends a verb with a message and what the user can do about it. Any other exception ends with `fault` and no
-// cure.
+// Ends a verb with a message and a cure. Any other exception ends it with `fault` and no cure.
 class Failure : public std::runtime_error {
  public:
   Failure(ExitCode exit, const std::string& message, std::string cure)

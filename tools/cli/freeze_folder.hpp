@@ -8,7 +8,7 @@
 
 namespace sandhopper::cli {
 
-// log.freeze_folder of the configuration; empty where there is none that can be read.
+// log.freeze_folder of the configuration; empty if it cannot be read.
 inline std::string configured_freeze_folder(Session& session) {
   try {
     return load_robot(session.config_directory()).log.freeze_folder;

@@ -9,7 +9,7 @@
 #include "config/program.hpp"
 #include "tools/cli/program.hpp"
 
-// `hop`: finds out which verb is meant and becomes that verb's program.
+// `hop` finds out which verb is meant and replaces itself by that verb's program.
 namespace sandhopper::cli {
 namespace {
 

@@ -3,11 +3,11 @@
 
 namespace sandhopper::cli {
 
-// The folder, made where it is not there; a `Failure` that names --output where it cannot be.
+// Creates the folder if it does not exist. Throws a Failure that names --output if it cannot.
 const std::filesystem::path& made(const std::filesystem::path& folder);
 
-// Of that name, or with _2, _3, … where it is there already: two runs that begin within a second get a folder
-// each.
+// The folder itself if it does not exist, otherwise its name with _2, _3, …: two runs that start within a
+// second get different folders.
 std::filesystem::path not_there_yet(const std::filesystem::path& folder);
 
 }  // namespace sandhopper::cli

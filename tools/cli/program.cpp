@@ -20,7 +20,7 @@ struct Complaint {
 };
 
 void print_json(const nlohmann::ordered_json& object) {
-  // Text that is not UTF-8 (a file name, a device's answer) must not spoil the answer.
+  // Replaces bytes that are no UTF-8 (from a file name, a device's answer).
   const auto text = object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::fputs((text + "\n").c_str(), stdout);
 }
@@ -56,7 +56,7 @@ Complaint about(const ConfigError& error) {
 
 int run(const std::vector<Verb>& verbs, int argc, char** argv) {
   Session session;
-  // Known before parsing, so that a wrong command line is answered as asked, too.
+  // Set before parsing, because a wrong command line must be reported as JSON, too.
   for (int i = 1; i < argc; ++i) session.json |= std::string_view(argv[i]) == "--json";
   CommandLine command_line(session, verbs);
   try {

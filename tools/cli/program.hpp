@@ -5,8 +5,8 @@
 
 namespace sandhopper::cli {
 
-// The whole of a program: reads the command line, runs the verb it names, and turns what went wrong into a
-// message, a cure and an exit status.
+// Main function of a program: parses the command line, runs the verb, and turns an error into message, cure
+// and exit status.
 int run_program(const std::vector<Verb>& verbs, int argc, char** argv);
 
 }  // namespace sandhopper::cli

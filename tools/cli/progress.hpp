@@ -6,17 +6,18 @@
 
 namespace sandhopper::cli {
 
-// Tells on standard error how far a piece of work is, once it has lasted two seconds: on a terminal a line
-// that overwrites itself (label, bar, share done) and is wiped when the object goes; elsewhere, as in a log
-// or a pipe, a line every ten seconds, whether the work has advanced or not.
+// Shows on standard error how far a task is, from two seconds on. A terminal shows one line (label, bar,
+// percentage) that is redrawn, and erased by the destructor. Otherwise, as in a log or a pipe, a line is
+// printed every ten seconds.
 class Progress {
  public:
+  // `total`: amount of work that at() counts up to.
   Progress(std::string label, double total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void at(double done);  // by one thread at a time
+  void at(double done);  // call it from one thread at a time
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -33,7 +34,7 @@ class Progress {
   std::atomic<double> done_{0.0};
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
-  std::jthread teller_;  // last, so that it ends before what it reads
+  std::jthread teller_;  // last member, so that it stops before the members that it reads are destroyed
 };
 
 }  // namespace sandhopper::cli

@@ -13,7 +13,7 @@
 namespace sandhopper::cli {
 namespace {
 
-// One line of answer; false at the end of the input.
+// Reads one line of answer; returns false at the end of the input.
 bool ask(const std::string& question, std::string& answer) {
   std::cout << question << std::flush;
   if (!std::getline(std::cin, answer)) return false;
@@ -33,14 +33,15 @@ std::optional<double> number_in(const std::string& text, double low, double high
 
 bool is_quit(const std::string& answer) { return answer == "q" || answer == "Q"; }
 
-// False: q, or the end of the input.
+// Returns false on q and at the end of the input.
 bool ask_text(const std::string& question, std::string& value) {
   while (value.empty())
     if (!ask(question, value) || is_quit(value)) return false;
   return true;
 }
 
-// In millimetres, as a ruler shows it; Enter keeps what was there. False: q, or the end of the input.
+// Asks in millimetres, the unit of a ruler. Enter keeps the known value. Returns false on q and at the end of
+// the input.
 bool ask_height(TrialSheet& sheet) {
   while (true) {
     std::string answer;

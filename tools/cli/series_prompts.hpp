@@ -5,15 +5,15 @@
 
 namespace sandhopper::cli {
 
-// Whether somebody sits at a terminal who can be asked.
+// True if a user at a terminal can be asked.
 bool can_ask(const Session& session);
 
-// The trial sheet from --sheet and the options, which go before the file; empty where none was asked for.
-// What is missing is asked for at a terminal, else it is a Failure that names the options.
+// Trial sheet from --sheet and the options, which override the file; empty if neither was given. Missing keys
+// are asked for at a terminal; without a terminal a Failure names the options.
 std::optional<TrialSheet> gather_sheet(Session& session, const TrialOptions& options);
 
-// Between the trials of a series: what to do to the bed and the robot, the release height and notes of the
-// next trial. False: the operator ends the series.
+// Before each trial of a series: tells the operator how to prepare bed and robot, and asks for release height
+// and notes. Returns false if the operator ends the series.
 bool prepare_next(Session& session, int number, int trials, TrialSheet& sheet);
 
 }  // namespace sandhopper::cli

@@ -45,7 +45,7 @@ std::int64_t date_ns() {
   return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-// Several trials in a row are a batch, which nobody wants to press keys for.
+// Several trials without --series are a batch that must run without an operator.
 bool wants_view(const Session& session, const TrialOptions& options) {
   return !options.plain && !session.json && (options.trials == 1 || options.series > 0) &&
          LiveTerminal::available();
@@ -81,7 +81,7 @@ SimTrialSetup TrialRunner::simulated_setup(int number, const fs::path& log) cons
           .trial = setup_of(number),
           .sheet = sheet_,
           .log = log,
-          .realtime_offset_ns = date_ns()};  // its own time starts at zero
+          .realtime_offset_ns = date_ns()};  // simulated time starts at 0
 }
 
 LinuxTrialSetup TrialRunner::linux_setup(int number, const fs::path& log) {

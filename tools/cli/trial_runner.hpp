@@ -12,9 +12,8 @@
 
 namespace sandhopper::cli {
 
-// Runs the trials of one command, each into a log of its own: on the simulated board or on hopperd's, with
-// the operator at the live view or by itself. Both boards give a log; everything said afterwards is read from
-// it.
+// Runs the trials of one command on the simulated board or on hopperd's board, with or without the live view.
+// Each trial writes its own log; all results are read from the log.
 class TrialRunner {
  public:
   struct Outcome {
@@ -24,14 +23,15 @@ class TrialRunner {
     bool connection_lost = false;
   };
 
-  // Reads all of the configuration before anything is made or started.
+  // Reads the whole configuration before it creates or starts anything.
   TrialRunner(Session& session, const TrialOptions& options);
 
   const RobotConfig& robot() const { return robot_; }
   const std::filesystem::path& folder() const { return folder_; }
+  // True if the trials run in the live view.
   bool live() const { return live_; }
-  // The next trial, counted from 0, of so many. A sheet goes into its log, and its release height goes before
-  // the option.
+  // Runs trial `number`, counted from 0, of `trials`. The sheet is written into its log; the sheet's release
+  // height overrides the option.
   Outcome run(int number, int trials, const std::optional<TrialSheet>& sheet);
 
  private:
@@ -51,7 +51,7 @@ class TrialRunner {
   std::filesystem::path folder_;
   WorldConfig world_{};
   int trials_ = 1;
-  std::optional<TrialSheet> sheet_{};  // of the trial that runs
+  std::optional<TrialSheet> sheet_{};  // of the present trial
 };
 
 }  // namespace sandhopper::cli

@@ -10,18 +10,18 @@ namespace sandhopper::cli {
 
 using Run = std::function<ExitCode(Session&)>;
 
-// One thing `hop` can do. `set_up` adds the verb's options to its own command line and returns what to run
-// once they are read; --json and --config are there already. tools/cli/README.md shows a whole verb.
+// One command of `hop`. `set_up` adds the verb's options and returns the function to run after parsing.
+// --json and --config are added for every verb. tools/cli/README.md shows a complete verb.
 struct Verb {
   std::string name;
   std::string summary;  // one line for `hop --help`
   std::function<Run(Arguments&)> set_up;
 };
 
-// Every verb of verbs.cmake in alphabetical order, without `set_up`: each is a program of its own.
+// Every verb of verbs.cmake in alphabetical order, without `set_up`: each verb is a program of its own.
 std::vector<Verb> all_verbs();
 
-// A constant of this type in verb_NAME.cpp makes the verb known to its program, hop-NAME.
+// Registers a verb; define one constant of this type in verb_NAME.cpp, which belongs to the program hop-NAME.
 class VerbRegistration {
  public:
   VerbRegistration(std::string name, std::function<Run(Arguments&)> set_up);

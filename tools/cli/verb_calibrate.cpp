@@ -51,7 +51,7 @@ fs::path make_folder(const Options& options, const std::string& name) {
                             fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::gmtime(std::time(nullptr)), name)));
 }
 
-// On the robot a person does what is asked, and says when it is done.
+// On the robot a person carries out each prompt and confirms it.
 bool asks_a_person(const Options& options) {
   return options.board == "linux" && std::string_view(board_file()) != "bench.toml";
 }
@@ -114,7 +114,7 @@ std::vector<calibrate::Recording> read_all(const Options& options, const Calibra
                   "name one for each step, in the order of the options; --help lists them");
   std::vector<calibrate::Recording> out;
   for (const auto& file : options.from) {
-    // The scatter of repeats is what intervals stand on.
+    // The intervals come from the scatter of repeats, so a file must not count twice.
     if (std::ranges::count(options.from, file) > 1)
       throw Failure(ExitCode::usage, file + " is named twice", "a repeat is a recording of its own");
     if (!fs::exists(file))
@@ -151,7 +151,7 @@ void tell_doubts(Session& session, const calibrate::Outcome& outcome) {
   }
 }
 
-// Every text is made and checked before the first file is touched.
+// Builds and checks every new text before it changes the first file.
 void write_all(Session& session, const calibrate::Outcome& outcome, const Files& files,
                const std::string& date, bool dry_run) {
   std::map<fs::path, std::string> texts;
@@ -167,7 +167,7 @@ void write_all(Session& session, const calibrate::Outcome& outcome, const Files&
   }
 }
 
-// Said before an hour's recordings, not after them.
+// Checked before the recordings, which may take an hour.
 void require_writable(const Files& files) {
   for (const auto& file : {files.robot, files.board})
     if (::access(file.c_str(), W_OK) != 0 || ::access(fs::absolute(file).parent_path().c_str(), W_OK) != 0)

@@ -43,11 +43,11 @@ nlohmann::ordered_json to_json(const UsedNumber& n) {
   return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
 }
 
-// Findings, each once: trials may share one.
+// Prints each finding once, because several trials may share one.
 class Told {
  public:
   explicit Told(Session& session) : session_(session) {}
-  bool tell(const Finding& finding) {  // false: again
+  bool tell(const Finding& finding) {  // returns false if it was printed before
     auto line = fmt::format("{} ({})", to_string(finding), name_of(finding.severity));
     if (!told_.insert(line).second) return false;
     session_.say_line(line);
@@ -139,7 +139,7 @@ std::optional<CampaignPlant> plant_named(const std::string& name) {
   return static_cast<CampaignPlant>(found - names.begin());
 }
 
-// "t_s,force_N"
+// Splits a list such as "t_s,force_N".
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin < list.size();) {

@@ -28,11 +28,11 @@ struct Options {
   int trials = 12;
   bool list = false;
 
-  std::string campaign, setup;     // follow-up
-  std::string answers, diagnoses;  // score
+  std::string campaign, setup;     // of the sub-verb follow-up
+  std::string answers, diagnoses;  // of the sub-verb score
   std::string report;
   std::vector<std::string> baselines;
-  double limit_s = 30.0;  // benchmark
+  double limit_s = 30.0;  // of the sub-verb benchmark
   unsigned jobs = 2;
   bool no_follow_up = false;
   std::string tool;
@@ -49,7 +49,7 @@ conceal::Request request_of(const Options& options) {
   return request;
 }
 
-// Before anything is written.
+// Checks the request before anything is written.
 void check_request(const conceal::Request& request) {
   try {
     conceal::check(request);
@@ -115,7 +115,7 @@ conceal::Json read_json(const fs::path& file) {
   return json;
 }
 
-// The campaign again with one trial more, as somebody asks for it.
+// Writes the campaign again with one more trial, the one that was asked for.
 ExitCode follow_up(Session& session, const Options& options) {
   const auto folder = fs::weakly_canonical(options.campaign);
   const auto answer =
@@ -190,7 +190,7 @@ ExitCode run_and_score(Session& session, Options options) {
   run.jobs = options.jobs;
   run.follow_up = !options.no_follow_up;
   if (options.tool.empty()) {
-    find_program("hop-diagnose");  // fail now, not once a campaign
+    find_program("hop-diagnose");  // fail now, not in every campaign
     run.tool = {find_program("hop").string(), "diagnose", "{campaign}", "--json", "--output", "{output}"};
   } else {
     std::istringstream words(options.tool);

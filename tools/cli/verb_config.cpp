@@ -36,8 +36,9 @@ std::size_t count_keys(const ConfigNode& node) {
   return count;
 }
 
-// Whose limits the devices must carry: the robot file among these, else that beside the first, else the
-// configuration directory's. None where that file cannot be read; its own problems are told in its own turn.
+// Robot that the device files are checked against: the first robot file among `files`, otherwise robot.toml
+// beside the first file, otherwise that of the configuration directory. Empty if it cannot be read: its own
+// check reports the problems.
 std::optional<RobotConfig> robot_for(Session& session, const std::vector<std::string>& files) {
   namespace fs = std::filesystem;
   try {
@@ -87,7 +88,7 @@ ExitCode show(Session& session, const std::vector<std::string>& named) {
   return ExitCode::ok;
 }
 
-// Without a name: those there are.
+// Without a name it lists the presets.
 ExitCode motor(Session& session, const std::string& name) {
   std::string names;
   session.result["presets"] = nlohmann::ordered_json::object();

@@ -34,7 +34,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
                   "name a folder that can be written with --output");
 }
 
-// corrected.toml, or corrected_2.toml and so on where that is the very model that was corrected.
+// corrected.toml, or corrected_2.toml and so on if the former is the model file that the campaign used.
 std::filesystem::path corrected_file(const std::filesystem::path& folder,
                                      const std::filesystem::path& believed) {
   std::error_code missing;
@@ -51,8 +51,8 @@ std::vector<sandhopper::diagnose::BelievedNumber> believed(const UsedNumbers& us
   return numbers;
 }
 
-// The numbers that the answer rests on, who said them, and which of them matter; those of [sensors] and
-// [spread] by default are counted.
+// Lists the model's numbers that the diagnosis relies on, their sources, and those whose usual error matters.
+// Defaults of [sensors] and [spread] are only counted.
 void tell_belief(Session& session, const UsedNumbers& used,
                  const std::vector<sandhopper::diagnose::BelievedNumber>& numbers) {
   std::size_t counted = 0;
@@ -76,7 +76,7 @@ void tell_belief(Session& session, const UsedNumbers& used,
       counted, used.off);
 }
 
-// Not one trial could be read: there is nothing to say about physics, and the findings say why.
+// No trial could be read, so there is no diagnosis; the findings give the reasons.
 ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& folder, std::size_t trials) {
   sandhopper::diagnose::Diagnosis nothing;
   nothing.notes.push_back(

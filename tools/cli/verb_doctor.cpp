@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> kHealthName{"ok", "warn", "FAIL"};
 constexpr std::array<std::string_view, 3> kHealthKey{"ok", "warn", "fail"};
 constexpr std::array<std::string_view, 3> kColour{"\033[32m", "\033[33m", "\033[1;31m"};
 
-// Green, yellow, red on a terminal (no-color.org).
+// Colours the word on a terminal, unless NO_COLOR is set (no-color.org).
 std::string coloured(const Session& session, std::size_t health) {
   const auto word = fmt::format("{:<4}", kHealthName[health]);
   if (::isatty(session.json ? STDERR_FILENO : STDOUT_FILENO) == 0 || std::getenv("NO_COLOR") != nullptr)
@@ -55,7 +55,7 @@ std::vector<Finding> examine_board(const RobotConfig& robot, const LinuxBoardCon
   return findings;
 }
 
-// The rest of the machine is looked at even where the configuration cannot be read.
+// Checks the rest of the machine even if the configuration cannot be read.
 std::vector<Finding> examine(Session& session, const std::string& board) {
   const auto& directory = session.config_directory();
   RobotConfig robot;
@@ -71,7 +71,8 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
     configuration = examine_problems(error);
   }
   auto findings = examine_machine(robot);
-  // The simulated robot runs without real-time rights, only not in step with the clock.
+  // The simulated robot also runs without real-time rights, but then not in real time. So nothing here is a
+  // failure.
   if (board == "sim")
     for (auto& finding : findings) finding.health = std::min(finding.health, Health::warn);
   append(findings, configuration);
@@ -79,7 +80,7 @@ std::vector<Finding> examine(Session& session, const std::string& board) {
   return findings;
 }
 
-// A computer that only reads recordings: what it does not need is not looked at.
+// For a computer that only reads recordings: leaves out all checks that it does not need.
 std::vector<Finding> examine_for_analysis(Session& session) {
   auto findings = examine_storage();
   const auto& directory = session.config_directory();

@@ -22,7 +22,7 @@ Run set_up(Arguments& arguments) {
   return [runs](Session& session) {
     for (const auto& [sub, run] : *runs)
       if (sub.parsed()) return run(session);
-    return ExitCode::usage;  // the parser asks for one
+    return ExitCode::usage;  // not reached: the parser requires a sub-verb
   };
 }
 

@@ -77,7 +77,7 @@ Recording read(const std::filesystem::path& file) {
   }
 }
 
-// Beside the file, or in this folder where that may not be written.
+// Writes the page beside the file, or into the working directory if the former is not writable.
 std::filesystem::path write_page(const Explanation& explanation, const std::filesystem::path& file,
                                  const Options& options) {
   if (!options.page.empty()) {

@@ -24,7 +24,7 @@ std::optional<TrialSheet> read_sheet(const std::filesystem::path& log) {
   return sheet_of(mcap::Reader(log, {.check_crc = false}));
 }
 
-// A table has no place for what is known of the trial as a whole.
+// A table has no place for facts about the whole trial, so they go into a file of their own.
 std::filesystem::path write_sheet_beside(const std::filesystem::path& log, std::filesystem::path csv) {
   const auto sheet = read_sheet(log);
   if (!sheet) return {};
@@ -37,7 +37,8 @@ std::filesystem::path write_sheet_beside(const std::filesystem::path& log, std::
   return csv;
 }
 
-// The ground has a row a stride, not a cycle: tables of its own. Files that were written.
+// Ground results have one row per stride, not per cycle, so they get tables of their own. Returns the files
+// written.
 std::vector<std::string> write_ground_beside(const std::filesystem::path& log,
                                              const std::filesystem::path& csv) {
   std::vector<std::string> files;
@@ -74,7 +75,7 @@ void write_layouts(Session& session, const std::filesystem::path& folder) {
   session.result["layouts"] = names;
 }
 
-// The table must not be written over what it is made of, nor a file be emptied for a log that is none.
+// Refuses to write the table over its source, and to empty the output file for an input that is no log.
 void check_log(const std::filesystem::path& log, const std::filesystem::path& csv) {
   std::error_code error;
   if (std::filesystem::equivalent(log, csv, error))

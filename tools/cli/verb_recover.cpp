@@ -30,12 +30,12 @@ std::filesystem::path output_path(const Options& options) {
 
 struct Recovered {
   LogRecovery log;
-  std::string restored_from;  // the ring, dump or freeze frame that had the end
-  // Of a log whose end nobody knows: cycles after it, at least, by the CAN traffic beside it.
+  std::string restored_from;  // freeze ring, dump or freeze frame that supplied the end
+  // If the end of the log is unknown: least number of missing cycles, from the CAN traffic beside the log.
   std::optional<std::uint64_t> seen_on_bus;
 };
 
-// The CAN text is written more often than the log: frames after the log's end prove cycles that are missing.
+// The CAN text is written more often than the log, so frames after the log's end prove missing cycles.
 std::optional<std::uint64_t> cycles_on_bus_after(const std::filesystem::path& log, std::int64_t last_ns) {
   const auto beside = std::filesystem::path(log).replace_extension(".candump");
   if (!std::filesystem::exists(beside)) return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<std::uint64_t> cycles_on_bus_after(const std::filesystem::path& lo
     for (std::string_view interface; reader.next(frame, interface);)
       newest_ns = std::max(newest_ns, frame.time_ns);
   } catch (const CandumpError&) {
-    // Up to a torn last line.
+    // A torn last line ends the search.
   }
   return static_cast<std::uint64_t>((newest_ns - last_ns) / kCyclePeriod_ns);
 }
@@ -63,7 +63,7 @@ Recovered recover_log(Session& session, const Options& options, const std::files
   return result;
 }
 
-// By its ending, or as `candump -L` text begins.
+// Recognises the ending .candump, or the first character of `candump -L` text.
 bool is_candump(const std::filesystem::path& file) {
   const int first = std::ifstream(file, std::ios::binary).peek();
   return file.extension() == ".candump" || first == '(' || first == '#';
@@ -181,7 +181,7 @@ nlohmann::ordered_json as_json(const Recovered& recovered, const std::string& ou
                                 {"damage", damage},
                                 {"cut_at_byte", or_null(found.cut_at)}};
   if (!found.whole) result["output"] = output;
-  // A cycle is two records: frame and output.
+  // A cycle has two records: frame and output.
   const std::uint64_t end = found.cycles ? found.cycles->missing_at_end.value_or(0) : 0;
   if (found.end_is_known()) result["lost"] = found.lost() + 2 * end;
   return result;

@@ -24,7 +24,7 @@ struct Options {
   bool report = true;
 };
 
-// "2/4"
+// Parses "2/4" as part 2 of 4.
 std::pair<std::size_t, std::size_t> part_of(const std::string& text) {
   if (text.empty()) return {1, 1};
   const auto slash = text.find('/');
@@ -98,7 +98,7 @@ std::vector<std::string> write_tables(const CampaignReport& report, const fs::pa
   return files;
 }
 
-// Every finding once, however many trials share it.
+// Prints each finding once, even if many trials share it.
 void tell_findings(Session& session, const CampaignResults& results) {
   constexpr std::size_t kMostLines = 100;
   const auto groups = all_findings(results);

@@ -39,13 +39,13 @@ nlohmann::ordered_json as_json(const Outcome& outcome, const ReportData& data, c
           {"notes", data.notes}};
 }
 
-// What came of the trials so far.
+// Results of the trials so far.
 struct Tally {
   bool all_good = true;
   nlohmann::ordered_json trials = nlohmann::ordered_json::array();
   std::vector<ReportStride> strides;
   std::vector<SeriesTrial> series;
-  std::string last_line;  // what the newest trial says of the ground
+  std::string last_line;  // sentence about the ground from the newest trial
 };
 
 std::string why_unusable(const Outcome& outcome, const ReportData& data) {

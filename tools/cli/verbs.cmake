@@ -1,9 +1,9 @@
-# The verbs of `hop`: one line each. A verb is a program of its own, hop-NAME, made of verb_NAME.cpp, the further
-# SOURCES and the LIBRARIES it needs, so that nothing else is built for it. `hop` starts these programs.
+# The verbs of `hop`, one line each. A verb is a program of its own, hop-NAME, from verb_NAME.cpp, SOURCES and LIBRARIES,
+# so that the build of one verb needs nothing else. `hop` starts these programs.
 set(SANDHOPPER_VERB_LINES "")
 set(sandhopper_verb_programs "")
 
-# What every verb is linked with: the parser, the session, progress, the program's start.
+# Linked into every verb: parser, session, progress and main function.
 add_library(sandhopper_cli STATIC
   tools/cli/arguments.cpp tools/cli/command_line.cpp tools/cli/output_folder.cpp tools/cli/program.cpp
   tools/cli/progress.cpp tools/cli/session.cpp tools/cli/verb.cpp ${PROJECT_BINARY_DIR}/generated/verbs.cpp)

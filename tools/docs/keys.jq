@@ -1,4 +1,4 @@
-# One plant of `hop campaign keys PLANT --json` as Markdown.
+# Formats one plant of `hop campaign keys PLANT --json` as Markdown.
 def name: gsub("_"; " ");
 def unit: gsub("\\^2"; "²") | gsub("\\^3"; "³") | gsub(" "; " ");
 def cell: gsub("\\|"; "\\|");

@@ -7,7 +7,7 @@
 namespace sandhopper::faults {
 namespace {
 
-// One session's way to a bus that outlives it.
+// Forwards to the bus. Each session owns and destroys its port; the bus outlives all sessions.
 class SessionPort : public CanPort {
  public:
   explicit SessionPort(EmulatedBus& bus) : bus_(bus) {}
@@ -117,7 +117,7 @@ void BenchBoard::set(Device device, std::optional<Kind> kind) {
       stop_edge_ = kind == Kind::tapped;
       return;
     case Device::computer:
-      return;  // whoever turns the cycle
+      return;  // TrialRig::set() does that
     case Device::robot:
       if (!kind || kind == Kind::tilting || kind == Kind::lifted || kind == Kind::biased)
         imu_body_.set(kind, now_ns);

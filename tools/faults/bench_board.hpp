@@ -13,15 +13,16 @@
 
 namespace sandhopper::faults {
 
-// What a test puts in the way of frames: before the transmit guard and between it and the bus.
+// Ports that a test inserts into the path of frames: between driver and transmit guard, and between guard and
+// bus.
 struct BenchStages {
   using Stage = std::function<std::unique_ptr<CanPort>(std::unique_ptr<CanPort>)>;
   Stage before_guard{};
   Stage behind_guard{};
 };
 
-// The world behind the cycle's seam with the robot's own motor driver on an emulated bus, and a place for a
-// fault in every device. All in the world's time.
+// Board of the fault matrix: the simulated world, the robot's own motor driver on an emulated bus, and a
+// fault injector in every device. All times are those of the world.
 class BenchBoard : public Board {
  public:
   BenchBoard(World& world, const RobotConfig& robot, std::uint64_t seed, const BenchStages& stages = {});
@@ -30,10 +31,11 @@ class BenchBoard : public Board {
   void note_fault(Fault latched) noexcept override { latched_ = latched; }
   void write(const Command& command) noexcept override;
 
-  // Breaks a device; no kind repairs it.
+  // Plants a fault in a device; std::nullopt repairs it.
   void set(Device device, std::optional<Kind> kind);
 
-  // The driver of a new session on the same bus, as hopperd begins it. Throws DeviceError when it refuses.
+  // Starts a new driver on the same bus, as a new session of hopperd does. Throws DeviceError if the driver
+  // refuses to start.
   void restart_driver();
 
   EmulatedBus& bus() { return *bus_; }
@@ -48,7 +50,7 @@ class BenchBoard : public Board {
   transmit::Limits limits_;
   BenchStages stages_;
   std::unique_ptr<EmulatedBus> bus_;
-  GuardedPort* guard_ = nullptr;  // the drives own it, and
+  GuardedPort* guard_ = nullptr;  // owned by drives_, as is miscoding_
   MiscodingPort* miscoding_ = nullptr;
   bool is_miscoded_ = false;
   std::unique_ptr<CubeMarsDrives> drives_;
@@ -58,10 +60,11 @@ class BenchBoard : public Board {
   SensorFault<LoadCellSample> load_cell_;
   bool stop_level_ = false;
   bool stop_edge_ = false;
-  bool emergency_stop_ = true;  // as last read
+  bool emergency_stop_ = true;  // value of the last read()
   Fault latched_ = Fault::none;
 };
 
+// The CAN configuration of the robot: its motors, torque limit and number of motors.
 CanConfig can_of(const RobotConfig& robot);
 
 }  // namespace sandhopper::faults

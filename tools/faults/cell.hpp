@@ -11,31 +11,33 @@
 
 namespace sandhopper::faults {
 
-// When the fault comes.
+// Phase of the trial in which the fault is planted.
 enum class Phase : std::uint8_t { idle, armed, flight, compression, extension };
 
-// The cycle before the injection, or an empty one.
+// The frame of the last cycle before the injection; default-constructed if nothing was injected yet.
 struct Injected {
   SensorFrame frame{};
 };
 
-// One cell of the matrix: what breaks, when, and what must come of it.
+// One cell of the matrix: the defect, its phase, and the expected fault.
 struct Cell {
   Device device;
   Kind kind;
   Phase phase;
-  Fault expected;  // none: cannot be seen, see `note`
-  // The first cycle that could show it, where that is not the cycle of the injection.
+  Fault expected;  // none: it cannot be detected, see `note`
+  // True in a cycle that can show the fault; empty: every cycle from the injection on can.
   std::function<bool(const SensorFrame& frame, const StepOutput& output, const Injected& injected)> visible{};
-  std::function<void(RobotConfig& robot)> change{};  // of the robot's file for this cell
+  std::function<void(RobotConfig& robot)> change{};  // changes the robot's configuration for this cell
   std::string note{};
-  Fault or_else = Fault::none;  // as right as `expected`: chance decides which of the two sees it first
+  Fault or_else = Fault::none;  // also accepted: chance decides which of the two is found first
 
+  // True if `found` is an accepted fault of this cell.
   bool names(Fault found) const { return found == expected || (or_else != Fault::none && found == or_else); }
+  // Device and kind, for example "imu_body off".
   std::string name() const;
 };
 
-// Every cell, in the order in which they are printed.
+// Every cell, in the order of printing.
 std::vector<Cell> all_cells();
 
 }  // namespace sandhopper::faults

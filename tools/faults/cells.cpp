@@ -12,8 +12,8 @@ constexpr const char* kAtRest = "nothing moves: a sound one would read the same"
 
 bool at_rest(Phase phase) { return phase == Phase::idle || phase == Phase::armed; }
 
-// For what cannot be seen at rest: the first cycle in which the leg has moved by 0.02 rad since the
-// injection.
+// True if the leg has moved by more than 0.02 rad since the injection. For faults that cannot be detected at
+// rest.
 bool moved(const SensorFrame& frame, const Injected& injected) {
   for (std::size_t i = 0; i < kMotorCount; ++i)
     if (std::abs(frame.motor[i].position_rad - injected.frame.motor[i].position_rad) > 0.02) return true;
@@ -31,7 +31,7 @@ class Cells {
   void in_every_phase(Device device, Kind kind, Fault expected) {
     for (const auto phase : kPhases) add(device, kind, phase, expected);
   }
-  // Shown by motion only.
+  // For a fault that only motion shows.
   void in_motion(Device device, Kind kind, Fault expected) {
     for (const auto phase : kPhases) {
       auto& cell = add(device, kind, phase, at_rest(phase) ? Fault::none : expected);
@@ -102,7 +102,7 @@ void add_slow_sensors(Cells& cells) {
   const auto cell = Device::load_cell;
   cells.in_every_phase(cell, Kind::off, Fault::load_cell_stale);
   cells.in_every_phase(cell, Kind::stuck, Fault::load_cell_stuck);
-  // Random forces, some of them out of range, none of them the leg's.
+  // Random forces: chance decides if one beyond the range or one that contradicts the leg is found first.
   for (const auto phase : kPhases)
     cells.add(cell, Kind::garbage, phase, Fault::load_cell_out_of_range).or_else =
         Fault::load_cell_implausible;
@@ -146,7 +146,7 @@ void add_system(Cells& cells) {
   cells.in_every_phase(Device::computer, Kind::watchdog, Fault::watchdog_tripped);
   cells.in_every_phase(Device::robot, Kind::tilting, Fault::tilt_limit);
   cells.add(Device::robot, Kind::lifted, Phase::flight, Fault::energy_implausible);
-  // From the first height that the filter refuses on.
+  // Visible from the first ToF height on that the filter's gate rejects.
   for (const auto phase : {Phase::armed, Phase::flight, Phase::compression, Phase::extension})
     cells.add(Device::robot, Kind::biased, phase, Fault::estimate_diverged).visible =
         [](const SensorFrame&, const StepOutput& o, const Injected&) {
@@ -155,7 +155,8 @@ void add_system(Cells& cells) {
         };
 }
 
-// A sound robot and a limit drawn so close that it must be met; seen from the first cycle beyond it.
+// A sound robot with one limit set so close that the trial must exceed it. Visible from the first cycle
+// beyond it.
 void add_limits(Cells& cells) {
   using Visible = decltype(Cell::visible);
   using Change = decltype(Cell::change);
@@ -206,7 +207,8 @@ void add_limits(Cells& cells) {
   limit(
       Phase::compression, Fault::motor_winding_hot,
       [](RobotConfig& r) { r.supervision.winding_temperature_C = 25.02; },
-      // The same by hand, without what flows to the housing: 1.5 R i^2 dt against C 0.02 K.
+      // Winding heat without the flow to the housing: sum of 1.5 R i^2 dt against C times 0.02 K, with R =
+      // 0.0625 ohm, dt = 1 ms, C = 40 J/K.
       [heat_J = std::array<double, kMotorCount>{}](const SensorFrame& f, const StepOutput&,
                                                    const Injected&) mutable {
         bool hot = false;

@@ -10,10 +10,11 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kExtraDelay_ns = 1'500'000;
-constexpr std::int64_t kErrorDelay_ns = 300'000;  // until an unheard controller has become passive
+constexpr std::int64_t kErrorDelay_ns = 300'000;  // until a controller without acknowledgement has become
+                                                  // error-passive
 constexpr double kDrift_radps = 8.0;
-constexpr std::int64_t kAnnounced_ns = 3 * kMs;  // between the first report and the loss
-constexpr std::uint8_t kUnderVoltage = 4;        // error code of a drive
+constexpr std::int64_t kAnnounced_ns = 3 * kMs;  // from the first under-voltage report to the loss of power
+constexpr std::uint8_t kUnderVoltage = 4;        // error code of the drive
 
 std::uint8_t random_byte(Random& random) { return static_cast<std::uint8_t>(256.0 * random.uniform()); }
 
@@ -46,7 +47,7 @@ void EmulatedBus::set(Device device, std::optional<Kind> kind) {
     if (kind == Kind::overflow) put_error(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW);
     if (kind == Kind::protocol_error) put_error(CAN_ERR_PROT, 0);
     if (holds_frames()) return;
-    if (kind == Kind::bus_off) queue_.clear();  // a controller that is off sends nothing
+    if (kind == Kind::bus_off) queue_.clear();  // a controller in bus-off sends nothing
     for (const auto& queued : queue_) deliver(queued);
     queue_.clear();
     left_over_ = 0;
@@ -80,7 +81,7 @@ bool EmulatedBus::without_power(const Motor& m) const {
          (m.fault == Kind::announced_loss && world_.now_ns() - m.since_ns >= kAnnounced_ns);
 }
 
-// A node without power does not acknowledge; one that has it acknowledges for all.
+// A frame needs one node that acknowledges it. There is none if the cable is off or no drive has power.
 bool EmulatedBus::nobody_acknowledges() const {
   return fault_ == Kind::cable_off ||
          std::ranges::all_of(motor_, [this](const Motor& m) { return without_power(m); });
@@ -88,7 +89,7 @@ bool EmulatedBus::nobody_acknowledges() const {
 
 bool EmulatedBus::holds_frames() const { return fault_ == Kind::blocked || nobody_acknowledges(); }
 
-// What the drive's sensors tell its firmware.
+// Sensor readings that the drive's firmware gets, with the drive's fault applied.
 MotorSample EmulatedBus::felt(std::size_t i) const {
   auto s = world_.read_motor(static_cast<Side>(i));
   const auto& m = motor_[i];

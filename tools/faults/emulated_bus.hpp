@@ -14,39 +14,42 @@
 
 namespace sandhopper::faults {
 
-// A torque no larger than this is none: half a count of the field of a command, rounded up.
+// A torque up to this value counts as zero: half a count of the torque field of a command, rounded up.
 inline constexpr double kNoTorque_Nm = 0.02;
 
-// A CAN bus in the world's time with the emulated drives on it: what the driver of the robot is put on when
-// there is no kernel. Frames arrive at once, answers 0.22 ms later; error frames are those of
-// linux/can/error.h. Every fault of the bus and of the drives' frames is made here.
+// Emulated CAN bus and drives in the world's time. It replaces the kernel's socket below the robot's motor
+// driver. Commands arrive at once, replies 0.22 ms later; error frames are those of linux/can/error.h. All
+// faults of the bus and of the drives' frames are made here.
 class EmulatedBus : public CanPort {
  public:
-  // `drives` may differ from what the driver believes. The world must outlive the bus.
+  // `drives`: configuration of the emulated drives; it may differ from the driver's. The world must outlive
+  // the bus.
   EmulatedBus(World& world, const CanConfig& drives, std::uint64_t seed);
 
+  // Plants a fault in the bus or a drive; std::nullopt repairs it. Held frames leave when the bus recovers.
   void set(Device device, std::optional<Kind> kind);
 
-  // Frames to the drives that a one-shot controller loses: sent, and never on the wire.
+  // Loses each frame to the drives for which `lost` is true, as a one-shot controller can: send() succeeds,
+  // but the frame never reaches the wire.
   void lose(std::function<bool(const can_frame&)> lost) { lost_ = std::move(lost); }
-  // This drive obeys and answers, but makes no torque: its power stage is dead.
+  // The drive's power stage fails: it accepts commands and answers, but makes no torque.
   void ignore_torque(Side side) { motor_[static_cast<std::size_t>(side)].dead = true; }
   // The fault of the bus ends at this time of the world.
   void heal_at(std::int64_t time_ns) { heal_ns_ = time_ns; }
-  // A new session opens its socket: counters begin anew, nothing received earlier is seen. Frames of the old
-  // session that have not left stay in the controller.
+  // Opens the socket for a new session: counters start at 0, frames received earlier are dropped. Frames of
+  // the old session that have not left stay in the controller.
   void reopen() noexcept;
 
-  // Lets drives act and answer until the world's time.
+  // Lets the drives act and send their own frames, up to the world's present time.
   void advance();
 
-  // What each drive was last told, on the link's side, and the largest torque it was told since
-  // reset_torque().
+  // The last command that each drive received, in link coordinates.
   const MotorCommand& told(Side side) const { return motor_[static_cast<std::size_t>(side)].told; }
+  // True if the last frames put this drive into motor mode.
   bool enabled(Side side) const { return motor_[static_cast<std::size_t>(side)].enabled; }
   void reset_torque() { most_torque_Nm_ = 0.0; }
   double most_torque_Nm() const { return most_torque_Nm_; }
-  // Commands with torque that reached a drive later than a cycle after they were sent.
+  // Number of commands with torque that reached a drive more than one cycle after they were sent.
   int stale_torques() const { return stale_torques_; }
 
   void begin_cycle() noexcept override;
@@ -64,7 +67,7 @@ class EmulatedBus : public CanPort {
     std::optional<Kind> fault;
     std::int64_t since_ns = 0;
     MotorSample frozen{};
-    int asked = 0;  // since the fault came
+    int asked = 0;  // requests since the fault was planted
     MotorCommand told{};
     bool enabled = false;
     bool dead = false;
@@ -75,6 +78,7 @@ class EmulatedBus : public CanPort {
   };
 
   MotorSample felt(std::size_t i) const;
+  // Power of a drive is lost: its last command is cleared.
   void take_power(std::size_t i);
   void deliver(const Queued& queued);
   void ask(std::size_t i, const Queued& queued);
@@ -84,6 +88,7 @@ class EmulatedBus : public CanPort {
   bool motor_lost(Motor& motor);
   bool without_power(const Motor& motor) const;
   bool nobody_acknowledges() const;
+  // True while frames stay in the controller: the bus is blocked, or no node acknowledges.
   bool holds_frames() const;
 
   World& world_;
@@ -93,9 +98,9 @@ class EmulatedBus : public CanPort {
   std::optional<Kind> fault_;
   std::function<bool(const can_frame&)> lost_;
   std::int64_t heal_ns_ = INT64_MAX;
-  std::deque<Queued> queue_;              // taken and not yet on the wire
-  std::size_t left_over_ = 0;             // of them from an earlier session
-  std::deque<ReceivedFrame> on_the_way_;  // in the order of their times
+  std::deque<Queued> queue_;              // accepted, not yet on the wire
+  std::size_t left_over_ = 0;             // frames of queue_ from an earlier session
+  std::deque<ReceivedFrame> on_the_way_;  // sorted by time
   std::array<ReceivedFrame, 32> batch_{};
   CanCounters counters_{};
   CanTap* tap_ = nullptr;

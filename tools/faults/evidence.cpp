@@ -5,9 +5,10 @@
 namespace sandhopper::faults {
 namespace {
 
-constexpr double kFast_radps = 8.0;  // a velocity wrong by two is beyond its tolerance from half of this on
-constexpr int kFast_cycles = 20;     // longer than the low-pass and the count of its check
-constexpr int kPure_cycles = 15;     // until the current of a pure torque is compared with it
+constexpr double kFast_radps = 8.0;  // lowest reading for evidence: with a doubled velocity the error is half
+                                     // of it, beyond the tolerance
+constexpr int kFast_cycles = 20;     // longer than the check's low-pass and its counter of errors
+constexpr int kPure_cycles = 15;     // cycles of pure torque until the check compares it with the current
 
 }  // namespace
 

@@ -5,32 +5,33 @@
 
 namespace sandhopper::faults {
 
-// Looks for what a fault must show before the cycle can find it: beside another fault it may never get there
-// (a drive's error code while no reply arrives). It knows the frames, not the supervisor's rules.
+// Decides if a fault has shown the sign that the cycle needs to find it. Another fault may keep the sign away
+// (example: a drive's error code while no reply arrives). It looks at frames and outputs and does not use the
+// supervisor's rules.
 class Evidence {
  public:
   explicit Evidence(const Cell& cell) : fault_(cell.expected), device_(cell.device) {}
 
-  // Once a cycle since the fault was set; `before` is the frame of the cycle before that.
+  // Call it once per cycle after the fault was planted. `before`: the frame of the last cycle before that.
   void see(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
            const RobotConfig& robot);
   bool complete() const { return complete_; }
-  // So many cycles before the present one it began to show. A current is compared with its torque only when
-  // the drives have settled: it shows from then on.
+  // Number of cycles since the present series of signs began. It is 0 for motor_torque_implausible, because
+  // the supervisor compares current and torque only after the drives have settled.
   int cycles_shown() const { return fault_ == Fault::motor_torque_implausible ? 0 : in_a_row_ - 1; }
-  // What was looked for, in words.
+  // Reason, in words, why the sign did not appear.
   std::string wanted() const;
 
  private:
   bool shows(const SensorFrame& frame, const SensorFrame& before, const StepOutput& output,
              const RobotConfig& robot) const;
-  int needed(const RobotConfig& robot) const;  // cycles in a row
+  int needed(const RobotConfig& robot) const;  // cycles in a row with the sign
   bool any_motor(const SensorFrame& frame, auto&& condition) const;
 
   Fault fault_;
   Device device_;
   std::uint64_t last_cycle_ = 0;
-  double other_began_rad_ = 0.0;  // of a stuck encoder: where the other side stood when it stuck
+  double other_began_rad_ = 0.0;  // encoder_stuck: position of the other motor when the fault was planted
   int in_a_row_ = 0;
   bool complete_ = false;
 };

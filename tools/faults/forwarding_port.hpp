@@ -6,7 +6,7 @@
 
 namespace sandhopper::faults {
 
-// A port that hands everything on to another: the base of what alters or watches frames on their way.
+// Forwards all calls to another port. Base of ports that alter or watch frames.
 class ForwardingPort : public CanPort {
  public:
   explicit ForwardingPort(std::unique_ptr<CanPort> port) : port_(std::move(port)) {}
@@ -24,7 +24,7 @@ class ForwardingPort : public CanPort {
   std::unique_ptr<CanPort> port_;
 };
 
-// A driver that codes its commands wrongly, where it is switched on: the torque field at full scale.
+// A driver that codes its commands wrongly: if switched on, the torque field is at full scale.
 class MiscodingPort final : public ForwardingPort {
  public:
   using ForwardingPort::ForwardingPort;

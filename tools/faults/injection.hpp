@@ -4,7 +4,7 @@
 
 #include "config/fields.hpp"
 
-// What can be made to go wrong, where and when.
+// Devices, and the kinds of faults that can be planted in them.
 namespace sandhopper::faults {
 
 enum class Device : std::uint8_t {
@@ -20,9 +20,9 @@ enum class Device : std::uint8_t {
   robot
 };
 
-// Of sensors and motors: off: nothing comes any more · stuck: the last value for ever · garbage: random
-// values · wrong: off by an offset or a factor · slow: at a fraction of its rate · delayed: right but old ·
-// intermittent: with gaps · saturated: the end of the range. The rest is the devices' own.
+// Sensors and motors: off (no data), stuck (repeats the last value), garbage (random values), wrong (offset
+// or factor), slow (a fraction of the rate), delayed (correct but old), intermittent (gaps), saturated (end
+// of the range). All other kinds belong to single devices.
 enum class Kind : std::uint8_t {
   off,
   stuck,
@@ -33,19 +33,19 @@ enum class Kind : std::uint8_t {
   intermittent,
   saturated,
   // Motors.
-  drifting,     // position runs away slowly
+  drifting,     // the position drifts away slowly
   error,        // error code 5
   hot,          // 120 deg C
-  current,      // 10 A too much reported
-  overcurrent,  // 60 A reported
+  current,      // reported current 10 A too large
+  overcurrent,  // reports 60 A
   undervoltage,
   // Sensors.
-  future,    // stamped ten milliseconds ahead
-  backward,  // stamps run backwards
+  future,    // time stamps 10 ms in the future
+  backward,  // time stamps decrease
   not_a_number,
   // The bus.
-  cable_off,  // nobody acknowledges: error-passive
-  blocked,    // frames do not leave and no error frame says so
+  cable_off,  // no node acknowledges: error-passive
+  blocked,    // frames do not leave, and no error frame reports it
   refused,    // ENOBUFS
   bus_off,
   passive,
@@ -53,29 +53,29 @@ enum class Kind : std::uint8_t {
   lost,
   late,
   duplicated,
-  foreign,    // frames of another dialect with a drive's identifier
+  foreign,    // a frame of another dialect with a drive's identifier
   malformed,  // replies of a wrong length
   overflow,
   protocol_error,
-  miscoded,  // the driver codes commands with full torque
+  miscoded,  // the driver codes full torque into its commands
   // E-stop.
   pressed,
   tapped,  // pressed and released between two cycles
   wire_cut,
   // The computer.
-  stalled,   // the cycle misses 50 grid points
-  overruns,  // every second grid point is missed
-  watchdog,  // the watchdog had to take the torque away
-  // The robot, or a limit drawn so close that a sound robot meets it.
+  stalled,   // misses 50 cycles in a row
+  overruns,  // misses every second cycle
+  watchdog,  // the watchdog had to switch the torque off
+  // The robot, or a limit set so close that a sound robot exceeds it.
   tilting,
-  lifted,  // both IMUs feel a push upward that is not there
-  biased,  // the same, weak: their zeros moved
+  lifted,  // both IMUs report an upward acceleration that does not exist
+  biased,  // the same, but small: an offset of both IMUs
   limit,
-  // For pairs of faults.
-  announced_loss,  // of a drive: it reports under-voltage, then it is gone
-  clock_step,      // of the computer's date, by an hour
-  disk_full,       // nothing more can be written, not even what was reserved
-  restart          // a new session of the program while what is broken stays broken
+  // Only for pairs of faults.
+  announced_loss,  // a drive reports under-voltage, then loses power
+  clock_step,      // the computer's date steps by an hour
+  disk_full,       // no write succeeds, not even into reserved space
+  restart          // a new session of the program; the other defect stays
 };
 
 }  // namespace sandhopper::faults

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array kClasses{"motor", "bus",   "imu",      "tof",    "load_cell",
                               "estop", "robot", "computer", "restart"};
 
-// Left and right, body and foot count as one.
+// Left and right motor share a row, and so do body and foot IMU.
 std::string row_of(const Cell& cell) {
   if (cell.kind == Kind::limit) return "limit " + std::string(name_of(cell.expected));
   return class_of(cell) + " " + std::string(name_of(cell.kind));

@@ -10,24 +10,25 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::array kPairPhases{Phase::armed, Phase::flight, Phase::compression, Phase::extension};
-// Damping lasts a second: in the first cycle of the reaction, early in it, and in its middle.
+// Delays relative to the reaction, which damps for one second: in its first cycle, early in it, and in its
+// middle.
 constexpr std::array kDelays_cycles{kTogether, 1, 20, 400};
 
-// What ends in no fault when it comes alone; a new session is a second fault only.
+// A cell of the computer that raises no fault when it comes alone. A restart is only used as second fault.
 Cell harmless(Kind kind, Phase phase) {
   return {.device = Device::computer, .kind = kind, .phase = phase, .expected = Fault::none};
 }
 
 bool is_imu(Device device) { return device == Device::imu_body || device == Device::imu_foot; }
 
-// One replaces the other, so both at once are one.
+// A second fault of the same device replaces the first, so such a pair is never planted in the same cycle.
 bool share_a_device(const Cell& a, const Cell& b) {
   if (a.device == Device::computer || a.kind == Kind::limit || b.kind == Kind::limit) return false;
   return a.device == b.device || (a.device == Device::robot && is_imu(b.device)) ||
          (is_imu(a.device) && b.device == Device::robot);
 }
 
-// A reply with the supply's voltage has no room for the temperature and the error code.
+// A reply with the supply voltage has no field for the temperature and the error code.
 bool has_no_room(const Cell& a, const Cell& b) {
   const auto needs = [](Kind kind) {
     return kind == Kind::error || kind == Kind::hot || kind == Kind::announced_loss;
@@ -37,7 +38,7 @@ bool has_no_room(const Cell& a, const Cell& b) {
 
 bool same_defect(const Cell& a, const Cell& b) { return a.device == b.device && a.kind == b.kind; }
 
-// What can be broken, with its cell of each phase; none where it cannot be set or seen.
+// A defect with its cell in each phase; nullptr: it cannot be planted or seen in that phase.
 struct Defect {
   std::array<const Cell*, kPairPhases.size()> cell{};
   const Cell& any() const {
@@ -78,7 +79,7 @@ class Pairs {
     }
   }
 
-  // With what is in no cell of the matrix.
+  // Pairs the defect, in both orders, with a fault of the computer that is in no cell of the matrix.
   void add_harmless(const Defect& defect, Kind kind) {
     const auto start = pairs_.size();
     for (std::size_t i = 0; i < kPairPhases.size(); ++i) {
@@ -91,7 +92,7 @@ class Pairs {
     }
   }
 
-  // Hanging, so that the new session can arm; and in flight.
+  // A restart after the defect: once while armed, so that the new session can arm, and once in flight.
   void add_restarts(const Defect& defect) {
     for (std::size_t phase = 0; phase < 2; ++phase)
       if (const Cell* const cell = defect.cell[phase]; cell != nullptr)

@@ -13,11 +13,12 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::uint64_t kLongest_cycles = 8000;
-constexpr std::uint64_t kUnseen_cycles = 600;   // of watching for what cannot be seen
-constexpr std::uint64_t kAfter_cycles = 20;     // of watching the reaction
-constexpr std::uint64_t kFrozen_cycles = 1010;  // of the second after a fault that a freeze frame shows
-constexpr std::uint64_t kSoft_cycles = 3000;    // of watching a soft stop
-constexpr int kZeroWithin_cycles = 2;           // limp: no torque commanded any more
+constexpr std::uint64_t kUnseen_cycles = 600;   // watching time for a fault that cannot be detected
+constexpr std::uint64_t kAfter_cycles = 20;     // watching time for the reaction
+constexpr std::uint64_t kFrozen_cycles = 1010;  // watching time for a freeze frame, which shows the second
+                                                // after the fault
+constexpr std::uint64_t kSoft_cycles = 3000;    // watching time for a soft stop
+constexpr int kZeroWithin_cycles = 2;           // after this no torque may be commanded, but in a soft stop
 constexpr double kLimpTorque_Nm = 1e-9;
 
 class CellTrial {
@@ -47,7 +48,8 @@ class CellTrial {
   bool over() const {
     if (ended_) return true;
     if (found_at_ != 0) return rig_.cycle() > found_at_ + after_cycles();
-    // A sound trial goes on to its own end.
+    // A fault that cannot be detected is watched for kUnseen_cycles. Without an injection the trial runs to
+    // its end.
     return cell_.expected == Fault::none && cell_.kind != Kind::limit && injected_at_ != 0 &&
            rig_.cycle() > injected_at_ + kUnseen_cycles;
   }
@@ -56,7 +58,7 @@ class CellTrial {
     rig_.turn();
     for (const auto& event : rig_.events()) see(event);
     see_reaction();
-    // Between this cycle and the next.
+    // Faults are planted between two cycles.
     if (injected_at_ == 0 && rig_.ready_to_break()) inject();
   }
 
@@ -73,7 +75,7 @@ class CellTrial {
     result_.message = in_words(read_fault(event, &robot_));
   }
 
-  // A limit is in force from the start; anything else can be seen from its injection on.
+  // A limit is in force from the start; any other fault can be seen from its injection on.
   void see_visible() {
     if (visible_at_ != 0 || (injected_at_ == 0 && cell_.kind != Kind::limit)) return;
     if (cell_.kind != Kind::limit && rig_.cycle() < injected_at_) return;

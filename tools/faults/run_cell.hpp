@@ -10,31 +10,33 @@
 
 namespace sandhopper::faults {
 
+// Robot, world and options common to all cells of a run.
 struct MatrixSetup {
   RobotConfig robot{};
   WorldConfig world{};
-  std::filesystem::path folder;    // for the cells' logs; each is removed again
-  std::optional<Fault> without{};  // this detector switched off: some cell must fail
+  std::filesystem::path folder;    // for the cells' logs; each log is removed after use
+  std::optional<Fault> without{};  // detector to switch off; some cell must then fail
   std::uint64_t seed = 1;
-  // Given the robot's file of the cell: the ring that its cycles go to, and the trial then runs on for the
-  // second after the fault. May be empty.
+  // Gets the cell's robot configuration and returns the ring that records its cycles. If set, each trial runs
+  // on for the second after the fault. May be empty.
   std::function<FreezeRing*(const RobotConfig& robot)> freeze{};
 };
 
+// Result of a cell. Cycles are counts of 1 ms.
 struct CellResult {
-  Fault found = Fault::none;   // the first one
-  int cycles = -1;             // from the first cycle that could show it
-  State state = State::idle;   // some cycles later
-  Fault at_end = Fault::none;  // a harsher one may have followed
-  std::string torque;          // what the drives were told after the reaction
-  bool logged = false;         // the event stands in the log, read back from the file
-  double time_s = 0.0;         // of the trial
-  std::string message;         // of the fault found: what was seen and what is allowed
-  std::string problem;         // empty: as it must be
+  Fault found = Fault::none;   // first fault that was raised
+  int cycles = -1;             // from the first cycle that could show the fault to the cycle that raised it
+  State state = State::idle;   // at the end of the trial
+  Fault at_end = Fault::none;  // fault at the end of the trial; it may be a harsher one
+  std::string torque;          // last command of the trial, in words
+  bool logged = false;         // true: the log file holds the event
+  double time_s = 0.0;         // duration of the trial
+  std::string message;         // text of the fault found: measured and allowed value
+  std::string problem;         // empty: the cell passed
 };
 
-// A trial of its own: arms, releases and hops to the cell's phase, breaks the device, and looks at what the
-// robot does.
+// Runs one cell as a trial of its own: arms, releases and hops to the cell's phase, plants the fault, and
+// judges the reaction.
 CellResult run_cell(const Cell& cell, const MatrixSetup& setup);
 
 }  // namespace sandhopper::faults

@@ -13,14 +13,15 @@ namespace sandhopper::faults {
 namespace {
 
 constexpr std::uint64_t kLongestPair_cycles = 9000;
-constexpr std::uint64_t kWatched_cycles = 600;  // of watching for what cannot be seen
-constexpr std::uint64_t kQuiet_cycles = 30;     // of watching drives that are off: longer than their time-out
+constexpr std::uint64_t kWatched_cycles = 600;  // watching time for a fault that cannot be detected
+constexpr std::uint64_t kQuiet_cycles = 30;     // watching time for drives that are off; longer than their
+                                                // timeout
 
-// One of the two faults. Times are counts of cycles that ran: when it was set, when its cell calls it
-// visible, and when there is evidence, too.
+// One of the two faults. Times are counts of cycles that ran (TrialRig::turns()), 0: not yet. set_at:
+// planted; shown_at: its cell calls it visible; visible_at: there is evidence as well.
 struct Planted {
   explicit Planted(const Cell& of) : cell(of), evidence(of) {}
-  Cell cell;  // a copy: `visible` may remember
+  Cell cell;  // a copy, because `visible` may keep state
   Evidence evidence;
   Injected before{};
   std::uint64_t set_at = 0, shown_at = 0, visible_at = 0;
@@ -35,14 +36,14 @@ struct Planted {
       visible_at =
           std::max(shown_at, rig.turns() - static_cast<std::uint64_t>(std::max(0, evidence.cycles_shown())));
   }
-  // The cycle after which nothing more is expected of it.
+  // The fault must be raised up to this cycle.
   std::uint64_t deadline() const {
     const auto allowed = static_cast<std::uint64_t>(entry_of(cell.expected).cycles);
     return visible_at != 0 ? visible_at + allowed : set_at + kWatched_cycles;
   }
 };
 
-// Faults that are gone when the next session begins.
+// Defects that no longer exist when the next session begins.
 bool is_over_at_once(const Cell& cell) {
   switch (cell.kind) {
     case Kind::tapped:
@@ -52,14 +53,14 @@ bool is_over_at_once(const Cell& cell) {
     case Kind::no_acknowledge:
     case Kind::overflow:
     case Kind::protocol_error:
-    case Kind::limit:  // a sound robot, which need not meet it again
+    case Kind::limit:  // a sound robot, which need not exceed it again
       return true;
     default:
       return false;
   }
 }
 
-// What a new session cannot know, in words; empty: it must find the fault that is still there.
+// Reason why a new session cannot detect the defect; empty: the new session must find it.
 std::string lost_with_a_restart(const Cell& cell) {
   if (cell.kind == Kind::biased || (cell.device == Device::load_cell && cell.kind == Kind::wrong))
     return "an offset that is there before arming is taken for zero";
@@ -122,8 +123,8 @@ class PairTrial {
       refusal_ = fmt::format("arming refused: {}", name_of(event.reason));
   }
 
-  // The law of every fault: no torque is commanded beside the drives' own damping, and of a limp one the
-  // drives are off.
+  // In state `fault` no torque may be commanded; the drives' own damping is allowed. In a limp fault the
+  // drives must be off.
   void see_command() {
     const auto& output = rig_.output();
     const bool off = output.command.drive == DriveRequest::off;
@@ -154,7 +155,7 @@ class PairTrial {
     rig_.set(fault.cell.device, fault.cell.kind);
   }
 
-  // The first session ends as it is; what follows is judged by itself, but for the fault that is still there.
+  // Judges the log of the first session and starts the second one, which is judged alone. The defect stays.
   void restart() {
     see_log();
     first_raised_ = result_.raised;
@@ -164,7 +165,7 @@ class PairTrial {
     armed_ = false;
     rig_.board().bus().reset_torque();
     if (const auto refusal = rig_.restart(Phase::extension)) refusal_ = "start refused: " + *refusal;
-    second_.set_at = 1;  // of the new session
+    second_.set_at = 1;  // first cycle of the new session
   }
 
   void finish();
@@ -184,7 +185,7 @@ class PairTrial {
   PairResult result_;
   std::vector<Event> events_;
   std::vector<std::uint64_t> raised_at_;
-  std::vector<Fault> first_raised_;  // in the session before the restart
+  std::vector<Fault> first_raised_;  // faults of the session before the restart
   std::uint64_t off_cycles_ = 0;
   std::string refusal_;
   bool armed_ = false;
@@ -217,7 +218,7 @@ void PairTrial::judge_end() {
   judge_times();
 }
 
-// Notes why there was no evidence of it; false when there was.
+// Returns true and notes the reason if the fault never showed enough evidence to be found.
 bool PairTrial::note_hidden(const Planted& fault) {
   if (fault.visible_at != 0) return false;
   result_.hidden = fault.evidence.wanted();
@@ -233,8 +234,8 @@ void PairTrial::judge_harshness() {
                       name_of(result_.second_alone)));
 }
 
-// The first within its cycles, unless both came at once and the other was raised before; the second where it
-// is harsher.
+// Checks the allowed number of cycles: of the first fault unless both were planted together, of the second
+// fault if it was raised.
 void PairTrial::judge_times() {
   const auto late = [&](const Planted& fault, std::size_t raised) {
     const auto found = result_.raised[raised];
@@ -257,8 +258,8 @@ void PairTrial::judge_times() {
       result_.cycles = late(second_, i);
 }
 
-// Before it is armed, the new session commands at most the small torque that tries the drives; once it arms
-// and hops, it finds the fault.
+// Before it arms, the new session may command at most the small torque that tests the drives. Once it arms
+// and hops it must find the fault.
 void PairTrial::judge_restart() {
   const double tried_Nm = robot_.arming.confirm_torque_Nm + kNoTorque_Nm;
   if (!armed_ && rig_.board().bus().most_torque_Nm() > tried_Nm)
@@ -284,7 +285,8 @@ void PairTrial::judge_drives() {
   }
 }
 
-// Each fault, and each step of the date, is in the log; or the logger names the disk's trouble.
+// Every event and every step of the date must be in the log. With a full disk the logger must report the
+// error instead.
 void PairTrial::see_log() {
   const auto trouble = rig_.close_log();
   const bool disk_full = pair_.first.kind == Kind::disk_full || pair_.second.kind == Kind::disk_full;

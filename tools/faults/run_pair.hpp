@@ -10,23 +10,25 @@ namespace sandhopper::faults {
 
 // Result of a pair.
 struct PairResult {
-  // The harshest fault of each alone, in the pair's phase, and of the pair at its end.
+  // Harshest fault of each cell run alone in the pair's phase, and the fault at the end of the pair.
   Fault first_alone = Fault::none;
   Fault second_alone = Fault::none;
   Fault together = Fault::none;
-  std::vector<Fault> raised{};  // in their order
+  std::vector<Fault> raised{};  // in the order of raising
   State state = State::idle;
-  std::string end{};      // the state in words, with the reason when a new session did not arm
-  int cycles = -1;        // until the second was raised, when it had to be
-  std::string hidden{};   // why the second could not be seen beside the first, when that is so
-  double time_s = 0.0;    // of the trial
-  std::string problem{};  // empty: as it must be
+  std::string end{};  // the state in words, or why a new session did not start or arm
+  int cycles = -1;  // from the first cycle that could show the second fault to the cycle that raised it; -1:
+                    // not raised
+  std::string hidden{};   // reason why one fault could not be seen beside the other; empty: both could
+  double time_s = 0.0;    // duration of the trial
+  std::string problem{};  // empty: the pair passed
 };
 
-// Runs pairs, and once each of their cells alone for comparison.
+// Runs pairs. Runs each of their cells alone once, for comparison, and keeps the result.
 class PairRunner {
  public:
   explicit PairRunner(MatrixSetup setup) : setup_(std::move(setup)) {}
+  // Runs a pair and judges it against each of its cells alone.
   PairResult run(const Pair& pair);
 
  private:

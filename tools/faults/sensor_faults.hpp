@@ -10,28 +10,30 @@
 
 namespace sandhopper::faults {
 
-// How each kind of sensor goes wrong. Every default is far from what a sound one does, and no farther than a
-// real defect goes.
+// Size of the timing faults of one kind of sensor. Each value is far outside a sound sensor's behaviour, but
+// no larger than a real defect.
 struct SensorDefect {
   std::int64_t slow_period_ns;
   std::int64_t delay_ns;
-  int keep_one_in;  // intermittent: of the samples
+  int keep_one_in;  // intermittent: passes one of so many samples
 };
 
+// Defect sizes of this kind of sensor.
 template <class Sample>
 SensorDefect defect_of();
+// Changes a sample as a sensor with this kind of fault would. Timing faults change nothing here.
 void spoil(ImuSample& sample, Kind kind, Random& random);
 void spoil(TofSample& sample, Kind kind, Random& random);
 void spoil(LoadCellSample& sample, Kind kind, Random& random);
 
-// Stands between a sensor of the world and the frame: takes each new sample and passes on what the faulty one
-// would.
+// Stands between a sensor of the world and the frame: takes each new sample and delivers what the faulty
+// sensor would deliver.
 template <class Sample>
 class SensorFault {
  public:
   explicit SensorFault(std::uint64_t seed) : random_(seed, 1) {}
 
-  // A sound sensor again with Kind none (no value).
+  // std::nullopt: a sound sensor again.
   void set(std::optional<Kind> kind, std::int64_t now_ns) {
     kind_ = kind;
     since_ns_ = now_ns;
@@ -40,7 +42,8 @@ class SensorFault {
     frozen_ = held_;
   }
 
-  // The sample of this cycle, fresh or not, from the newest one of the world.
+  // `newest`: the world's newest sample. `out`: this cycle's sample; out.fresh is true if one arrived in this
+  // cycle.
   void pass(const Sample& newest, std::int64_t now_ns, Sample& out) {
     out.fresh = false;
     if (newest.time_ns != last_ns_ && newest.time_ns != 0) {

@@ -10,10 +10,11 @@
 namespace sandhopper::faults {
 namespace {
 
-constexpr std::uint64_t kArm_cycle = 300;   // noise of the sensors is known by then
-constexpr std::uint64_t kHang_cycles = 50;  // between armed and release
+constexpr std::uint64_t kArm_cycle = 300;   // when arming is requested; by then the noise of the sensors is
+                                            // known
+constexpr std::uint64_t kHang_cycles = 50;  // from arming to release
 constexpr std::uint64_t kStall_cycles = 50;
-constexpr std::int64_t kClockStep_ns = 3'600'000'000'000;  // an hour
+constexpr std::int64_t kClockStep_ns = 3'600'000'000'000;  // one hour
 
 std::uint64_t cycles_into(Phase phase) {
   switch (phase) {
@@ -53,7 +54,7 @@ TrialLogOptions log_options(const std::filesystem::path& log, FileCalls calls) {
 
 }  // namespace
 
-// What a restart of hopperd makes anew.
+// The objects that a restart of hopperd creates anew.
 struct TrialRig::Session {  // NOLINT(clang-analyzer-optin.performance.Padding): the rings' own
   Session(TrialLogOptions options, const RobotConfig& robot, Board& board, FreezeRing* freeze)
       : logger(std::move(options)),
@@ -172,7 +173,7 @@ std::string TrialRig::close_log() {
   return session_->logger.error();
 }
 
-// The disk of this trial: full from the cycle on in which it is set so.
+// File calls of the trial's disk. They fail with ENOSPC once disk_full_ is set.
 FileCalls TrialRig::file_calls() {
   const auto system = FileCalls::of_the_system();
   const auto full = [] {

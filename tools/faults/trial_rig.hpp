@@ -14,35 +14,36 @@
 
 namespace sandhopper::faults {
 
-// A simulated robot in virtual time with the robot's own cycle, driver and log. It arms and is released by
-// itself when `phase` asks for it, and waits in no phase. Faults are set between two cycles.
+// A simulated robot in virtual time with the robot's own cycle, driver and log. It requests arming and
+// release itself if `phase` needs them. Faults are planted between two cycles.
 class TrialRig {
  public:
   TrialRig(const MatrixSetup& setup, const RobotConfig& robot, Phase phase, std::filesystem::path log);
   ~TrialRig();
 
-  // Cycles of the present session; the first is 1.
+  // Number of the present cycle in this session, missed cycles included; the first is 1.
   std::uint64_t cycle() const { return cycle_number_; }
-  // Of them those that ran.
+  // Number of cycles of this session that ran.
   std::uint64_t turns() const { return turns_; }
+  // Present time of the world; it continues over sessions.
   double time_s() const;
   const StepOutput& output() const { return *output_; }
   const SensorFrame& frame() const;
+  // Events of the last cycle.
   std::span<const Event> events() const;
   BenchBoard& board() { return board_; }
   const std::filesystem::path& log() const { return log_; }
 
-  // One cycle: read, step, write, log. The operator asks for what the rig itself does not.
+  // Runs one cycle: read, step, write, log. `request`: the operator's request; none: the rig's own.
   void turn(Request request = Request::none);
-  // The phase has lasted as long as a cell waits in it before something breaks.
+  // True in the cycle after which a fault is to be planted in the phase.
   bool ready_to_break() const;
-  // Breaks a device, or the computer. Returns the first cycle that can read it.
+  // Plants a fault in a device or in the computer. Returns the first cycle that can read it.
   std::uint64_t set(Device device, Kind kind);
-  // Ends the present session and begins another one, which goes for `phase`, on the same devices with what is
-  // wrong with them.
-  // Returns why the driver refused to start, or nothing.
+  // Ends the present session and begins a new one on the same devices, whose defects stay. `phase`: phase
+  // that the new session goes for. Returns why the driver refused to start, or nothing.
   std::optional<std::string> restart(Phase phase);
-  // Stops the logger and closes its files. Returns the disk's trouble in words; empty when there was none.
+  // Stops the logger and closes its files. Returns the error of the disk as text; empty: none.
   std::string close_log();
 
  private:
@@ -65,9 +66,9 @@ class TrialRig {
   std::uint64_t cycle_number_ = 0, turns_ = 0, armed_at_ = 0, in_phase_cycles_ = 0;
   std::uint32_t overruns_ = 0;
   bool ready_ = false;
-  // What is wrong with the computer.
+  // Faults of the computer.
   bool overrunning_ = false;
-  bool stalls_ = false, watchdog_trips_ = false, clock_steps_ = false;  // in the next cycle
+  bool stalls_ = false, watchdog_trips_ = false, clock_steps_ = false;  // in effect in the next cycle only
   bool disk_full_ = false;
 };
 

@@ -1,4 +1,4 @@
-# Text of several scripts, in order.
+# Concatenates scripts of `folder`, in the order of their names in the arguments, into `variable`.
 function(sandhopper_join_scripts variable folder)
   set(text "")
   foreach(name ${ARGN})
@@ -9,8 +9,8 @@ function(sandhopper_join_scripts variable folder)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# Embeds the reports' pages and Debian's dygraphs into the library, so that a program writes reports on a machine
-# that has neither. Run again whenever one of the files changes.
+# Embeds the reports' pages and Debian's dygraphs into the library: a program must write reports on a machine that
+# has neither. CMake runs again when one of the files changes.
 function(sandhopper_embed_report_assets target)
   set(page ${PROJECT_SOURCE_DIR}/tools/report/page)
   find_path(DYGRAPHS_DIR dygraph.min.js PATHS /usr/share/javascript/dygraphs NO_DEFAULT_PATH)
@@ -27,7 +27,7 @@ function(sandhopper_embed_report_assets target)
     list(GET asset 0 name)
     list(GET asset 1 file)
     file(READ ${file} content)
-    # Developer tools would ask for the source map.
+    # Without this, a browser's developer tools would request the source map, which is not embedded.
     string(REGEX REPLACE "(//|/\\*)# sourceMappingURL=[^\n]*" "" ${name} "${content}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   endforeach()
@@ -41,7 +41,7 @@ function(sandhopper_embed_report_assets target)
 
   configure_file(${PROJECT_SOURCE_DIR}/tools/report/assets.cpp.in
                  ${PROJECT_BINARY_DIR}/generated/report_assets.cpp @ONLY)
-  # Longer literals than ISO C++ promises; every compiler here takes them, Clang with a warning.
+  # The literals are longer than ISO C++ guarantees. Supported compilers accept them, Clang with a warning.
   set_source_files_properties(${PROJECT_BINARY_DIR}/generated/report_assets.cpp PROPERTIES
                               COMPILE_OPTIONS -Wno-overlength-strings)
   target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/report_assets.cpp)

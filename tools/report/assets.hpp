@@ -1,15 +1,16 @@
 #pragma once
 #include <string_view>
 
-// Files of tools/report/page/ and of the plotting library, embedded when building (assets.cmake).
+// The files of tools/report/page/ and the plotting library dygraphs. The build embeds them into the program
+// (assets.cmake).
 namespace sandhopper::report_assets {
 
 extern const std::string_view kPage;         // page.html
 extern const std::string_view kStyle;        // page.css
-extern const std::string_view kScript;       // the page's own scripts, in order
+extern const std::string_view kScript;       // all scripts of page.html, concatenated
 extern const std::string_view kStudyPage;    // study.html
-extern const std::string_view kStudyStyle;   // study.css, after kStyle
-extern const std::string_view kStudyScript;  // its scripts, in order
+extern const std::string_view kStudyStyle;   // study.css, to be placed after kStyle
+extern const std::string_view kStudyScript;  // all scripts of study.html, concatenated
 extern const std::string_view kExplainPage;
 extern const std::string_view kExplainStyle;
 extern const std::string_view kExplainScript;

@@ -6,11 +6,10 @@
 
 namespace sandhopper {
 
-// RFC 4648, section 4, with padding.
+// Base64 with padding, RFC 4648 section 4.
 std::string base64(std::span<const std::byte> bytes);
 
-// The numbers as they lie in memory; a page reads them back as a typed array, which is little-endian
-// everywhere.
+// Encodes the numbers in little-endian byte order, as a JavaScript typed array of the page expects them.
 template <class Number>
 std::string base64_numbers(std::span<const Number> numbers) {
   static_assert(std::endian::native == std::endian::little);

@@ -18,7 +18,8 @@ std::vector<bool> rows_of_strides(const ReportData& data, double margin_s) {
   return keep;
 }
 
-// Half-open ranges of rows, each shown as one row (kept as it is) or as two (least and greatest).
+// A contiguous range of rows, first to first + count - 1. With count 1 the row is kept; otherwise two rows
+// replace the range, with the least and the greatest value of each column.
 struct Run {
   std::size_t first;
   std::size_t count;
@@ -48,7 +49,7 @@ std::vector<double> thinned(const std::vector<double>& values, const std::vector
     double least = std::numeric_limits<double>::quiet_NaN();
     double greatest = least;
     for (std::size_t row = run.first; row < run.first + run.count; ++row) {
-      least = std::fmin(least, values[row]);  // fmin and fmax pass over NaN
+      least = std::fmin(least, values[row]);  // fmin and fmax ignore NaN
       greatest = std::fmax(greatest, values[row]);
     }
     result.push_back(least);
@@ -68,7 +69,7 @@ ReportData envelope(ReportData data, const EnvelopeLimits& limits, std::size_t& 
   const auto kept = static_cast<std::size_t>(std::ranges::count(keep, true));
   const std::size_t room = std::max(limits.max_rows - std::min(kept, limits.max_rows), limits.min_other_rows);
   run = std::max<std::size_t>(1, (2 * (rows - kept) + room - 1) / room);
-  if (run < 3) {  // two rows out of two would gain nothing
+  if (run < 3) {  // replacing two rows by two rows would gain nothing
     run = 1;
     return data;
   }

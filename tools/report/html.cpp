@@ -18,7 +18,7 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
 
 std::string escaped(std::string_view text) { return replaced(replaced(text, "&", "&amp;"), "<", "&lt;"); }
 
-// "<" could end the script element that carries the data.
+// A "<" in the data could end the script element that carries them.
 std::string embedded_json(std::string_view json) { return replaced(json, "<", "\\u003c"); }
 
 void write(const std::string& page, const std::filesystem::path& path) {

@@ -3,14 +3,16 @@
 #include <string>
 #include <string_view>
 
-// What every page is put together with.
+// Functions that assemble a page.
 namespace sandhopper::html {
 
+// Replaces every `what` in `text`.
 std::string replaced(std::string_view text, std::string_view what, std::string_view with);
+// Escapes the characters that have a meaning in HTML.
 std::string escaped(std::string_view text);
-// JSON that may stand inside a script element.
+// Escapes JSON so that it may stand inside a script element.
 std::string embedded_json(std::string_view json);
-// Throws std::runtime_error with path and cause where that fails.
+// Throws std::runtime_error with path and cause if the file cannot be written.
 void write(const std::string& page, const std::filesystem::path& path);
 
 }  // namespace sandhopper::html

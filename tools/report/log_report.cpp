@@ -27,7 +27,7 @@ bool pass_on(TopicOf<Record>& topic, const mcap::Message& message, Record& recor
   return true;
 }
 
-// Feeds every record to the builder; returns the lost ones.
+// Passes every record to the builder and counts the records that the log lost.
 struct Feed {
   TopicOf<SensorFrame> frames{topic::kFrame};
   TopicOf<StepOutput> outputs{topic::kOutput};
@@ -59,7 +59,8 @@ struct Feed {
   }
 };
 
-// "release_height_m", "0.061800" -> "release height", "61.8 mm": lengths as in the figures
+// Fact with its unit, lengths in mm as in the figures: "release_height_m", "0.061800" becomes "release
+// height", "61.8 mm".
 std::pair<std::string, std::string> fact_of(std::string key, std::string value) {
   struct Unit {
     std::string_view suffix, text;
@@ -90,7 +91,8 @@ std::string utc(std::int64_t realtime_ns) {
                      fmt::gmtime(static_cast<std::time_t>(realtime_ns / 1'000'000'000)));
 }
 
-// Metadata are facts under the title, but for explanations, which stand above the attached text.
+// Short metadata become facts under the title. Longer ones (explanations) and attached text become the
+// configuration.
 void add_attached(const mcap::Reader& log, ReportData& data) {
   constexpr std::size_t kLongest = 24;
   if (const auto sheet = sheet_of(log))

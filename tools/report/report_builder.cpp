@@ -15,7 +15,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kHalfCycle_ns = 500'000;
 
-// Channels that each cycle has at its own time.
+// A channel with one value per cycle, at the cycle's time.
 struct CycleChannel {
   const char* name;
   double (*value)(const StepOutput&);
@@ -54,7 +54,7 @@ constexpr std::array kCycleChannels{
     CycleChannel{"normalised_leg_rate", normalised<2>},
 };
 
-// Channels that stand at the time of their own measurement.
+// Channels whose values stand at the time of their own measurement.
 enum TimedChannel : std::size_t {
   kContactForce = kCycleChannels.size(),
   kQuasiStaticForce,
@@ -96,10 +96,11 @@ std::string in_words(std::string_view name) {
   return text;
 }
 
-// A fit that found nothing leaves zeros.
+// A fit without a result leaves its value 0.
 double or_none(double value) { return value == 0.0 ? kNone : value; }
 
-// In a crater a line has only the new ground below it: what is missing is that, not depth.
+// In a crater only the new ground below it counts. Then the reason names the missing new ground, not the
+// depth.
 std::string reason_of(Validity validity, double crater_depth_m) {
   const bool is_little = validity == Validity::too_shallow || validity == Validity::too_few_samples ||
                          validity == Validity::no_new_penetration;
@@ -118,7 +119,7 @@ ReportStiffness stiffness(const StiffnessEstimate& fit, double crater_depth_m) {
           .standard_error_N_per_m = fit.standard_error_N_per_m};
 }
 
-// Drawn as the quasi-static part beyond the first millimetres: F = k (z + z0).
+// The page draws this fit as its quasi-static part beyond the first millimetres: F = k (z + z0).
 ReportStiffness stiffness(const JointEstimate& fit, double crater_depth_m) {
   return {.value_N_per_m = or_none(fit.value_N_per_m),
           .ci95_low_N_per_m = fit.ci95_low_N_per_m,
@@ -144,7 +145,8 @@ void ReportBuilder::add(const SensorFrame& frame) {
 void ReportBuilder::add(const StepOutput& output) {
   row_ns_.push_back(output.time_ns);
   state_.push_back(output.state);
-  // Nothing is estimated when idle, nor until the zero check has told where the leg is.
+  // Without an estimate there is nothing to draw: in state idle, and before the zero check has set the leg
+  // length.
   if (output.state == State::idle || output.estimate.leg_length_m == 0.0) return;
   for (std::size_t i = 0; i < kCycleChannels.size(); ++i)
     put(i, output.time_ns, kCycleChannels[i].value(output));
@@ -208,7 +210,7 @@ double ReportBuilder::seconds(std::int64_t time_ns) const {
   return 1e-9 * static_cast<double>(time_ns - zero_ns);
 }
 
-// What the filter called depth where the first stride met the surface; the summaries count from there.
+// The filter's depth at the first contact with the surface, m. The stride summaries count depth from there.
 double ReportBuilder::depth_datum_m() const {
   if (strides_.empty()) return 0.0;
   const std::int64_t contact_ns = strides_.front().summary.contact_ns;
@@ -224,7 +226,7 @@ void ReportBuilder::add_columns(ReportData& data) const {
   for (const Point& point : points_) {
     auto row = std::ranges::lower_bound(row_ns_, point.time_ns - kHalfCycle_ns);
     if (row == row_ns_.end() || *row > point.time_ns + kHalfCycle_ns)
-      continue;  // in a gap, or before the log
+      continue;  // in a gap between cycles, or before the log
     std::vector<double>& column = columns[point.channel];
     if (column.empty()) column.assign(row_ns_.size(), kNone);
     column[static_cast<std::size_t>(row - row_ns_.begin())] =

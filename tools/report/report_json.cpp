@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// JSON has no NaN; the page takes null for "none".
+// JSON has no NaN; the page reads null as "no value".
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json stiffness(const ReportStiffness& fit) {
@@ -23,7 +23,7 @@ Json stiffness(const ReportStiffness& fit) {
           {"reason", fit.reason}};
 }
 
-// The curve at its points with the 95 % band, the depths visited, and what one number is worth.
+// Force at the profile's points with its 95 % band, the range of depths visited, and the shape of the ground.
 Json profile_json(const StrengthProfile& profile, const GroundSummary& ground) {
   if (profile.stride == 0) return nullptr;
   Json depth = Json::array(), force = Json::array(), low = Json::array(), high = Json::array();
@@ -68,7 +68,7 @@ Json columns_json(const std::vector<ReportColumn>& columns) {
   return result;
 }
 
-// The events of the firmware and, at each liftoff, what the stance found in the ground.
+// The events of the firmware, and at each liftoff the events that the stance found in the ground.
 std::vector<ReportEvent> with_ground_events(const ReportData& data) {
   auto events = data.events;
   for (const ReportStride& stride : data.strides)

@@ -7,10 +7,10 @@
 
 namespace sandhopper {
 
-// What a page of a ReportData carries; page/data.js reads it. `envelope_run`: see envelope().
+// JSON of a page's data; page/data.js reads it. `envelope_run`: the result `run` of envelope().
 nlohmann::json report_json(const ReportData& data, std::size_t envelope_run);
 
-// As text; what is no valid UTF-8 is replaced.
+// Serialises it; invalid UTF-8 is replaced by U+FFFD.
 std::string page_text(const nlohmann::json& json);
 
 }  // namespace sandhopper

@@ -12,7 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Seven digits draw the same picture; JSON has no NaN, the page takes null for "none".
+// Values as floats: seven digits are enough for a picture. JSON has no NaN; the page reads null as "no
+// value".
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();
   for (const double value : values)
@@ -21,7 +22,8 @@ Json numbers(const std::vector<double>& values) {
   return list;
 }
 
-// Thousands of points hide one another and burden the page: every so-manieth is drawn.
+// Thins a series of more than kMostPoints points, which would hide one another and make the page large: every
+// n-th point is kept.
 StudySeries thinned(const StudySeries& series) {
   constexpr std::size_t kMostPoints = 1500;
   if (series.mark != StudySeries::Mark::points || series.x.size() <= kMostPoints) return series;

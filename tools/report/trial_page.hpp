@@ -6,12 +6,11 @@
 
 namespace sandhopper {
 
-// One HTML page that holds everything it shows and asks no network for anything: time plots of the stride's
-// quantities over common time, force against depth with the fitted lines, stiffness with intervals, events
-// and configuration.
+// One self-contained HTML page: time plots of the trial's quantities, force against depth with the fitted
+// lines, stiffness with intervals, events and configuration. It needs no network.
 std::string trial_page(const ReportData& data);
 
-// Writes it. Throws std::runtime_error with path and cause where that fails.
+// Writes the page. Throws std::runtime_error with path and cause if the file cannot be written.
 void write_trial_report(const ReportData& data, const std::filesystem::path& path);
 
 }  // namespace sandhopper

@@ -1,9 +1,10 @@
-// Menu of a phone, light and dark, tables of a small screen, and the search. The index is a script, because a page that is opened from
-// a folder may not read other files; it is loaded when somebody first searches.
+// Menu on a phone, light and dark theme, tables on a small screen, and the search. The search index is a
+// script, because a page that is opened from a folder may not read other files. It is loaded at the first
+// search.
 'use strict';
 const byId = (id) => document.getElementById(id);
 
-// In a table, names break where a reader would break them.
+// Long names in a table may break at suitable characters.
 for (const code of document.querySelectorAll('main td code'))
   code.replaceChildren(...code.textContent.split(/(?<=[_./])/).flatMap((part) => [part, document.createElement('wbr')]));
 
@@ -39,7 +40,8 @@ themeButton.addEventListener('click', () => {
 systemIsDark.addEventListener('change', nameTheme);
 nameTheme();
 
-// The search: sections that hold every word, also as the beginning of a longer word or with one letter wrong.
+// Search: finds sections that contain every word, also as the beginning of a longer word or with one wrong
+// letter.
 const words = byId('search-words');
 const results = byId('search-results');
 const kMostResults = 20;
@@ -83,19 +85,20 @@ function scoresOf(word) {
 function search(text) {
   const asked = lunr.tokenizer(text).map(String).filter((word) => word.length > 1);
   if (asked.length === 0) return [];
-  // Words that are in every text ("the", "off") are not in the index.
+  // The index leaves out words that occur in every text ("the", "off").
   const scores = asked.filter((word) => lunr.stopWordFilter(word)).map(scoresOf);
   if (scores.length === 0) return [];
   const phrase = text.trim();
   const holds = (part) => part.toLowerCase().includes(phrase);
-  // The words as they were typed, in a heading or in the text, come before the same words apart.
+  // Words in the order in which they were typed, in a heading or in the text, rank higher than the same words
+  // apart.
   const asTyped = ({ title, text: body }) => (holds(title) ? 100 : 0) + (holds(body) ? 10 : 0);
   const total = (ref) => scores.reduce((sum, map) => sum + map.get(ref), asTyped(sections.get(ref)));
   const all = [...scores[0].keys()].filter((ref) => scores.every((map) => map.has(ref)));
   return all.sort((a, b) => total(b) - total(a)).slice(0, kMostResults).map((ref) => ({ section: sections.get(ref), asked }));
 }
 
-// The words around the first hit, with every hit marked; as nodes, so that no text becomes markup.
+// The text around the first hit, with every hit marked; made of nodes, so that no text is parsed as markup.
 function excerpt(text, asked) {
   const escaped = asked.map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
   const hit = new RegExp(`(${escaped.join('|')})`, 'gi');

@@ -1,4 +1,4 @@
-// The first screen of a study that answers questions: a verdict, and a box for each question.
+// First screen of a study that answers questions: a verdict, and a box for each question.
 function showAnswers(study) {
   const verdict = document.getElementById('verdict');
   const answers = document.getElementById('answers');

@@ -1,4 +1,4 @@
-// What the page carries: numbers as typed arrays, NaN where a row has none.
+// Data of the page: numbers as typed arrays, NaN in rows without a value.
 function readData() {
   const data = JSON.parse(document.getElementById('data').textContent);
   data.time = new Float64Array(bytesOf(data.time_s).buffer);

@@ -1,4 +1,4 @@
-// The page of a fault: which check fired, what was done, the cure, and what was measured around it.
+// The page of a fault: the check that fired, the reaction, the cure, and the measurements around it.
 function start() {
   const data = readData();
   const explained = data.explained;
@@ -30,7 +30,7 @@ function start() {
   buttons[0].click();
 }
 
-// All of it, and closer to the fault where there is something to see.
+// Views: the whole frame, and the time close to the fault.
 function viewsOf(whole) {
   const within = (from, to) => [Math.max(whole[0], from), Math.min(whole[1], to)];
   return [
@@ -40,7 +40,7 @@ function viewsOf(whole) {
   ];
 }
 
-// The panels that show what the check looked at come first, with its limits; the others are folded under them.
+// Panels with the channels of the check come first, with its limits. The others are folded below.
 function panelsFor(faults) {
   const first = faults[0] || { channels: [], lines: [] };
   const checked = panel => panel.series.some(series => first.channels.includes(series.channel));

@@ -1,5 +1,5 @@
-// What was measured around a fault, by panel. Channels are in SI units; a panel shows them times `scale`.
-// Two sides that agree lie on one another: the right one is dashed, so that both are seen.
+// Measurements around a fault, by panel. Channels are in SI units; a panel shows them times `scale`. Left and
+// right often have equal values, so the right one is dashed and both remain visible.
 const sides = (channel, label = '') => [
   { channel: channel.replace('SIDE', 'left'), label: `left${label}`, color: 'blue' },
   { channel: channel.replace('SIDE', 'right'), label: `right${label}`, color: 'orange', style: 'dashed' },

@@ -1,8 +1,8 @@
-// Pixels of a row, about ten lines: a higher one is read more easily as a card.
+// Pixels, about ten lines: a higher row is easier to read as a card.
 const kHighRow = 190;
 
-// A table in a place of limited width: in lines as they are; else with cells that may take several lines; else each row
-// as a card, a line for each cell with its column's name. No column is ever hidden behind a scroll bar.
+// Fits a table into a limited width: as it is; or with cells of several lines; or each row as a card that has
+// a line with the column's name for each cell. No column is hidden behind a scroll bar.
 function fitTable(place) {
   const table = place.querySelector('table');
   if (!table?.tHead || !table.tBodies.length) return;
@@ -26,7 +26,7 @@ function fitTable(place) {
   addEventListener('afterprint', () => { width = 0; fit(); });
 }
 
-// "stiffness, N/m" of a header cell that holds both.
+// Column name with unit, such as "stiffness, N/m", of a header cell that contains both.
 function columnName(cell) {
   const unit = cell.querySelector('small');
   const title = [...cell.childNodes].filter(node => node !== unit).map(node => node.textContent).join('');

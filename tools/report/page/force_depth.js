@@ -1,4 +1,4 @@
-// Force against depth through the stances shown, with the lines that the treatments fitted.
+// Force against depth during the visible stances, with the lines fitted by the treatments.
 class ForceDepth {
   static kPaths = [
     { channel: 'load_cell_force_N', label: 'load cell', color: 'green', shown: false },
@@ -8,7 +8,7 @@ class ForceDepth {
   ];
   static kMargin = { left: 46, right: 12, top: 8, bottom: 34 };
 
-  // onHover(t) is told the instant of the nearest sample, or null.
+  // onHover(t): called with the time of the nearest sample, or null.
   constructor(data, figure, onHover) {
     this.data = data;
     this.onHover = onHover;
@@ -37,7 +37,7 @@ class ForceDepth {
     this.draw();
   }
 
-  // Depth in mm, force in N and time of every sample of the stances; a break between two of them.
+  // Collects depth in mm, force in N and time of all samples of the stances, with a gap between two stances.
   collect() {
     const { time, columns } = this.data;
     for (const path of this.paths) {
@@ -61,7 +61,7 @@ class ForceDepth {
     return columns.estimate_foot_z_m ? -columns.estimate_foot_z_m[row] : NaN;
   }
 
-  // The view that holds every sample shown.
+  // Zooms to all visible samples.
   fit() {
     const view = { left: 0, right: 1, bottom: 0, top: 1 };
     for (const path of this.paths) {
@@ -155,7 +155,7 @@ class ForceDepth {
     context.globalAlpha = 1;
   }
 
-  // Each treatment's line from the surface to the greatest depth; thin where the fit is not valid.
+  // The line of each treatment from the surface to the greatest depth; thin if the fit is not valid.
   drawLines(context) {
     for (const line of this.lines) {
       if (!line.shown) continue;
@@ -174,7 +174,7 @@ class ForceDepth {
     context.setLineDash([]);
   }
 
-  // Where the switch fell on the observer's path, and the sample under the pointer.
+  // Marks the stance switch on the observer's path, and the sample under the pointer.
   drawMarks(context) {
     const path = this.paths.find(candidate => candidate.channel === 'estimate_contact_force_N');
     if (path && path.shown) {
@@ -204,12 +204,13 @@ class ForceDepth {
     const at = x + (left ? -8 : 8);
     context.lineWidth = 4;
     context.lineJoin = 'round';
-    context.strokeStyle = theme.color('sheet'); // read on its own paper, not on the lines below it
+    context.strokeStyle = theme.color('sheet');  // background colour, so that the text is readable on the
+                                                 // lines
     context.strokeText(text, at, y - 6);
     context.fillText(text, at, y - 6);
   }
 
-  // Marks the sample of an instant, chosen elsewhere.
+  // Marks the sample of a time that was chosen in another plot.
   point(t) {
     const path = this.paths.find(candidate => candidate.shown && candidate.channel === 'estimate_contact_force_N');
     this.nearest = null;

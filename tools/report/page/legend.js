@@ -1,9 +1,9 @@
-// A named colour, or a shade of it on the way to the paper's.
+// A named colour, mixed with the page's background by `shade`.
 function colorOf({ color, shade }) {
   return shade ? `color-mix(in srgb, var(--${color}) ${Math.round(100 - 62 * shade)}%, var(--sheet))` : `var(--${color})`;
 }
 
-// A row of names above a plot. A click hides or shows a line; under the pointer each shows its value.
+// Names above a plot. A click hides or shows a line. At the pointer's time each name shows the line's value.
 class Legend {
   // entries: [{ label, color, style, shown }]
   constructor(container, entries, onToggle, withValues = true) {

@@ -1,4 +1,4 @@
-// Ties the parts of the page together.
+// Connects the parts of the page.
 function start() {
   const data = readData();
   theme.start(document.getElementById('theme'));
@@ -36,7 +36,7 @@ function start() {
     stride => choose(views[1 + data.strides.indexOf(stride)]));
   const switcher = views.length > 12 ? strideMenu(views, choose) : strideButtons(views, choose);
 
-  // Shows which of the views, if any, the panels are at.
+  // Marks the view that the panels show, if any.
   function marked(from, to) {
     const here = views.findIndex(view => view.range[0] === from && view.range[1] === to);
     switcher(here);
@@ -45,7 +45,7 @@ function start() {
   choose(views[Math.min(1, views.length - 1)]);
 }
 
-// The ways to choose a view; each returns what shows the number of the chosen one, -1 for none.
+// Two ways to choose a view. Each returns a function that marks the view of a given number; -1: none.
 function strideButtons(views, choose) {
   const buttons = views.map(view => element('button', { type: 'button', onclick: () => choose(view) }, view.name));
   document.getElementById('views').append(...buttons);
@@ -64,7 +64,7 @@ function strideMenu(views, choose) {
   return here => { menu.selectedIndex = here; };
 }
 
-// A stride with what leads to it and what follows, inside the trial.
+// Time range of a stride with margins, limited to the trial.
 function around(stride, whole) {
   const end = stride.liftoff_s ?? whole[1];
   const margin = 0.35 * (end - stride.touchdown_s);

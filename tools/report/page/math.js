@@ -1,5 +1,5 @@
-// An equation as it is typed, "F += -1/2 rho A C_d |v| v", set as an equation: Greek letters, indices, powers, and
-// variables in italics.
+// Sets an equation in plain text, such as "F += -1/2 rho A C_d |v| v", with Greek letters, indices, powers,
+// and variables in italics.
 const GREEK = { alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', theta: 'θ', mu: 'μ', rho: 'ρ', tau: 'τ', phi: 'φ', xi: 'ξ', w: 'ω' };
 
 function mathOf(text) {
@@ -18,7 +18,7 @@ function mathOf(text) {
 }
 
 function nameOf(name, index) {
-  const changed = /^d[A-Zlm]$/.test(name); // dG: a change of G
+  const changed = /^d[A-Zlm]$/.test(name);  // dG: a change of G
   const bare = changed ? name.slice(1) : name;
   const letter = GREEK[bare] ?? bare;
   const variable = letter.length === 1 || (bare.length === 2 && /[0-9]$/.test(bare));

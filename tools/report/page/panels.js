@@ -1,5 +1,5 @@
-// Which channels are drawn where. A channel that the trial does not have is left out, and a panel without any.
-// Channels are in SI units; a panel shows them times `scale`. A folded one is shown when the reader asks.
+// Assignment of channels to panels. A channel that the trial lacks is left out, and so is a panel without
+// channels. Channels are in SI units; a panel shows them times `scale`. A folded panel opens on request.
 const PANELS = [
   {
     title: 'Leg length', unit: 'mm', scale: 1000, digits: 1,
@@ -80,7 +80,7 @@ const PANELS = [
   },
 ];
 
-// The treatments of the force-depth data, and how they are drawn everywhere.
+// Treatments of the force-depth data, with their colours in all plots.
 const TREATMENTS = [
   { key: 'qs_ols', label: 'quasi-static, OLS', color: 'orange' },
   { key: 'mo_ols', label: 'observer, OLS', color: 'purple' },

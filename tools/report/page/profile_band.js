@@ -1,5 +1,5 @@
-// The ground's quasi-static force over depth with its 95 % band, after the last stride shown, and the true curve
-// of a simulated bed. Beyond the depths that the foot visited the curve is thin: a guess.
+// Quasi-static force of the ground over depth with its 95 % band, after the last visible stride, and the true
+// curve of a simulated bed. Below the deepest point of the foot the curve is extrapolated and drawn thin.
 class ProfileBand {
   constructor(data) {
     this.truth = data.bed_curve;

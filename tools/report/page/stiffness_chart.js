@@ -1,4 +1,5 @@
-// Stiffness of every stride by the three treatments and the joint fit with 95 % intervals, where they are valid.
+// Stiffness of every stride by the three treatments and the joint fit, with 95 % intervals where they are
+// valid.
 function drawStiffness(data, figure) {
   const fits = data.strides.flatMap(stride => TREATMENTS.map(treatment => stride[treatment.key]));
   const known = fits.filter(fit => fit.value_N_per_m !== null && fit.valid);
@@ -9,7 +10,7 @@ function drawStiffness(data, figure) {
   const caption = element('figcaption', {}, element('b', {}, 'Stiffness ', element('span', {}, 'N/m, with 95 % intervals')));
   const shown = TREATMENTS.map(treatment => ({ ...treatment, shown: true }));
   const svg = svgElement('svg', { role: 'img', 'aria-label': 'Stiffness of each stride' });
-  // One unit of the drawing is one pixel, so that letters keep their size.
+  // One unit of the drawing is one pixel, so that the text keeps its size.
   const draw = () => {
     const width = Math.round(svg.clientWidth);
     if (width > 100) drawIntervals(svg, data.strides, known, shown, width);

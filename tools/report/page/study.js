@@ -1,4 +1,4 @@
-// Puts a study together: contents, sections, paragraphs, tables and figures.
+// Builds the page of a study: contents, sections, paragraphs, tables and figures.
 const study = JSON.parse(document.getElementById('data').textContent);
 theme.start(document.getElementById('theme'));
 
@@ -23,7 +23,7 @@ study.sections.forEach((section, i) => {
   fillSection(section, body);
 });
 
-// Figures that follow one another share a grid.
+// Consecutive figures share a grid.
 function fillSection(section, body) {
   let grid = null;
   section.items.forEach((item, i) => {

@@ -2,9 +2,9 @@
 class StudyFigure {
   static kMargin = { right: 14, top: 10, bottom: 42 };
 
-  static kDigit = 6.6; // pixels of one in a tick's label
+  static kDigit = 6.6;  // width in pixels of a digit of a tick's label
 
-  static kWordHeight = 18; // pixels above the data for the word of a mark
+  static kWordHeight = 18;  // pixels above the data for the label of a mark
 
   constructor(figure, panel, width) {
     this.figure = figure;
@@ -27,7 +27,7 @@ class StudyFigure {
     new ResizeObserver(() => this.resize()).observe(this.svg);
   }
 
-  // Letters keep their size on a narrow screen: one unit of the drawing is one pixel.
+  // One unit of the drawing is one pixel, so that the text keeps its size on a narrow screen.
   resize() {
     const width = Math.round(this.svg.clientWidth);
     if (width < 200 || width === this.width) return;
@@ -56,7 +56,7 @@ class StudyFigure {
     this.svg.append(clip);
   }
 
-  // The view holds every value and interval shown, with a margin.
+  // Zooms to all visible values and intervals, with a margin.
   fit() {
     const { log_x, log_y, categories } = this.figure;
     const shown = this.figure.series.filter(series => series.shown);
@@ -67,7 +67,7 @@ class StudyFigure {
     const margin = StudyFigure.kMargin;
     const h = this.height - margin.top - margin.bottom;
     if (this.figure.marks.length) this.yRange[1] += ((this.yRange[1] - this.yRange[0]) * StudyFigure.kWordHeight) / (h - StudyFigure.kWordHeight);
-    // Labels of the ticks, right of the axis' name.
+    // Space for the tick labels, to the right of the axis' name.
     const longest = Math.max(0, ...StudyFigure.ticks(this.yRange, log_y, h / 38).map(tick => String(tick).length));
     const left = Math.max(48, 30 + StudyFigure.kDigit * longest);
     this.box = { x: left, y: margin.top, w: this.width - left - margin.right, h };

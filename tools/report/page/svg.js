@@ -1,4 +1,4 @@
-// Makes SVG elements; colours are variables of the style sheet.
+// Creates SVG elements; their colours are variables of the style sheet.
 function svgElement(tag, attributes = {}) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);

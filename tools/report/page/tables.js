@@ -1,10 +1,10 @@
-// The words and numbers around the plots.
+// Texts and tables of the page.
 function fillText(data) {
   const facts = document.getElementById('facts');
   for (const [label, text] of data.facts) facts.append(element('div', {}, element('dt', {}, label), element('dd', {}, text)));
   const answer = document.getElementById('answer');
   if (data.answer) answer.append(...withCode(data.answer[0].toUpperCase() + data.answer.slice(1)));
-  else answer?.remove(); // the page of a fault has none
+  else answer?.remove();  // the page of a fault has no such element
   const notes = document.getElementById('notes');
   for (const note of data.notes) notes.append(element('p', {}, note));
   if (data.envelope_rows > 1) {
@@ -23,7 +23,7 @@ function fixed(value, digits) {
   return value === null ? '–' : value.toFixed(digits);
 }
 
-// onChoose(stride) when a row is clicked; returns the rows, in the order of the strides.
+// onChoose(stride) is called if a row is clicked. Returns the rows in the order of the strides.
 function fillStrides(data, table, onChoose) {
   table.append(element('thead', {}, element('tr', {},
     headerCell('Stride'), headerCell('Touchdown speed', 'm/s'), headerCell('Touchdown', 's', 'when'), headerCell('Switch', 's', 'when'),
@@ -49,12 +49,12 @@ function fillStrides(data, table, onChoose) {
   return rows;
 }
 
-// A small screen has room for the joint fit only.
+// On a small screen only the joint fit is shown.
 function classOf(treatment) {
   return treatment.key === 'joint' ? '' : 'line';
 }
 
-// One cell where no treatment has a figure, all for the same reason.
+// If no treatment has a value, all for the same reason, one cell spans the columns.
 function stiffnessCells(stride) {
   const fits = TREATMENTS.map(treatment => stride[treatment.key]);
   if (fits.some(fit => fit.valid || fit.value_N_per_m !== null || fit.reason !== fits[0].reason)) {

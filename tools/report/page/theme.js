@@ -1,4 +1,5 @@
-// Colours come from the style sheet; canvases ask here and are drawn again when the theme or the medium changes.
+// Colours come from the style sheet. Canvases read them here and are redrawn when the theme or the medium
+// changes.
 const theme = {
   choices: ['auto', 'light', 'dark'],
   choice: 'auto',
@@ -13,7 +14,7 @@ const theme = {
     };
     this.system.onchange = () => this.apply(button);
     this.apply(button);
-    // Paper is white and has its own width.
+    // Printed pages are white and have their own width.
     addEventListener('beforeprint', () => {
       document.documentElement.classList.add('printing');
       this.show('light');

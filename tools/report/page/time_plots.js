@@ -1,12 +1,13 @@
-// The panels over time. All show the same part of the trial and the same instant under the pointer.
+// Panels over time. All show the same part of the trial and mark the same time under the pointer.
 class TimePlots {
-  static kMaxRows = 20000;  // more are drawn as least and greatest of groups, finer where the view is
+  static kMaxRows = 20000;  // more rows are drawn as minimum and maximum of groups, with finer groups in the
+                            // view
 
-  static kMarkLine = 11;    // pixels from the name of one mark to that of the next
+  static kMarkLine = 11;  // pixels between the labels of two marks
 
   static kShaded = ['compression', 'extension', 'fault'];
 
-  static kGapRows = 30;     // a line ends where a channel has nothing for longer
+  static kGapRows = 30;  // a line ends if a channel has no value for more rows
 
   constructor(data, container, folded, onHover, onView) {
     this.data = data;
@@ -47,7 +48,7 @@ class TimePlots {
       connectSeparatedPoints: true,
       highlightCircleSize: 3,
       xRangePad: 0,
-      // The first holds the names of the marks, one in a line.
+      // The first panel has the labels of the marks, one per line.
       yRangePad: this.plots.length ? 6 : 16 + TimePlots.kMarkLine * Math.max(0, (this.data.marks || []).length - 1),
       axisLabelFontSize: 11,
       axes: {
@@ -70,7 +71,7 @@ class TimePlots {
     return { strokeWidth: entry.style === 'dashed' ? 1.2 : 1.6, strokePattern: entry.style === 'dashed' ? [5, 4] : null };
   }
 
-  // Decimals of a time label: enough to tell neighbours apart.
+  // Number of decimals of a time label that distinguishes neighbouring labels.
   static digits(graph) {
     const [from, to] = graph.xAxisRange();
     return Math.max(0, Math.min(4, 1 - Math.floor(Math.log10((to - from) / 1.2))));
@@ -92,7 +93,8 @@ class TimePlots {
     }
   }
 
-  // Groups of rows to draw as one: [first, count]. Fine groups in the view and half of it around, coarse elsewhere.
+  // Groups of rows drawn as one: [first, count]. Groups are fine in the view and half of its width around it,
+  // coarse elsewhere.
   groupRows(from, to) {
     const time = this.data.time;
     if (!this.thinned) return null;
@@ -116,7 +118,7 @@ class TimePlots {
     const scale = plot.panel.scale;
     const rows = [];
     const known = columns.map(() => -Infinity); // last row with a value
-    // null: no sample yet, the line goes on; NaN: nothing for long, the line ends.
+    // null: no sample yet, the line continues; NaN: no sample for long, the line ends.
     const none = (i, row) => (row - known[i] > TimePlots.kGapRows ? NaN : null);
     const groups = this.rowIndex || Array.from(time, (t, row) => [row, 1]);
     for (const [first, count] of groups) {
@@ -139,7 +141,7 @@ class TimePlots {
     return rows;
   }
 
-  // One panel was zoomed or moved by hand: the others go along.
+  // Makes the other panels follow one that the reader zoomed or moved.
   follow(graph) {
     if (this.busy) return;
     const [from, to] = graph.xAxisRange();
@@ -166,7 +168,7 @@ class TimePlots {
     this.onView(from, to);
   }
 
-  // Heights fitted by hand are forgotten.
+  // Resets heights that the reader set.
   unlockHeights() {
     for (const plot of this.plots) plot.graph.updateOptions({ valueRange: null }, true);
   }
@@ -201,7 +203,7 @@ class TimePlots {
     context.restore();
   }
 
-  // Instants of the data's own, named in the first panel, and the limits of a panel.
+  // Draws the marked times, labelled in the first panel, and the limits of a panel.
   drawMarks(context, box, graph, plot) {
     context.save();
     context.strokeStyle = context.fillStyle = theme.color('bad');
@@ -223,7 +225,7 @@ class TimePlots {
     context.restore();
   }
 
-  // Shows the instant t, row `row` of the plotted rows, in every panel and legend; null: none.
+  // Shows the time t, row `row` of the plotted rows, in every panel and legend; null: none.
   hover(t, row) {
     if (this.busy) return;
     this.busy = true;
@@ -242,15 +244,16 @@ class TimePlots {
     this.onHover(t);
   }
 
-  // The value of a column at a row, or the last one before it: slow sensors have rows without.
+  // The value of a column at a row, or the last one before it, because slow sensors have no value in most
+  // rows.
   static newest(rows, row, column) {
     for (let back = row; back >= 0 && back > row - 50; --back) {
-      if (rows[back][column] !== null) return rows[back][column]; // NaN too: nothing there
+      if (rows[back][column] !== null) return rows[back][column];  // NaN counts, too: no value there
     }
     return null;
   }
 
-  // Shows the row nearest to an instant, as if the pointer were there.
+  // Shows the row nearest to a time, as if the pointer were there.
   point(t) {
     if (t === null) { this.hover(null); return; }
     const rows = this.plots.length ? this.plots[0].rows : [];
