@@ -43,11 +43,19 @@ constexpr double kMostOfTheGap = 0.5;
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
-  const auto& screened = search.screened({});
-  for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
-    diagnosis.log.push_back(fmt::format("screen {}: linear gain {:.1f} at [{:.4g}]",
-                                        problem.candidates[screened[i].candidate].label(), screened[i].gain,
-                                        fmt::join(screened[i].values, ", ")));
+  // The screen at the null, and beside the best set with each of its effects left out.
+  std::vector<std::vector<std::size_t>> screens{{}};
+  for (const auto candidate : search.best().set)
+    if (auto part = without(search.best().set, candidate); !part.empty() && search.sets().contains(part))
+      screens.push_back(std::move(part));
+  for (const auto& set : screens) {
+    const auto& screened = search.screened(set);
+    for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
+      diagnosis.log.push_back(fmt::format("screen beside {}: {}: linear gain {:.1f} at [{:.4g}]",
+                                          set_text(problem, set),
+                                          problem.candidates[screened[i].candidate].label(),
+                                          screened[i].gain, fmt::join(screened[i].values, ", ")));
+  }
   for (std::size_t i = 0; i < problem.tolerances.size(); ++i)
     diagnosis.log.push_back(fmt::format("{}: {:.2f} times what is unsure, {:.2f} with the best",
                                         problem.tolerances[i].name, search.null().fit.point.tolerances[i],
