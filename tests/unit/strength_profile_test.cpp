@@ -274,5 +274,14 @@ TEST(StrengthProfile, WhatAnAccelerometerCutOffIsNotUsedForThreeSamples) {
   EXPECT_EQ(regression.sums().samples, 1);
 }
 
+TEST(StrengthProfile, StepOfTheTorqueIsNotUsedForThreeSamples) {
+  ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
+  regression.on_phase_change(1e-3);
+  for (int i = 2; i <= 6; ++i) {
+    regression.add({0.010 + 1e-4 * i, 0.5, -20.0, 60.0, 0.0, 1e-3 * i - 1e-4, 1e-3}, 20.0);
+    EXPECT_EQ(regression.sums().samples, std::max(0, i - 4));
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper
