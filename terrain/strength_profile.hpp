@@ -29,8 +29,8 @@
 //   D = d + r T, T the time from contact to the deepest point;  d of the next stride = D + N(0, landing^2)
 // In a crater no sample shows the depth: a curve that is shifted is a curve, too, and only the prior of kappa
 // prefers one of them, a softer one. So d and r of such a stride keep the distribution that they had before
-// its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing 25, 37).
-// All memory is bounded and nothing is allocated.
+// its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing 25,
+// 37). All memory is bounded and nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: the middle and the end of every cell.
@@ -199,7 +199,7 @@ class ProfileSolver {
   // last_s_ is T.
   std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
   double last_s_ = 0.0;
-  bool in_crater_ = false;  // this stride landed in its own crater
+  bool in_crater_ = false;                          // this stride landed in its own crater
   double depth_m_ = 0.0, depth_variance_m2_ = 0.0;  // d before a stride, D after it
   Matrix<kShared> shared_normal_{};
   Vector<kShared> shared_moment_{};
