@@ -67,7 +67,10 @@ TEST(StrideSessions, PlannedStridesHalveTheBandSooner) {
 
 // Two sessions of 6 and 2 strides by chance, 2 and 2 planned: ratio 2, residuals 2 and -2.
 TEST(StrideSessions, RatioHasTheSpreadOfItsSessions) {
-  SessionScore score{.sessions = 2.0, .strides = {8.0, 4.0, 8.0}, .squares = {40.0, 8.0, 40.0}};
+  SessionScore score;
+  score.sessions = 2.0;
+  score.strides = {8.0, 4.0, 8.0};
+  score.squares = {40.0, 8.0, 40.0};
   score.with_chance = {40.0, 16.0, 40.0};
   const auto ratio = score.fewer(NextBy::plan);
   EXPECT_EQ(ratio.value, 2.0);
