@@ -49,6 +49,7 @@ void StrideRecorder::on_touchdown(std::int64_t now_ns) noexcept {
 
 void StrideRecorder::on_switch(std::int64_t now_ns) noexcept {
   current_.switch_ns = now_ns;
+  profile_.on_phase_change(static_cast<double>(last_force_time_ns_ - current_.contact_ns) * 1e-9);
   events_.on_phase_change(event_time_s());
   if (config_.window == SampleWindow::compression) commit();
 }

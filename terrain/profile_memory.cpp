@@ -98,4 +98,60 @@ void ProfileSolver::land(double landing_m) noexcept {
   }
 }
 
+// Distribution of d before the samples of a stride.
+void ProfileSolver::expect_depth(bool in_crater) noexcept {
+  const double sd_m = in_crater ? prior_.landing_depth_sd_m : config_.joint.surface_sd_m;
+  in_crater_ = in_crater;
+  if (!in_crater) depth_m_ = depth_variance_m2_ = 0.0;
+  depth_variance_m2_ += sd_m * sd_m;
+}
+
+// Distribution of D after them.
+void ProfileSolver::take_depth(double last_s) noexcept {
+  const auto& c = posterior_.covariance;
+  depth_m_ = posterior_.mean[kSurface] + last_s * posterior_.mean[kDrift];
+  depth_variance_m2_ = c[kSurface * kTerms + kSurface] + 2.0 * last_s * c[kSurface * kTerms + kDrift] +
+                       last_s * last_s * c[kDrift * kTerms + kDrift];
+}
+
+// Change of every term for a unit change of d and of r: C_D C_DD^-1, C_D the columns of the covariance for d
+// and r, C_DD their own 2 x 2 block.
+ProfileSolver::DepthGains ProfileSolver::depth_gains(const Vector<kTerms>& of_depth,
+                                                     const Vector<kTerms>& of_drift) const noexcept {
+  const double a = of_depth[kSurface], b = of_depth[kDrift], c = of_drift[kDrift];
+  const double scale = 1.0 / (a * c - b * b);
+  DepthGains gains;
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    gains[0][i] = scale * (c * of_depth[i] - b * of_drift[i]);
+    gains[1][i] = scale * (a * of_drift[i] - b * of_depth[i]);
+  }
+  return gains;
+}
+
+// Moves d and r to their means before the stride, and every other term with them.
+void ProfileSolver::hold_depth(const DepthGains& gains, Vector<kTerms>& mean) const noexcept {
+  const double depth = mean[kSurface] - depth_m_, drift = mean[kDrift];
+  for (std::size_t i = 0; i < kTerms; ++i) mean[i] -= gains[0][i] * depth + gains[1][i] * drift;
+}
+
+// Gives d and r the covariance that they had before the stride: C + G (P - C_DD) G^T.
+void ProfileSolver::hold_depth(Matrix<kTerms>& covariance) const noexcept {
+  if (!in_crater_) return;
+  Vector<kTerms> of_depth, of_drift;
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    of_depth[i] = covariance[i * kTerms + kSurface];
+    of_drift[i] = covariance[i * kTerms + kDrift];
+  }
+  const double drift_sd = config_.joint.depth_drift_sd_mps;
+  const double depth = depth_variance_m2_ - of_depth[kSurface], both = -of_depth[kDrift];
+  const double drift = drift_sd * drift_sd - of_drift[kDrift];
+  const auto gains = depth_gains(of_depth, of_drift);
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    const double with_depth = depth * gains[0][i] + both * gains[1][i];
+    const double with_drift = both * gains[0][i] + drift * gains[1][i];
+    for (std::size_t j = 0; j < kTerms; ++j)
+      covariance[i * kTerms + j] += with_depth * gains[0][j] + with_drift * gains[1][j];
+  }
+}
+
 }  // namespace sandhopper

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace sandhopper {
+namespace {
+
+// A saturated sample or a step of the torque affects the force for one cycle plus three time constants of the
+// IMU's 400 Hz low-pass.
+constexpr double kSettling_s = 0.003;
+
+}  // namespace
 
 double ProfileCell::product(ProfileFeature a, ProfileFeature b) const noexcept {
   const auto i = std::min(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
@@ -91,12 +98,13 @@ void ProfileRegression::reset() noexcept {
 }
 
 bool ProfileRegression::watch(const JointSample& s) noexcept {
-  // A saturated sample affects the signal for one cycle plus three time constants of the IMU's 400 Hz
-  // low-pass.
-  constexpr double kSettling_s = 0.003;
   if (!(std::abs(s.accel_mps2) < config_.joint.accel_range_mps2))
     settled_s_ = s.since_contact_s + kSettling_s;
   return s.since_contact_s >= settled_s_;
+}
+
+void ProfileRegression::on_phase_change(double since_contact_s) noexcept {
+  settled_s_ = std::max(settled_s_, since_contact_s + kSettling_s);
 }
 
 void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept {

@@ -73,8 +73,13 @@ class ProfileRegression {
   // `reduced_mass_kg` is the effective mass of foot and leg for the foot's acceleration (estimation/leg.hpp).
   ProfileRegression(const StiffnessConfig& config, double foot_radius_m, double reduced_mass_kg);
   // Call it for every sample of a stance, on new ground or not. Returns false while the accelerometer is
-  // saturated and shortly afterwards; such a sample must not be used.
+  // saturated, and shortly after that or after a change of the stance's phase; such a sample must not be
+  // used.
   bool watch(const JointSample& sample) noexcept;
+  // Called at the stance switch, between the samples before and after it. The torque steps, and the motors'
+  // replies and the measured acceleration follow it with different delays. So the force is wrong by up to the
+  // step.
+  void on_phase_change(double since_contact_s) noexcept;
   // `motor_force_N` is the part of the force that is calculated from the motors' current.
   void add(const JointSample& sample, double motor_force_N) noexcept;
   // Drag and added-mass force of the believed bed on the foot.
@@ -88,7 +93,7 @@ class ProfileRegression {
   double reduced_mass_kg_;
   Bed cone_;  // added mass at factor 1
   ProfileSums sums_{};
-  double settled_s_ = 0.0;  // end of the time after a saturated sample in which samples are not used
+  double settled_s_ = 0.0;  // samples before this time since contact are not used
 };
 
 }  // namespace sandhopper

@@ -172,6 +172,11 @@ double ProfileSolver::solve_at(std::size_t point, const Information& data, Poste
   p.covariance = info.normal;
   double fit = 0.0;
   for (std::size_t i = 0; i < kTerms; ++i) fit += info.moment[i] * p.mean[i];
+  if (in_crater_) {
+    Vector<kTerms> depth{}, drift{};
+    depth[kSurface] = drift[kDrift] = 1.0;
+    hold_depth(depth_gains(root.solve(depth), root.solve(drift)), p.mean);
+  }
   return log_prior - root.half_log_determinant() + 0.5 * fit;
 }
 
@@ -201,13 +206,15 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     const auto g = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
     solve_at(g, data, p);
     posterior_.covariance = Cholesky<kTerms>(p.covariance).inverse();
+    hold_depth(posterior_.covariance);
     take_jumps(p.smoothness_m, p.spread, posterior_.covariance, p.mean);
     return;
   }
   for (std::size_t g = 0; g < kGrid; ++g) {
     if (weight[g] == 0.0) continue;
     solve_at(g, data, p);
-    const Matrix<kTerms> covariance = Cholesky<kTerms>(p.covariance).inverse();
+    Matrix<kTerms> covariance = Cholesky<kTerms>(p.covariance).inverse();
+    hold_depth(covariance);
     posterior_.smoothness_m += weight[g] * p.smoothness_m;
     posterior_.spread += weight[g] * p.spread;
     for (std::size_t i = 0; i < kTerms; ++i)
@@ -315,6 +322,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     kept_normal_.back() += 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
   }
   if (stride > 1) land(prior_.landing_depth_sd_m);
+  expect_depth(stride > 1);
   noise_factor_.fill(1.0);
   // Restart expectation maximisation only below the depth of the previous strides. If it continued everywhere
   // from stride to stride, it would narrow the band without new measurements.
@@ -329,6 +337,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
   take_responses(sums);
+  take_depth(sums.last_s);
   keep(info, sums.last_s);
   report(sums, stride);
 }

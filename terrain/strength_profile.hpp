@@ -27,7 +27,10 @@
 // the previous stride ended, so both depths share an error. Therefore the depth error D at the crater's
 // deepest point is also kept,
 //   D = d + r T, T the time from contact to the deepest point;  d of the next stride = D + N(0, landing^2)
-// All memory is bounded and nothing is allocated.
+// In a crater no sample shows the depth: a curve that is shifted is a curve, too, and only the prior of kappa
+// prefers one of them, a softer one. So d and r of such a stride keep the distribution that they had before
+// its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing 25,
+// 37). All memory is bounded and nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: the middle and the end of every cell.
@@ -158,11 +161,17 @@ class ProfileSolver {
   void take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
                   const Vector<kTerms>& mean) noexcept;
   void integrate(const Information& information, bool last) noexcept;
+  using DepthGains = std::array<Vector<kTerms>, 2>;
+  DepthGains depth_gains(const Vector<kTerms>& of_depth, const Vector<kTerms>& of_drift) const noexcept;
+  void hold_depth(const DepthGains& gains, Vector<kTerms>& mean) const noexcept;
+  void hold_depth(Matrix<kTerms>& covariance) const noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
   void keep(Information information, double last_s) noexcept;
   void land(double landing_m) noexcept;
+  void expect_depth(bool in_crater) noexcept;
+  void take_depth(double last_s) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
   void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
@@ -190,6 +199,8 @@ class ProfileSolver {
   // last_s_ is T.
   std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
   double last_s_ = 0.0;
+  bool in_crater_ = false;                          // this stride landed in its own crater
+  double depth_m_ = 0.0, depth_variance_m2_ = 0.0;  // d before a stride, D after it
   Matrix<kShared> shared_normal_{};
   Vector<kShared> shared_moment_{};
   std::size_t broken_cells_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "terrain/ground_summary.hpp"
+#include "tools/experiment/hopped_cycles.hpp"
 
 namespace sandhopper {
 namespace {
@@ -31,6 +32,31 @@ TEST(BedTrial, LaterStridesKnowTheirDepthAfterTheBlowOfLanding) {
   }
   ASSERT_GE(strides, 6.0);
   EXPECT_LT(std::sqrt(squares / strides), 0.0015);
+}
+
+// A foot on soft ground still sinks when the stance switches and the torque steps.
+TEST(BedTrial, SamplesOfTheProfileHaveTheForceOfTheGroundAlsoWhenTheStanceSwitches) {
+  CycleConfig cycle;
+  cycle.limits.strides = 1;
+  cycle.controller.compression_stiffness_N_per_m = 250.0;
+  WorldConfig world;
+  world.bed_family = bed_named("stiff_over_soft").family;
+  double worst_N = 0.0;
+  int after_switch = 0;
+  for (std::uint64_t seed = 21; seed <= 26; ++seed) {
+    HoppedCycles hop(cycle, world, {.release_height_m = 0.089, .seed = seed, .noise = true});
+    double deepest_m = 0.0;
+    while (hop.next() && !hop.controller().stride_finished()) {
+      if (hop.controller().new_ground_m() == deepest_m) continue;
+      deepest_m = hop.controller().new_ground_m();
+      if (hop.output().state != State::extension) continue;
+      ++after_switch;
+      const double error_N = hop.output().estimate.direct_force_N - hop.truth_before().contact_force_N;
+      worst_N = std::max(worst_N, std::abs(error_N));
+    }
+  }
+  EXPECT_GE(after_switch, 20);
+  EXPECT_LT(worst_N, 10.0);
 }
 
 TEST(BedTrial, LandingsErrAsTheirPriorSays) {

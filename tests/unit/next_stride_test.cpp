@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "firmware/hop_model.hpp"
@@ -63,6 +64,19 @@ TEST(StrideSessions, PlannedStridesHalveTheBandSooner) {
   EXPECT_LT(scores[0].mean(NextBy::plan), scores[0].mean(NextBy::chance));
   EXPECT_GE(scores[0].mean(NextBy::plan), 1.0);
   EXPECT_EQ(scores[0].unfinished[static_cast<std::size_t>(NextBy::plan)], 0.0);
+}
+
+// Two sessions of 6 and 2 strides by chance, 2 and 2 planned: ratio 2, residuals 2 and -2.
+TEST(StrideSessions, RatioHasTheSpreadOfItsSessions) {
+  SessionScore score;
+  score.sessions = 2.0;
+  score.strides = {8.0, 4.0, 8.0};
+  score.squares = {40.0, 8.0, 40.0};
+  score.with_chance = {40.0, 16.0, 40.0};
+  const auto ratio = score.fewer(NextBy::plan);
+  EXPECT_EQ(ratio.value, 2.0);
+  EXPECT_NEAR(ratio.ci95_high - ratio.value, 1.96 * std::sqrt(8.0 * 2.0) / 4.0, 1e-3);
+  EXPECT_EQ(score.fewer(NextBy::oracle).ci95_low, 1.0);
 }
 
 }  // namespace

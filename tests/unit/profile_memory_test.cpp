@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "firmware/stride_recorder.hpp"
 #include "terrain/strength_profile.hpp"
@@ -11,13 +12,16 @@ namespace {
 constexpr double kRadius_m = 0.040;
 constexpr double kReducedMass_kg = 0.68;
 
-// A slow push on the bed that the prior assumes.
-ProfileSums slow_push(double from_m, double to_m, double duration_s = 1e-3, double too_deep_m = 0.0) {
+double hardening_N(double z) { return believed_force_N({}, z) + 1e5 * z * z; }
+
+// A slow push on `curve_N`; without it on the bed that the prior assumes.
+ProfileSums slow_push(double from_m, double to_m, double duration_s = 1e-3, double too_deep_m = 0.0,
+                      const std::function<double(double)>& curve_N = {}) {
   ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
   constexpr double kSpeed_mps = 0.1;
   double t = 1e-3;
   for (double z = from_m; z < to_m; z += 1e-3 * kSpeed_mps, t += 1e-3) {
-    const double force = believed_force_N({}, z);
+    const double force = curve_N ? curve_N(z) : believed_force_N({}, z);
     regression.add({z + too_deep_m, kSpeed_mps, 0.0, force, 0.0, t, duration_s}, force);
   }
   return regression.sums();
@@ -53,6 +57,29 @@ TEST(ProfileMemory, LaterStrideBeginsWithTheDepthErrorOfItsCrater) {
     EXPECT_NEAR(at_crater_m, -too_deep_m, 5e-4);
     solver.add(touch_at(sums.depth_max_m + 1e-4), 2);
     EXPECT_NEAR(solver.profile().surface_m, at_crater_m, 1e-4);
+  }
+}
+
+// A bed that becomes stiffer than believed looks like a foot that is deeper than estimated.
+TEST(ProfileMemory, ACurveInACraterDoesNotShowTheDepth) {
+  ProfileSolver solver{StiffnessConfig{}};
+  const auto first = slow_push(1e-4, 0.020, 1e-3, 0.0, hardening_N);
+  solver.add(first, 1);
+  const auto before = solver.profile();
+  const double at_crater_m = before.surface_m + before.depth_drift_mps * first.last_s;
+  const double landing_m = ProfileConfig{}.landing_depth_sd_m;
+  for (const double too_deep_m : {-landing_m, 0.0, landing_m}) {
+    ProfileSolver later = solver;
+    later.add(slow_push(0.020, 0.035, 1e-3, too_deep_m, hardening_N), 2);
+    EXPECT_NEAR(later.profile().surface_m, at_crater_m, 1e-6);
+    EXPECT_NEAR(later.profile().depth_drift_mps, 0.0, 1e-6);
+    for (double z = 0.0225; z < 0.033; z += 0.0025) {
+      const auto force = later.force_N(z);
+      EXPECT_LT(force.low(), hardening_N(z)) << z;
+      EXPECT_GT(force.high(), hardening_N(z)) << z;
+      const double slope = (hardening_N(z + 1e-3) - hardening_N(z - 1e-3)) / 2e-3;
+      EXPECT_GT(force.sd, 0.9 * landing_m * slope) << z;
+    }
   }
 }
 

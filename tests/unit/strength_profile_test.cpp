@@ -86,11 +86,12 @@ TEST(StrengthProfile, BandWidensWhereTheFootWasNot) {
   EXPECT_FALSE(std::isfinite(solver.force_N(kProfileDepth_m + 0.001).value));
 }
 
+// On ground prepared alike: in a crater a stride has no samples above the depth of the one before.
 TEST(StrengthProfile, PosteriorOfAStrideIsThePriorOfTheNext) {
   ProfileSolver solver{StiffnessConfig{}};
   solver.add(sums_of(line_N, {.speed_mps = 0.5, .to_m = 0.025}), 1);
   const double deep_before = solver.force_N(0.035).sd, shallow_before = solver.force_N(0.015).sd;
-  solver.add(sums_of(line_N, {.speed_mps = 1.0, .to_m = 0.045, .seed = 2}), 2);
+  solver.add(sums_of(line_N, {.speed_mps = 1.0, .to_m = 0.045, .seed = 2}), ProfileSolver::kFreshGround);
   EXPECT_LT(solver.force_N(0.035).sd, 0.6 * deep_before);
   EXPECT_LT(solver.force_N(0.015).sd, shallow_before);
   EXPECT_NEAR(solver.force_N(0.035).value, line_N(0.035), 3.0 * solver.force_N(0.035).sd);
@@ -272,6 +273,15 @@ TEST(StrengthProfile, WhatAnAccelerometerCutOffIsNotUsedForThreeSamples) {
   EXPECT_EQ(regression.sums().saturated, 1);
   regression.add({0.0106, 0.5, -70.0, 60.0, 0.0, 5e-3, 1e-3}, 20.0);
   EXPECT_EQ(regression.sums().samples, 1);
+}
+
+TEST(StrengthProfile, StepOfTheTorqueIsNotUsedForThreeSamples) {
+  ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
+  regression.on_phase_change(1e-3);
+  for (int i = 2; i <= 6; ++i) {
+    regression.add({0.010 + 1e-4 * i, 0.5, -20.0, 60.0, 0.0, 1e-3 * i - 1e-4, 1e-3}, 20.0);
+    EXPECT_EQ(regression.sums().samples, std::max(0, i - 4));
+  }
 }
 
 }  // namespace

@@ -32,9 +32,10 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
     all += s;
   }
   line(all);
-  session.say("planned against by chance: {:.2f} times fewer; the oracle: {:.2f} times",
-              all.mean(NextBy::chance) / all.mean(NextBy::plan),
-              all.mean(NextBy::chance) / all.mean(NextBy::oracle));
+  const auto plan = all.fewer(NextBy::plan), oracle = all.fewer(NextBy::oracle);
+  session.say(
+      "planned against by chance: {:.2f} [{:.2f}, {:.2f}] times fewer; the oracle: {:.2f} [{:.2f}, {:.2f}]",
+      plan.value, plan.ci95_low, plan.ci95_high, oracle.value, oracle.ci95_low, oracle.ci95_high);
 }
 
 ExitCode run(Session& session, const Options& options) {

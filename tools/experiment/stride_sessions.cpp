@@ -64,6 +64,7 @@ class Session {
       solver.add(stride.sums, ProfileSolver::kFreshGround);
     }
     score.strides[arm] += strides;
+    score.squares[arm] += static_cast<double>(strides) * strides;
     score.unfinished[arm] += widest_band_N(solver, range_) > enough_N;
   }
 
@@ -118,9 +119,21 @@ SessionScore& SessionScore::operator+=(const SessionScore& other) {
   planned += other.planned;
   for (std::size_t arm = 0; arm < kNextBy; ++arm) {
     strides[arm] += other.strides[arm];
+    squares[arm] += other.squares[arm];
+    with_chance[arm] += other.with_chance[arm];
     unfinished[arm] += other.unfinished[arm];
   }
   return *this;
+}
+
+SessionScore::Ratio SessionScore::fewer(NextBy by) const {
+  constexpr double kNormal975 = 1.959964;
+  const auto arm = static_cast<std::size_t>(by), chance = static_cast<std::size_t>(NextBy::chance);
+  const double value = strides[chance] / strides[arm];
+  const double residual = squares[chance] - 2.0 * value * with_chance[arm] + value * value * squares[arm];
+  const double half =
+      kNormal975 * std::sqrt(std::max(residual, 0.0) * sessions / (sessions - 1.0)) / strides[arm];
+  return {value, value - half, value + half};
 }
 
 std::vector<StrideSetup> stride_setups() {
@@ -143,6 +156,8 @@ std::vector<SessionScore> score_sessions(const SessionSetup& setup) {
                               setup.first_seed + kSeedsOfASession * static_cast<std::uint64_t>(i));
         SessionScore own{.bed = cases[number].name, .sessions = 1.0};
         for (const auto by : {NextBy::chance, NextBy::plan, NextBy::oracle}) session.run(by, own);
+        for (std::size_t arm = 0; arm < kNextBy; ++arm)
+          own.with_chance[arm] = own.strides[arm] * own.strides[static_cast<std::size_t>(NextBy::chance)];
         const std::lock_guard lock(adding);
         scores[number] += own;
       },

@@ -25,11 +25,19 @@ struct SessionScore {
   std::string bed;
   double sessions = 0.0;
   std::array<double, kNextBy> strides{};         // sum over sessions, without the first stride
+  std::array<double, kNextBy> squares{};         // sum of their squares
+  std::array<double, kNextBy> with_chance{};     // sum of their products with the strides by chance
   std::array<double, kNextBy> unfinished{};      // number of sessions whose band was never halved
   double reach_squared_m2 = 0.0, planned = 0.0;  // for planned strides: predicted depth minus true depth
 
   SessionScore& operator+=(const SessionScore& other);  // adds the sessions of another part or another bed
   double mean(NextBy by) const { return strides[static_cast<std::size_t>(by)] / sessions; }
+  struct Ratio {
+    double value, ci95_low, ci95_high;
+  };
+  // Mean number of strides by chance over that of `by`, with the interval of a ratio of means whose unit is
+  // the session (Cochran, Sampling Techniques, section 6.4).
+  Ratio fewer(NextBy by) const;
 };
 
 struct SessionSetup {
