@@ -1,0 +1,215 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "campaign_folder.hpp"
+#include "tools/campaign/trial_recording.hpp"
+
+// What channels of one recording say about each other's columns, units and signs. Every cure must work when
+// its line is written into campaign.toml as it stands.
+namespace sandhopper {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using enum FindingKind;
+
+struct Rig {
+  std::string plant;
+  std::string csv;
+  std::vector<std::string> columns{};  // lines of [columns]
+  std::string trial{};
+  std::string nominal{};
+};
+
+TrialRecording read(const Rig& rig) {
+  CampaignFolder folder;
+  folder.write("nominal.toml", rig.nominal)
+      .write("campaign.toml",
+             fmt::format(
+                 "plant = \"{}\"\nmodel = \"nominal.toml\"\n[columns]\n{}\n[[trial]]\nfile = \"a.csv\"\n{}\n",
+                 rig.plant, fmt::join(rig.columns, "\n"), rig.trial))
+      .write("a.csv", rig.csv);
+  const auto campaign = load_campaign(folder.path());
+  return read_trial(campaign, campaign.trials.at(0));
+}
+
+// The lines "channel = { … }" of a cure, each in place of the one for its channel. `which`: 0, the first
+// offer; of several offers ("or") only that one is written.
+Rig cured(Rig rig, const std::string& cure, std::size_t which = 0) {
+  std::vector<std::string> offers;
+  for (std::size_t begin = 0; begin < cure.size();) {
+    const auto end = std::min(cure.find(", or ", begin), cure.size());
+    offers.push_back(cure.substr(begin, end - begin));
+    begin = end + 5;
+  }
+  const std::string& offer = offers.at(which);
+  for (std::size_t at = offer.find(" = { column"); at != std::string::npos;
+       at = offer.find(" = { column", at + 1)) {
+    const auto begin = offer.rfind(' ', at - 1) + 1;
+    const std::string channel = offer.substr(begin, at - begin);
+    const std::string line = offer.substr(begin, offer.find('}', at) + 1 - begin);
+    std::erase_if(rig.columns, [&](const std::string& old) { return old.starts_with(channel + " "); });
+    rig.columns.push_back(line);
+  }
+  return rig;
+}
+
+Finding finding(const TrialRecording& recording, FindingKind kind) {
+  const auto* found = find(recording, kind);
+  EXPECT_NE(found, nullptr) << "no finding of this kind";
+  return found == nullptr ? Finding{} : *found;
+}
+
+void expect_fine(const Rig& rig) {
+  const auto recording = read(rig);
+  EXPECT_TRUE(recording.usable());
+  for (const auto& found : recording.findings)
+    EXPECT_TRUE(found.kind != implausible && found.kind != unit_disagrees) << to_string(found);
+}
+
+// A rod pushed at 10 mm/s, its depth in inches, its force in lbf.
+std::string probe() {
+  std::string text = "Elapsed (s),Depth (in),Load (lbf)\n";
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.04 * i, depth = 0.01 * t, noise = std::sin(7.0 * i * i);
+    text += fmt::format("{:.2f},{:.4f},{:.3f}\n", t, (depth + 1e-5 * noise) / 0.0254,
+                        (900.0 * depth + 0.1 * noise) / 4.448);
+  }
+  return text;
+}
+
+const std::string kTime = "t_s = \"Elapsed (s)\"";
+
+TEST(Cures, ADepthCountedUpwardKeepsTheUnitOfItsColumn) {
+  const Rig rig{"intruder",
+                probe(),
+                {kTime, "foot_z_m = { column = \"Depth (in)\", scale = 0.0254, offset = 0.01 }",
+                 "force_N = { column = \"Load (lbf)\", unit = \"lbf\" }"}};
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_THAT(wrong.cure, HasSubstr("foot_z_m = { column = \"Depth (in)\", unit = \"in\", scale = -0.0254, "
+                                    "offset = -0.01 }"));
+  expect_fine(cured(rig, wrong.cure));
+}
+
+TEST(Cures, DepthAndLoadExchangedAreToldApartByTheirUnits) {
+  for (const std::string how : {"scale = -0.0254", "unit = \"m\", scale = -0.0254", "unit = \"in\""}) {
+    Rig rig{"intruder",
+            probe(),
+            {kTime, "foot_z_m = { column = \"Load (lbf)\", " + how + " }",
+             "force_N = { column = \"Depth (in)\", unit = \"lbf\" }"}};
+    const auto recording = read(rig);
+    ASSERT_FALSE(recording.usable()) << how;
+    for (const auto& found : recording.findings)
+      if (found.kind == unit_disagrees) {
+        EXPECT_THAT(found.what, HasSubstr("exchanged"));
+        expect_fine(cured(rig, found.cure));
+      }
+  }
+}
+
+std::string swing(double position_scale, double speed_scale, bool exchange = false, double time_scale = 1.0) {
+  std::string text = "t,a,b,c\n";
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.01 * i, x = position_scale * 0.3 * std::cos(4 * t), torque = 0.1 * std::sin(9 * t);
+    text += fmt::format("{:.6f},{:.6f},{:.6f},{:.6f}\n", time_scale * t, exchange ? torque : x,
+                        -speed_scale * 1.2 * std::sin(4 * t), exchange ? x : torque);
+  }
+  return text;
+}
+
+Rig axis(std::string csv, const std::string& position, const std::string& speed) {
+  return {"rotary_axis",
+          std::move(csv),
+          {"t_s = { column = \"t\", unit = \"s\" }", "position_rad = { column = \"a\", " + position + " }",
+           "velocity_radps = { column = \"b\", " + speed + " }",
+           "torque_Nm = { column = \"c\", unit = \"N m\" }"}};
+}
+
+TEST(Cures, APositionsUnitIsNotBlamedOnTheSpeedAlone) {
+  const auto rig = axis(swing(1.0, 1.0), "unit = \"deg\"", "unit = \"rad/s\"");
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_THAT(wrong.cure, HasSubstr("position_rad = { column = \"a\", unit = \"rad\", scale = 1 }"));
+  expect_fine(cured(rig, wrong.cure, 0));
+  expect_fine(cured(rig, wrong.cure, 1));
+}
+
+TEST(Cures, AUnitThatTheFileStatesIsNotDoubted) {
+  auto rig = axis(swing(57.2958, 57.2958), "unit = \"deg\"", "unit = \"rad/s\"");
+  rig.csv.replace(0, 8, "t,a (deg),b,c\n");
+  rig.columns[1] = "position_rad = { column = \"a (deg)\", unit = \"deg\" }";
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_THAT(wrong.cure, AllOf(HasSubstr("velocity_radps"), Not(HasSubstr("position_rad"))));
+  expect_fine(cured(rig, wrong.cure));
+}
+
+TEST(Cures, RatiosOfUnitsBelowFiveInCleanData) {
+  for (const double ratio : {2.54, 1 / 2.54, 3.6, 1 / 0.3048}) {
+    const auto rig = axis(swing(1.0, ratio), "unit = \"rad\"", "unit = \"rad/s\"");
+    EXPECT_FALSE(read(rig).usable()) << ratio;
+  }
+  for (const double gain : {0.7, 1.0, 1.2, 1.9, 3.0})
+    expect_fine(axis(swing(1.0, gain), "unit = \"rad\"", "unit = \"rad/s\""));
+}
+
+TEST(Cures, PositionAndTorqueExchanged) {
+  const auto rig = axis(swing(1.0, 1.0, true), "unit = \"rad\"", "unit = \"rad/s\"");
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_EQ(wrong.channel, "position_rad");
+  EXPECT_THAT(wrong.what, HasSubstr("torque_Nm"));
+  expect_fine(cured(rig, wrong.cure));
+}
+
+// Heights of a body: z(t), in units of which `per_m` make one metre.
+Rig drop(const std::function<double(double)>& height_m, double per_m, const std::string& how,
+         const std::string& nominal = "", double last_s = 0.4) {
+  std::string text = "t,h,Load (N)\n";
+  for (int i = 0; i < 80; ++i) {
+    const double t = last_s * i / 79.0;
+    text += fmt::format("{:.5f},{:.6g},1\n", t, per_m * height_m(t));
+  }
+  return {"falling_body",
+          text,
+          {"t_s = { column = \"t\", unit = \"s\" }", "height_m = { column = \"h\", " + how + " }"},
+          "kind = \"drop\"",
+          nominal};
+}
+
+double fall(double t) { return 0.9 - 0.5 * 9.81 * t * t; }
+
+TEST(Cures, AHeightInAnotherUnitFallsWithAnotherGravity) {
+  expect_fine(drop(fall, 1.0, "unit = \"m\""));
+  for (const auto& [per_m, stated, truth] :
+       {std::tuple{100.0, "mm", "cm"}, std::tuple{1000.0, "cm", "mm"}, std::tuple{1 / 0.0254, "cm", "in"},
+        std::tuple{100.0, "in", "cm"}, std::tuple{1 / 0.3048, "m", "ft"}}) {
+    const auto rig = drop(fall, per_m, fmt::format("unit = \"{}\"", stated));
+    const auto wrong = finding(read(rig), implausible);
+    EXPECT_THAT(wrong.cure, HasSubstr(fmt::format("unit = \"{}\"", truth)));
+    expect_fine(cured(rig, wrong.cure));
+  }
+}
+
+TEST(Cures, DragAndALiquidAreNoUnits) {
+  // Terminal speed 1.2 m/s in air; a ball in oil at a steady 0.05 m/s.
+  const auto braked = [](double t) { return 0.9 - 1.2 * 1.2 / 9.81 * std::log(std::cosh(9.81 * t / 1.2)); };
+  for (const double last_s : {0.2, 0.3, 0.4, 0.6}) expect_fine(drop(braked, 1.0, "unit = \"m\"", "", last_s));
+  const auto sinks = [](double t) { return 0.9 - 0.05 * t; };
+  expect_fine(drop(sinks, 1.0, "unit = \"m\"", "[medium]\ndensity_kg_per_m3 = 900.0\n", 10.0));
+}
+
+TEST(Cures, AConeThatIsPushedIsNoFallingBody) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto rig = drop([&](double t) { return sign * (0.01 * t - 0.3); }, 1.0, "unit = \"m\"", "", 13.0);
+    const auto wrong = finding(read(rig), implausible);
+    EXPECT_THAT(wrong.what, HasSubstr("takes 12 s for 0.13 m"));
+    EXPECT_THAT(wrong.cure, AllOf(HasSubstr("--plant intruder"), HasSubstr("\"Load (N)\" is a force"),
+                                  Not(HasSubstr("scale = -1"))));
+  }
+}
+
+}  // namespace
+}  // namespace sandhopper
