@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "campaign_folder.hpp"
+#include "estimation/leg.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 // What channels of one recording say about each other's columns, units and signs. Every cure must work when
@@ -209,6 +211,153 @@ TEST(Cures, AConeThatIsPushedIsNoFallingBody) {
     EXPECT_THAT(wrong.cure, AllOf(HasSubstr("--plant intruder"), HasSubstr("\"Load (N)\" is a force"),
                                   Not(HasSubstr("scale = -1"))));
   }
+}
+
+// A plate pressed at 10 mm/s; its depth in units of which `per_m` make one metre.
+Rig press(double per_m, const std::string& how, const std::string& speed) {
+  std::string text = "t,z,F\n";
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.02 * i, depth = 0.01 * t, noise = std::sin(7.0 * i * i);
+    text +=
+        fmt::format("{:.2f},{:.6g},{:.3f}\n", t, per_m * (depth + 2e-5 * noise), 900.0 * depth + 0.1 * noise);
+  }
+  return {"intruder",
+          text,
+          {"t_s = { column = \"t\", unit = \"s\" }", "foot_z_m = { column = \"z\", " + how + " }",
+           "force_N = { column = \"F\", unit = \"N\" }"},
+          "impact_speed_mps = " + speed};
+}
+
+TEST(Cures, ADepthGoesDownWithTheSpeedThatTheSetUpStates) {
+  expect_fine(press(1e3, "scale = -0.001", "0.01"));
+  expect_fine(press(1e3, "scale = -0.001", "0.013"));
+  const auto inches = press(1.0 / 0.0254, "scale = -0.01", "0.01");
+  const auto wrong = finding(read(inches), implausible);
+  EXPECT_THAT(wrong.what, HasSubstr("0.394 times"));
+  EXPECT_THAT(wrong.cure, HasSubstr("foot_z_m = { column = \"z\", unit = \"in\", scale = -0.0254 }"));
+  expect_fine(cured(inches, wrong.cure));
+}
+
+TEST(Cures, DepthAndForceExchangedWithoutUnitsInTheFileGoDownTooFast) {
+  auto rig = press(1e3, "scale = -0.001", "0.01");
+  rig.columns[1] = "foot_z_m = { column = \"F\", scale = -0.001 }";
+  rig.columns[2] = "force_N = { column = \"z\", scale = 1.0 }";
+  rig.trial = "impact_speed_mps = 0.05";
+  EXPECT_THAT(finding(read(rig), implausible).cure, HasSubstr("exchanged"));
+}
+
+// A driven pendulum of 0.012 kg m2, its torque in units of which `per_Nm` make one N m.
+Rig pendulum(double per_Nm, const std::string& how, const std::string& nominal) {
+  std::string text = "t,x,M\n";
+  double x = 0.0, v = 0.0;
+  for (int i = 0; i < 1200; ++i) {
+    const double t = 0.002 * i, torque = 1.5 * std::sin(6.0 * t) + 0.8 * std::sin(17.0 * t + 1.0);
+    text += fmt::format("{:.3f},{:.6f},{:.5g}\n", t, x, per_Nm * torque);
+    for (int k = 0; k < 10; ++k) {
+      const double a = (torque - 1.1 * std::sin(x) - 0.05 * std::tanh(v / 0.02) - 0.02 * v) / 0.012;
+      v += 2e-4 * a, x += 2e-4 * v;
+    }
+  }
+  return {"rotary_axis",
+          text,
+          {"t_s = { column = \"t\", unit = \"s\" }", "position_rad = { column = \"x\", unit = \"rad\" }",
+           "torque_Nm = { column = \"M\", " + how + " }"},
+          "",
+          nominal};
+}
+
+TEST(Cures, ATorqueAcceleratesTheInertiaThatIsBelieved) {
+  const std::string inertia = "[axis]\ninertia_kg_m2 = 0.012\n";
+  expect_fine(pendulum(1.0, "unit = \"N m\"", inertia));
+  expect_fine(pendulum(1.0, "unit = \"N m\"", "[axis]\ninertia_kg_m2 = 0.03\n"));
+  for (const auto& [per_Nm, how] :
+       {std::pair{1e3, "unit = \"N m\""}, std::pair{-1.0, "unit = \"N m\""},
+        std::pair{1.0 / 9.80665, "unit = \"N m\""}, std::pair{1e3, "scale = -0.001"}}) {
+    const auto rig = pendulum(per_Nm, how, inertia);
+    const auto recording = read(rig);
+    EXPECT_FALSE(recording.usable()) << per_Nm;
+    expect_fine(cured(rig, finding(recording, implausible).cure));
+  }
+  EXPECT_TRUE(read(pendulum(1.0, "unit = \"N m\"", "[axis]\ninertia_kg_m2 = 0.002\n")).usable())
+      << "a ratio of no unit is a note";
+}
+
+// A stance of the default leg: it shortens and lengthens, the foot at rest, the currents carry the robot.
+Rig stance(const std::vector<std::string>& columns) {
+  const Leg leg{LegParameters{}};
+  std::string text = "t,a,i,body,foot,phase\n";
+  for (int k = 0; k < 200; ++k) {
+    const double t = 0.002 * k, angle = 0.9 + 0.2 * std::sin(std::numbers::pi * k / 200.0);
+    text += fmt::format("{:.3f},{:.6f},{:.4f},{:.6f},{:.6f},1\n", t, angle, -6.0 + std::sin(9.0 * k),
+                        leg.kinematics(angle).length_m + 0.12, 0.0);
+  }
+  Rig rig{"hopper", text, {"t_s = { column = \"t\", unit = \"s\" }", "phase = { column = \"phase\" }"}, ""};
+  rig.columns.insert(rig.columns.end(), columns.begin(), columns.end());
+  return rig;
+}
+
+const std::string kAngle = "motor_left_position_rad = { column = \"a\", unit = \"rad\" }";
+const std::string kCurrent = "motor_left_current_A = { column = \"i\", unit = \"A\" }";
+const std::string kBody = "mocap_body_z_m = { column = \"body\", unit = \"m\" }";
+const std::string kFoot = "mocap_foot_z_m = { column = \"foot\", unit = \"m\" }";
+
+TEST(Cures, AHopThatIsMappedRightIsNotDoubted) {
+  expect_fine(stance({kAngle, kCurrent, kBody, kFoot}));
+  expect_fine(stance({kAngle, kCurrent, kBody}));
+  expect_fine(stance({kAngle, kCurrent}));
+}
+
+TEST(Cures, HipAndSoleExchanged) {
+  const auto rig = stance({kAngle, kCurrent, "mocap_body_z_m = { column = \"foot\", unit = \"m\" }",
+                           "mocap_foot_z_m = { column = \"body\", unit = \"m\" }"});
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_THAT(wrong.what, HasSubstr("exchanged"));
+  expect_fine(cured(rig, wrong.cure));
+}
+
+TEST(Cures, AnAngleFromTheHorizontalOrInDegreesGoesAgainstTheLeg) {
+  for (const std::string how : {"scale = -1.0", "unit = \"deg\""}) {
+    const auto doubtful =
+        stance({kCurrent, kBody, "motor_left_position_rad = { column = \"a\", " + how + " }"});
+    const auto recording = read(doubtful);
+    EXPECT_FALSE(recording.usable()) << how;
+    EXPECT_EQ(finding(recording, implausible).channel, "motor_left_position_rad") << how;
+    expect_fine(cured(doubtful, finding(recording, implausible).cure));
+  }
+  // The file holds pi/2 - angle.
+  auto rig = stance({kCurrent, kBody, kAngle});
+  std::string turned = "t,a,i,body,foot,phase\n";
+  const Leg leg{LegParameters{}};
+  for (int k = 0; k < 200; ++k) {
+    const double angle = 0.9 + 0.2 * std::sin(std::numbers::pi * k / 200.0);
+    turned += fmt::format("{:.3f},{:.6f},{:.4f},{:.6f},0,1\n", 0.002 * k, 0.5 * std::numbers::pi - angle,
+                          -6.0 + std::sin(9.0 * k), leg.kinematics(angle).length_m + 0.12);
+  }
+  rig.csv = turned;
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_THAT(wrong.what, HasSubstr("from the horizontal"));
+  expect_fine(cured(rig, wrong.cure));
+}
+
+TEST(Cures, CurrentsThatShortenTheLegInStanceHaveTheOtherSign) {
+  auto rig = stance({kAngle, kBody, "motor_left_current_A = { column = \"i\", scale = -1.0 }"});
+  const auto wrong = finding(read(rig), implausible);
+  EXPECT_EQ(wrong.channel, "motor_left_current_A");
+  expect_fine(cured(rig, wrong.cure));
+}
+
+TEST(Findings, OfSeveralFilesWithTheSameWordsAreOneLine) {
+  const auto one = [](const std::string& file, std::uint64_t line, const std::string& what) {
+    return Finding{gap, FindingSeverity::note, file, line, 1, "t_s", what, ""};
+  };
+  const auto lines = in_lines({one("a.csv", 3, "a gap of 0.5 s"), one("a.csv", 9, "a gap of 0.7 s"),
+                               one("b.csv", 4, "a gap of 0.6 s"), one("b.csv", 4, "a gap of 0.6 s"),
+                               one("c.csv", 5, "a gap of 1.5 s"), one("c.csv", 5, "another")},
+                              true);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0], "a.csv:3:1: t_s: a gap of 0.5 s (note; likewise in 2 more files)");
+  EXPECT_EQ(lines[1], "a.csv:9:1: t_s: a gap of 0.7 s (note)");
+  EXPECT_EQ(lines[2], "c.csv:5:1: t_s: another (note)");
 }
 
 }  // namespace

@@ -5,15 +5,18 @@
 #include <limits>
 
 #include "config/hint.hpp"
+#include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/exchanged_columns.hpp"
 #include "tools/campaign/fall_check.hpp"
+#include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/position_loop.hpp"
+#include "tools/campaign/press_speed_check.hpp"
 #include "tools/campaign/rate_check.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_times.hpp"
@@ -58,6 +61,9 @@ class Reader {
       check_plausible(out_, campaign_, trial_, places_);
       check_rates(out_, places_);
       check_falls(out_, campaign_, trial_, places_);
+      check_press_speed(out_, campaign_, trial_, places_);
+      check_axis_torque(out_, campaign_, trial_, places_);
+      check_hopper(out_, campaign_, trial_, places_);
       check_signs(out_, campaign_, trial_, places_);
     }
     if (out_.has_time) note_gaps(out_, places_);
