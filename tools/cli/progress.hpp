@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -16,11 +17,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void at(double done);  // by one thread at a time
+  void at(double done);                           // by one thread at a time
+  void at(double done, const std::string& step);  // `step`: what is done now, for the line
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  std::string step() const;  // " fitting effects,", or empty
   double share() const;
   double elapsed_s() const;
   void draw();
@@ -31,6 +34,8 @@ class Progress {
   bool on_terminal_;
   bool shown_ = false;
   std::atomic<double> done_{0.0};
+  mutable std::mutex of_step_;
+  std::string step_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
   std::jthread teller_;  // last, so that it ends before what it reads

@@ -178,6 +178,7 @@ void Search::evaluate_straight(const SetFit& from) {
        screen(*problem_, straight, &columns, signatures_at(*problem_, straight, {.laws = false})))
     hold(added.candidate, added.values);
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
+    if (over()) return;
     if (straight.hypothesis.contains(c)) continue;
     const auto& p = problem_->candidates[c].parameters[0];
     for (auto values : shape_choices(problem_->candidates[c])) {
@@ -195,7 +196,7 @@ void Search::evaluate_straight(const SetFit& from) {
   for (const auto& [candidate, one] : nearest) order.push_back(&one);
   std::ranges::sort(order, {}, &Nearest::deviance);
   double closest = from.fit.deviance;
-  for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i) {
+  for (std::size_t i = 0; i < kStraightFits && i < order.size() && !over(); ++i) {
     SetFit result;
     result.set = with(from.set, order[i]->start.hypothesis.candidates.back());
     result.fit = fit_at(order[i]->start, {.max_iterations = kRough.max_iterations, .columns = &columns});
@@ -226,13 +227,17 @@ bool Search::unbends(const Fit& without, const Fit& with) const {
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
+  if (over()) return;
   const SetFit parent = sets_.at(from);
+  options_.progress(share_, "screening effects");
   const auto candidates = screened(from);
   std::size_t done = 0;
   for (const auto& s : candidates) {
     if (done >= fits || s.gain < kWorthAFit ||
-        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain))
+        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain) || over())
       break;
+    const double part = static_cast<double>(done) / static_cast<double>(std::min(fits, candidates.size()));
+    options_.progress(share_ + share_of_screen_ * part, "fitting effects");
     evaluate(parent, s);
     ++done;
   }
@@ -290,7 +295,7 @@ void Search::finish_rivals() {
     if (set.size() <= best_.size()) order.push_back(&fit);
   std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
   bool ahead = false;
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (std::size_t i = 0; i < order.size() && !over(); ++i) {
     SetFit& fit = *order[i];
     const bool near = i <= kNearestRivals && criterion(fit) < far;
     if (!fit.rough || (!near && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit))
@@ -314,7 +319,7 @@ void Search::grow_best() {
     return added->p_value < kSurely &&
            criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
   };
-  for (bool grown = true; grown && best_.size() < options_.most_effects;) {
+  for (bool grown = true; grown && best_.size() < options_.most_effects && !over();) {
     std::vector<SetFit*> order;
     for (auto& [set, fit] : sets_)
       if (!best_.empty() && set.size() == best_.size() + 1 && std::ranges::includes(set, best_) &&
@@ -443,7 +448,7 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
 // A set may fit better than the best one but hold an effect it does not need. Fit it without that effect:
 // forward search may never have reached the smaller set.
 void Search::prune() {
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 && !over(); ++round) {
     std::vector<const SetFit*> order;
     for (const auto& [set, fit] : sets_)
       if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
@@ -459,7 +464,8 @@ void Search::prune() {
       if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
     }
     bool tried = false;
-    for (const auto& [part, whole] : wholes) tried = fit_part(whole, part) || tried;
+    for (const auto& [part, whole] : wholes)
+      if (!over()) tried = fit_part(whole, part) || tried;
     if (!tried) return;
     choose_best();
   }
@@ -467,9 +473,10 @@ void Search::prune() {
 
 // Removes each effect of the best set in turn and tries all others in its place.
 void Search::exchange() {
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 && !over(); ++round) {
     const auto before = best_;
     for (const auto candidate : before) {
+      if (over()) break;
       const auto rest = without(before, candidate);
       fit_part(SetFit(sets_.at(before)), rest);
       expand(rest, options_.fits_per_screen);
@@ -483,6 +490,7 @@ void Search::exchange() {
 // null from there. Otherwise the effect would get credit for what the nuisances explain.
 void Search::restart_null() {
   for (int round = 0; round < kNullRestarts; ++round) {
+    if (over()) return;
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
     if (round == 0 && options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
@@ -515,6 +523,7 @@ bool Search::try_proposals() {
        propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
     auto set = proposal.start.candidates;
     std::sort(set.begin(), set.end());
+    if (over()) break;
     if (proposal.deviance > limit) continue;
     const auto before = sets_.find(set);
     const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
@@ -585,6 +594,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   restart_null();
   if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
   for (const auto& seed : seeds) {
+    if (over()) break;
     SetFit fit;
     fit.set = seed.hypothesis.candidates;
     std::sort(fit.set.begin(), fit.set.end());
@@ -592,16 +602,22 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     fit.fit = fit_at(seed, kRough);
     sets_[fit.set] = std::move(fit);
   }
+  grow_sets();
+  if (!over()) improve();
+  return best();
+}
+
+// Sets of one effect, then each of the nearest ones with one more, and so on.
+void Search::grow_sets() {
   std::vector<std::vector<std::size_t>> front{{}};
-  for (std::size_t size = 1; size <= options_.most_effects; ++size) {
+  const double sizes = static_cast<double>(options_.most_effects + 1);
+  for (std::size_t size = 1; size <= options_.most_effects && !over(); ++size) {
     // Only for the nearest set: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
     if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
+    share_of_screen_ = 1.0 / (sizes * static_cast<double>(front.size()));
     for (std::size_t i = 0; i < front.size(); ++i) {
-      options_.progress(
-          (static_cast<double>(size - 1) + static_cast<double>(i) / static_cast<double>(front.size())) /
-              static_cast<double>(options_.most_effects + 1),
-          "trying effects");
+      share_ = static_cast<double>(size - 1) / sizes + share_of_screen_ * static_cast<double>(i);
       expand(front[i], size == 1 ? options_.fits_of_singles : options_.fits_per_screen);
     }
     std::vector<const SetFit*> grown;
@@ -621,20 +637,34 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
         front.push_back(fit->set);
     if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
   }
+}
+
+// Exchanges, deletions and proposals around the best set.
+void Search::improve() {
+  const double all =
+      static_cast<double>(options_.most_effects) / static_cast<double>(options_.most_effects + 1);
+  const auto at = [&](double part, const char* what) {
+    share_ = all + (1.0 - all) * part;
+    share_of_screen_ = 0.0;
+    options_.progress(share_, what);
+  };
+  at(0.0, "exchanging effects");
   borrow(sets_.at({}));
   exchange();
+  at(0.4, "leaving effects out");
   const auto before = best_;
   prune();
   if (best_ != before) exchange();
+  at(0.6, "trying other sets");
   for (int round = 0; round < 3 && options_.proposals > 0; ++round) {
     const auto so_far = best_;
-    if (!try_proposals() || best_ == so_far) break;
+    if (over() || !try_proposals() || best_ == so_far) break;
     prune();
   }
+  at(0.8, "completing the fits of rivals");
   finish_rivals();
   grow_best();
   settle_best();
-  return best();
 }
 
 }  // namespace sandhopper::diagnose
