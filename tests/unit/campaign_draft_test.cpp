@@ -298,6 +298,12 @@ TEST(CampaignDraft, ANeededKeyThatIsMissingIsAFinding) {
   EXPECT_EQ(missing.front().channel, "body.mass_kg");
   folder.write("campaign.toml", trial + "mass_kg = 1.0\n");
   EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stated by every trial";
+  folder
+      .write("nominal.toml",
+             "[foot]\nradius_m = 0.03\n[terrain]\nstiffness_per_area_N_per_m3 = 0.85e6\nexponent = 1.0\n")
+      .write("campaign.toml",
+             "plant = \"intruder\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
+  EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stiffness per area stands for it";
 }
 
 TEST(BeliefSources, EveryNumberHasItsSource) {

@@ -136,7 +136,7 @@ std::vector<Finding> missing_numbers(const Campaign& campaign) {
   const auto lines = lines_of(campaign.model);
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
     const bool is_elsewhere =
-        key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m");
+        key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m3");
     const bool in_trials =
         std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return trial.states(key); });
     if (!is_needed(key) || lines.contains(key) || is_elsewhere || in_trials) continue;
