@@ -166,6 +166,18 @@ TEST(Cures, PositionAndTorqueExchanged) {
   expect_fine(cured(rig, wrong.cure));
 }
 
+// One encoder drifts, its twin moves like the speed of both: the twin's column stands where it belongs.
+TEST(Cures, ATwinThatMovesAlikeIsNotExchanged) {
+  std::string text =
+      "t_s,motor_left_position_rad,motor_left_velocity_radps,motor_right_position_rad,"
+      "motor_right_velocity_radps\n";
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.002 * i, x = 0.9 + 0.2 * std::sin(20.0 * t), v = 4.0 * std::cos(20.0 * t);
+    text += fmt::format("{:.3f},{:.5f},{:.5f},{:.5f},{:.5f}\n", t, x + 0.15 * std::sin(27.0 * t), v, x, v);
+  }
+  expect_fine({"hopper", text});
+}
+
 // Heights of a body: z(t), in units of which `per_m` make one metre.
 Rig drop(const std::function<double(double)>& height_m, double per_m, const std::string& how,
          const std::string& nominal = "", double last_s = 0.4) {

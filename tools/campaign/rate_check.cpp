@@ -133,13 +133,21 @@ class RateChecker {
                        ways.size() > 1 ? ", whichever is true" : "");
   }
 
+  // The positions of two motors that move alike have the same rate: none of them is exchanged.
+  bool fits_its_own_speed(std::string_view position) const {
+    const auto* pair = std::ranges::find(kPairs, position, &Pair::position);
+    if (pair == kPairs.end() || !recording_.has(pair->speed)) return false;
+    const auto own = slope(position, pair->speed);
+    return own && own->together > 0.8;
+  }
+
   // A speed that is the rate of another channel: the position and that channel are exchanged.
   bool look_for_exchange(const Pair& pair, const Slope& own) {
     if (own.together > 0.8 && own.slope > 0.2 && own.slope < 5.0) return false;
     const TrialRecording::Channel* best = nullptr;
     Slope most{0.0, std::max(0.9, own.together + 0.1)};
     for (const auto& other : recording_.channels) {
-      if (other.name == pair.position || other.name == pair.speed) continue;
+      if (other.name == pair.position || other.name == pair.speed || fits_its_own_speed(other.name)) continue;
       const auto found = slope(other.name, pair.speed);
       if (found && found->together > most.together) best = &other, most = *found;
     }
