@@ -166,6 +166,14 @@ TEST(Cures, PositionAndTorqueExchanged) {
   expect_fine(cured(rig, wrong.cure));
 }
 
+// A foot that rings in flight around 1 m/s2 and lands with 120: not in g, because it never rests there.
+TEST(Cures, AFlightBetweenLandingsIsNoRest) {
+  std::string text = "t_s,imu_foot_accel_z_mps2\n";
+  for (int i = 0; i < 500; ++i)
+    text += fmt::format("{:.3f},{:.4f}\n", 0.002 * i, i % 250 < 10 ? 120.0 : 1.0 + 3.0 * std::sin(0.9 * i));
+  expect_fine({"hopper", text});
+}
+
 // One encoder drifts, its twin moves like the speed of both: the twin's column stands where it belongs.
 TEST(Cures, ATwinThatMovesAlikeIsNotExchanged) {
   std::string text =

@@ -30,7 +30,7 @@ Range range_of(std::span<const double> values) {
 }
 
 // Means over stretches of a fifth of the samples in which the values stay within a tenth of their whole
-// range.
+// range and vary by less than the mean: a flight between two landings is no rest.
 std::vector<double> means_at_rest(std::span<const double> values) {
   constexpr std::size_t kStretches = 5, kFewest = 10;
   std::vector<double> fresh;
@@ -42,10 +42,12 @@ std::vector<double> means_at_rest(std::span<const double> values) {
   const double whole = range_of(fresh).width();
   for (std::size_t begin = 0; begin + length <= fresh.size(); begin += std::max<std::size_t>(1, length / 4)) {
     const std::span<const double> part(fresh.data() + begin, length);
-    if (range_of(part).width() > 0.1 * whole) continue;
+    const double width = range_of(part).width();
+    if (width > 0.1 * whole) continue;
     double sum = 0.0;
     for (const double value : part) sum += value;
-    means.push_back(sum / static_cast<double>(length));
+    const double mean = sum / static_cast<double>(length);
+    if (width < std::abs(mean)) means.push_back(mean);
   }
   return means;
 }
