@@ -248,6 +248,14 @@ TEST(CampaignDraft, AHopperIsAskedForEachNumberThatDecidesItsAnswer) {
   EXPECT_THAT(missing.front().what, Not(HasSubstr("body_mass_kg")));
 }
 
+TEST(CampaignDraft, TwoAnglesAndTwoCurrentsAreALeg) {
+  CampaignFolder leg, axis;
+  EXPECT_EQ(drafted(leg, rows("t (s),hipL [deg],hipR [deg],iqL [A],iqR [A]\n", ',', 5)).draft.plant,
+            CampaignPlant::hopper);
+  EXPECT_EQ(drafted(axis, rows("t (s),angle [deg],iq [A]\n", ',', 3)).draft.plant,
+            CampaignPlant::rotary_axis);
+}
+
 TEST(CampaignDraft, ColumnsThatFitAsWellAreNamed) {
   CampaignFolder folder;
   const auto got = drafted(folder, rows("Time (s),Clock (ms),Depth (mm),Load 1 (N),Load 2 (N)\n", ',', 5));

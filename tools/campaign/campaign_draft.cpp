@@ -65,6 +65,7 @@ class Drafter {
   CampaignPlant guessed_plant() const {
     for (const auto& name : table_.names)
       if (const auto plant = plant_with_channel(name)) return *plant;
+    if (has_two_motors(table_)) return hopper;
     std::array<int, 4> votes{};
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
       const auto unit = unit_of(i);
@@ -148,8 +149,8 @@ class Drafter {
                                table_.rows(), table_.names.size(), name_of(layout.encoding),
                                separator_word()));
     for (const auto& text : layout.said) said.push_back(text);
-    said.push_back(
-        fmt::format("plant \"{}\"{}", name_of(out_.plant), plant_ ? "" : ", guessed from its columns"));
+    said.push_back(fmt::format("plant \"{}\"{}", name_of(out_.plant),
+                               plant_ ? "" : ", guessed from its columns; --plant says another"));
     for (const auto& guess : guesses_)
       said.push_back(fmt::format("{} is column \"{}\" in {}{}", guess.channel, table_.names[guess.column],
                                  guess.unit ? guess.unit->text : "an unknown unit: state it",

@@ -33,6 +33,16 @@ std::vector<std::size_t> rivals_of_time(const CsvTable& table, std::size_t taken
   return rivals;
 }
 
+bool has_two_motors(const CsvTable& table) {
+  std::size_t angles = 0, currents = 0;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const auto unit = unit_of_column(table, i);
+    angles += unit && unit->dimension == "angle";
+    currents += unit && unit->dimension == "current";
+  }
+  return angles == 2 && currents == 2;
+}
+
 std::string rivals_in_words(const CsvTable& table, const std::vector<std::size_t>& rivals) {
   if (rivals.empty()) return "";
   std::vector<std::string> names;

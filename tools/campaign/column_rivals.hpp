@@ -19,6 +19,9 @@ std::vector<std::size_t> rivals_of_column(const CsvTable& table, CampaignPlant p
 // The same for the time: columns that are called a time or are in a unit of time.
 std::vector<std::size_t> rivals_of_time(const CsvTable& table, std::size_t taken);
 
+// Two angles and two currents: both sides of a hopper's leg.
+bool has_two_motors(const CsvTable& table);
+
 // `column "F2 (N)" fits as well; to take it, name it in [columns]`; empty without rivals.
 std::string rivals_in_words(const CsvTable& table, const std::vector<std::size_t>& rivals);
 

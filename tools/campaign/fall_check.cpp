@@ -103,14 +103,14 @@ class FallChecker {
   bool check_slow() {
     const double start = place(all_.front()), end = place(all_.back());
     if (is_thrown() || in_liquid() || std::abs(end - start) < 0.6) return false;
-    std::optional<double> from, to;
+    double from_s = NAN, to_s = NAN;
     for (const auto& sample : all_) {
       const double way = std::abs(place(sample) - start);
-      if (way < 0.05) from = sample.t_s, to.reset();
-      if (way > 0.95 * std::abs(end - start) && !to) to = sample.t_s;
+      if (way < 0.05) from_s = sample.t_s, to_s = NAN;
+      if (way > 0.95 * std::abs(end - start) && std::isnan(to_s)) to_s = sample.t_s;
     }
-    if (!from || !to) return false;
-    const double fall_s = std::sqrt(2.0 * 0.9 * width_ / gravity()), took_s = *to - *from;
+    if (std::isnan(from_s) || std::isnan(to_s)) return false;
+    const double fall_s = std::sqrt(2.0 * 0.9 * width_ / gravity()), took_s = to_s - from_s;
     if (took_s < 5.0 * fall_s) return false;
     add(fmt::format("takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: it is "
                     "pushed or "
