@@ -4,7 +4,7 @@
 // numbers. Then the campaign in parts, merged, against the whole.
 //   tests/cli/campaign.mjs [BUILD-DIRECTORY]
 import { spawnSync } from 'node:child_process';
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -77,6 +77,20 @@ const incomplete = run('terrain', '--merge', ...parts.slice(1), '--output', join
 expect(incomplete.status === 2 && incomplete.stderr.includes('trial 1 of the campaign is in none of the parts'), 'a part left out is noticed');
 const refused = run('terrain', join(scratch, 'merged'));
 expect(refused.status === 2 && refused.stderr.includes('campaign.toml'), 'a folder that is no campaign is refused');
+expect(refused.stderr.includes('hop campaign keys PLANT'), 'what explains a campaign is named, not the configuration of the robot');
+
+// An import writes both of its files or none.
+const half = join(scratch, 'half');
+mkdirSync(half);
+writeFileSync(join(half, 'nominal.toml'), '# mine\n');
+const imported = run('campaign', 'import', join(sound, 'trials/0001.csv'), '--output', half);
+expect(imported.status === 2 && imported.stderr.includes('nominal.toml exists already'), 'a model that is there is not overwritten');
+expect(!existsSync(join(half, 'campaign.toml')), 'and no campaign.toml is left beside it');
+
+// Limits of time, and wrong arguments.
+const limited = run('diagnose', sound, '--limit-s', '0', '--no-report', '--json', '--output', join(scratch, 'limited'));
+expect(limited.status === 1 && JSON.parse(limited.stdout).verdict === 'insufficient_time', 'a limit of no time at all is said');
+expect(run('diagnose', sound, '--limit-s', '-1').status === 2, 'a negative limit is refused');
 
 rmSync(scratch, { recursive: true });
 console.log(`${breakages.length} kinds of broken recordings, ${failed} faults`);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/terrain/campaign_analysis.hpp"
@@ -226,6 +227,47 @@ TEST(CampaignDraft, WhatOnlyTheOwnerKnowsIsAskedFor) {
   EXPECT_EQ(numbers_of(campaign.belief)["body.mass_kg"], 0.2);
 }
 
+TEST(CampaignDraft, AHopperIsAskedForEachNumberThatDecidesItsAnswer) {
+  const auto text = draft_nominal(CampaignPlant::hopper);
+  for (const auto keys : {hopper_keys(), hopper_controller_keys()})
+    for (const auto key : keys)
+      EXPECT_THAT(text, HasSubstr(fmt::format("\n{} = \"?\"", key.substr(key.rfind('.') + 1))));
+  EXPECT_THAT(text, HasSubstr("\n# rail_coulomb_N = 0.0"));
+  const auto commanded = draft_nominal(CampaignPlant::hopper, true);
+  EXPECT_THAT(commanded, HasSubstr("\n# flight_stiffness_N_per_m = "));
+  EXPECT_THAT(commanded, HasSubstr("\nbody_mass_kg = \"?\""));
+  CampaignFolder folder;
+  folder.write("nominal.toml", "[robot]\nbody_mass_kg = 2.4\n")
+      .write("campaign.toml",
+             "plant = \"hopper\"\nmodel = \"nominal.toml\"\n[columns]\nt_s = \"t\"\n[[trial]]\nfile = "
+             "\"a.csv\"\n");
+  const auto missing = missing_numbers(load_campaign(folder.path()));
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing.front().severity, FindingSeverity::note);
+  EXPECT_THAT(missing.front().what, HasSubstr("robot.foot_mass_kg"));
+  EXPECT_THAT(missing.front().what, Not(HasSubstr("body_mass_kg")));
+}
+
+TEST(CampaignDraft, TwoAnglesAndTwoCurrentsAreALeg) {
+  CampaignFolder leg, axis;
+  EXPECT_EQ(drafted(leg, rows("t (s),hipL [deg],hipR [deg],iqL [A],iqR [A]\n", ',', 5)).draft.plant,
+            CampaignPlant::hopper);
+  EXPECT_EQ(drafted(axis, rows("t (s),angle [deg],iq [A]\n", ',', 3)).draft.plant,
+            CampaignPlant::rotary_axis);
+}
+
+TEST(CampaignDraft, ColumnsThatFitAsWellAreNamed) {
+  CampaignFolder folder;
+  const auto got = drafted(folder, rows("Time (s),Clock (ms),Depth (mm),Load 1 (N),Load 2 (N)\n", ',', 5));
+  std::string said;
+  for (const auto& line : got.draft.said) said += line + "\n";
+  EXPECT_THAT(said, HasSubstr("t_s is column \"Time (s)\"; column \"Clock (ms)\" fits as well"));
+  EXPECT_THAT(said,
+              HasSubstr("force_N: column \"Load 2 (N)\" fits as well; to take it, name it in [columns]"));
+  EXPECT_THAT(got.draft.campaign_toml, HasSubstr("# force_N: column \"Load 2 (N)\" fits as well"));
+  EXPECT_THAT(said, Not(HasSubstr("foot_z_m: column")));
+}
+
 // All verbs read trials by read_trial(), so none of them computes with the default of such a number.
 TEST(CampaignDraft, AnUnstatedNumberRulesOutTheTrialsThatDoNotStateIt) {
   CampaignFolder folder;
@@ -264,6 +306,12 @@ TEST(CampaignDraft, ANeededKeyThatIsMissingIsAFinding) {
   EXPECT_EQ(missing.front().channel, "body.mass_kg");
   folder.write("campaign.toml", trial + "mass_kg = 1.0\n");
   EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stated by every trial";
+  folder
+      .write("nominal.toml",
+             "[foot]\nradius_m = 0.03\n[terrain]\nstiffness_per_area_N_per_m3 = 0.85e6\nexponent = 1.0\n")
+      .write("campaign.toml",
+             "plant = \"intruder\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
+  EXPECT_TRUE(missing_numbers(load_campaign(folder.path())).empty()) << "stiffness per area stands for it";
 }
 
 TEST(BeliefSources, EveryNumberHasItsSource) {

@@ -46,6 +46,8 @@ TEST(CampaignKeyReference, DefaultsAndUnitsAreThoseOfTheStructs) {
   EXPECT_EQ(find(CampaignPlant::intruder, "rig.stiffness_N_per_m").default_value, "not set");
   EXPECT_EQ(find(CampaignPlant::hopper, "terrain.stiffness_N_per_m").default_value, "1500");
   EXPECT_FALSE(find(CampaignPlant::rotary_axis, "sensors.tof_rate_Hz").of_this_plant);
+  EXPECT_TRUE(find(CampaignPlant::hopper, "robot.upper_link_inertia_kg_m2").is_needed);
+  EXPECT_FALSE(find(CampaignPlant::hopper, "robot.rail_coulomb_N").is_needed);
   EXPECT_FALSE(find(CampaignPlant::falling_body, "sensors.pressure_noise_Pa").used);
   EXPECT_TRUE(find(CampaignPlant::falling_body, "sensors.height_noise_m").used);
   EXPECT_EQ(find(CampaignPlant::falling_body, "body.mass_kg").meaning, meaning_of_key("body.mass_kg"));

@@ -119,6 +119,29 @@ TEST(DiagnoseNextTrial, PlansAMotionOfAnAxis) {
   EXPECT_GT(d.next.setup.at("duration_s"), 0.0);
 }
 
+// A phone that falls: no height is recorded or stated, so none is proposed.
+TEST(DiagnoseNextTrial, ProposesNoReleaseHeightThatNobodyKnows) {
+  auto r = drops([](double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; });
+  for (auto& trial : r.trials) {
+    trial.setup = {{"release_speed_mps", 0.0}};
+    trial.channels.erase("height_m");
+  }
+  const auto d = diagnose(r);
+  ASSERT_EQ(d.next.kind, "drop") << d.next.why;
+  EXPECT_FALSE(d.next.setup.contains("release_height_m"));
+}
+
+// A pendulum that is let go and has no drive: the torque of a free axis is 0 in every row.
+TEST(DiagnoseNextTrial, DrivesNoAxisThatHasNoDrive) {
+  auto r = swings([](double, double w, double torque) { return -torque - 0.05 * w; });
+  for (auto& trial : r.trials) std::ranges::fill(trial.channels["torque_Nm"], 0.0);
+  const auto d = diagnose(r);
+  if (d.next.kind.empty())
+    EXPECT_THAT(d.next.why, HasSubstr("[available]"));
+  else
+    EXPECT_TRUE(d.next.setup.contains("release_position_rad")) << d.next.why;
+}
+
 TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {
   const auto json = to_json(diagnose(more_drag_with_payloads()));
   const auto& setup = json.at("next_trial").at("setup");

@@ -63,6 +63,45 @@ std::string_view reason_of_default(std::string_view path) {
   return kRobot;
 }
 
+std::span<const std::string_view> hopper_keys() {
+  static constexpr std::array<std::string_view, 17> kKeys{"robot.body_mass_kg",
+                                                          "robot.foot_mass_kg",
+                                                          "robot.upper_link_mass_kg",
+                                                          "robot.lower_link_mass_kg",
+                                                          "robot.upper_link_length_m",
+                                                          "robot.lower_link_length_m",
+                                                          "robot.upper_link_com_m",
+                                                          "robot.lower_link_com_m",
+                                                          "robot.upper_link_inertia_kg_m2",
+                                                          "robot.lower_link_inertia_kg_m2",
+                                                          "robot.rotor_inertia_kg_m2",
+                                                          "robot.gear_ratio",
+                                                          "robot.hip_offset_m",
+                                                          "robot.foot_height_m",
+                                                          "motor.torque_constant_Nm_per_A",
+                                                          "controller.compression_length_m",
+                                                          "terrain.stiffness_N_per_m"};
+  return kKeys;
+}
+
+std::span<const std::string_view> hopper_controller_keys() {
+  static constexpr std::array<std::string_view, 4> kKeys{
+      "controller.extension_length_m", "controller.extension_stiffness_N_per_m",
+      "controller.flight_stiffness_N_per_m", "controller.flight_damping_N_s_per_m"};
+  return kKeys;
+}
+
+bool decides_answer(CampaignPlant plant, std::string_view path) {
+  constexpr std::array<std::string_view, 6> kNumbers{"gravity_mps2",           "axis.inertia_kg_m2",
+                                                     "axis.gravity_torque_Nm", "body.mass_kg",
+                                                     "foot.radius_m",          "terrain.stiffness_N_per_m"};
+  const auto holds = [&](std::span<const std::string_view> keys) {
+    return std::ranges::find(keys, path) != keys.end();
+  };
+  const bool of_hopper = holds(hopper_keys()) || holds(hopper_controller_keys());
+  return holds(kNumbers) || (plant == CampaignPlant::hopper && of_hopper);
+}
+
 bool is_needed(std::string_view path) { return reason_of_default(path) == kNeeded; }
 
 }  // namespace sandhopper

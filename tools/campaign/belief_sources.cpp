@@ -106,13 +106,37 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   return used;
 }
 
+namespace {
+
+// Another laboratory's robot with numbers of this project's robot in it: a note that lists them.
+std::vector<Finding> unstated_hopper(const Campaign& campaign) {
+  const auto lines = lines_of(campaign.model);
+  std::vector<std::string> missing;
+  for (const auto key : hopper_keys()) {
+    if (key == "robot.gear_ratio" || key == "robot.hip_offset_m") continue;  // 1 and 0: nothing is assumed
+    const bool in_trials =
+        std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return trial.states(key); });
+    if (!lines.contains(std::string(key)) && !in_trials) missing.emplace_back(key);
+  }
+  const bool foreign_columns =
+      std::ranges::any_of(campaign.trials, [](const CampaignTrial& trial) { return !trial.columns.empty(); });
+  if (missing.empty() || !foreign_columns) return {};
+  return {{FindingKind::set_up, FindingSeverity::note,
+           (campaign.model.empty() ? campaign.file : campaign.model).string(), 1, 1, missing.front(),
+           fmt::format("{} of {} numbers that decide a hopper's answer are those of this project's robot: {}",
+                       missing.size(), hopper_keys().size(), fmt::join(missing, ", ")),
+           "write your own numbers into nominal.toml"}};
+}
+
+}  // namespace
+
 std::vector<Finding> missing_numbers(const Campaign& campaign) {
   std::vector<Finding> missing;
-  if (campaign.plant == CampaignPlant::hopper) return missing;
+  if (campaign.plant == CampaignPlant::hopper) return unstated_hopper(campaign);
   const auto lines = lines_of(campaign.model);
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
     const bool is_elsewhere =
-        key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m");
+        key == "terrain.stiffness_N_per_m" && lines.contains("terrain.stiffness_per_area_N_per_m3");
     const bool in_trials =
         std::ranges::all_of(campaign.trials, [&](const CampaignTrial& trial) { return trial.states(key); });
     if (!is_needed(key) || lines.contains(key) || is_elsewhere || in_trials) continue;

@@ -12,6 +12,7 @@
 #include "firmware/log/csv_import.hpp"
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_guess.hpp"
+#include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/unit_check.hpp"
 #include "tools/campaign/vector_axes.hpp"
@@ -35,7 +36,7 @@ class Drafter {
     guess_columns();
     describe();
     out_.campaign_toml = campaign();
-    out_.nominal_toml = draft_nominal(out_.plant);
+    out_.nominal_toml = draft_nominal(out_.plant, is_taken("command_left_torque_Nm"));
     return std::move(out_);
   }
 
@@ -59,14 +60,12 @@ class Drafter {
                 : "; write them above the numbers, or give --names t_s,force_N,…");
   }
 
-  std::optional<WrittenUnit> unit_of(std::size_t i) const {
-    if (const auto unit = read_unit(table_.units[i], true)) return unit;
-    return unit_in_name(table_.names[i]);
-  }
+  std::optional<WrittenUnit> unit_of(std::size_t i) const { return unit_of_column(table_, i); }
 
   CampaignPlant guessed_plant() const {
     for (const auto& name : table_.names)
       if (const auto plant = plant_with_channel(name)) return *plant;
+    if (has_two_motors(table_)) return hopper;
     std::array<int, 4> votes{};
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
       const auto unit = unit_of(i);
@@ -116,10 +115,16 @@ class Drafter {
     axes_of_channel_[guess.channel] = axes;
   }
 
-  // "axis z of three (x, y, z)…", for the owner to correct; empty: the channel's column is no axis.
-  std::string axis_words(const std::string& channel) const {
+  // Other columns that fit a channel, for the owner to choose; for an axis of three the other two:
+  // "axis z of three (x, y, z)…". Empty if there is no choice.
+  std::string choice_words(const std::string& channel) const {
     const auto found = axes_of_channel_.find(channel);
-    if (found == axes_of_channel_.end()) return "";
+    if (found == axes_of_channel_.end()) {
+      const auto guess = std::ranges::find(guesses_, channel, &ColumnGuess::channel);
+      auto rivals = rivals_of_column(table_, out_.plant, channel, guess->column);
+      std::erase_if(rivals, [&](std::size_t i) { return !is_unused(i); });
+      return rivals_in_words(table_, rivals);
+    }
     const auto& axes = found->second;
     const auto& size = axes.mean_size;
     return fmt::format(
@@ -144,8 +149,8 @@ class Drafter {
                                table_.rows(), table_.names.size(), name_of(layout.encoding),
                                separator_word()));
     for (const auto& text : layout.said) said.push_back(text);
-    said.push_back(
-        fmt::format("plant \"{}\"{}", name_of(out_.plant), plant_ ? "" : ", guessed from its columns"));
+    said.push_back(fmt::format("plant \"{}\"{}", name_of(out_.plant),
+                               plant_ ? "" : ", guessed from its columns; --plant says another"));
     for (const auto& guess : guesses_)
       said.push_back(fmt::format("{} is column \"{}\" in {}{}", guess.channel, table_.names[guess.column],
                                  guess.unit ? guess.unit->text : "an unknown unit: state it",
@@ -153,24 +158,28 @@ class Drafter {
                                  : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
                                                         : ""));
     for (const auto& guess : guesses_)
-      if (const auto words = axis_words(guess.channel); !words.empty())
+      if (const auto words = choice_words(guess.channel); !words.empty())
         said.push_back(fmt::format("{}: {}", guess.channel, words));
-    if (const auto other = time_ ? other_part_of_time() : std::nullopt)
-      said.push_back(fmt::format("t_s is column \"{}\" and column \"{}\"", table_.names[*time_],
-                                 table_.names[other->first]));
+    if (time_) said.push_back(time_words());
     if (!time_ && table_.find("t_s") == nullptr) said.emplace_back("no column is a time");
     std::vector<std::string> unused;
     for (std::size_t i = 0; i < table_.names.size(); ++i)
       if (is_unused(i)) unused.push_back(table_.names[i]);
     if (!unused.empty()) said.push_back(fmt::format("not used: {}", fmt::join(unused, ", ")));
-    std::vector<std::string> times;
-    for (const auto& name : table_.names)
-      if (is_called_time(name)) times.push_back(name);
-    if (times.size() > 1)
+    const auto times = std::ranges::count_if(table_.names, is_called_time);
+    if (times > 1)
       said.push_back(
-          fmt::format("{} columns are called a time ({}): recordings side by side need a [[trial]] each with "
+          fmt::format("{} columns are called a time: recordings side by side need a [[trial]] each with "
                       "`columns` of its own",
-                      times.size(), fmt::join(times, ", ")));
+                      times));
+  }
+
+  std::string time_words() const {
+    const auto& name = table_.names[*time_];
+    const auto other = other_part_of_time();
+    if (other) return fmt::format("t_s is column \"{}\" and column \"{}\"", name, table_.names[other->first]);
+    const auto rivals = rivals_in_words(table_, rivals_of_time(table_, *time_));
+    return fmt::format("t_s is column \"{}\"{}", name, rivals.empty() ? "" : "; " + rivals);
   }
 
   bool is_unused(std::size_t i) const {
@@ -267,7 +276,7 @@ class Drafter {
     for (const auto& g : guesses_) {
       const auto wanted = unit_of_channel(g.channel);
       const bool unknown = !g.unit && wanted && g.channel != table_.names[g.column];
-      if (const auto words = axis_words(g.channel); !words.empty())
+      if (const auto words = choice_words(g.channel); !words.empty())
         text += fmt::format("# {}: {}\n", g.channel, words);
       text += mapping(g.channel, table_.names[g.column],
                       g.unit    ? g.unit->text
@@ -342,6 +351,10 @@ class Drafter {
           "loading_from_s = 0.0   # s\n# loading_to_s = 1.0   # s\n";
     if (out_.plant == falling_body)
       text += "# diameter_m = 0.05   # m\n# mass_kg = 1.0   # kg\n# impact_speed_mps = 1.0   # m/s\n";
+    if (out_.plant == hopper)
+      text +=
+          "# release_height_m = 0.05   # m; the sole above the bed at the release\n"
+          "# compression_stiffness_N_per_m = 500.0   # N/m; of the virtual spring in compression\n";
     if (out_.plant == rotary_axis) text += "# motor_enabled = false   # the axis runs free\n";
     text +=
         "# select  = { column = \"NAME\", value = 1, from_s = 0.0, to_s = 1.0 }   # some rows of the file\n";

@@ -31,6 +31,7 @@ CampaignDraft draft_campaign(const std::vector<std::filesystem::path>& files,
                              const std::vector<std::string>& names = {});
 
 // nominal.toml of a plant with every key. Needed keys have the value "?"; all others are commented out.
-std::string draft_nominal(CampaignPlant plant);
+// `commands_recorded`: the torques that the controller commands are a channel, so its gains are not needed.
+std::string draft_nominal(CampaignPlant plant, bool commands_recorded = false);
 
 }  // namespace sandhopper

@@ -272,6 +272,16 @@ class Checker {
 
 }  // namespace
 
+const UsedColumn* RecordingPlaces::column_of(std::string_view channel) const {
+  const auto found = std::ranges::find(columns, channel, &UsedColumn::channel);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+bool RecordingPlaces::is_stated(std::string_view channel) const {
+  const auto* column = column_of(channel);
+  return column != nullptr && column->is_stated;
+}
+
 std::uint64_t RecordingPlaces::character(std::uint64_t line, std::uint64_t number) const {
   return file.ends_with(".mcap") ? 1 : csv_cell_character(file, line, number, format);
 }

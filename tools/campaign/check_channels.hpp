@@ -3,6 +3,7 @@
 
 #include "firmware/log/csv_layout.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/campaign/used_column.hpp"
 
 namespace sandhopper {
 
@@ -12,6 +13,10 @@ struct RecordingPlaces {
   std::vector<std::uint64_t> lines{};    // line of each row
   std::vector<std::uint64_t> numbers{};  // column of each channel, from 1
   CsvFormat format{};                    // as the user states it
+  std::vector<UsedColumn> columns{};     // of the channels and of the time
+
+  const UsedColumn* column_of(std::string_view channel) const;
+  bool is_stated(std::string_view channel) const;  // True if its mapping states unit and scale.
 
   // Character at which the cell of a column begins in a line; 1 for a log, which has no characters.
   std::uint64_t character(std::uint64_t line, std::uint64_t number) const;

@@ -14,10 +14,6 @@
 namespace sandhopper {
 namespace {
 
-// Keys that decide the answer and must be stated.
-constexpr std::array<std::string_view, 6> kNeeded{"gravity_mps2", "inertia_kg_m2", "gravity_torque_Nm",
-                                                  "mass_kg",      "radius_m",      "stiffness_N_per_m"};
-
 // Text of a number that TOML reads as a float.
 std::string toml_real(double value) {
   std::string text = fmt::format("{}", value);
@@ -27,6 +23,9 @@ std::string toml_real(double value) {
 
 class NominalWriter {
  public:
+  NominalWriter(CampaignPlant plant, bool commands_recorded)
+      : plant_(plant), commands_recorded_(commands_recorded) {}
+
   template <class Table>
   void write(const Table& table, const std::string& name) {
     Table::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range range = {}) {
@@ -54,23 +53,27 @@ class NominalWriter {
       value = member ? toml_real(*member) : toml_real(std::max(0.0, range.low));
     else
       return;
-    const bool needed = table != "sensors" && table != "spread" && table != "bed" && table != "rig" &&
-                        std::find(kNeeded.begin(), kNeeded.end(), key) != kNeeded.end();
+    const std::string path = table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+    const bool of_controller =
+        std::ranges::find(hopper_controller_keys(), path) != hopper_controller_keys().end();
+    const bool needed = decides_answer(plant_, path) && !(of_controller && commands_recorded_);
     if (needed && key != "gravity_mps2") value = fmt::format("\"{}\"", kUnknownNumber);
-    const auto meaning = meaning_of_key(table.empty() ? std::string(key) : fmt::format("{}.{}", table, key));
+    const auto meaning = meaning_of_key(path);
     std::string comment = unit_of_key(key);
     if (!meaning.empty()) comment += (comment.empty() ? "" : "; ") + std::string(meaning);
     text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
                          comment.empty() ? "" : "   # " + comment);
   }
 
+  const CampaignPlant plant_;
+  const bool commands_recorded_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string draft_nominal(CampaignPlant plant) {
-  NominalWriter writer;
+std::string draft_nominal(CampaignPlant plant, bool commands_recorded) {
+  NominalWriter writer(plant, commands_recorded);
   std::visit([&](const auto& belief) { writer.write(belief, ""); }, belief_of_silence(plant));
   return fmt::format(
              "# What the simulation believes of plant \"{}\". Lines without # are needed: write your number "

@@ -87,6 +87,11 @@ struct Finding {
 
 std::string to_string(const Finding& finding);
 
+// The findings as lines, in their order. A problem that several files share (the same words apart from
+// numbers) is one line: that of its first file, with the number of the others. Equal findings are one line,
+// too.
+std::vector<std::string> in_lines(const std::vector<Finding>& findings, bool with_severity);
+
 bool any_unusable(const std::vector<Finding>& findings);  // True if a finding makes the trial unusable.
 
 }  // namespace sandhopper

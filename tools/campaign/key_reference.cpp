@@ -8,6 +8,7 @@
 
 #include "config/hint.hpp"
 #include "tools/campaign/belief.hpp"
+#include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/key_meanings.hpp"
 
 namespace sandhopper {
@@ -29,9 +30,9 @@ constexpr std::array kChannelMeanings{
     Entry{"command_right_torque_Nm", "torque that was sent to the drive"},
     Entry{"imu_body_accel_z_mps2", "specific force of the body upward: +9.81 at rest, 0 in free fall"},
     Entry{"imu_foot_accel_z_mps2", "the same of the foot"},
-    Entry{"tof_height_m", "height of the body over the undisturbed surface, by time of flight"},
+    Entry{"tof_height_m", "height of the hip axis over the undisturbed surface, by time of flight"},
     Entry{"load_cell_force_N", "force of the ground on the foot, compression positive, tare removed"},
-    Entry{"mocap_body_z_m", "height of the body, by motion capture"},
+    Entry{"mocap_body_z_m", "height of the hip axis over the undisturbed surface, by motion capture"},
     Entry{"mocap_foot_z_m", "height of the sole, by motion capture; 0 at the undisturbed surface"},
     Entry{"phase", "what the controller believed: flight, compression, extension, or 0, 1, 2"},
     Entry{"imu_body_gyro_x_radps", "turning rate of the body"},
@@ -119,6 +120,7 @@ struct Collector {
       entry.used = found->plants.empty() || found->plants.find(letter) != std::string_view::npos;
       entry.of_this_plant = entry.used || found->plants.find(capital) != std::string_view::npos;
     }
+    entry.is_needed = decides_answer(plant, entry.path());
     keys.push_back(std::move(entry));
   }
 

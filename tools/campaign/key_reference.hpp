@@ -21,7 +21,8 @@ struct BeliefKey {
   // False if the key has no meaning for this plant: [sensors] and [spread] of every plant accept the keys of
   // all plants.
   bool of_this_plant = true;
-  bool used = true;  // False if the key is read and checked, but not used by any tool yet.
+  bool is_needed = false;  // True if the answer depends on it and the default is only a placeholder.
+  bool used = true;        // False if the key is read and checked, but not used by any tool yet.
 
   std::string path() const { return table.empty() ? key : table + "." + key; }
 };

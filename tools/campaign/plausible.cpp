@@ -72,29 +72,17 @@ class PlausibilityChecker {
     check_bounds();
     if (!recording_.has_time) return;
     check_clock();
-    check_rates();
-    check_fall();
   }
   void check_forces() {
     if (campaign_.plant == intruder && trial_.kind != TrialKind::clamped) check_overburden();
   }
 
  private:
-  bool is_stated(std::string_view channel) const {
-    return std::any_of(trial_.columns.begin(), trial_.columns.end(), [&](const auto& mapping) {
-      return mapping.channel == channel && mapping.is_stated();
-    });
-  }
+  bool is_stated(std::string_view channel) const { return places_.is_stated(channel); }
 
-  // Advice: correct the scale, or confirm it with `unit` and `scale` in [columns].
   std::string cure(std::string_view channel) const {
-    std::string column(channel);
-    for (const auto& mapping : trial_.columns)
-      if (mapping.channel == channel) column = mapping.column;
-    return fmt::format(
-        "correct its scale; if it is so, say it in [columns]: {} = {{ column = \"{}\", unit = \"…\", scale = "
-        "… }}",
-        channel, column);
+    const auto* column = places_.column_of(channel);
+    return column == nullptr ? "correct its scale" : scale_cure(*column);
   }
 
   void check_bounds() {
@@ -127,8 +115,7 @@ class PlausibilityChecker {
                         unit == 1e3   ? "ms"
                         : unit == 1e6 ? "us"
                                       : "ns"),
-            is_stated("t_s"),
-            fmt::format("write t_s = {{ column = \"…\", scale = {} }} in [columns]", 1.0 / unit));
+            is_stated("t_s"), time_cure(1.0 / unit));
         return;
       }
     const double step_s =
@@ -136,89 +123,13 @@ class PlausibilityChecker {
     const bool moves = campaign_.plant == hopper && trial_.kind == TrialKind::hop;
     if (moves && step_s > 0.5)
       add("t_s", fmt::format("a row comes every {:.3g} s, and a hop takes less than a second", step_s),
-          is_stated("t_s"),
-          "write t_s = { column = \"…\", scale = 0.001 } in [columns] if the times are in ms");
+          is_stated("t_s"), "if the times are in ms " + time_cure(0.001));
   }
-
-  void check_rates() {
-    struct Pair {
-      std::string_view position, speed;
-    };
-    constexpr std::array kPairs{Pair{"position_rad", "velocity_radps"}, Pair{"foot_z_m", "foot_velocity_mps"},
-                                Pair{"motor_left_position_rad", "motor_left_velocity_radps"},
-                                Pair{"motor_right_position_rad", "motor_right_velocity_radps"}};
-    for (const auto& pair : kPairs) {
-      const auto ratio = rate_ratio(pair.position, pair.speed);
-      if (!ratio) continue;
-      add(pair.speed,
-          fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}",
-                      *ratio, pair.position, hint(*ratio)),
-          is_stated(pair.position) && is_stated(pair.speed));
-    }
-  }
-
-  static std::string hint(double ratio) {
-    struct Known {
-      double ratio;
-      std::string_view text;
-    };
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    constexpr std::array kKnown{
-        Known{kDegrees, " (57.3: the speed in deg/s)"},
-        Known{1.0 / kDegrees, " (0.01745: the position in degrees)"},
-        Known{30.0 / std::numbers::pi, " (9.55: the speed in rpm)"},
-        Known{1.0 / 6.0, " (1/6: the position in degrees and the speed in rpm)"},
-        Known{1e3, " (1000: the speed in mm/s or mrad/s, or the time in ms too coarse)"},
-        Known{1e-3, " (0.001: the position in mm or mrad, or the time in ms)"}};
-    for (const auto& known : kKnown)
-      if (std::abs(std::abs(ratio) / known.ratio - 1.0) < 0.15) return std::string(known.text);
-    return ratio < 0.0 ? " or has the other sign" : "";
-  }
-
-  // Slope of the speed channel over the rate of the position. Returned only if the two correlate and the
-  // slope is below 0.2, above 5 or negative. Rates are taken over 1/20 of the rows to suppress the sensor's
-  // noise.
-  std::optional<double> rate_ratio(std::string_view position, std::string_view speed) const {
-    if (!recording_.has(position) || !recording_.has(speed)) return std::nullopt;
-    const auto x = recording_.channel(position), v = recording_.channel(speed);
-    const std::size_t n = recording_.rows(), span = std::max<std::size_t>(1, n / 20);
-    double dd = 0.0, dv = 0.0, vv = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i + span < n; ++i) {
-      if (std::isnan(x[i]) || std::isnan(x[i + span])) continue;
-      double mean = 0.0;
-      std::size_t samples = 0;
-      for (std::size_t k = i; k <= i + span; ++k)
-        if (!std::isnan(v[k])) mean += v[k], ++samples;
-      const double step_s = recording_.t_s[i + span] - recording_.t_s[i];
-      if (samples == 0 || !(step_s > 0.0)) continue;
-      mean /= static_cast<double>(samples);
-      const double rate = (x[i + span] - x[i]) / step_s;
-      dd += rate * rate, dv += rate * mean, vv += mean * mean;
-      ++count;
-    }
-    if (count < 10 || dd <= 0.0 || vv <= 0.0) return std::nullopt;
-    const double ratio = dv / dd, together = dv * dv / (dd * vv);
-    const bool far = ratio < 0.2 || ratio > 5.0;
-    return together > 0.8 && far ? std::optional(ratio) : std::nullopt;
-  }
-
-  void check_fall() {
-    if (campaign_.plant != falling_body || !recording_.has("height_m")) return;
-    constexpr double kThrow_mps = 15.0;
-    const auto h = recording_.channel("height_m");
-    std::optional<std::size_t> first;
-    for (std::size_t i = 0; i < recording_.rows(); ++i) {
-      if (std::isnan(h[i])) continue;
-      if (!first) first = i;
-      const double t = recording_.t_s[i] - recording_.t_s[*first], way = std::abs(h[i] - h[*first]);
-      if (t < 0.05 || way <= kThrow_mps * t + std::max(gravity_of(trial_.belief), 10.0) * t * t) continue;
-      add("height_m",
-          fmt::format("changes by {:.4g} m within {:.3g} s, faster than a throw of 15 m/s and a fall", way,
-                      t),
-          is_stated("height_m"));
-      return;
-    }
+  std::string time_cure(double factor) const {
+    const auto* time = places_.column_of("t_s");
+    return time == nullptr
+               ? ""
+               : fmt::format("write {} into [columns]", mapping_line(in_other_unit(*time, factor)));
   }
 
   // rho g z A is the weight of the displaced material. A foot at rest in a bed cannot be pushed with less.

@@ -5,12 +5,19 @@
 #include <limits>
 
 #include "config/hint.hpp"
+#include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/companion.hpp"
+#include "tools/campaign/exchanged_columns.hpp"
+#include "tools/campaign/fall_check.hpp"
+#include "tools/campaign/hopper_check.hpp"
+#include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/position_loop.hpp"
+#include "tools/campaign/press_speed_check.hpp"
+#include "tools/campaign/rate_check.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/sensor_signs.hpp"
@@ -52,6 +59,11 @@ class Reader {
     if (!out_.own_log) {
       check_held_samples(out_, places_);
       check_plausible(out_, campaign_, trial_, places_);
+      check_rates(out_, places_);
+      check_falls(out_, campaign_, trial_, places_);
+      check_press_speed(out_, campaign_, trial_, places_);
+      check_axis_torque(out_, campaign_, trial_, places_);
+      check_hopper(out_, campaign_, trial_, places_);
       check_signs(out_, campaign_, trial_, places_);
     }
     if (out_.has_time) note_gaps(out_, places_);
@@ -181,24 +193,41 @@ class Reader {
     take(index_of(*column), mapping);
   }
 
-  // Factor to the channel's unit; empty if the file and the mapping contradict each other.
-  std::optional<double> unit_scale(std::size_t i, const ColumnMapping& mapping) {
-    if (out_.own_log) return mapping.scale;
+  ColumnUnits units_of(std::size_t i, const ColumnMapping& mapping) const {
     double largest = 0.0;
     for (const double value : table_.columns[i])
       if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
-    const auto verdict = check_unit({.column = table_.names[i],
-                                     .channel = mapping.channel,
-                                     .row_unit = table_.units[i],
-                                     .stated_unit = mapping.unit,
-                                     .scale = mapping.scale,
-                                     .has_scale = mapping.has_scale,
-                                     .largest = largest});
-    if (verdict.problem.empty()) return verdict.scale;
+    return {.column = table_.names[i],
+            .channel = mapping.channel,
+            .row_unit = table_.units[i],
+            .stated_unit = mapping.unit,
+            .scale = mapping.scale,
+            .has_scale = mapping.has_scale,
+            .largest = largest};
+  }
+
+  // Factor to the channel's unit; empty if the file and the mapping contradict each other.
+  std::optional<double> unit_scale(std::size_t i, const ColumnMapping& mapping) {
+    if (out_.own_log) return mapping.scale;
+    const auto units = units_of(i, mapping);
+    if (const auto exchanged = find_exchange(table_, trial_, campaign_.plant, units))
+      return complain_of_exchange(i, mapping, *exchanged);
+    const auto verdict = check_unit(units);
+    if (verdict.problem.empty()) {
+      places_.columns.push_back(used_column(units, verdict.scale, mapping.offset, mapping.is_stated()));
+      return verdict.scale;
+    }
     const bool by_row = table_.layout.units_line > 0 && !table_.units[i].empty();
     add(FindingKind::unit_disagrees, trial_unusable,
         by_row ? table_.layout.units_line : table_.layout.header_line, header_character(i), table_.names[i],
         fmt::format("for {}: {}", mapping.channel, verdict.problem), verdict.cure);
+    return std::nullopt;
+  }
+
+  std::optional<double> complain_of_exchange(std::size_t i, const ColumnMapping& mapping,
+                                             const Exchange& exchange) {
+    add(FindingKind::unit_disagrees, trial_unusable, table_.layout.header_line, header_character(i),
+        table_.names[i], fmt::format("for {}: {}", mapping.channel, exchange.what), exchange.cure);
     return std::nullopt;
   }
 
@@ -286,40 +315,10 @@ class Reader {
       return find_channel(campaign_.plant, channel.name) != nullptr;
     });
     if (own) return;
-    std::vector<std::string> foreign;
-    std::optional<CampaignPlant> plant;
-    std::uint64_t place = 1, line = table_.layout.header_line;
-    for (std::size_t i = 0; i < table_.names.size(); ++i) {
-      const auto owner = plant_with_channel(table_.names[i]);
-      if (!owner || *owner == campaign_.plant) continue;
-      if (!plant) place = header_character(i);
-      plant = owner;
-      foreign.push_back(table_.names[i]);
-    }
-    if (plant)
-      add(FindingKind::wrong_plant, trial_unusable, line, place, foreign.front(),
-          fmt::format("{} {} of plant \"{}\", the campaign's is \"{}\"", fmt::join(foreign, ", "),
-                      foreign.size() == 1 ? "is a channel" : "are channels", name_of(*plant),
-                      name_of(campaign_.plant)),
-          "correct plant in campaign.toml, or put this trial into a campaign of its own");
-    else
-      add(FindingKind::unknown_column, trial_unusable, line, 1, "",
-          fmt::format("no column is a channel of plant \"{}\"; the columns are {}", name_of(campaign_.plant),
-                      fmt::join(table_.names, ", ")),
-          is_linear_stage()
-              ? "a linear stage obeys the equation of plant \"rotary_axis\" with m for rad, N for N m and kg "
-                "for kg m^2: position_rad = { column = \"NAME\", unit = \"m\", scale = 1.0 } in [columns], "
-                "inertia_kg_m2 = its mass"
-              : "say in [columns] which column is which channel");
-  }
-
-  // True for an axis that is recorded in metres.
-  bool is_linear_stage() const {
-    if (campaign_.plant != CampaignPlant::rotary_axis) return false;
-    return std::any_of(table_.names.begin(), table_.names.end(), [](const auto& name) {
-      const auto unit = unit_in_name(name);
-      return unit && (unit->dimension == "length" || unit->dimension == "speed");
-    });
+    auto doubt = doubt_plant(table_, campaign_.plant);
+    add(doubt.kind, trial_unusable, table_.layout.header_line,
+        doubt.first ? header_character(*doubt.first) : 1, std::move(doubt.channel), std::move(doubt.what),
+        doubt.cure);
   }
 
   void select_rows() {

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "tools/campaign/written_unit.hpp"
-
 namespace sandhopper {
 namespace {
 
@@ -32,8 +30,8 @@ Range range_of(std::span<const double> values) {
 }
 
 // Means over stretches of a fifth of the samples in which the values stay within a tenth of their whole
-// range.
-std::vector<double> means_at_rest(std::span<const double> values) {
+// range. `strict`: they also vary by less than the mean, because a flight between two landings is no rest.
+std::vector<double> means_at_rest(std::span<const double> values, bool strict) {
   constexpr std::size_t kStretches = 5, kFewest = 10;
   std::vector<double> fresh;
   for (const double value : values)
@@ -44,10 +42,12 @@ std::vector<double> means_at_rest(std::span<const double> values) {
   const double whole = range_of(fresh).width();
   for (std::size_t begin = 0; begin + length <= fresh.size(); begin += std::max<std::size_t>(1, length / 4)) {
     const std::span<const double> part(fresh.data() + begin, length);
-    if (range_of(part).width() > 0.1 * whole) continue;
+    const double width = range_of(part).width();
+    if (width > 0.1 * whole) continue;
     double sum = 0.0;
     for (const double value : part) sum += value;
-    means.push_back(sum / static_cast<double>(length));
+    const double mean = sum / static_cast<double>(length);
+    if (!strict || width < std::abs(mean)) means.push_back(mean);
   }
   return means;
 }
@@ -66,38 +66,34 @@ class SignChecker {
     check_name();
     const bool pushes = campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped;
     if (pushes) check_push();
-    const bool drops = campaign_.plant == CampaignPlant::falling_body && trial_.kind == TrialKind::drop;
-    if (drops && recording_.has_time) check_drop();
   }
 
  private:
-  const ColumnMapping* mapping(std::string_view channel) const {
-    const auto found = std::ranges::find(trial_.columns, channel, &ColumnMapping::channel);
-    return found == trial_.columns.end() ? nullptr : &*found;
-  }
-
   void check_rest(std::string_view channel) {
     if (!recording_.has(channel)) return;
-    constexpr double kGravity_mps2 = 9.81, kNear = 0.06;
+    constexpr double kGravity_mps2 = 9.81, kOneG_mps2 = 9.80665, kNear = 0.06;
     const auto near = [](double mean, double value) {
       return std::abs(mean - value) < kNear * std::abs(value);
     };
-    const auto means = means_at_rest(recording_.channel(channel));
-    const auto any_at = [&](double value) {
-      return std::ranges::any_of(means, [&](double mean) { return near(mean, value); });
+    // 16 g: the default of sensors.imu_range_mps2. A hopper's flight on its rail reads the rail's
+    // friction, which may be 1 m/s2, so there a landing must be within that.
+    const double most_g = campaign_.plant == CampaignPlant::hopper ? 16.0 : 200.0;
+    const auto any_at = [&](double value, bool strict) {
+      return std::ranges::any_of(means_at_rest(recording_.channel(channel), strict),
+                                 [&](double mean) { return near(mean, value); });
     };
-    if (any_at(kGravity_mps2)) return;
+    if (any_at(kGravity_mps2, false)) return;
+    const auto means = means_at_rest(recording_.channel(channel), true);
     const double most = range_of(recording_.channel(channel)).most();
     const bool beyond = std::ranges::any_of(means, [&](double mean) { return std::abs(mean) > 1.1; });
     for (const double sign : {1.0, -1.0})
-      if (any_at(sign) && !beyond && most < 200.0)
+      if (any_at(sign, true) && !beyond && most < most_g)
         return add(channel,
                    fmt::format("reads {:.3g} at rest, where gravity alone is 9.81 m/s2: it is in g{}", sign,
                                sign < 0 ? ", and its axis points downward" : ""),
-                   "g", sign * 9.80665);
-    if (any_at(-kGravity_mps2))
-      add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward",
-          "m/s^2", -1.0);
+                   sign * kOneG_mps2);
+    if (any_at(-kGravity_mps2, true))
+      add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward", -1.0);
   }
 
   // Reports a column that is an acceleration without gravity by its name (phones write it); a specific force
@@ -140,8 +136,7 @@ class SignChecker {
     const bool negative = -forces.low > 5.0 * std::max(forces.high, 0.0);
     if (negative)
       return add("force_N",
-                 "is negative where it is largest: a bed pushes, and the channel counts compression", "N",
-                 -1.0);
+                 "is negative where it is largest: a bed pushes, and the channel counts compression", -1.0);
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < pairs_z.size(); ++i)
       if (pairs_force[i] > forces.low + 0.8 * forces.width()) sum += pairs_z[i], count += 1.0;
@@ -150,47 +145,18 @@ class SignChecker {
       add("foot_z_m",
           "is highest where the force is largest: it counts the depth downward, and the channel counts "
           "upward",
-          "m", -1.0);
+          -1.0);
   }
 
-  // A released body ends lower than it started. A thrown body may end anywhere; its set-up states
-  // release_speed_mps.
-  void check_drop() {
-    const auto speed_mps = trial_.number("release_speed_mps");
-    const bool is_thrown = speed_mps && *speed_mps != 0.0;
-    if (is_thrown || !recording_.has("height_m")) return;
-    Range heights;
-    std::vector<double> fresh;
-    for (const double value : recording_.channel("height_m"))
-      if (!std::isnan(value)) heights.take(value), fresh.push_back(value);
-    constexpr std::size_t kFewest = 10;
-    if (fresh.size() < kFewest || !(heights.width() > 0.0)) return;
-    const auto place = [&](double height) { return (height - heights.low) / heights.width(); };
-    if (place(fresh.front()) < 0.2 && place(fresh.back()) > 0.8)
-      add("height_m",
-          "ends highest and begins lowest, where a body that is let go falls: it counts downward, and the "
-          "channel counts upward; a throw says release_speed_mps",
-          "m", -1.0);
-  }
-
-  // Scale of a mapping; `unit` without `scale` gives it.
-  static double factor_of(const ColumnMapping& mapping) {
-    const auto unit = mapping.has_scale ? std::nullopt : read_unit(mapping.unit, true);
-    const auto wanted = unit_of_channel(mapping.channel);
-    return unit && wanted ? factor_between(*unit, *wanted).value_or(mapping.scale) : mapping.scale;
-  }
-
-  void add(std::string_view channel, std::string what, std::string_view unit, double factor) {
-    const auto* m = mapping(channel);
-    const bool stated = m != nullptr && m->is_stated();
-    const double scale = (m == nullptr || unit == "g" ? 1.0 : factor_of(*m)) * factor;
+  // `factor`: from the present values to the true ones; -1 also turns the offset.
+  void add(std::string_view channel, std::string what, double factor) {
+    const auto* used = places_.column_of(channel);
+    const bool stated = used != nullptr && used->is_stated;
+    const bool turned = factor == -1.0;
+    const auto line =
+        used == nullptr ? "" : mapping_line(turned ? reversed(*used) : in_other_unit(*used, factor));
     push_back(channel, std::move(what),
-              stated ? "taken as stated in [columns]"
-                     : fmt::format(
-                           "write {} = {{ column = \"{}\", unit = \"{}\", scale = {:.9g} }} into [columns]",
-                           channel, m == nullptr ? channel : m->column,
-                           m == nullptr || m->unit.empty() || unit == "g" ? unit : std::string_view(m->unit),
-                           scale),
+              stated ? "taken as stated in [columns]" : fmt::format("write {} into [columns]", line),
               stated ? note : trial_unusable);
   }
 

@@ -54,18 +54,6 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
               wanted.text, unit.text, c.channel, c.column, unit.text)};
 }
 
-struct FilesUnit {
-  std::optional<WrittenUnit> unit;
-  std::string_view where;
-};
-
-// Unit in the row of units, else in the column's name.
-FilesUnit unit_in_file(const ColumnUnits& c) {
-  if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
-    return {std::move(unit), "the row of units says"};
-  return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
-}
-
 // `unit` without `scale` does not overrule the file: it may be the channel's unit, copied from an example.
 UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
   c.scale = factor;
@@ -97,6 +85,12 @@ UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
 }
 
 }  // namespace
+
+FilesUnit unit_in_file(const ColumnUnits& c) {
+  if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
+    return {std::move(unit), "the row of units says"};
+  return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
+}
 
 UnitVerdict check_unit(const ColumnUnits& c) {
   const auto wanted = unit_of_channel(c.channel);

@@ -21,6 +21,14 @@ struct ColumnUnits {
   double largest = 0.0;    // Largest number of the column, for the message.
 };
 
+struct FilesUnit {
+  std::optional<WrittenUnit> unit;
+  std::string_view where;
+};
+
+// Unit in the row of units, else in the column's name.
+FilesUnit unit_in_file(const ColumnUnits& column);
+
 // Factor from the column's numbers to the channel's unit, or the contradiction to be resolved first.
 struct UnitVerdict {
   double scale = 1.0;

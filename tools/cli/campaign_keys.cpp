@@ -25,6 +25,7 @@ nlohmann::ordered_json as_json(const BeliefKey& key) {
           {"low", bound(key.range.low)},
           {"high", bound(key.range.high)},
           {"of_this_plant", key.of_this_plant},
+          {"needed", key.is_needed},
           {"used", key.used},
           {"meaning", key.meaning}};
 }
@@ -51,7 +52,9 @@ void say_kinds(Session& session) {
 }
 
 void say_keys(Session& session, CampaignPlant plant, bool every_key) {
-  session.say("\nKeys of nominal.toml, all optional (unit, default, meaning):");
+  session.say(
+      "\nKeys of nominal.toml (unit, default, meaning). State those that are needed; the others are "
+      "optional:");
   auto keys = nlohmann::ordered_json::array();
   std::string table;
   for (const auto& key : belief_keys(plant)) {
@@ -59,7 +62,9 @@ void say_keys(Session& session, CampaignPlant plant, bool every_key) {
     if (!every_key && !key.of_this_plant) continue;
     if (key.table != table) session.say("[{}]", table = key.table);
     session.say("  {:32} {:10} {:10} {}{}", key.key, key.unit, key.default_value, key.meaning,
-                key.used || !key.of_this_plant ? "" : " (not used so far)");
+                key.is_needed                    ? " (needed)"
+                : key.used || !key.of_this_plant ? ""
+                                                 : " (not used so far)");
   }
   session.result["keys"] = keys;
 }

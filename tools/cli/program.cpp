@@ -39,7 +39,12 @@ int complain(const Session& session, const std::string& who, const Complaint& co
   return static_cast<int>(complaint.exit);
 }
 
-Complaint about(const ConfigError& error) {
+// Verbs that read a campaign: the configuration that is wrong is its campaign.toml or its model.
+bool reads_campaign(const std::string& who) {
+  return who.starts_with("hop campaign") || who.starts_with("hop diagnose") || who.starts_with("hop terrain");
+}
+
+Complaint about(const ConfigError& error, const std::string& who) {
   auto problems = nlohmann::ordered_json::array();
   for (const auto& p : error.problems())
     problems.push_back({{"file", p.file},
@@ -51,7 +56,12 @@ Complaint about(const ConfigError& error) {
   return {ExitCode::usage,
           fmt::format("{} in the configuration; nothing was started\n{}",
                       count == 1 ? "one problem" : fmt::format("{} problems", count), error.what()),
-          "config/README.md explains the files; 'hop config check' looks at all of them", problems};
+          reads_campaign(who)
+              ? "the guide's page 'The recording contract' explains campaign.toml and nominal.toml; 'hop "
+                "campaign "
+                "keys PLANT' lists their keys"
+              : "config/README.md explains the files; 'hop config check' looks at all of them",
+          problems};
 }
 
 int run(const std::vector<Verb>& verbs, int argc, char** argv) {
@@ -71,7 +81,7 @@ int run(const std::vector<Verb>& verbs, int argc, char** argv) {
   } catch (const Failure& failure) {
     return complain(session, command_line.understood(), {failure.exit(), failure.what(), failure.cure()});
   } catch (const ConfigError& error) {
-    return complain(session, command_line.understood(), about(error));
+    return complain(session, command_line.understood(), about(error, command_line.understood()));
   } catch (const DeviceError& error) {
     const auto message = std::string_view(error.what());
     return complain(session, command_line.understood(),

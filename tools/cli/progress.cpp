@@ -33,6 +33,19 @@ void Progress::at(double done) {
   if (on_terminal_) draw();
 }
 
+void Progress::at(double done, const std::string& step) {
+  {
+    const std::lock_guard lock(of_step_);
+    step_ = step;
+  }
+  at(done);
+}
+
+std::string Progress::step() const {
+  const std::lock_guard lock(of_step_);
+  return step_.empty() ? "" : fmt::format(" {},", step_);
+}
+
 double Progress::share() const { return total_ > 0.0 ? std::clamp(done_ / total_, 0.0, 1.0) : 0.0; }
 
 double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -45,7 +58,7 @@ void Progress::draw() {
   const auto filled = static_cast<std::size_t>(share() * static_cast<double>(kBarWidth));
   const auto left =
       share() > 0.0 ? fmt::format(", {:.0f} s left", elapsed_s() / share() - elapsed_s()) : std::string();
-  std::fputs(fmt::format("\r{} [{}{}] {:3.0f} %{}\033[K", label_, std::string(filled, '#'),
+  std::fputs(fmt::format("\r{}{} [{}{}] {:3.0f} %{}\033[K", label_, step(), std::string(filled, '#'),
                          std::string(kBarWidth - filled, '.'), share() * 100.0, left)
                  .c_str(),
              stderr);
@@ -59,7 +72,7 @@ void Progress::tell(const std::stop_token& stop) const {
   for (milliseconds wait = kQuietFor;
        !ended.wait_for(lock, stop, wait, [&] { return stop.stop_requested(); }); wait = kLineEvery) {
     const auto part = total_ > 0.0 ? fmt::format(" {:.0f} %,", share() * 100.0) : std::string();
-    std::fputs(fmt::format("{}:{} {:.0f} s so far\n", label_, part, elapsed_s()).c_str(), stderr);
+    std::fputs(fmt::format("{}:{}{} {:.0f} s so far\n", label_, part, step(), elapsed_s()).c_str(), stderr);
     std::fflush(stderr);
   }
 }

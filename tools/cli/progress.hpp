@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -17,11 +18,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void at(double done);  // call it from one thread at a time
+  void at(double done);                           // call it from one thread at a time
+  void at(double done, const std::string& step);  // `step`: shown as the work that is being done
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  std::string step() const;  // " fitting effects,", or empty
   double share() const;
   double elapsed_s() const;
   void draw();
@@ -32,6 +35,8 @@ class Progress {
   bool on_terminal_;
   bool shown_ = false;
   std::atomic<double> done_{0.0};
+  mutable std::mutex of_step_;
+  std::string step_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
   std::jthread teller_;  // last member, so that it stops before the members that it reads are destroyed

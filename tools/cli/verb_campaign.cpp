@@ -43,41 +43,30 @@ nlohmann::ordered_json to_json(const UsedNumber& n) {
   return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
 }
 
-// Prints each finding once, because several trials may share one.
-class Told {
- public:
-  explicit Told(Session& session) : session_(session) {}
-  bool tell(const Finding& finding) {  // returns false if it was printed before
-    auto line = fmt::format("{} ({})", to_string(finding), name_of(finding.severity));
-    if (!told_.insert(line).second) return false;
-    session_.say_line(line);
-    return true;
-  }
-
- private:
-  Session& session_;
-  std::set<std::string> told_;
-};
-
 ExitCode check(Session& session, const Options& options) {
   const auto campaign = load_campaign(options.folder);
-  auto findings = nlohmann::ordered_json::array();
   std::size_t usable = 0;
-  Told told(session);
-  const auto tell = [&](const std::vector<Finding>& found) {
-    for (const auto& finding : found)
-      if (told.tell(finding)) findings.push_back(as_json(finding));
+  std::vector<Finding> found;
+  std::set<std::string> told;  // Trials may share a finding.
+  const auto add = [&](const std::vector<Finding>& more) {
+    for (const auto& finding : more)
+      if (told.insert(to_string(finding)).second) found.push_back(finding);
   };
-  tell(campaign.findings);
+  add(campaign.findings);
   const auto missing = missing_numbers(campaign);
-  tell(missing);
+  add(missing);
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
     const auto recording = read_trial(campaign, trial);
-    tell(recording.findings);
-    usable += recording.usable();
+    add(recording.findings);
+    usable += recording.usable() && std::ranges::all_of(missing, [&](const Finding& number) {
+                return number.severity == FindingSeverity::note || trial.states(number.channel);
+              });
     progress.at(static_cast<double>(trial.index));
   }
+  auto findings = nlohmann::ordered_json::array();
+  for (const auto& finding : found) findings.push_back(as_json(finding));
+  for (const auto& line : in_lines(found, true)) session.say_line(line);
   const auto used = used_numbers(campaign);
   auto numbers = nlohmann::ordered_json::array();
   for (const auto& number : used.numbers) {
@@ -95,8 +84,9 @@ ExitCode check(Session& session, const Options& options) {
                     {"usable", usable},
                     {"findings", findings},
                     {"belief", numbers}};
-  return usable == campaign.trials.size() && campaign.findings.empty() && missing.empty() ? ExitCode::ok
-                                                                                          : ExitCode::no;
+  return usable == campaign.trials.size() && campaign.findings.empty() && !any_unusable(missing)
+             ? ExitCode::ok
+             : ExitCode::no;
 }
 
 ExitCode make(Session& session, const Options& options) {
@@ -123,9 +113,6 @@ ExitCode make(Session& session, const Options& options) {
 }
 
 void write_new(const std::filesystem::path& file, const std::string& text) {
-  if (std::filesystem::exists(file))
-    throw Failure(ExitCode::usage, file.string() + " exists already and is not overwritten",
-                  "name another folder with --output");
   std::ofstream out(file);
   if (!(out << text).flush())
     throw Failure(ExitCode::fault, file.string() + " cannot be written",
@@ -165,15 +152,19 @@ ExitCode import_files(Session& session, const Options& options) {
   }
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
+  for (const auto* name : {"campaign.toml", "nominal.toml"})  // Both or none.
+    if (std::filesystem::exists(folder / name))
+      throw Failure(ExitCode::usage, (folder / name).string() + " exists already and is not overwritten",
+                    "name another folder with --output, or remove the file; nothing was written");
   write_new(folder / "campaign.toml", draft.campaign_toml);
   write_new(folder / "nominal.toml", draft.nominal_toml);
   session.say("{} is taken for:", files.front().string());
   for (const auto& line : draft.said) session.say("  {}", line);
   const auto campaign = load_campaign(folder);
-  Told told(session);
-  for (const auto& finding : campaign.findings) told.tell(finding);
+  auto found = campaign.findings;
   for (const auto& trial : campaign.trials)
-    for (const auto& finding : read_trial(campaign, trial).findings) told.tell(finding);
+    for (auto& finding : read_trial(campaign, trial).findings) found.push_back(std::move(finding));
+  for (const auto& line : in_lines(found, true)) session.say_line(line);
   session.say("wrote {} and nominal.toml: correct what is wrong there, then 'hop campaign check {}'",
               (folder / "campaign.toml").string(), folder.string());
   session.result = {{"folder", folder.string()}, {"plant", name_of(draft.plant)}, {"taken_for", draft.said}};

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/diagnose/answer/diagnosis_json.hpp"
@@ -25,6 +28,7 @@ struct Options {
   bool search = false;
   bool residuals = false;
   bool report = true;
+  double limit_s = std::numeric_limits<double>::infinity();
 };
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -82,35 +86,36 @@ ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& fold
   nothing.notes.push_back(
       fmt::format("none of {} trials can be used: correct what is said about them", trials));
   session.result = sandhopper::diagnose::to_json(nothing);
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say("no verdict: {}", nothing.notes.front());
   return ExitCode::no;
 }
 
 ExitCode diagnose(Session& session, const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
   const Campaign campaign = load_campaign(options.campaign);
+  Progress progress("diagnosing", 1.0);
+  progress.at(0.0, "reading the recordings");
   const auto input = sandhopper::diagnose::read_campaign(campaign);
-  for (const auto& finding : input.findings) session.say_line(to_string(finding));
+  for (const auto& line : in_lines(input.findings, false)) session.say_line(line);
   const std::filesystem::path folder =
       options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
+  made(folder);  // before the work: a folder that cannot be made is said at once
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;
   const auto used = used_numbers(campaign);
   engine.belief = believed(used);
-  Progress progress("diagnosing", 1.0);
-  engine.progress = [&](double share, const std::string& text) {
-    progress.at(share);
-    if (!text.empty()) session.say("{} (being weighed)", text);
+  engine.progress = [&](double share, const char* step) { progress.at(share, step); };
+  engine.first_verdict = [&](const std::string& verdict) {
+    session.say("first verdict: {} (being weighed)", verdict);
   };
+  engine.stop = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > options.limit_s; };
   const auto diagnosis = sandhopper::diagnose::diagnose(input.recordings, engine);
   if (options.search)
     for (const auto& line : diagnosis.log) session.say_line(line);
   session.result = sandhopper::diagnose::to_json(diagnosis);
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
   tell_belief(session, used, diagnosis.belief);
@@ -127,11 +132,11 @@ ExitCode diagnose(Session& session, const Options& options) {
   if (options.report) {
     const auto page = folder / "diagnosis.html";
     sandhopper::diagnose::PageFacts facts{campaign.name, std::string(name_of(campaign.plant)), {}};
-    for (const auto& finding : input.findings) facts.findings.push_back(to_string(finding));
+    facts.findings = in_lines(input.findings, false);
     sandhopper::diagnose::write_diagnosis_page(diagnosis, facts, page);
     session.say("page: {}", page.string());
   }
-  return ExitCode::ok;
+  return diagnosis.verdict == sandhopper::diagnose::Verdict::insufficient_time ? ExitCode::no : ExitCode::ok;
 }
 
 Run set_up(Arguments& arguments) {
@@ -139,6 +144,11 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml").required();
   arguments.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
   arguments.add_flag("!--no-report", options->report, "write no page");
+  arguments
+      .add_option(
+          "--limit-s", options->limit_s,
+          "end the search at the first whole step after this many seconds and answer with what is known")
+      .in_range(0.0, 1e9);
   arguments.add_flag("--search", options->search, "also print what was tried");
   arguments.add_flag("--residuals", options->residuals,
                      "also write residuals.csv: recorded minus simulated, before and after, of every row");

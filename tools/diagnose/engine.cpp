@@ -92,9 +92,19 @@ struct Settled {
   std::vector<Point> starts;  // Further start points for the search.
 };
 
+// Share of the work at the start of each step, as a rule.
+constexpr double kOfNull = 0.02, kOfNoise = 0.06, kOfSearch = 0.1, kOfSecondSearch = 0.5, kOfRest = 0.85,
+                 kOfErrors = 0.9, kOfBounds = 0.93, kOfNextTrial = 0.97;
+
 // Fits the null (nothing missing) and estimates the noise there.
-Settled settled_null(Problem& problem) {
+Settled settled_null(Problem& problem, const EngineOptions& options) {
+  options.progress(kOfNull, "fitting the belief as it is");
   Point null = fit_from(problem, null_point(problem), kFirst).point;
+  if (options.stop()) {
+    keep_columns(problem, null);
+    return {std::move(null), {}};
+  }
+  options.progress(kOfNoise, "estimating the noise");
   update_noise(problem, null);
   keep_columns(problem, null);
   null = fit_from(problem, null, kHere).point;
@@ -107,10 +117,11 @@ Settled settled_null(Problem& problem) {
 // Start points for a large campaign of a costly plant: search a subset of the trials and return its best
 // points.
 std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, const Point& null,
-                                 const SearchOptions& options) {
+                                 const SearchOptions& options, const EngineOptions& engine) {
   Prepared some = prepare(spread_over(clean, kSearchedTrials));
-  const Settled of_some = settled_null(some.problem);
+  const Settled of_some = settled_null(some.problem, engine);
   Search search(some.problem, options);
+  search.stop_when(engine.stop);
   search.run(of_some.null, of_some.starts);
   problem.simulations += some.problem.simulations;
   return carried_over(some.problem, search.best_points(kSeeds), problem, null);
@@ -127,7 +138,9 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   // Cheap simulation: fit more candidates of each screen, and proposals.
   if (!problem.plant->is_costly())
     search_options.fits_per_screen = search_options.proposals = problem.rows() < kManyRows ? 10 : 6;
-  search_options.progress = [&](double share, const char*) { options.progress(0.45 * share, ""); };
+  search_options.progress = [&](double share, const char* step) {
+    options.progress(kOfSearch + (kOfSecondSearch - kOfSearch) * share, step);
+  };
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
   // If the residual hides nearly everything else and the force balances already show a law, restrict the
   // search to the nearest candidates.
@@ -137,18 +150,20 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   }
   std::vector<Point> seeds = settled.starts;
   if (problem.plant->is_costly() && problem.trials.size() > kManyTrialsInAll) {
-    seeds = seeds_of_some(problem, clean, null, search_options);
+    seeds = seeds_of_some(problem, clean, null, search_options, options);
     search_options.most_effects = search_options.fits_per_screen = search_options.fits_of_singles = 0;
     search_options.straight = false;
   }
   Search search(problem, search_options);
+  search.stop_when(options.stop);
   search.run(null, seeds);
   log_sets(problem, search, diagnosis);
   // If the listed effects leave far more than the noise and the force balances show a law, a second search
   // would not help.
-  if (search.best().set.empty() || (misfit_of(problem, search).noticeable && balance())) return search;
+  if (search.best().set.empty()) return search;
+  options.first_verdict(set_text(problem, search.best().set));
+  if (search.stopped() || (misfit_of(problem, search).noticeable && balance())) return search;
 
-  options.progress(0.45, "first verdict: " + set_text(problem, search.best().set));
   const NoiseModel noise = problem.noise;
   const auto used = problem.used;
   const auto errors = problem.model_error;
@@ -156,20 +171,32 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
   const double change = noise_change(noise, problem.noise);
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own, changed by {:.3f}",
                                       noise_over_sensors(problem), change));
-  if (change < kSameNoise) {
+  const auto back_to_first = [&] {
     problem.used = used;
     problem.noise = noise;
     take_model_error(problem, errors);
+  };
+  if (change < kSameNoise) {
+    back_to_first();
     return search;
   }
   keep_columns(problem, search.null().fit.point);
-  search_options.progress = [&](double share, const char*) { options.progress(0.45 + 0.45 * share, ""); };
+  search_options.progress = [&](double share, const char* step) {
+    options.progress(kOfSecondSearch + (kOfRest - kOfSecondSearch) * share, step);
+  };
   // The best points of the first search only need another fit.
   search_options.most_effects = options.most_effects;
   search_options.fits_per_screen = search_options.fits_of_singles = 3;
   search_options.straight = false;
   Search second(problem, search_options);
+  second.stop_when(options.stop);
   second.run(search.null().fit.point, search.best_points(kSeeds));
+  if (second.stopped()) {  // The first search was complete: its answer stands.
+    back_to_first();
+    keep_columns(problem, search.null().fit.point);
+    search.set_stopped();
+    return search;
+  }
   diagnosis.log.emplace_back("second round");
   log_sets(problem, second, diagnosis);
   return second;
@@ -247,28 +274,87 @@ void drop_names_in_vain(const Problem& problem, Search& search, Diagnosis& diagn
   search.name_nothing();
 }
 
-// Reports everything besides the verdict: errors, places, bounds, next trial, corrected model.
+// The search, repeated without what happened once in a recording.
+Search searched_without_events(Prepared& prepared, Recordings& clean, const EngineOptions& options,
+                               BalanceLaw& balance, Diagnosis& diagnosis) {
+  Problem& problem = prepared.problem;
+  Settled settled = settled_null(problem, options);
+  diagnosis.simple = simple_answers(problem, settled.null);
+  Search search = searched(problem, clean, settled, options, balance, diagnosis);
+  if (search.stopped()) return search;
+  const auto events = find_events(problem, search.best().fit.point);
+  if (events.empty()) return search;
+  report_events(problem, events, diagnosis);
+  diagnosis.log.emplace_back("without what happened once");
+  leave_out(events, problem, clean);
+  const auto simulations = problem.simulations;
+  prepared = prepare(clean);
+  problem.simulations += simulations;
+  settled = settled_null(problem, options);
+  diagnosis.simple = simple_answers(problem, settled.null);
+  balance = BalanceLaw(problem, clean);
+  return searched(problem, clean, settled, options, balance, diagnosis);
+}
+
+Unexplained what_is_left(const Problem& problem, Search& search, const Belief& belief, bool faults,
+                         BalanceLaw& balance, Diagnosis& diagnosis) {
+  auto rest = unexplained_by(problem, search, belief, faults, balance, diagnosis.log);
+  // If a listed effect explains the rest as well as the free law, name it, however small it is.
+  if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
+    drop_names_in_vain(problem, search, diagnosis);
+    rest = unexplained_by(problem, search, belief, faults, balance, diagnosis.log);
+  }
+  return rest;
+}
+
+// Reports everything besides the verdict: errors, places, bounds, next trial, corrected model. After a limit
+// of time only what follows from the fits at hand.
 void report_around(Problem& problem, const Recordings& recordings, const Recordings& clean,
                    const Posterior& belief, const Unexplained& rest, const Point& answer, Search& search,
-                   Diagnosis& diagnosis) {
+                   const EngineOptions& options, Diagnosis& diagnosis) {
+  const bool stopped = search.stopped();
+  options.progress(kOfErrors, "comparing with held-out trials");
   const Residuals residuals = residuals_of(problem, search.null().fit.point, answer);
   report_errors(problem, residuals, diagnosis);
   report_trial_to_trial(problem, search, diagnosis);
   report_residuals(problem, residuals, diagnosis);
-  report_absent(problem, search, diagnosis);
-  report_belief(problem, search.best().fit.point, diagnosis);
+  options.progress(kOfBounds, "bounding absent effects");
+  if (!stopped) report_absent(problem, search, diagnosis);
+  if (!stopped) report_belief(problem, search.best().fit.point, diagnosis);
   report_where(problem, search, residuals, diagnosis);
   report_traces(problem, clean, residuals, diagnosis);
-  propose_next_trial(problem, clean, search, belief, rest.law ? &*rest.law : nullptr, diagnosis);
+  options.progress(kOfNextTrial, "choosing the next trial");
+  if (!stopped)
+    propose_next_trial(problem, clean, search, belief, rest.law ? &*rest.law : nullptr, diagnosis);
   if (!diagnosis.effects.empty())
     diagnosis.corrected_model_toml = corrected_model(recordings, problem, diagnosis);
 }
 
+// The answer after a limit of time that ended the search before an effect was found needed.
+void report_too_little_time(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
+  diagnosis.verdict = Verdict::insufficient_time;
+  report_data_faults(faults, diagnosis);
+}
+
 }  // namespace
 
-Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
+Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   const auto start = std::chrono::steady_clock::now();
   Diagnosis diagnosis;
+  const char* step = "";
+  EngineOptions options = asked;
+  double furthest = 0.0;  // A search that is repeated does not go back.
+  options.progress = [&](double share, const char* begun) {
+    furthest = std::max(furthest, share);
+    asked.progress(furthest, step = begun);
+  };
+  const auto finished = [&](const Problem& problem) {
+    diagnosis.simulations = problem.simulations;
+    diagnosis.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    asked.progress(1.0, "");
+    return diagnosis;
+  };
+  options.progress(0.0, "preparing the trials");
   Recordings clean = recordings;
   auto faults = remove_data_faults(clean.trials);
   note_what_is_no_fault(faults, clean, diagnosis);
@@ -283,32 +369,19 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
     report_data_faults(faults, diagnosis);
     return diagnosis;
   }
-  options.progress(0.0, "");
-  Settled settled = settled_null(problem);
-  diagnosis.simple = simple_answers(problem, settled.null);
   BalanceLaw balance(problem, clean);
-  Search search = searched(problem, clean, settled, options, balance, diagnosis);
-  if (const auto events = find_events(problem, search.best().fit.point); !events.empty()) {
-    report_events(problem, events, diagnosis);
-    diagnosis.log.emplace_back("without what happened once");
-    leave_out(events, problem, clean);
-    const auto simulations = problem.simulations;
-    prepared = prepare(clean);
-    problem.simulations += simulations;
-    settled = settled_null(problem);
-    diagnosis.simple = simple_answers(problem, settled.null);
-    balance = BalanceLaw(problem, clean);
-    search = searched(problem, clean, settled, options, balance, diagnosis);
-  }
+  Search search = searched_without_events(prepared, clean, options, balance, diagnosis);
+  if (search.stopped()) diagnosis.stopped_in = step;
   drop_names_in_vain(problem, search, diagnosis);
-  if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
-  options.progress(0.9, "");
-  Unexplained rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
-  // If a listed effect explains the rest as well as the free law, name it, however small it is.
-  if (rest.unknown && rest.law && search.name_small(rest.remainder())) {
-    drop_names_in_vain(problem, search, diagnosis);
-    rest = unexplained_by(problem, search, clean.belief, !faults.empty(), balance, diagnosis.log);
+  if (search.stopped() && search.best().set.empty()) {
+    report_too_little_time(faults, diagnosis);
+    return finished(problem);
   }
+  if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);
+  options.progress(kOfRest, "looking for what no listed effect explains");
+  Unexplained rest = search.stopped()
+                         ? Unexplained()
+                         : what_is_left(problem, search, clean.belief, !faults.empty(), balance, diagnosis);
   Point answer = search.best().fit.point;
   if (rest.law && (rest.unknown || !search.best().set.empty()))
     answer = with_law_fitted(problem, search.best().fit, *rest.law);
@@ -317,11 +390,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& options) {
   report_verdict(problem, search, belief, rest, diagnosis);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);
-  report_around(problem, recordings, clean, belief, rest, answer, search, diagnosis);
-  diagnosis.simulations = problem.simulations;
-  diagnosis.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  options.progress(1.0, "");
-  return diagnosis;
+  report_around(problem, recordings, clean, belief, rest, answer, search, options, diagnosis);
+  return finished(problem);
 }
 
 }  // namespace sandhopper::diagnose

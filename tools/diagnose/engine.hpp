@@ -12,8 +12,13 @@ struct EngineOptions {
   bool tell_evidence = false;  // Append the posterior mass of the best sets to the log.
   // Copied to the answer, which adds its results for each of these numbers.
   std::vector<BelievedNumber> belief{};
-  // Called with the fraction of work done. The first text that is not empty is the preliminary verdict.
-  std::function<void(double share, const std::string& text)> progress = [](double, const std::string&) {};
+  // Called with the fraction of work done and the step that begins.
+  std::function<void(double share, const char* step)> progress = [](double, const char*) {};
+  // Called once with the preliminary verdict.
+  std::function<void(const std::string& verdict)> first_verdict = [](const std::string&) {};
+  // Asked before each whole step (the fit of a set of effects). Once true, the answer is what is known so
+  // far, and Diagnosis::stopped_in names the step.
+  std::function<bool()> stop = [] { return false; };
 };
 
 // Finds the differences between the recordings and the belief. Deterministic.

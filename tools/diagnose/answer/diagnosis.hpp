@@ -187,6 +187,9 @@ struct Diagnosis {
   std::uint64_t simulations = 0;
   double seconds = 0.0;
   std::vector<std::string> log;  // log of the search
+  // The step in which a limit of time ended the search; empty if the search was complete. Bounds of absent
+  // effects, the check for unlisted physics and the next trial are then missing.
+  std::string stopped_in;
 };
 
 }  // namespace sandhopper::diagnose

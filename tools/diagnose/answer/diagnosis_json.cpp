@@ -111,7 +111,8 @@ Json to_json(const Diagnosis& d) {
   for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
   json["where"] = list_of(d.where, where_json);
   json["effects"] = list_of(d.effects, effect_json);
-  json["gap_closed"] = d.effects.empty() ? Json(nullptr) : Json(d.gap_closed);
+  if (!d.stopped_in.empty()) json["stopped_by_limit_in"] = d.stopped_in;
+  json["gap_closed"] = d.effects.empty() || !d.stopped_in.empty() ? Json(nullptr) : Json(d.gap_closed);
   json["fit"] = d.fits.empty() ? Json(nullptr) : fit_json(d.fits.front());
   if (!d.fits.empty()) json["fit_by_channel"] = list_of(d.fits, fit_json);
   json["next_trial"] = next_json(d.next);

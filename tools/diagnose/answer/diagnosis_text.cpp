@@ -99,6 +99,8 @@ std::string headline(const Diagnosis& d) {
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
   if (d.verdict == Verdict::insufficient_data)
     return fmt::format("{} trials are too little to say.", d.trials);
+  if (d.verdict == Verdict::insufficient_time)
+    return "The limit of time ended the search before anything was known: give it more (--limit-s).";
   if (d.verdict == Verdict::unknown_physics)
     return explains_little(d)
                ? "Something is missing that is on no list, and nothing that was tried explains half of it: "
@@ -129,8 +131,18 @@ double simulations_per_second(const Diagnosis& d) {
   return static_cast<double>(d.simulations) / std::max(d.seconds, 1e-3);
 }
 
+std::string limit_text(const Diagnosis& d) {
+  if (d.stopped_in.empty()) return "";
+  return fmt::format(
+      "The limit of time ended the search while {}. What follows is known so far: another set of effects may "
+      "explain the recordings better. Not looked at: physics on no list, bounds of absent effects, the next "
+      "trial.",
+      d.stopped_in);
+}
+
 std::string to_text(const Diagnosis& d) {
   std::string text = fmt::format("verdict: {}. {}\n", name_of(d.verdict, d.detail), headline(d));
+  if (const auto limit = limit_text(d); !limit.empty()) text += "limit  " + limit + "\n";
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
   for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);

@@ -8,6 +8,9 @@ namespace sandhopper::diagnose {
 // The verdict as one sentence.
 std::string headline(const Diagnosis& diagnosis);
 
+// What a limit of time left out, as two sentences; empty if the search was complete.
+std::string limit_text(const Diagnosis& diagnosis);
+
 double simulations_per_second(const Diagnosis& diagnosis);
 
 // The answer as text: verdict, effects, places, errors before and after, next trial, the widest bounds,

@@ -16,7 +16,7 @@ constexpr double kSeenDirectly = 0.97;  // probability of findings that the reco
 constexpr double kNearProbability = 0.5;
 
 void found_without_a_fit(Diagnosis& diagnosis, Detail detail) {
-  if (diagnosis.verdict != Verdict::consistent && diagnosis.verdict != Verdict::insufficient_data) return;
+  if (diagnosis.verdict != Verdict::consistent && !is_open(diagnosis.verdict)) return;
   diagnosis.verdict = Verdict::missing_physics;
   diagnosis.detail = detail;
 }

@@ -85,7 +85,7 @@ std::string port_in_cell(const Problem& problem, const Search& search, const Res
 // Cells with p < 0.05 and more than 3 % of the excess are reported.
 void report_where(const Problem& problem, const Search& search, const Residuals& residuals,
                   Diagnosis& diagnosis) {
-  if (diagnosis.verdict == Verdict::consistent || diagnosis.verdict == Verdict::insufficient_data) return;
+  if (diagnosis.verdict == Verdict::consistent || is_open(diagnosis.verdict)) return;
   const auto& residual = residuals.before;
   const std::size_t channels = problem.channels.size(), phases = problem.phases.size();
   double whole = 0.0;

@@ -10,7 +10,19 @@ namespace sandhopper::diagnose {
 // insufficient_data: too few trials. consistent: no effect is needed. missing_physics: listed effects, or
 // faults of the data, explain the difference. unknown_physics: something unlisted is needed, and the listed
 // effects explain less than half of the difference or are not probable.
-enum class Verdict : std::uint8_t { insufficient_data, consistent, missing_physics, unknown_physics };
+// insufficient_time: a limit of time ended the search before an effect was found needed.
+enum class Verdict : std::uint8_t {
+  insufficient_data,
+  consistent,
+  missing_physics,
+  unknown_physics,
+  insufficient_time
+};
+
+// True if nothing is said about the physics.
+constexpr bool is_open(Verdict verdict) {
+  return verdict == Verdict::insufficient_data || verdict == Verdict::insufficient_time;
+}
 
 // Kind of a verdict. known: listed effects only. one_of_class: listed effects of which some cannot be
 // distinguished from others. known_and_rest: listed effects, and something unlisted. data_fault: only the
@@ -28,8 +40,8 @@ enum class Detail : std::uint8_t {
 };
 
 // Their names in diagnosis.json, text and page, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 4> kVerdictNames{"insufficient_data", "consistent",
-                                                               "missing_physics", "unknown_physics"};
+inline constexpr std::array<std::string_view, 5> kVerdictNames{
+    "insufficient_data", "consistent", "missing_physics", "unknown_physics", "insufficient_time"};
 inline constexpr std::array<std::string_view, 8> kDetailNames{
     "null",           "too_little_data", "known",           "one_of_class",
     "known_and_rest", "data_fault",      "unknown_at_port", "unknown_not_localised"};

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "tools/diagnose/discrepancy/left_over.hpp"
-#include "tools/diagnose/evidence/proposals.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 
@@ -18,14 +17,10 @@ namespace {
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 // Prior odds: "something is missing" against "one more effect is missing".
 constexpr double kLikelierThanOneMore = 2.0;
-constexpr double kLinearError =
-    0.05;  // Error of a proposal's linear deviance, relative to the explained deviance.
 // Prior of ln(size / typical): standard deviation below and above 1. Small effects are common. Large sizes
 // are suspect: two effects that nearly cancel each other are both many times their typical size.
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
-// Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
-constexpr double kCaught = 3.0;
 
 constexpr FitOptions kRough{
     .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // Settings for the first fit of a set.
@@ -165,6 +160,7 @@ void Search::evaluate_straight(const SetFit& from) {
        screen(*problem_, straight, &columns, signatures_at(*problem_, straight, {.laws = false})))
     hold(added.candidate, added.values);
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
+    if (over()) return;
     if (straight.hypothesis.contains(c)) continue;
     const auto& p = problem_->candidates[c].parameters[0];
     for (auto values : shape_choices(problem_->candidates[c])) {
@@ -182,7 +178,7 @@ void Search::evaluate_straight(const SetFit& from) {
   for (const auto& [candidate, one] : nearest) order.push_back(&one);
   std::ranges::sort(order, {}, &Nearest::deviance);
   double closest = from.fit.deviance;
-  for (std::size_t i = 0; i < kStraightFits && i < order.size(); ++i)
+  for (std::size_t i = 0; i < kStraightFits && i < order.size() && !over(); ++i)
     fit_straight(from, order[i]->start, columns, closest);
 }
 
@@ -219,13 +215,17 @@ bool Search::unbends(const Fit& without, const Fit& with) const {
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
+  if (over()) return;
   const SetFit parent = sets_.at(from);
+  options_.progress(share_, "screening effects");
   const auto candidates = screened(from);
   std::size_t done = 0;
   for (const auto& s : candidates) {
     if (done >= fits || s.gain < kWorthAFit ||
-        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain))
+        (done >= 3 && s.gain < options_.hopeless * candidates.front().gain) || over())
       break;
+    const double part = static_cast<double>(done) / static_cast<double>(std::min(fits, candidates.size()));
+    options_.progress(share_ + share_of_screen_ * part, "fitting effects");
     evaluate(parent, s);
     ++done;
   }
@@ -245,9 +245,10 @@ Fit Search::fit_at(const Point& start, FitOptions options) const {
 
 // Removes each effect of the best set in turn and tries all others in its place.
 void Search::exchange() {
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 && !over(); ++round) {
     const auto before = best_;
     for (const auto candidate : before) {
+      if (over()) break;
       const auto rest = without(before, candidate);
       fit_part(SetFit(sets_.at(before)), rest);
       expand(rest, options_.fits_per_screen);
@@ -262,6 +263,7 @@ void Search::exchange() {
 void Search::restart_null() {
   std::set<std::vector<std::size_t>> started_from;
   for (int round = 0; round < kNullRestarts; ++round) {
+    if (over()) return;
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
     if (round == 0 && options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
@@ -285,48 +287,6 @@ void Search::restart_null() {
   }
 }
 
-// Fits the sets that `propose` scores best at the best point. Returns true if a set was new or improved.
-bool Search::try_proposals() {
-  const Point from = best().fit.point;
-  const double cost = cost_of_an_effect();
-  const double explained = null().fit.deviance - best().fit.deviance;
-  const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
-                       kWorthAFit + kLinearError * explained;
-  bool tried = false;
-  for (const auto& proposal :
-       propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
-    auto set = proposal.start.candidates;
-    std::sort(set.begin(), set.end());
-    if (proposal.deviance > limit) continue;
-    const auto before = sets_.find(set);
-    const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
-    // An earlier fit of the set may have stopped above the deviance that the proposal predicts: fit it again.
-    if (before != sets_.end() && before->second.fit.deviance < promised + kCaught * dispersion_) continue;
-    SetFit fit;
-    fit.set = set;
-    Point start = from;
-    start.hypothesis = proposal.start;
-    fit.fit = fit_at(start, {.of_use_below = limit + kRival * dispersion_});
-    if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
-    sets_[set] = std::move(fit);
-    tried = true;
-  }
-  if (tried) choose_best();
-  return tried;
-}
-
-void Search::fit_seeds(const std::vector<Point>& seeds) {
-  if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
-  for (const auto& seed : seeds) {
-    SetFit fit;
-    fit.set = seed.hypothesis.candidates;
-    std::sort(fit.set.begin(), fit.set.end());
-    fit.rough = true;
-    fit.fit = fit_at(seed, kRough);
-    sets_[fit.set] = std::move(fit);
-  }
-}
-
 const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   sets_.clear();
   screens_.clear();
@@ -336,17 +296,32 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
   restart_null();
-  fit_seeds(seeds);
+  if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
+  for (const auto& seed : seeds) {
+    if (over()) break;
+    SetFit fit;
+    fit.set = seed.hypothesis.candidates;
+    std::sort(fit.set.begin(), fit.set.end());
+    fit.rough = true;
+    fit.fit = fit_at(seed, kRough);
+    sets_[fit.set] = std::move(fit);
+  }
+  grow_sets();
+  if (!over()) improve();
+  return best();
+}
+
+// Sets of one effect, then each of the nearest ones with one more, and so on.
+void Search::grow_sets() {
   std::vector<std::vector<std::size_t>> front{{}};
-  for (std::size_t size = 1; size <= options_.most_effects; ++size) {
+  const double sizes = static_cast<double>(options_.most_effects + 1);
+  for (std::size_t size = 1; size <= options_.most_effects && !over(); ++size) {
     // Only for the nearest set: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
     if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
+    share_of_screen_ = 1.0 / (sizes * static_cast<double>(front.size()));
     for (std::size_t i = 0; i < front.size(); ++i) {
-      options_.progress(
-          (static_cast<double>(size - 1) + static_cast<double>(i) / static_cast<double>(front.size())) /
-              static_cast<double>(options_.most_effects + 1),
-          "trying effects");
+      share_ = static_cast<double>(size - 1) / sizes + share_of_screen_ * static_cast<double>(i);
       expand(front[i], size == 1 ? options_.fits_of_singles : options_.fits_per_screen);
     }
     std::vector<const SetFit*> grown;
@@ -366,20 +341,34 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
         front.push_back(fit->set);
     if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
   }
+}
+
+// Exchanges, deletions and proposals around the best set.
+void Search::improve() {
+  const double all =
+      static_cast<double>(options_.most_effects) / static_cast<double>(options_.most_effects + 1);
+  const auto at = [&](double part, const char* what) {
+    share_ = all + (1.0 - all) * part;
+    share_of_screen_ = 0.0;
+    options_.progress(share_, what);
+  };
+  at(0.0, "exchanging effects");
   borrow(sets_.at({}));
   exchange();
+  at(0.4, "leaving effects out");
   const auto before = best_;
   prune();
   if (best_ != before) exchange();
+  at(0.6, "trying other sets");
   for (int round = 0; round < 3 && options_.proposals > 0; ++round) {
     const auto so_far = best_;
-    if (!try_proposals() || best_ == so_far) break;
+    if (over() || !try_proposals() || best_ == so_far) break;
     prune();
   }
+  at(0.8, "completing the fits of rivals");
   finish_rivals();
   grow_best();
   settle_best();
-  return best();
 }
 
 }  // namespace sandhopper::diagnose

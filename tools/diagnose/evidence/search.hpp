@@ -62,6 +62,9 @@ class Search {
  public:
   Search(const Problem& problem, const SearchOptions& options) : problem_(&problem), options_(options) {}
 
+  // `over` is asked before each fit of a set. Once true, the search ends with the sets fitted so far.
+  void stop_when(std::function<bool()> over) { is_over_ = std::move(over); }
+
   // Returns the set that explains most, with every effect needed. `start`: a point without effects whose
   // nuisance parameters are the start values. `seeds`: sets to fit first, from these points.
   const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
@@ -86,8 +89,13 @@ class Search {
   // best-fitting set: a set with its own dispersion would be rewarded for fitting badly.
   double criterion(const SetFit& fit) const;
   double dispersion() const { return dispersion_; }
+  bool stopped() const { return stopped_; }  // True if it ended before its time.
+  void set_stopped() { stopped_ = true; }    // A later search with better noise was ended in its place.
 
  private:
+  bool over() { return stopped_ = stopped_ || is_over_(); }
+  void grow_sets();
+  void improve();
   double criterion(const SetFit& fit, double dispersion) const;
   double cost_of_an_effect() const;  // Penalty per effect, including its first parameter.
   double cost_of_a_parameter() const;
@@ -95,7 +103,6 @@ class Search {
   void evaluate_straight(const SetFit& from);
   void fit_straight(const SetFit& from, const Point& start, const std::vector<KeptColumns>& columns,
                     double& closest);
-  void fit_seeds(const std::vector<Point>& seeds);
   bool is_bent(const Fit& fit) const;
   bool unbends(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);
@@ -125,6 +132,9 @@ class Search {
   std::vector<std::size_t> best_;
   std::vector<KeptColumns> columns_;  // Derivatives at the best set; empty while that is the null.
   double dispersion_ = 1.0;
+  std::function<bool()> is_over_ = [] { return false; };
+  bool stopped_ = false;
+  double share_ = 0.0, share_of_screen_ = 0.0;  // Progress at the start of a screen, and its part.
 };
 
 }  // namespace sandhopper::diagnose

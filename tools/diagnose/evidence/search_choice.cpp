@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tools/diagnose/evidence/proposals.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
@@ -19,6 +20,10 @@ constexpr double kSurely = 1e-8;
 constexpr double kPromiseShort = 1.5;
 // Fraction of the gain of a law of free form that a set must explain to replace the law.
 constexpr double kNearlyAll = 0.9;
+constexpr double kLinearError =
+    0.05;  // Error of a proposal's linear deviance, relative to the explained deviance.
+// Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
+constexpr double kCaught = 3.0;
 
 std::vector<std::size_t> named_part(const SetFit& fit) {
   std::vector<std::size_t> part;
@@ -70,7 +75,7 @@ void Search::finish_rivals() {
     if (set.size() <= best_.size()) order.push_back(&fit);
   std::ranges::sort(order, {}, [&](const SetFit* fit) { return criterion(*fit); });
   bool ahead = false;
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (std::size_t i = 0; i < order.size() && !over(); ++i) {
     SetFit& fit = *order[i];
     const bool near = i <= kNearestRivals && criterion(fit) < far;
     if (!fit.rough || (!near && criterion(fit) - kPromiseShort * fit.fit.promised / dispersion_ >= limit))
@@ -94,7 +99,7 @@ void Search::grow_best() {
     return added->p_value < kSurely &&
            criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
   };
-  for (bool grown = true; grown && best_.size() < options_.most_effects;) {
+  for (bool grown = true; grown && best_.size() < options_.most_effects && !over();) {
     std::vector<SetFit*> order;
     for (auto& [set, fit] : sets_)
       if (!best_.empty() && set.size() == best_.size() + 1 && std::ranges::includes(set, best_) &&
@@ -211,7 +216,7 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
 // A set may fit better than the best one but hold an effect it does not need. Fit it without that effect:
 // forward search may never have reached the smaller set.
 void Search::prune() {
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 && !over(); ++round) {
     std::vector<const SetFit*> order;
     for (const auto& [set, fit] : sets_)
       if (fit.judged && !fit.needed && fit.fit.deviance <= best().fit.deviance) order.push_back(&fit);
@@ -227,10 +232,42 @@ void Search::prune() {
       if (!part.empty() && part.size() < fit->set.size()) wholes.emplace(part, *fit);
     }
     bool tried = false;
-    for (const auto& [part, whole] : wholes) tried = fit_part(whole, part) || tried;
+    for (const auto& [part, whole] : wholes)
+      if (!over()) tried = fit_part(whole, part) || tried;
     if (!tried) return;
     choose_best();
   }
+}
+
+// Fits the sets that `propose` scores best at the best point. Returns true if a set was new or improved.
+bool Search::try_proposals() {
+  const Point from = best().fit.point;
+  const double cost = cost_of_an_effect();
+  const double explained = null().fit.deviance - best().fit.deviance;
+  const double limit = best().fit.deviance + cost * dispersion_ * static_cast<double>(best_.size()) +
+                       kWorthAFit + kLinearError * explained;
+  bool tried = false;
+  for (const auto& proposal :
+       propose(*problem_, from, options_.most_effects, options_.proposals, cost * dispersion_)) {
+    auto set = proposal.start.candidates;
+    std::sort(set.begin(), set.end());
+    if (over()) break;
+    if (proposal.deviance > limit) continue;
+    const auto before = sets_.find(set);
+    const double promised = proposal.deviance - cost * dispersion_ * static_cast<double>(set.size());
+    // An earlier fit of the set may have stopped above the deviance that the proposal predicts: fit it again.
+    if (before != sets_.end() && before->second.fit.deviance < promised + kCaught * dispersion_) continue;
+    SetFit fit;
+    fit.set = set;
+    Point start = from;
+    start.hypothesis = proposal.start;
+    fit.fit = fit_at(start, {.of_use_below = limit + kRival * dispersion_});
+    if (before != sets_.end() && before->second.fit.deviance <= fit.fit.deviance) continue;
+    sets_[set] = std::move(fit);
+    tried = true;
+  }
+  if (tried) choose_best();
+  return tried;
 }
 
 bool Search::name_small(double gain) {

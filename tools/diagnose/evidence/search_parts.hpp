@@ -15,7 +15,8 @@ inline constexpr double kSmallestOfTypical = 0.08;
 inline constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that justifies a fit.
 // Sets within this fraction of the explained deviance are extended or used as start points.
 inline constexpr double kNearlyAsGood = 0.35;
-inline constexpr double kRival = 20.0;  // Largest distance in the criterion at which a rival's fit is completed.
+inline constexpr double kRival =
+    20.0;  // Largest distance in the criterion at which a rival's fit is completed.
 
 // The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {

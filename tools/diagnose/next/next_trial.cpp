@@ -318,7 +318,9 @@ void propose_within(const Reach& reach, Problem& problem, const Recordings& reco
   const PlannedTrials planned(problem,
                               problem.plant->doable(recordings.trials, recordings.belief, edits, reach));
   if (planned.size() == 0) {
-    next.why = "No trial can be planned from the set-ups of this campaign.";
+    next.why =
+        "No trial can be planned from the set-ups of this campaign. List what can be set for the next one "
+        "under [available] in campaign.toml (guide: The recording contract).";
     return;
   }
   if (!diagnosis.unknown.empty() && rest != nullptr)

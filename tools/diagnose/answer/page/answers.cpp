@@ -89,8 +89,9 @@ std::string parameters_of(const FoundEffect& e) {
 StudyAnswer what(const Diagnosis& d) {
   StudyAnswer box{"What", {}, {}, 3};
   if (nothing_found(d)) {
-    box.lines.emplace_back(Style::lead,
-                           d.verdict == Verdict::consistent ? "Nothing is missing" : "Too few trials");
+    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent          ? "Nothing is missing"
+                                        : d.verdict == Verdict::insufficient_time ? "Too little time"
+                                                                                  : "Too few trials");
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
@@ -125,6 +126,8 @@ StudyAnswer how_sure(const Diagnosis& d) {
                          ? fmt::format("None of {} effects that this plant can have is needed; whatever is "
                                        "there lies below its bound.",
                                        d.absent.size())
+                     : d.verdict == Verdict::insufficient_time
+                         ? "The limit of time ended the search before an effect was found needed."
                          : "How far trials repeat is not known well enough to tell an effect from chance.");
     return box;
   }

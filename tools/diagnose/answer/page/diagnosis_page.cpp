@@ -17,11 +17,12 @@ Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
   if (const auto remarks = facts.findings.size() + d.notes.size(); remarks > 0)
     study.facts.emplace_back("recordings",
                              fmt::format("{} {}, see below", remarks, remarks == 1 ? "remark" : "remarks"));
-  study.verdict = headline(d);
-  study.verdict_mark = d.verdict == Verdict::consistent          ? "good"
-                       : d.verdict == Verdict::insufficient_data ? "partly"
-                       : d.detail == Detail::known               ? "bad"
-                                                                 : "partly";
+  const auto limit = limit_text(d);
+  study.verdict = headline(d) + (limit.empty() ? "" : " " + limit);
+  study.verdict_mark = d.verdict == Verdict::consistent ? "good"
+                       : is_open(d.verdict)             ? "partly"
+                       : d.detail == Detail::known      ? "bad"
+                                                        : "partly";
   study.answers = page_answers(d);
   study.sections = page_sections(d, facts);
   return study;

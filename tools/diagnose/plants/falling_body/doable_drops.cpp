@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tools/diagnose/plants/doable.hpp"
+#include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -67,6 +68,28 @@ Trial planned(const PlantModel& plant, const Trial& sample, const Belief& belief
   return trial;
 }
 
+// Release heights of the recorded trials: the set-up's, else the first sample of the height.
+std::vector<Trial> with_heights(const std::vector<Trial>& recorded) {
+  std::vector<Trial> trials;
+  for (const auto& trial : recorded) {
+    Trial one;
+    one.setup = trial.setup;
+    const auto heights = samples_of(trial, "height_m");
+    if (!heights.empty() && heights.value.front() > 0.0)
+      one.setup.emplace("release_height_m", heights.value.front());
+    trials.push_back(std::move(one));
+  }
+  return trials;
+}
+
+// Height of a fall from rest that takes as long as the longest recording.
+double longest_fall_m(const std::vector<Trial>& recorded, const Belief& belief) {
+  double longest_s = 0.0;
+  for (const auto& trial : recorded)
+    if (!trial.time_s.empty()) longest_s = std::max(longest_s, trial.time_s.back() - trial.time_s.front());
+  return 0.5 * belief.value("gravity_mps2", 9.81) * longest_s * longest_s;
+}
+
 std::vector<double> with_none(std::vector<double> values) {
   if (std::ranges::count(values, 0.0) == 0) values.insert(values.begin(), 0.0);
   return values;
@@ -78,12 +101,19 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
                                       const Belief& belief, const Edits& edits, const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
-  const auto heights = extent_of(recorded, "release_height_m", 2.0);
+  const auto told = with_heights(recorded);
+  const bool height_known =
+      std::ranges::any_of(told, [](const Trial& trial) { return trial.setup.contains("release_height_m"); });
+  const auto heights = extent_of(told, "release_height_m", longest_fall_m(recorded, belief));
   const double mass_kg = belief.value("body.mass_kg", 1.0);
   auto release_heights =
       reach.settings("release_height_m",
                      {0.5 * heights.low, heights.low, std::sqrt(heights.low * heights.high), heights.high,
                       2.0 * heights.high, 4.0 * heights.high, 8.0 * heights.high, 16.0 * heights.high});
+  // Without any recorded height (an accelerometer alone) only the speed of the release is planned: the fall
+  // is the same from everywhere, unless it ends in a bed.
+  const bool height_free = !height_known && release_heights.empty();
+  if (height_free && belief.value("bed.stiffness_N_per_m") > 0.0) return trials;
   if (release_heights.empty()) release_heights = {heights.high};
   const auto speeds = with_none(reach.settings("release_speed_mps", {3.0, 8.0}));
   const auto payloads = with_none(reach.parts("payload_kg", {0.5 * mass_kg, mass_kg, 3.0 * mass_kg}));
@@ -95,6 +125,7 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
         one.belief = belief;
         one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload_kg});
         one.trial.kind = "drop";
+        if (height_free) one.trial.setup.erase("release_height_m");
         one.cost = std::max(0.0, std::log2(height_m / heights.high)) + (speed_mps > 0.0 ? 1.5 : 0.0) +
                    payload_kg / mass_kg;
         if (one.trial.time_s.size() >= 10) trials.push_back(std::move(one));

@@ -138,7 +138,14 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
   const double furthest_rad = largest_of(recorded, "position_rad"),
                fastest_radps = largest_of(recorded, "velocity_radps");
+  // An axis that no recorded torque drives can only be let go, unless the campaign lists more. The torque of
+  // a free axis is filled in as 0 where it is not recorded.
+  const double strongest_recorded_Nm = largest_of(recorded, "torque_Nm");
+  const bool is_driven = std::isfinite(strongest_recorded_Nm) && strongest_recorded_Nm > 0.0;
   for (const auto& wish : wishes(duration_s, reach)) {
+    if (wish.target_rad && !is_driven && !reach.is_anything() &&
+        reach.settings(wish.setup.begin()->first, {}).empty())
+      continue;
     if (!wish.profile.empty() && !reach.allows("profile", wish.profile)) continue;
     const PlannedMotion m = wish.target_rad
                                 ? followed(axis, duration_s, wish.target_rad)

@@ -1,0 +1,196 @@
+#include "tools/campaign/rate_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace sandhopper {
+namespace {
+
+using enum FindingSeverity;
+
+struct Pair {
+  std::string_view position, speed;
+};
+constexpr std::array kPairs{Pair{"position_rad", "velocity_radps"}, Pair{"foot_z_m", "foot_velocity_mps"},
+                            Pair{"motor_left_position_rad", "motor_left_velocity_radps"},
+                            Pair{"motor_right_position_rad", "motor_right_velocity_radps"}};
+
+// v = slope dx/dt; `together`: squared correlation.
+struct Slope {
+  double slope = 0.0, together = 0.0;
+};
+
+// Ratios of the units of a position, a speed and a time, and the unit that explains them.
+struct Known {
+  double ratio;
+  std::string_view text;
+};
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::array kKnown{
+    Known{kDegrees, "57.3: the speed in deg/s, or the position in rad taken for degrees"},
+    Known{1.0 / kDegrees, "0.01745: the position in degrees, or the speed in rad/s taken for deg/s"},
+    Known{30.0 / std::numbers::pi, "9.55: the speed in rpm"},
+    Known{1.0 / 6.0, "1/6: the position in degrees and the speed in rpm"},
+    Known{2.0 * std::numbers::pi, "6.28: the position in turns"},
+    Known{0.5 / std::numbers::pi, "0.159: the speed in turns a second"},
+    Known{1e3, "1000: the speed in mm/s or mrad/s, or the position or time in units 1000 times larger"},
+    Known{1e-3, "0.001: the position in mm or mrad, or the time in ms"},
+    Known{100.0, "100: the speed in cm/s"},
+    Known{0.01, "0.01: the position in cm"},
+    Known{10.0, "10: mm for cm"},
+    Known{0.1, "0.1: cm for mm"},
+    Known{1.0 / 0.0254, "39.4: the speed in in/s"},
+    Known{0.0254, "0.0254: the position in inches"},
+    Known{2.54, "2.54: inches for cm"},
+    Known{1.0 / 2.54, "0.394: cm for inches"},
+    Known{25.4, "25.4: inches for mm"},
+    Known{1.0 / 25.4, "0.0394: mm for inches"},
+    Known{1.0 / 0.3048, "3.28: the speed in ft/s"},
+    Known{0.3048, "0.305: the position in ft"},
+    Known{3.6, "3.6: the speed in km/h"},
+    Known{60.0, "60: the time in minutes, or the speed per minute"}};
+
+class RateChecker {
+ public:
+  RateChecker(TrialRecording& recording, const RecordingPlaces& places)
+      : recording_(recording), places_(places) {}
+
+  void run() {
+    for (const auto& pair : kPairs) {
+      if (!recording_.has(pair.position) || !recording_.has(pair.speed)) continue;
+      const auto found = slope(pair.position, pair.speed);
+      if (!found || look_for_exchange(pair, *found)) continue;
+      if (found->together > 0.8) judge(pair, *found);
+    }
+  }
+
+ private:
+  std::optional<Slope> slope(std::string_view position, std::string_view speed) const {
+    const auto x = recording_.channel(position), v = recording_.channel(speed);
+    const std::size_t n = recording_.rows(), span = std::max<std::size_t>(1, n / 20);
+    double dd = 0.0, dv = 0.0, vv = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + span < n; ++i) {
+      if (std::isnan(x[i]) || std::isnan(x[i + span])) continue;
+      double mean = 0.0;
+      std::size_t samples = 0;
+      for (std::size_t k = i; k <= i + span; ++k)
+        if (!std::isnan(v[k])) mean += v[k], ++samples;
+      const double step_s = recording_.t_s[i + span] - recording_.t_s[i];
+      if (samples == 0 || !(step_s > 0.0)) continue;
+      mean /= static_cast<double>(samples);
+      const double rate = (x[i + span] - x[i]) / step_s;
+      dd += rate * rate, dv += rate * mean, vv += mean * mean;
+      ++count;
+    }
+    if (count < 10 || dd <= 0.0 || vv <= 0.0) return std::nullopt;
+    return Slope{dv / dd, dv * dv / (dd * vv)};
+  }
+
+  // The nearest ratio within `tolerance`.
+  static const Known* known(double ratio, double tolerance) {
+    const auto off = [&](const Known& known) { return std::abs(std::abs(ratio) / known.ratio - 1.0); };
+    const auto* best = &*std::ranges::min_element(kKnown, {}, off);
+    return off(*best) < tolerance ? best : nullptr;
+  }
+
+  void judge(const Pair& pair, const Slope& found) {
+    const bool far = found.slope < 0.2 || found.slope > 5.0;
+    const auto* unit = known(found.slope, far ? 0.15 : 0.03);
+    // A gain error of a sensor is for the diagnosis; below 5 only the ratio of two units counts, in clean
+    // data.
+    if (!far && (unit == nullptr || found.together < 0.98)) return;
+    const auto text =
+        fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}",
+                    found.slope, pair.position,
+                    unit != nullptr     ? fmt::format(" ({})", unit->text)
+                    : found.slope < 0.0 ? " or has the other sign"
+                                        : "");
+    add(pair.speed, text, rate_cure(pair, found.slope, unit), is_stated(pair.position, pair.speed));
+  }
+
+  // Lines of [columns] after which the two agree, for each column whose unit the file does not state itself.
+  std::string rate_cure(const Pair& pair, double ratio, const Known* unit) const {
+    const auto *x = places_.column_of(pair.position), *v = places_.column_of(pair.speed);
+    if (x == nullptr || v == nullptr) return "correct the scale of one of the two";
+    const double sign = ratio < 0.0 ? -1.0 : 1.0, size = unit != nullptr ? unit->ratio : 1.0;
+    if (unit == nullptr && ratio > 0.0) return scale_cure(*v) + "; likewise " + mapping_line(*x);
+    std::vector<std::string> ways;
+    const auto take = [&](const UsedColumn& column, double factor) {
+      auto changed = in_other_unit(column, factor);
+      ways.push_back(mapping_line(sign < 0.0 ? reversed(changed) : changed));
+    };
+    const bool doubt_both = x->in_file == v->in_file;
+    if (doubt_both || !v->in_file) take(*v, 1.0 / size);
+    if (doubt_both || !x->in_file) take(*x, size);
+    return fmt::format("write {} into [columns]{}", fmt::join(ways, ", or "),
+                       ways.size() > 1 ? ", whichever is true" : "");
+  }
+
+  // The positions of two motors that move alike have the same rate: none of them is exchanged.
+  bool fits_its_own_speed(std::string_view position) const {
+    const auto* pair = std::ranges::find(kPairs, position, &Pair::position);
+    if (pair == kPairs.end() || !recording_.has(pair->speed)) return false;
+    const auto own = slope(position, pair->speed);
+    return own && own->together > 0.8;
+  }
+
+  // A speed that is the rate of another channel: the position and that channel are exchanged.
+  bool look_for_exchange(const Pair& pair, const Slope& own) {
+    if (own.together > 0.8 && own.slope > 0.2 && own.slope < 5.0) return false;
+    const TrialRecording::Channel* best = nullptr;
+    Slope most{0.0, std::max(0.9, own.together + 0.1)};
+    for (const auto& other : recording_.channels) {
+      if (other.name == pair.position || other.name == pair.speed || fits_its_own_speed(other.name)) continue;
+      const auto found = slope(other.name, pair.speed);
+      if (found && found->together > most.together) best = &other, most = *found;
+    }
+    if (best == nullptr) return false;
+    const auto *x = places_.column_of(pair.position), *other = places_.column_of(best->name);
+    std::string cure = "exchange the two columns in [columns]";
+    if (x != nullptr && other != nullptr) {
+      auto a = *x, b = *other;
+      std::swap(a.column, b.column);
+      // With these numbers the position has the rate that the speed states.
+      a.scale =
+          std::abs(most.slope * other->scale / x->scale - 1.0) < 0.2 ? x->scale : most.slope * other->scale;
+      a.unit.clear(), b.unit.clear();
+      cure = fmt::format("write {} and {} into [columns], with the scales that belong to them",
+                         mapping_line(a), mapping_line(b));
+    }
+    add(pair.position,
+        fmt::format("is not what {} is the rate of (correlation {:.2f}); {} is ({:.2f}): the two columns are "
+                    "exchanged",
+                    pair.speed, std::sqrt(own.together), best->name, std::sqrt(most.together)),
+        std::move(cure), is_stated(pair.position, pair.speed));
+    return true;
+  }
+
+  bool is_stated(std::string_view position, std::string_view speed) const {
+    return places_.is_stated(position) && places_.is_stated(speed);
+  }
+
+  void add(std::string_view channel, std::string what, std::string cure, bool stated) {
+    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
+    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file,
+                                   line, 1, std::string(channel), std::move(what),
+                                   stated ? "taken as stated in [columns]" : std::move(cure)});
+  }
+
+  TrialRecording& recording_;
+  const RecordingPlaces& places_;
+};
+
+}  // namespace
+
+void check_rates(TrialRecording& recording, const RecordingPlaces& places) {
+  if (recording.has_time) RateChecker(recording, places).run();
+}
+
+}  // namespace sandhopper
