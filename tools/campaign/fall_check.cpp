@@ -71,6 +71,9 @@ class FallChecker {
   double place(const Sample& sample) const { return (sample.height_m - low_) / width_; }
   double gravity() const { return std::max(belief_.gravity_mps2, 1.0); }
   bool is_thrown() const { return trial_.number("release_speed_mps").value_or(0.0) != 0.0; }
+  bool is_braked() const {
+    return belief_.medium.drag_coefficient > 0.0 || belief_.medium.linear_drag_N_s_per_m > 0.0;
+  }
   // A belief with a liquid: the body may sink slowly in it. 100 kg/m3: a hundred times the density of air.
   bool in_liquid() const { return belief_.medium.density_kg_per_m3 > 100.0; }
 
@@ -99,10 +102,20 @@ class FallChecker {
     return "";
   }
 
-  // Duration between 5 % and 95 % of the way, against that of a fall from rest.
+  // A force column that the campaign does not use: what was pushed was recorded with its force.
+  std::string unused_force() const {
+    for (const auto& name : recording_.unused_columns) {
+      const auto guess = guess_column(name, unit_in_name(name), CampaignPlant::intruder, {});
+      if (guess && guess->channel == "force_N") return name;
+    }
+    return "";
+  }
+
+  // Duration between 5 % and 95 % of the way, against that of a fall from rest. An error beside a force; else
+  // a note, because a light body may sink slowly in air.
   bool check_slow() {
     const double start = place(all_.front()), end = place(all_.back());
-    if (is_thrown() || in_liquid() || std::abs(end - start) < 0.6) return false;
+    if (is_thrown() || in_liquid() || is_braked() || std::abs(end - start) < 0.6) return false;
     double from_s = NAN, to_s = NAN;
     for (const auto& sample : all_) {
       const double way = std::abs(place(sample) - start);
@@ -112,22 +125,18 @@ class FallChecker {
     if (std::isnan(from_s) || std::isnan(to_s)) return false;
     const double fall_s = std::sqrt(2.0 * 0.9 * width_ / gravity()), took_s = to_s - from_s;
     if (took_s < 5.0 * fall_s) return false;
-    add(fmt::format("takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: it is "
-                    "pushed or "
-                    "lowered, or it sinks in a liquid, or the height or the time is in another unit",
-                    took_s, width_, fall_s),
-        slow_cure());
-    return true;
-  }
-
-  std::string slow_cure() const {
-    std::string pushed = "if it is pushed, import it again with --plant intruder";
-    for (const auto& name : recording_.unused_columns) {
-      const auto guess = guess_column(name, unit_in_name(name), CampaignPlant::intruder, {});
-      if (guess && guess->channel == "force_N") pushed += fmt::format(" (column \"{}\" is a force)", name);
-    }
-    return pushed + "; if it sinks, write the liquid's medium.density_kg_per_m3 into nominal.toml" +
-           (places_.is_stated(kHeight) ? "" : "; else correct unit or scale");
+    const auto force = unused_force();
+    std::string cure = "if it is pushed, import it again with --plant intruder";
+    if (!force.empty()) cure += fmt::format(" (column \"{}\" is a force)", force);
+    cure +=
+        "; if it sinks, write the medium's density_kg_per_m3 and drag into nominal.toml; else correct unit "
+        "or scale";
+    add(fmt::format(
+            "takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: it is pushed "
+            "or lowered, or it sinks slowly, or the height or the time is in another unit",
+            took_s, width_, fall_s),
+        cure, !force.empty());
+    return !force.empty();
   }
 
   bool check_direction() {
@@ -207,13 +216,13 @@ class FallChecker {
     return column.unit.empty() ? "an unknown unit" : column.unit;
   }
 
-  void add(std::string what, std::string cure) {
+  void add(std::string what, std::string cure, bool is_error = true) {
     const bool stated = places_.is_stated(kHeight);
     const auto* column = places_.column_of(kHeight);
     if (cure.empty()) cure = column == nullptr ? "correct its scale" : scale_cure(*column);
     const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file,
-                                   line, 1, std::string(kHeight), std::move(what),
+    recording_.findings.push_back({FindingKind::implausible, stated || !is_error ? note : trial_unusable,
+                                   places_.file, line, 1, std::string(kHeight), std::move(what),
                                    stated ? "taken as stated in [columns]" : std::move(cure)});
   }
 

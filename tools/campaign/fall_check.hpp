@@ -11,7 +11,9 @@ namespace sandhopper {
 // curve is
 //   a parabola: another unit, with its name;
 // - a height that begins lowest and ends highest: counted downward. A throw states release_speed_mps;
-// - a way that takes more than five times as long as a fall, without a liquid in the belief: not let go.
+// - a way that takes more than five times as long as a fall, without a liquid or drag in the belief: a note,
+// and an
+//   error if the file holds a force that the campaign does not use: the body was pushed.
 void check_falls(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                  const RecordingPlaces& places);
 
