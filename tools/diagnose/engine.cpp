@@ -53,8 +53,8 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
     for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
       diagnosis.log.push_back(fmt::format("screen beside {}: {}: linear gain {:.1f} at [{:.4g}]",
                                           set_text(problem, set),
-                                          problem.candidates[screened[i].candidate].label(),
-                                          screened[i].gain, fmt::join(screened[i].values, ", ")));
+                                          problem.candidates[screened[i].candidate].label(), screened[i].gain,
+                                          fmt::join(screened[i].values, ", ")));
   }
   for (std::size_t i = 0; i < problem.tolerances.size(); ++i)
     diagnosis.log.push_back(fmt::format("{}: {:.2f} times what is unsure, {:.2f} with the best",
