@@ -10,8 +10,8 @@
 #include "estimation/leg.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
-// What channels of one recording say about each other's columns, units and signs. Every cure must work when
-// its line is written into campaign.toml as it stands.
+// The checks that compare channels of one recording find wrong columns, units and signs. Every cure must work
+// when its line is written into campaign.toml as it stands.
 namespace sandhopper {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/implausible.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -127,17 +129,14 @@ void check_axis_torque(TrialRecording& recording, const Campaign& campaign, cons
   }
   const bool is_own = places.is_stated("torque_Nm") && places.is_stated("position_rad");
   const bool is_error = (is_unit || other_sign || ratio > kFarTooHeavy) && !is_own;
-  const std::uint64_t line = places.lines.empty() ? 1 : places.lines.front();
-  recording.findings.push_back({FindingKind::implausible, is_error ? trial_unusable : note, places.file, line,
-                                1, "torque_Nm",
-                                fmt::format("accelerates the axis like an inertia of {:.3g} +- {:.1g} kg m2, "
-                                            "and axis.inertia_kg_m2 is {:.3g}: {:.3g} "
-                                            "times that{}",
-                                            seen->value, seen->error, believed, ratio,
-                                            is_unit      ? fmt::format(" ({})", known.text)
-                                            : other_sign ? " (the torque has the other sign)"
-                                                         : ""),
-                                std::move(cure)});
+  add_implausible(recording, places, is_error ? trial_unusable : note, "torque_Nm",
+                  fmt::format("accelerates the axis like an inertia of {:.3g} +- {:.1g} kg m2, "
+                              "and axis.inertia_kg_m2 is {:.3g}: {:.3g} times that{}",
+                              seen->value, seen->error, believed, ratio,
+                              is_unit      ? fmt::format(" ({})", known.text)
+                              : other_sign ? " (the torque has the other sign)"
+                                           : ""),
+                  std::move(cure));
 }
 
 }  // namespace sandhopper

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "tools/campaign/column_guess.hpp"
+#include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
 namespace {
@@ -220,10 +221,10 @@ class FallChecker {
     const bool stated = places_.is_stated(kHeight);
     const auto* column = places_.column_of(kHeight);
     if (cure.empty()) cure = column == nullptr ? "correct its scale" : scale_cure(*column);
-    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, stated || !is_error ? note : trial_unusable,
-                                   places_.file, line, 1, std::string(kHeight), std::move(what),
-                                   stated ? "taken as stated in [columns]" : std::move(cure)});
+    if (is_error || stated)
+      doubt_column(recording_, places_, stated, kHeight, std::move(what), std::move(cure));
+    else
+      add_implausible(recording_, places_, note, kHeight, std::move(what), std::move(cure));
   }
 
   TrialRecording& recording_;

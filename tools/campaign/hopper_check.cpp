@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "estimation/leg.hpp"
+#include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
 namespace {
@@ -168,10 +169,7 @@ class HopperChecker {
   }
 
   void add(std::string_view channel, std::string what, std::string cure, bool stated) {
-    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file,
-                                   line, 1, std::string(channel), std::move(what),
-                                   stated ? "taken as stated in [columns]" : std::move(cure)});
+    doubt_column(recording_, places_, stated, channel, std::move(what), std::move(cure));
   }
 
   TrialRecording& recording_;

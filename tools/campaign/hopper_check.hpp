@@ -4,7 +4,7 @@
 
 namespace sandhopper {
 
-// What the channels of one hop say about each other. Reported (implausible):
+// Compares the channels of one hop with each other. Reported (implausible):
 // - the body below the foot (means of motion capture): exchanged columns;
 // - a leg whose length by the joints, L(phi) + foot height, goes against the measured one (body minus foot,
 // or the

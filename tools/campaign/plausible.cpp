@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "tools/campaign/implausible.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -154,12 +156,8 @@ class PlausibilityChecker {
   }
 
   void add(std::string_view channel, std::string what, bool stated, std::string how = "") {
-    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, stated ? note : trial_unusable, places_.file,
-                                   line, 1, std::string(channel), std::move(what),
-                                   stated        ? "taken as stated in [columns]"
-                                   : how.empty() ? cure(channel)
-                                                 : how});
+    doubt_column(recording_, places_, stated, channel, std::move(what),
+                 how.empty() ? cure(channel) : std::move(how));
   }
 
   TrialRecording& recording_;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/implausible.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -63,12 +65,10 @@ void check_press_speed(TrialRecording& recording, const Campaign& campaign, cons
         mapping_line(in_other_unit(*z, 1.0 / *unit)), *seen);
   else if (recording.has("force_N"))
     cure += "; or the columns of foot_z_m and force_N are exchanged";
-  const std::uint64_t line = places.lines.empty() ? 1 : places.lines.front();
-  recording.findings.push_back(
-      {FindingKind::implausible, is_own ? note : trial_unusable, places.file, line, 1, "foot_z_m",
-       fmt::format("goes down at {:.4g} m/s, and impact_speed_mps is {:.4g}: {:.3g} times that", *seen,
-                   *stated, ratio),
-       is_own ? "taken as stated in [columns]; then correct impact_speed_mps" : std::move(cure)});
+  add_implausible(recording, places, is_own ? note : trial_unusable, "foot_z_m",
+                  fmt::format("goes down at {:.4g} m/s, and impact_speed_mps is {:.4g}: {:.3g} times that",
+                              *seen, *stated, ratio),
+                  is_own ? "taken as stated in [columns]; then correct impact_speed_mps" : std::move(cure));
 }
 
 }  // namespace sandhopper

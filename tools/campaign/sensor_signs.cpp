@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/implausible.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -107,14 +109,13 @@ class SignChecker {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
       if (lower.find("linear acc") == std::string::npos && lower.find("without g") == std::string::npos)
         continue;
-      push_back(
-          mapping.channel,
+      add_implausible(
+          recording_, places_, trial_unusable, mapping.channel,
           fmt::format("column \"{}\" is an acceleration without gravity by its name, and the channel is a "
                       "specific force",
                       mapping.column),
           fmt::format("add the gravity: {} = {{ column = \"{}\", offset = 9.81 }}", mapping.channel,
-                      mapping.column),
-          trial_unusable);
+                      mapping.column));
     }
   }
 
@@ -151,19 +152,11 @@ class SignChecker {
   // `factor`: from the present values to the true ones; -1 also turns the offset.
   void add(std::string_view channel, std::string what, double factor) {
     const auto* used = places_.column_of(channel);
-    const bool stated = used != nullptr && used->is_stated;
     const bool turned = factor == -1.0;
     const auto line =
         used == nullptr ? "" : mapping_line(turned ? reversed(*used) : in_other_unit(*used, factor));
-    push_back(channel, std::move(what),
-              stated ? "taken as stated in [columns]" : fmt::format("write {} into [columns]", line),
-              stated ? note : trial_unusable);
-  }
-
-  void push_back(std::string_view channel, std::string what, std::string cure, FindingSeverity severity) {
-    const std::uint64_t line = places_.lines.empty() ? 1 : places_.lines.front();
-    recording_.findings.push_back({FindingKind::implausible, severity, places_.file, line, 1,
-                                   std::string(channel), std::move(what), std::move(cure)});
+    doubt_column(recording_, places_, places_.is_stated(channel), channel, std::move(what),
+                 fmt::format("write {} into [columns]", line));
   }
 
   TrialRecording& recording_;

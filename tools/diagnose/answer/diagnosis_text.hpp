@@ -8,7 +8,8 @@ namespace sandhopper::diagnose {
 // The verdict as one sentence.
 std::string headline(const Diagnosis& diagnosis);
 
-// What a limit of time left out, as two sentences; empty if the search was complete.
+// Says in words that a limit of time ended the search, and names the parts of the answer that are missing;
+// empty if the search was complete.
 std::string limit_text(const Diagnosis& diagnosis);
 
 double simulations_per_second(const Diagnosis& diagnosis);
