@@ -86,6 +86,11 @@ Option Arguments::add_flag(const std::string& name, bool& value, const std::stri
   return Option(app_->add_flag(name, value, help));
 }
 
+Option Arguments::add_off_flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(app_->add_flag_callback(
+      name, [&value] { value = false; }, help));
+}
+
 Arguments Arguments::add_verb(const std::string& name, const std::string& summary) {
   return Arguments(*app_->add_subcommand(name, summary));
 }

@@ -50,8 +50,9 @@ class Arguments {
   // of arguments.cpp.
   template <class Value>
   Option add_option(const std::string& name, Value& value, const std::string& help);
-  // A name such as "!--no-report" makes a flag that sets false.
   Option add_flag(const std::string& name, bool& value, const std::string& help);
+  // A flag such as --no-report, which sets `value` to false.
+  Option add_off_flag(const std::string& name, bool& value, const std::string& help);
 
   Arguments add_verb(const std::string& name, const std::string& summary);
   // The user must name one of the sub-verbs.

@@ -143,7 +143,7 @@ Run set_up(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   arguments.add_option("CAMPAIGN", options->campaign, "folder with campaign.toml").required();
   arguments.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
-  arguments.add_flag("!--no-report", options->report, "write no page");
+  arguments.add_off_flag("--no-report", options->report, "write no page");
   arguments
       .add_option(
           "--limit-s", options->limit_s,

@@ -175,7 +175,7 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--threads", options->threads, "trials analysed at a time")
       .in_range(1U, 1024U)
       .show_default();
-  arguments.add_flag("!--no-report", options->report, "write no page");
+  arguments.add_off_flag("--no-report", options->report, "write no page");
   arguments.footer(
       "First comes the strength profile: the ground's quasi-static force at each depth. \"mean of the "
       "ground\" is "

@@ -187,7 +187,7 @@ Run set_up(Arguments& arguments) {
                        "device file for --board linux; default linux.toml, inside tools/bench bench.toml");
   add_sheet_options(arguments, *options, trials);
   add_live_options(arguments, *options);
-  arguments.add_flag("!--no-report", options->report, "write no report page");
+  arguments.add_off_flag("--no-report", options->report, "write no report page");
   arguments.footer(
       "Below each stride: the ground's force, secant and tangent stiffness at each depth with 95 % "
       "intervals, and "

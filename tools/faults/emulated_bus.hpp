@@ -14,7 +14,8 @@
 
 namespace sandhopper::faults {
 
-// A torque up to this value counts as zero: half a count of the torque field of a command, rounded up.
+// A torque up to this value counts as zero: two counts of a command's torque field (8.8 mN m each), rounded
+// up.
 inline constexpr double kNoTorque_Nm = 0.02;
 
 // Emulated CAN bus and drives in the world's time. It replaces the kernel's socket below the robot's motor
