@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/unit_ratios.hpp"
 
 namespace sandhopper {
 namespace {
@@ -196,9 +196,7 @@ class FallChecker {
     const auto *height = places_.column_of(kHeight), *time = places_.column_of("t_s");
     if (height == nullptr || !(ratio > 0.0)) return std::nullopt;
     const auto is = [&](double known) { return std::abs(ratio / known - 1.0) < 0.05; };
-    constexpr std::array kLengths{1e3,        1e-3, 100.0,    0.01, 10.0,     0.1,    0.0254,
-                                  1 / 0.0254, 2.54, 1 / 2.54, 25.4, 1 / 25.4, 0.3048, 1 / 0.3048};
-    for (const double known : kLengths)
+    for (const double known : kLengthRatios)
       if (is(known)) {
         const auto other = in_other_unit(*height, 1.0 / known);
         return Unit{fmt::format("the height in {} for {}", named(other), named(*height)),

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/unit_ratios.hpp"
 
 namespace sandhopper {
 namespace {
@@ -51,15 +52,15 @@ void check_press_speed(TrialRecording& recording, const Campaign& campaign, cons
   const auto seen = even_speed(recording);
   if (!seen || !(*seen > 0.0)) return;
   const double ratio = *seen / *stated;
-  constexpr std::array kUnits{1e3,  1e-3,     100.0, 0.01,       10.0, 0.1,        1 / 0.0254, 0.0254,
-                              2.54, 1 / 2.54, 25.4,  1.0 / 25.4, 60.0, 1.0 / 60.0, 3.6,        1 / 3.6};
-  const auto unit =
-      std::ranges::find_if(kUnits, [&](double known) { return std::abs(ratio / known - 1.0) < 0.03; });
-  if (ratio > 0.2 && ratio < 5.0 && unit == kUnits.end()) return;
+  std::optional<double> unit;
+  for (const std::span<const double> ratios : {std::span<const double>(kLengthRatios), {kRateRatios}})
+    for (const double known : ratios)
+      if (!unit && std::abs(ratio / known - 1.0) < 0.03) unit = known;
+  if (ratio > 0.2 && ratio < 5.0 && !unit) return;
   const auto* z = places.column_of("foot_z_m");
   const bool is_own = places.is_stated("foot_z_m");
   std::string cure = "correct the unit of foot_z_m or of t_s, or impact_speed_mps";
-  if (z != nullptr && unit != kUnits.end())
+  if (z != nullptr && unit)
     cure = fmt::format(
         "write {} into [columns], or impact_speed_mps = {:.4g} into the [[trial]], whichever is true",
         mapping_line(in_other_unit(*z, 1.0 / *unit)), *seen);
