@@ -22,8 +22,6 @@ constexpr double kLikelierThanOneMore = 2.0;
 constexpr double kSpreadBelow = 1.8;
 constexpr double kSpreadAbove = 1.0;
 
-constexpr FitOptions kRough{
-    .max_iterations = 6, .tolerance = 2.0, .refresh = false};  // Settings for the first fit of a set.
 // Skip a nuisance step that gains less than this fraction of the trial's deviance above the noise.
 constexpr double kFarGain = 1e-3;
 constexpr int kNullRestarts = 3;
@@ -188,7 +186,10 @@ void Search::fit_straight(const SetFit& from, const Point& start, const std::vec
   SetFit result;
   result.set = with(from.set, start.hypothesis.candidates.back());
   result.straight = true;
-  result.fit = fit_at(start, {.max_iterations = kRough.max_iterations, .columns = &columns});
+  FitOptions first = options_.costly ? kCostly : FitOptions();
+  first.max_iterations = kRough.max_iterations;
+  first.columns = &columns;
+  result.fit = fit_at(start, first);
   result.rough = true;
   // The nuisances start far from their optimum: finish the fit of every set that comes near.
   if (result.fit.status == FitStatus::failed &&
@@ -250,7 +251,8 @@ void Search::exchange() {
     for (const auto candidate : before) {
       if (over()) break;
       const auto rest = without(before, candidate);
-      fit_part(SetFit(sets_.at(before)), rest);
+      fit_part(SetFit(sets_.at(before)), rest,
+               options_.costly ? kRough : FitOptions());  // enough for a screen
       expand(rest, options_.fits_per_screen);
     }
     choose_best();
@@ -295,7 +297,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   null.fit = fit_at(start, {.columns_made_here = true});
   null.needed = null.judged = true;
   sets_[{}] = std::move(null);
-  restart_null();
+  if (options_.free_null) restart_null();
   if (!seeds.empty()) columns_ = columns_at(*problem_, seeds.front());
   for (const auto& seed : seeds) {
     if (over()) break;
@@ -309,6 +311,13 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   grow_sets();
   if (!over()) improve();
   return best();
+}
+
+void Search::widen(std::size_t most_effects) {
+  options_.most_effects = most_effects;
+  if (over()) return;
+  grow_sets();
+  if (!over()) improve();
 }
 
 // Sets of one effect, then each of the nearest ones with one more, and so on.
@@ -366,6 +375,10 @@ void Search::improve() {
     prune();
   }
   at(0.8, "completing the fits of rivals");
+  complete();
+}
+
+void Search::complete() {
   finish_rivals();
   grow_best();
   settle_best();

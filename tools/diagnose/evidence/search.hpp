@@ -50,6 +50,8 @@ struct SearchOptions {
   std::size_t fits_of_singles = 20;
   // Fit again from other sizes if the first fit gains much less than the linear estimate.
   bool second_starts = true;
+  bool costly = false;    // Simulations are slow: fewer and less exact fits.
+  bool free_null = true;  // Look for a better minimum of the null; a search before may have found it.
   bool straight = false;  // Also start from the prior means of the nuisance parameters.
   // A candidate with less than this fraction of the largest gain on the screen is not fitted; the first three
   // always are.
@@ -68,6 +70,13 @@ class Search {
   // Returns the set that explains most, with every effect needed. `start`: a point without effects whose
   // nuisance parameters are the start values. `seeds`: sets to fit first, from these points.
   const SetFit& run(const Point& start, const std::vector<Point>& seeds = {});
+
+  // Continues after run() with sets of more effects.
+  void widen(std::size_t most_effects);
+
+  // Fits every other effect beside the best set, and in place of its weakest effect. A law that is not linear
+  // may gain much more than its derivative at zero promises; only the fit shows it, and bounds it.
+  void fit_every_other();
 
   // `gain`: held-out gain of a law of free form beside the best set. If a larger set explains nearly as much
   // and every effect in it is significant, it becomes the best set, even if an effect is too small to be
@@ -111,9 +120,11 @@ class Search {
   void expand(const std::vector<std::size_t>& from, std::size_t fits);
   void restart_null();
   void exchange();
+  void fit_all_beside(const std::vector<std::size_t>& set);
+  void complete();
   void prune();
   bool try_proposals();
-  bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part);
+  bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part, const FitOptions& options = {});
   const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
   Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;

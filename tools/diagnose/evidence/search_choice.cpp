@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "tools/diagnose/evidence/proposals.hpp"
 #include "tools/diagnose/evidence/search.hpp"
@@ -25,6 +27,8 @@ constexpr double kLinearError =
 // Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
 constexpr double kCaught = 3.0;
 
+constexpr double kStartBeside = 0.3;  // Least start value beside the best set, in typical sizes.
+
 std::vector<std::size_t> named_part(const SetFit& fit) {
   std::vector<std::size_t> part;
   for (const auto& evidence : fit.evidence)
@@ -37,26 +41,32 @@ std::vector<std::size_t> named_part(const SetFit& fit) {
 
 void Search::finish(SetFit& fit) const {
   if (!fit.rough) return;
-  fit.fit = fit_at(Point(fit.fit.point));
+  fit.fit = fit_at(Point(fit.fit.point), options_.costly ? kCostly : FitOptions());
   fit.rough = fit.judged = false;
   borrow(fit);
 }
 
 // A trial's deviance can have two minima. If another set found a much lower one for a trial, restart this set
-// from the nuisance parameters found there.
+// from the nuisance parameters found there; for a costly plant only if they lower that trial with these
+// effects, too.
 void Search::borrow(SetFit& fit) const {
   Point start = fit.fit.point;
-  bool lower = false;
-  for (std::size_t t = 0; t < start.nuisances.size(); ++t) {
-    double least = fit.fit.trial_deviance[t] - kWorthAFit * dispersion_;
+  const auto& own = fit.fit.trial_deviance;
+  const double much = kWorthAFit * dispersion_;
+  for (std::size_t t = 0; t < own.size(); ++t) {
+    double least = own[t] - much;
     for (const auto& [set, other] : sets_)
       if (other.fit.trial_deviance[t] < least) {
         least = other.fit.trial_deviance[t];
         start.nuisances[t] = other.fit.point.nuisances[t];
-        lower = true;
       }
   }
-  if (!lower) return;
+  if (options_.costly && start.nuisances != fit.fit.point.nuisances) {
+    const Fit there = fit_at(start, {.max_iterations = 0});
+    for (std::size_t t = 0; t < own.size(); ++t)
+      start.nuisances[t] = (there.trial_deviance[t] < own[t] - much ? there : fit.fit).point.nuisances[t];
+  }
+  if (start.nuisances == fit.fit.point.nuisances) return;
   Fit again = fit_at(start);
   if (again.deviance >= fit.fit.deviance) return;
   fit.fit = std::move(again);
@@ -189,7 +199,7 @@ void Search::choose_best() {
 // Fits `part` of the effects of `whole`. A part that was fitted before is only refitted if its deviance is
 // higher than the gains of the other effects can explain: then the earlier fit stopped in a worse minimum.
 // True if a fit was stored.
-bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part) {
+bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part, const FitOptions& options) {
   const auto known = sets_.find(part);
   if (known != sets_.end()) {
     double others = kWorthAFit * dispersion_;
@@ -207,7 +217,8 @@ bool Search::fit_part(const SetFit& whole, const std::vector<std::size_t>& part)
       h.values.push_back(start.hypothesis.values[i]);
     }
   start.hypothesis = h;
-  fit.fit = fit_at(start);
+  fit.fit = fit_at(start, options);
+  fit.rough = !options.refresh;
   if (known != sets_.end() && known->second.fit.deviance <= fit.fit.deviance) return false;
   sets_[part] = std::move(fit);
   return true;
@@ -268,6 +279,33 @@ bool Search::try_proposals() {
   }
   if (tried) choose_best();
   return tried;
+}
+
+void Search::fit_every_other() {
+  const auto before = best_;
+  if (best_.size() > 1) {
+    const auto& evidence = best().evidence;
+    const auto weakest = std::ranges::min_element(evidence, {}, &EffectEvidence::gain);
+    if (weakest != evidence.end()) fit_all_beside(without(best_, weakest->candidate));
+  }
+  if (best_.size() < options_.most_effects) fit_all_beside(best_);
+  if (best_ != before) complete();
+}
+
+void Search::fit_all_beside(const std::vector<std::size_t>& set) {
+  if (over() || !sets_.contains(set)) return;
+  options_.progress(share_, "fitting every other effect");
+  const SetFit parent = sets_.at(set);
+  const bool second_starts = std::exchange(options_.second_starts, false);
+  for (auto added : std::vector<Screened>(screened(set))) {
+    if (over()) break;
+    const auto& p = problem_->candidates[added.candidate].parameters[0];
+    const double least = std::copysign(kStartBeside * p.typical, added.values[0]);
+    if (std::abs(added.values[0]) < std::abs(least)) added.values[0] = std::clamp(least, p.low, p.high);
+    evaluate(parent, added);
+  }
+  options_.second_starts = second_starts;
+  choose_best();
 }
 
 bool Search::name_small(double gain) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/diagnose/fit/problem.hpp"
+#include "tools/diagnose/fit/fit.hpp"
 
 // Helpers shared by the search over sets (search.cpp), its choice (search_choice.cpp) and its judge
 // (search_judge.cpp).
@@ -17,6 +17,11 @@ inline constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that
 inline constexpr double kNearlyAsGood = 0.35;
 inline constexpr double kRival =
     20.0;  // Largest distance in the criterion at which a rival's fit is completed.
+
+// Settings for the first fit of a set.
+inline constexpr FitOptions kRough{.max_iterations = 6, .tolerance = 2.0, .refresh = false};
+// Settings for the completed fit of a costly plant: 0.5 in each of 12 trials is kWorthAFit.
+inline constexpr FitOptions kCostly{.tolerance = 0.5, .own_gain = 0.5};
 
 // The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {

@@ -20,10 +20,9 @@ constexpr int kNuisanceSteps = 3;       // most steps of a trial's nuisances at 
 constexpr double kNuisanceGain = 0.03;  // predicted drop of the deviance below which the nuisances stay
 constexpr double kSpeedsUp = 2.0;       // a later iteration may gain at most this many times the last gain
 constexpr int kAttempts = 3;            // most damping values in one step
-constexpr double kStale = 0.1;    // in standard deviations: derivatives from farther away are recomputed
-constexpr double kGone = 0.5;     // drop of the deviance in settle_each() below which the fit ends
-constexpr int kOwnRounds = 5;     // most steps of one trial in settle_each()
-constexpr double kOwnGain = 0.1;  // least predicted drop of a trial's deviance for a step of that trial
+constexpr double kStale = 0.1;  // in standard deviations: derivatives from farther away are recomputed
+constexpr double kGone = 5.0;   // drop in settle_each() below which the fit ends, in FitOptions::own_gain
+constexpr int kOwnRounds = 5;   // most steps of one trial in settle_each()
 // Accuracy where the deviance is far above the number of rows: share of the excess.
 constexpr double kFar = 0.01;
 constexpr double kHeld = 0.25;  // share of the predicted drop that an accepted step of a trial brings
@@ -95,7 +94,8 @@ class Fitter {
       : problem_(problem),
         given_(options.columns != nullptr ? options.columns : &problem.kept_columns),
         start_(start),
-        far_gain_(options.far_gain) {
+        far_gain_(options.far_gain),
+        own_gain_(options.own_gain) {
     at_.point = start;
     first_shared_ = shared();
     at_.trials.resize(problem.trials.size());
@@ -268,7 +268,7 @@ class Fitter {
                                   {.columns = &own_columns_, .prediction = &trial.prediction});
     const double promised = trial.deviance - linear.gram(0, 0);
     const double far = trial.deviance - static_cast<double>(problem_.trials[t]->rows.size());
-    const double least = std::max(kOwnGain, kFar * far);
+    const double least = std::max(own_gain_, kFar * far);
     if (promised < least) return false;
     const auto stepped = [&](double share) {
       TrialState next = trial;
@@ -302,7 +302,7 @@ class Fitter {
   const Problem& problem_;
   const std::vector<KeptColumns>* given_;
   const Point& start_;
-  double far_gain_;
+  double far_gain_, own_gain_;
   At at_;
   std::vector<KeptColumns> own_columns_;
   std::vector<MadeFor> made_for_;  // point at which each trial's derivatives were computed
@@ -338,7 +338,7 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
     if (!settled && drop > kExhausted * gained) continue;
     // These derivatives gain too little now.
     const double freed = fitter.settle_each(options.columns_made_here);
-    done = settled && freed < std::max(kGone, near_enough);
+    done = settled && freed < std::max(kGone * options.own_gain, near_enough);
     gained = 0.0;
   }
   fit.point = fitter.point();

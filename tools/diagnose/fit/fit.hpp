@@ -33,7 +33,9 @@ struct Fit {
 struct FitOptions {
   int max_iterations = 24;
   double tolerance = 0.1;  // the fit ends when a step lowers the deviance by less than this
-  bool refresh = true;     // recompute the derivatives by nuisances when steps gain too little
+  // Least predicted drop of a trial's deviance for a step of that trial's nuisances alone.
+  double own_gain = 0.1;
+  bool refresh = true;  // recompute the derivatives by nuisances when steps gain too little
   // Derivatives by nuisances to begin with; null: Problem::kept_columns.
   const std::vector<KeptColumns>* columns = nullptr;
   bool columns_made_here = false;  // these derivatives were computed at `start`

@@ -13,10 +13,9 @@ double Signal::at(double time_s) const {
   const auto i =
       std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place), std::max<std::ptrdiff_t>(n - 2, 0));
   const double u = place - static_cast<double>(i);
-  const auto value = [&](std::ptrdiff_t k) {
-    return values[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, n - 1))];
-  };
-  const double a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
+  const double* v = values.data();
+  const double b = v[i], c = v[std::min(i + 1, n - 1)];
+  const double a = i > 0 ? v[i - 1] : b, d = i + 2 < n ? v[i + 2] : c;
   return b + 0.5 * u * (c - a + u * (2.0 * a - 5.0 * b + 4.0 * c - d + u * (3.0 * (b - c) + d - a)));
 }
 

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/evidence/search.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+
+// The search over sets of effects.
+namespace sandhopper::diagnose {
+namespace {
+
+Problem prepared(const Recordings& recordings) {
+  Problem problem = prepare(recordings).problem;
+  const Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
+  update_noise(problem, point);
+  keep_columns(problem, point);
+  return problem;
+}
+
+double dragged(double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }
+
+// Only single effects with a large linear gain are fitted at first.
+SearchOptions few_fits() {
+  SearchOptions options;
+  options.fits_of_singles = options.fits_per_screen = 1;
+  return options;
+}
+
+TEST(DiagnoseSearch, FitsEveryOtherEffectBesideTheBestSet) {
+  const Problem problem = prepared(drops(dragged));
+  Search search(problem, few_fits());
+  search.run(null_point(problem));
+  const auto best = search.best().set;
+  ASSERT_EQ(best.size(), 1u);
+  const auto beside = [&](std::size_t candidate) {
+    auto set = best;
+    set.push_back(candidate);
+    std::ranges::sort(set);
+    return search.sets().contains(set);
+  };
+  std::size_t before = 0, after = 0;
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) before += c != best.front() && beside(c);
+  search.fit_every_other();
+  for (std::size_t c = 0; c < problem.candidates.size(); ++c) after += c != best.front() && beside(c);
+  EXPECT_LT(before, 4u);
+  EXPECT_EQ(after, search.screened(best).size());
+  EXPECT_EQ(search.best().set, best) << "nothing else is missing";
+}
+
+TEST(DiagnoseSearch, ASearchOfSinglesGoesOnWithLargerSets) {
+  const Problem problem = prepared(drops(dragged));
+  SearchOptions singles;
+  singles.most_effects = 1;
+  Search search(problem, singles);
+  search.run(null_point(problem));
+  const auto largest = [&] {
+    std::size_t size = 0;
+    for (const auto& [set, fit] : search.sets()) size = std::max(size, set.size());
+    return size;
+  };
+  EXPECT_EQ(largest(), 1u);
+  search.widen(2);
+  EXPECT_EQ(largest(), 2u);
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
