@@ -40,6 +40,9 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
   for (const auto candidate : best.set) {
     auto rest = best.set;
     rest.erase(std::remove(rest.begin(), rest.end(), candidate), rest.end());
+    // A name joins the class if it explains something that the other effects leave.
+    const auto others = search.sets().find(rest);
+    const double without_any = others == search.sets().end() ? 1e300 : search.criterion(others->second);
     std::vector<std::pair<double, std::size_t>> rivals;
     double with = 0.0;
     for (const auto& [set, w] : weight) {
@@ -51,6 +54,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
         continue;
       if (w < kLeastShare * weight[best.set]) continue;
       with += w;
+      if (search.criterion(search.sets().at(set)) > without_any) continue;
       for (const auto other : set)
         if (std::find(rest.begin(), rest.end(), other) == rest.end()) rivals.emplace_back(-w, other);
     }
