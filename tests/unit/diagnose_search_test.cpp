@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/evidence/posterior.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
@@ -64,6 +65,28 @@ TEST(DiagnoseSearch, ASearchOfSinglesGoesOnWithLargerSets) {
   EXPECT_EQ(largest(), 1u);
   search.widen(2);
   EXPECT_EQ(largest(), 2u);
+}
+
+// So much is unexplained that the weights of all sets are nearly equal.
+TEST(DiagnoseSearch, AClassHoldsNoNameThatExplainsNothing) {
+  constexpr double kRemainder = 1e6;
+  const Problem problem = prepared(drops(dragged));
+  Search all(problem, {.most_effects = 1});
+  const auto best = all.run(null_point(problem)).set;
+  ASSERT_EQ(best.size(), 1u);
+  all.name_nothing();
+  all.fit_every_other();  // beside nothing: every effect alone
+  ASSERT_EQ(all.best().set, best);
+  std::size_t useless = 0;
+  for (const auto& [set, fit] : all.sets())
+    useless += fit.fit.status != FitStatus::failed && all.criterion(fit) > all.criterion(all.null());
+  EXPECT_GT(useless, 0u);
+  const auto belief = posterior(problem, all, kRemainder);
+  const auto names = belief.alternatives.find(best.front());
+  if (names == belief.alternatives.end()) return;
+  for (const auto name : names->second)
+    EXPECT_LE(all.criterion(all.sets().at({name})), all.criterion(all.null()))
+        << problem.candidates[name].label();
 }
 
 }  // namespace
