@@ -6,5 +6,5 @@ allow_late_cycles() { # CONFIG COPY
   sed -i 's/^overruns_per_s = .*/overruns_per_s = 1000/' "$2/robot.toml"
   grep -q '^overruns_per_s = 1000$' "$2/robot.toml"
 }
-# Waits longer before each further attempt: other work on a shared machine often takes seconds.
-wait_for_quiet() { sleep $((2 ** ($1 - 1))); } # NUMBER of attempts made
+# Waits before each attempt but the first, each time twice as long: other work on a shared machine often takes seconds.
+wait_for_quiet() { (($1 == 1)) || sleep $((2 ** ($1 - 2))); } # NUMBER of the attempt

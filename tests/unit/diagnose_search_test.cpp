@@ -23,16 +23,9 @@ Problem prepared(const Recordings& recordings) {
 
 double dragged(double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }
 
-// Only single effects with a large linear gain are fitted at first.
-SearchOptions few_fits() {
-  SearchOptions options;
-  options.fits_of_singles = options.fits_per_screen = 1;
-  return options;
-}
-
 TEST(DiagnoseSearch, FitsEveryOtherEffectBesideTheBestSet) {
   const Problem problem = prepared(drops(dragged));
-  Search search(problem, few_fits());
+  Search search(problem, {.fits_per_screen = 1, .fits_of_singles = 1});
   search.run(null_point(problem));
   const auto best = search.best().set;
   ASSERT_EQ(best.size(), 1u);
@@ -53,9 +46,7 @@ TEST(DiagnoseSearch, FitsEveryOtherEffectBesideTheBestSet) {
 
 TEST(DiagnoseSearch, ASearchOfSinglesGoesOnWithLargerSets) {
   const Problem problem = prepared(drops(dragged));
-  SearchOptions singles;
-  singles.most_effects = 1;
-  Search search(problem, singles);
+  Search search(problem, {.most_effects = 1});
   search.run(null_point(problem));
   const auto largest = [&] {
     std::size_t size = 0;

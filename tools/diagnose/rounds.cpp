@@ -74,6 +74,8 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   }
 }
 
+bool has_many_trials(const Problem& problem) { return problem.trials.size() > kManyTrialsInAll; }
+
 struct Settled {
   Point null;
   std::vector<Point> starts;  // Further start points for the search.
@@ -176,10 +178,10 @@ SearchOptions options_of_first_round(const Problem& problem, const EngineOptions
 
 // In a large campaign of a costly plant a subset of the trials is searched first, and the full
 // problem starts from its best points.
-Search searched_in_rounds(Problem& problem, const Recordings& clean, const Settled& settled,
-                          const EngineOptions& options, BalanceLaw& balance, Diagnosis& diagnosis) {
+Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& settled,
+                      const EngineOptions& options, BalanceLaw& balance, Diagnosis& diagnosis) {
   const bool costly = problem.plant->is_costly();
-  const bool subset_first = costly && problem.trials.size() > kManyTrialsInAll;
+  const bool subset_first = costly && has_many_trials(problem);
   const bool singles_first = costly && !subset_first;
   SearchOptions search_options = options_of_first_round(problem, options, balance);
   diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own", noise_over_sensors(problem)));
@@ -221,9 +223,8 @@ Search searched_in_rounds(Problem& problem, const Recordings& clean, const Settl
 // end.
 Search searched(Problem& problem, const Recordings& clean, const Settled& settled,
                 const EngineOptions& options, BalanceLaw& balance, Diagnosis& diagnosis) {
-  Search search = searched_in_rounds(problem, clean, settled, options, balance, diagnosis);
-  const bool many_trials = problem.trials.size() > kManyTrialsInAll;
-  if (problem.plant->is_costly() && !many_trials) search.fit_every_other();
+  Search search = best_of_rounds(problem, clean, settled, options, balance, diagnosis);
+  if (problem.plant->is_costly() && !has_many_trials(problem)) search.fit_every_other();
   return search;
 }
 
