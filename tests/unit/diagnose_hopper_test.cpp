@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,6 +112,24 @@ TEST(DiagnoseHopper, ACommandHasTheNoiseOfTheControllersOwnPhase) {
       EXPECT_EQ(phase, expected) << t;
     }
   }
+}
+
+TEST(DiagnoseHopper, ACommandAtTheTorqueLimitIsMarked) {
+  Trial trial = hop(3);
+  Belief belief;
+  const double limit_Nm = world_of(belief, {}).motor.torque_limit_Nm;
+  auto& command = trial.channels.at("command_left_torque_Nm");
+  command[200] = -limit_Nm;
+  command[210] = 0.98 * limit_Nm;
+  std::string why;
+  const auto plant = make_plant(PlantKind::hopper);
+  const auto channels = plant->channels();
+  const auto model = plant->trial(trial, belief, why);
+  ASSERT_NE(model, nullptr) << why;
+  std::vector<double> marked_s;
+  for (const Row& row : model->rows)
+    if (row.at_limit) marked_s.push_back(row.time_s);
+  EXPECT_THAT(marked_s, ::testing::ElementsAre(trial.time_s[200]));
 }
 
 // Without a recorded speed the commands in flight would follow from the simulated speed, and no error would

@@ -19,12 +19,11 @@ using Eigen::VectorXd;
 
 // Smallest (effective) number of trials for a sign-flip test: 2^6 = 64 combinations.
 constexpr double kTrialsToFlip = 6.0;
-// The fit without the effect must be worse by this fraction of the linear gain. If the simulation is chaotic,
-// the derivative is huge but the real difference is near zero.
+// The fit without the effect must be worse by this fraction of the linear gain, or worse in most trials
+// (kFlips). If the simulation is chaotic, the derivative is huge but the real difference is near zero.
 constexpr double kComesTrue = 0.05;
-// Alternatively: p-value of the signed-rank test that most trials are worse without the effect.
-constexpr double kTrialsAgree = 0.01;
-// p-value of sign flips, family-wise; required in addition to Student's t over trials.
+// p-value of sign flips, family-wise; required in addition to Student's t over trials. Also the p-value of
+// the signed-rank test that most trials are worse without the effect (six trials reach 0.016 at best).
 constexpr double kFlips = 0.05;
 // Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
 // priori than one more effect.
@@ -146,7 +145,7 @@ bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
   std::vector<double> drops;
   for (std::size_t t = 0; t < with.trial_deviance.size(); ++t)
     drops.push_back(without.trial_deviance[t] - with.trial_deviance[t]);
-  return signed_rank_p_value(drops) < kTrialsAgree;
+  return signed_rank_p_value(drops) < kFlips;
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ ChannelNoise levels_of(const Sample& sample, std::size_t channel, std::size_t ph
   for (std::size_t t = 0; t < sample.trials.size(); ++t)
     for (std::size_t k = 0; k < sample.trials[t]->rows.size(); ++k) {
       const Row& row = sample.trials[t]->rows[k];
-      if (row.channel != channel || !sample.used[t][k]) continue;
+      if (row.channel != channel || !sample.used[t][k] || row.at_limit) continue;
       const double r = sample.residuals[t][static_cast<Eigen::Index>(k)] /
                        std::hypot(row.relative_sd, row.numerical_sd / floor_sd);
       of_phase[row.phase].push_back(r);
@@ -119,7 +119,7 @@ void take_correlations(const Sample& sample, std::size_t channel, std::size_t ph
       if (row.channel != channel) continue;
       if (before != nullptr && before->block != row.block) chain.clear();
       before = &row;
-      if (!sample.used[t][k]) {
+      if (!sample.used[t][k] || row.at_limit) {
         chain.clear();
         continue;
       }

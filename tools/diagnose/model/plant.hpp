@@ -24,6 +24,7 @@ struct Row {
   // inputs of the prediction are uncertain.
   double relative_sd = 1.0;
   double numerical_sd = 0.0;  // standard deviation between two correct simulations, in the channel's unit
+  bool at_limit = false;      // the recorder cannot show more: the row says nothing of the noise
 };
 
 // Nuisance parameter: a quantity that differs from trial to trial. It is fitted in each trial, with a normal
@@ -157,6 +158,9 @@ class PlantModel {
   // into them.
   virtual std::vector<std::string> channels() const = 0;
   virtual std::vector<std::string> phases() const = 0;
+  // False if the phases only order rows by speed or load. The answer then says where in a trial by thirds of
+  // its time.
+  virtual bool phases_are_stages() const { return true; }
   // Share of the explained deviance that may remain because the true law has another form than the listed
   // one.
   virtual double form_error() const { return 0.05; }

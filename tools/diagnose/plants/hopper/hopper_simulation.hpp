@@ -31,7 +31,7 @@ struct SpringState {
 double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m, const Leg& leg,
                         const SpringState& at);
 
-inline constexpr double kHopperStep_s = 2.5e-4;
+inline constexpr double kHopperStep_s = 5e-4;
 
 // Input of simulate_hopper().
 struct HopperRun {

@@ -17,7 +17,8 @@ constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
 constexpr double kReleaseAngleUnknown_rad = 2e-4;
 constexpr double kNearEndStop_rad = 0.04;
-constexpr double kAloft_s = 0.02;  // a contact later than this after liftoff is the next landing
+constexpr double kAtLimit = 0.999;  // of the torque limit: a command from here on is clamped
+constexpr double kAloft_s = 0.02;   // a contact later than this after liftoff is the next landing
 // Factor on the steps of derivatives. The jumps at events are small against the change over such a step;
 // against a quarter of it they are not.
 constexpr double kWideStep = 4.0;
@@ -163,6 +164,8 @@ void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
     times_.push_back(t);
     ages_s_.push_back(ages[i]);
     rows.push_back({static_cast<std::uint32_t>(c), block, kFlight, t, samples.value[i], unsure[i]});
+    rows.back().at_limit =
+        is_command(c) && std::abs(samples.value[i]) >= kAtLimit * world_.motor.torque_limit_Nm;
   }
 }
 
