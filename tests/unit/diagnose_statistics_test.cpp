@@ -111,6 +111,33 @@ TEST(DiagnoseNoise, NoPastPredictsBetterThanTheSensorsOwnNoise) {
   EXPECT_NEAR(channel.correlation_of_phase[0].innovation_sd * channel.sd_of_phase[0], 0.1, 1e-6);
 }
 
+// A command at the torque limit repeats exactly. The noise of the others must not look smaller for it.
+TEST(DiagnoseNoise, RowsAtTheirLimitSayNothingOfTheNoise) {
+  RowsOnly trial;
+  constexpr std::size_t kRows = 2000;
+  Eigen::VectorXd residual(kRows);
+  for (std::size_t k = 0; k < kRows; ++k) {
+    trial.rows.push_back({.time_s = 1e-3 * static_cast<double>(k), .at_limit = k % 4 != 0});
+    residual[static_cast<Eigen::Index>(k)] = k % 4 != 0 ? 0.0 : k % 8 == 0 ? 0.3 : -0.3;
+  }
+  const std::vector<double> floor{1e-6};
+  const auto noise = estimate_noise({&trial}, {std::vector<std::uint8_t>(kRows, 1)}, {residual}, 1, floor);
+  EXPECT_NEAR(noise.channel(0).sd_of_phase[0], 0.3, 1e-9);
+}
+
+// The first example of Benjamini and Hochberg (1995), section 3.2: at 5 % the four smallest of 15 are
+// rejected, although Bonferroni's method rejects three.
+TEST(DiagnoseStatistics, FalseDiscoveriesAreCountedAsByBenjaminiAndHochberg) {
+  const std::vector<double> p{0.0459, 0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298,
+                              0.0344, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000};
+  std::size_t count = 0;
+  for (const bool rejected : rejected_at_false_discovery_rate(p, 0.05)) count += rejected;
+  EXPECT_EQ(count, 4u);
+  EXPECT_FALSE(rejected_at_false_discovery_rate(p, 0.05)[0]);
+  EXPECT_TRUE(rejected_at_false_discovery_rate(p, 0.05)[4]);
+  EXPECT_TRUE(rejected_at_false_discovery_rate({}, 0.05).empty());
+}
+
 TEST(DiagnosePlants, GrainsMakeOfAWholePressWhatTheirCorrelationSays) {
   // Variance of the mean over a depth D of an exponentially correlated fluctuation: about 2 L / D times its
   // own.

@@ -39,18 +39,23 @@ struct FoundEffect {
   bool may_be_zero() const;
 };
 
-// A channel and phase in which the residual of the null is above the noise floor.
+// A channel and phase (or third of a trial) in which the recordings show what was found.
 struct Where {
   std::string channel;
   std::string port;  // Port of the found effect that changes this cell most; empty if none does.
   std::string phase;
   double from_s = 0.0, to_s = 0.0;
   std::vector<std::string> trials;
-  // Quantity along which the residual varies most, and the range of its larger values.
+  // Quantity along which the change varies most, and the range of its larger values.
   std::string coordinate;
   double range_low = 0.0, range_high = 0.0;
+  // Part of the squared change over the noise, over all channels and phases. Unexplained: part of the excess
+  // of the squared error.
   double share_of_excess = 0.0;
+  bool unexplained = false;  // True if nothing was found: error of the simulation as believed.
   double p_value = 1.0;
+
+  std::string share_in_words() const;
 };
 
 // RMS errors of the null and of the answer, in the channel's unit.

@@ -39,8 +39,7 @@ std::string effect_text(const FoundEffect& e) {
 std::string where_text(const Where& w) {
   std::string text = "where  ";
   if (!w.port.empty()) text += w.port + ": ";
-  text += fmt::format("{} during {}, {:.0f} % of the squared error above the noise floor", w.channel, w.phase,
-                      100.0 * w.share_of_excess);
+  text += fmt::format("{} during {}, {}", w.channel, w.phase, w.share_in_words());
   if (!w.coordinate.empty())
     text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
   return text + fmt::format(", p = {:.1g}\n", w.p_value);
@@ -82,6 +81,12 @@ bool FoundEffect::may_be_zero() const {
   // For a number of the belief, its change decides, not its value.
   const auto& size = parameters.size() > 1 && parameters[1].derived ? parameters[1] : parameters[0];
   return size.low <= 0.0 && size.high >= 0.0 && size.low < size.high;
+}
+
+std::string Where::share_in_words() const {
+  return fmt::format(
+      "{:.0f} % of {}", 100.0 * share_of_excess,
+      unexplained ? "the squared error above the noise floor" : "the change by what was found");
 }
 
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {

@@ -68,7 +68,12 @@ Residuals residuals_of(const Problem& problem, const Point& null, const Point& p
   const auto tolerances = static_cast<Index>(point.tolerances.size());
   information.diagonal().tail(tolerances) +=
       prior_information(problem, point).tail(tolerances) - VectorXd::Ones(tolerances);
-  for (const auto& trial : linear) {
+  const auto nothing = edits_for(problem, {}, point.tolerances);
+  for (std::size_t t = 0; t < linear.size(); ++t) {
+    const auto& trial = linear[t];
+    const TrialModel& model = *problem.trials[t];
+    out.found.push_back(residual_of(model, predicted(problem, model, nothing, point.nuisances[t])) -
+                        trial.residual);
     const VectorXd after = trial.plain.col(0);
     VectorXd held_out = after;
     if (k > 0 && linear.size() > 1) {

@@ -12,6 +12,8 @@ struct Residuals {
   std::vector<Eigen::VectorXd> before;    // with the belief
   std::vector<Eigen::VectorXd> after;     // with the effects that were found
   std::vector<Eigen::VectorXd> held_out;  // the same, with sizes from the other trials only
+  // [trial]: change of the rows by all that was found, with the nuisances of the answer; 0 if nothing was.
+  std::vector<Eigen::VectorXd> found;
   std::vector<std::vector<Eigen::VectorXd>>
       change;  // [trial][effect of the best set]: change of the rows by that effect
 };

@@ -116,6 +116,18 @@ double signed_rank_p_value(const std::vector<double>& values) {
   return p;
 }
 
+std::vector<bool> rejected_at_false_discovery_rate(const std::vector<double>& p_values, double rate) {
+  std::vector<double> sorted = p_values;
+  std::ranges::sort(sorted);
+  double limit = -1.0;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (sorted[i] <= rate * static_cast<double>(i + 1) / static_cast<double>(sorted.size()))
+      limit = sorted[i];
+  std::vector<bool> rejected;
+  for (const double p : p_values) rejected.push_back(p <= limit);
+  return rejected;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

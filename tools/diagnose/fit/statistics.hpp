@@ -38,6 +38,10 @@ double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size
 // at least as large, if both signs are equally likely. Ties get no mean rank: the earlier one has the lower.
 double signed_rank_p_value(const std::vector<double>& values);
 
+// Which of these hypotheses are rejected at a false discovery rate: those whose p-value is at most that of
+// the last i, by ascending p, with p_(i) <= rate i / n. Benjamini and Hochberg, J. R. Stat. Soc. B 57 (1995).
+std::vector<bool> rejected_at_false_discovery_rate(const std::vector<double>& p_values, double rate);
+
 // Median; for an even number the upper of the two middle values. 0 if empty.
 double median(std::vector<double> values);
 

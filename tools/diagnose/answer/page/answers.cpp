@@ -30,8 +30,7 @@ std::string place_of(const Where& w) {
       fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, in_words(w.phase), w.from_s, w.to_s);
   if (!w.coordinate.empty() && w.coordinate != "t_s")
     text += fmt::format("; {} {} to {} {}", axis.words, number(w.range_low), number(w.range_high), axis.unit);
-  return text + fmt::format("; {:.0f} % of the squared error above the noise floor, {}",
-                            100.0 * w.share_of_excess, p_text(w.p_value));
+  return text + fmt::format("; {}, {}", w.share_in_words(), p_text(w.p_value));
 }
 
 std::vector<std::string> ports_of(const Diagnosis& d) {

@@ -140,19 +140,19 @@ StudySection unknown_section(const Diagnosis& d) {
 
 StudySection where_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {
-      "channel", "phase", "port", "axis", "from", "to", "share of the squared error above the floor",
-      "p",       "trials"};
+  table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change", "p", "trials"};
   table.text_columns = 4;
   for (const auto& w : d.where)
     table.rows.push_back({w.channel, in_words(w.phase), w.port, quantity_of(w.coordinate).label(),
                           number(w.range_low), number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
                           fmt::format("{:.1e}", w.p_value), fmt::format("{}", w.trials.size())});
   table.note =
-      "Channels and phases in which the error of the simulation as believed is largest. The axis is the "
-      "quantity "
-      "along which that error is least even, with the range of its larger values. A port is named only where "
-      "something found acts on that channel and phase.";
+      "Channels and phases, or thirds of a trial, in which what was found changes the recordings by more "
+      "than "
+      "their noise in at least one trial; if nothing was named, in which the simulation as believed errs by "
+      "more. At most one in twenty is there by chance. Share: of the squared change, relative to the noise, "
+      "over all channels and phases. The axis is the quantity along which the change is least even, with the "
+      "range of its larger values. Trials: in how many the change is above the noise.";
   return {"Where it shows", {table}};
 }
 

@@ -27,6 +27,7 @@ class FallingBody final : public PlantModel {
   std::vector<std::string> phases() const override {
     return {"held", "slow_fall", "fast_fall", "bed", "entry", "immersed"};
   }
+  bool phases_are_stages() const override { return false; }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {

@@ -68,6 +68,7 @@ class RotaryAxis final : public PlantModel {
   std::vector<std::string> channels() const override { return {"position_rad", "velocity_radps"}; }
   double form_error() const override { return 0.01; }
   std::vector<std::string> phases() const override { return {"rest", "slow", "fast"}; }
+  bool phases_are_stages() const override { return false; }
   bool filtered_in_rows(const std::string& channel, const Belief& belief) const override {
     return channel == "velocity_radps" && speed_of_encoder(belief);
   }
