@@ -130,9 +130,14 @@ TEST(ConcealedCells, AnEffectBelowTheNoiseHasNone) {
               ElementsAre(Optional(IsEmpty())));
 }
 
-TEST(ConcealedCells, FaultsOfDataAndOfInputsAreNotLocalised) {
-  for (const char* effect : {"data.stuck", "data.dropout", "sensor.bias"})
-    EXPECT_FALSE(cells_of_effects(one_hidden("intruder", effect, 2.0)).at(0)) << effect;
+TEST(ConcealedCells, FaultsOfDataAreNotLocalised) {
+  for (const char* effect : {"data.stuck", "data.dropout"})
+    EXPECT_FALSE(cells_of_effects(one_hidden("falling_body", effect, 2.0)).at(0)) << effect;
+}
+
+// The bias is on the foot's position, which the simulation takes from the recording.
+TEST(ConcealedCells, FaultsOfInputsAreNotLocalised) {
+  EXPECT_FALSE(cells_of_effects(one_hidden("intruder", "sensor.bias", 2.0)).at(0));
 }
 
 TEST(ConcealedCells, StandInTheAnswer) {
