@@ -118,7 +118,8 @@ TEST_F(BenchmarkRunner, ScoresTheCellsThatTheToolReports) {
   auto o = options(
       "echo '{\"verdict\": \"missing_physics\", \"effects\": [], \"where\": ["
       "{\"channel\": \"force_N\", \"phase\": \"unloading\"},"
-      "{\"channel\": \"force_N\", \"phase\": \"hold\"}, {\"channel\": \"force_N\"}, 7]}'");
+      "{\"channel\": \"force_N\", \"phase\": \"hold\"}, {\"channel\": \"force_N\"}, "
+      "{\"channel\": \"force_N\", \"phase\": null}, 7]}'");
   o.campaigns = 1;
   o.request.plant = "intruder";
   o.request.effect = "terrain.suction";

@@ -120,9 +120,10 @@ Score score(std::vector<Judged> cases) {
       add(s.right_by_plant.try_emplace(j.truth->plant, Figure{j.truth->plant, 0, 0, 0.9, 0.97}).first->second,
           j.right);
     s.intervals_without_counterpart += j.intervals_without_counterpart;
-    if (!j.localisation) continue;
-    s.localisation += *j.localisation;
-    s.localisation_by_plant[j.truth->plant] += *j.localisation;
+    if (j.localisation) {
+      s.localisation += *j.localisation;
+      s.localisation_by_plant[j.truth->plant] += *j.localisation;
+    }
   }
   if (right) s.mean_class_size = static_cast<double>(sizes) / static_cast<double>(right);
   grade(s);

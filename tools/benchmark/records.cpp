@@ -34,13 +34,13 @@ std::vector<std::string> texts(const nlohmann::json& json, const char* key) {
   return all;
 }
 
-// Entries without a channel or a phase are left out.
+// Entries without the names of a channel and a phase are left out.
 std::set<Cell> cells_of(const nlohmann::json& json) {
   std::set<Cell> cells;
   for (const auto& one : json) {
-    if (!one.is_object()) continue;
-    Cell cell{one.value("channel", ""), one.value("phase", "")};
-    if (!cell.channel.empty() && !cell.phase.empty()) cells.insert(std::move(cell));
+    if (!one.is_object() || !one.contains("channel") || !one.contains("phase")) continue;
+    const auto &channel = one["channel"], &phase = one["phase"];
+    if (channel.is_string() && phase.is_string()) cells.insert({channel, phase});
   }
   return cells;
 }

@@ -47,7 +47,7 @@ StudyTable figures_table(const std::vector<Column>& columns, const std::vector<F
     table.rows.push_back(std::move(row));
   }
   const auto& own = columns.front().score;
-  std::vector<std::string> row{"localisation, F1 over the cells of these campaigns"};
+  std::vector<std::string> row{"localisation, F1 of the cells"};
   for (const auto& column : columns) row.push_back(shown(column.score.localisation.f1()));
   const auto& where = own.localisation;
   row.insert(row.end(), {fmt::format("{}", where.campaigns), at_least(Localisation::kMust),
@@ -152,11 +152,12 @@ StudyTable by_effect(const Score& score) {
 }
 
 StudyTable every_case(const Score& score) {
-  StudyTable table{.title = "Every case",
-                   .columns = {"campaign", "plant", "kind", "hidden (size)", "said", "right", "visibility",
-                               "precision, %", "recall, %"},
-                   .text_columns = 5,
-                   .note = "Precision and recall: of the localisation; – if it is not scored."};
+  StudyTable table{
+      .title = "Every case",
+      .columns = {"campaign", "plant", "kind", "hidden (size)", "said", "right", "visibility", "precision, %",
+                  "recall, %"},
+      .text_columns = 5,
+      .note = "Precision and recall of the localisation: – if it is not scored, or no cell is reported."};
   for (const auto& j : score.cases) {
     std::string hidden;
     for (const auto& effect : j.truth->effects)

@@ -29,6 +29,7 @@ struct Compared {
   std::vector<std::vector<Differences>> effects;  // by effect, then by trial
 };
 
+// The recordings are compared without their gaps, which remove a few milliseconds of some trials.
 Compared compare(const Case& c) {
   const auto plain = build(c, {});
   std::vector<std::unique_ptr<Bench>> without;
@@ -90,8 +91,8 @@ std::vector<EffectCells> cells_of_effects(const Case& c) {
       else
         cells.push_back(cell);
     }
-    const bool unsaid = is_data_fault(c.hidden[e]) || (cells.empty() && in_an_input);
-    all.push_back(unsaid ? std::nullopt : EffectCells(std::move(cells)));
+    const bool not_localised = is_data_fault(c.hidden[e]) || (cells.empty() && in_an_input);
+    all.push_back(not_localised ? std::nullopt : EffectCells(std::move(cells)));
   }
   return all;
 }

@@ -18,8 +18,8 @@ class MeanSquare {
   double squares_ = 0.0, count_ = 0.0;
 };
 
-// Calls visit(channel, row, a - b) for each row in which both tables have a sample of the channel. The rows
-// of both tables must have the same times.
+// Calls visit(channel, row, a - b) for each row in which both tables have a sample of the channel. Rows
+// are compared by their number.
 template <class Visit>
 void for_each_difference(const Table& a, const Table& b, const Visit& visit) {
   for (const auto& column : a.columns) {
