@@ -113,5 +113,25 @@ TEST_F(BenchmarkRunner, CountsATrialAsSplittingOnlyWhereItWasRecommendedForThat)
   }
 }
 
+// Suction acts on the foot's way up only (tests/conceal/cells_test.cpp).
+TEST_F(BenchmarkRunner, ScoresTheCellsThatTheToolReports) {
+  auto o = options(
+      "echo '{\"verdict\": \"missing_physics\", \"effects\": [], \"where\": ["
+      "{\"channel\": \"force_N\", \"phase\": \"unloading\"},"
+      "{\"channel\": \"force_N\", \"phase\": \"hold\"}, {\"channel\": \"force_N\"}, "
+      "{\"channel\": \"force_N\", \"phase\": null}, 7]}'");
+  o.campaigns = 1;
+  o.request.plant = "intruder";
+  o.request.effect = "terrain.suction";
+  o.request.size = 1.0;
+  run_benchmark(o, [](std::uint64_t) {});
+  const auto columns = score_all(read_truths(o.folder / "answers"), o.folder / "diagnoses", {});
+  const auto& found = columns.front().score.localisation;
+  EXPECT_EQ(found.campaigns, 1u);
+  EXPECT_EQ(found.true_positives, 1u);
+  EXPECT_EQ(found.false_positives, 1u);
+  EXPECT_EQ(found.missed, 0u);
+}
+
 }  // namespace
 }  // namespace sandhopper::benchmark

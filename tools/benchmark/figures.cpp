@@ -120,6 +120,10 @@ Score score(std::vector<Judged> cases) {
       add(s.right_by_plant.try_emplace(j.truth->plant, Figure{j.truth->plant, 0, 0, 0.9, 0.97}).first->second,
           j.right);
     s.intervals_without_counterpart += j.intervals_without_counterpart;
+    if (j.localisation) {
+      s.localisation += *j.localisation;
+      s.localisation_by_plant[j.truth->plant] += *j.localisation;
+    }
   }
   if (right) s.mean_class_size = static_cast<double>(sizes) / static_cast<double>(right);
   grade(s);
@@ -134,6 +138,12 @@ nlohmann::ordered_json to_json(const Score& s) {
   json["mean_class_size"] = s.mean_class_size;
   json["expected_calibration_error"] = s.expected_calibration_error;
   json["intervals_without_counterpart"] = s.intervals_without_counterpart;
+  json["localisation"] = to_json(s.localisation);
+  json["localisation"]["must"] = Localisation::kMust;
+  json["localisation"]["aim"] = Localisation::kAim;
+  json["localisation"]["met"] = s.localisation.met();
+  for (const auto& [plant, localisation] : s.localisation_by_plant)
+    json["localisation"]["by_plant"][plant] = to_json(localisation);
   for (const auto& bin : s.reliability)
     if (bin.count)
       json["reliability"].push_back(
@@ -162,14 +172,16 @@ nlohmann::ordered_json to_json(const Score& s) {
     nlohmann::ordered_json hidden = nlohmann::ordered_json::array();
     for (const auto& effect : j.truth->effects)
       hidden.push_back({{"id", effect.id}, {"size_relative", effect.size}});
-    json["cases"].push_back({{"campaign", j.truth->name},
-                             {"plant", j.truth->plant},
-                             {"kind", j.truth->kind},
-                             {"hidden", hidden},
-                             {"visibility", j.truth->visibility},
-                             {"said", j.said},
-                             {"right", passed(j)},
-                             {"confident_wrong", j.confident_wrong}});
+    json["cases"].push_back(
+        {{"campaign", j.truth->name},
+         {"plant", j.truth->plant},
+         {"kind", j.truth->kind},
+         {"hidden", hidden},
+         {"visibility", j.truth->visibility},
+         {"said", j.said},
+         {"localisation", j.localisation ? to_json(*j.localisation) : nlohmann::ordered_json()},
+         {"right", passed(j)},
+         {"confident_wrong", j.confident_wrong}});
   }
   return json;
 }

@@ -50,6 +50,8 @@ struct Score {
   std::map<std::string, Fate> by_effect;
   std::map<std::string, Figure> right_by_plant;
   std::size_t intervals_without_counterpart = 0;
+  Localisation localisation;
+  std::map<std::string, Localisation> localisation_by_plant;
   std::vector<Judged> cases;
 };
 

@@ -138,6 +138,7 @@ Judged judge(const Truth& truth, const std::optional<Diagnosis>& diagnosis) {
     for (const auto& claim : names)
       if (claim.id == effect.id) check_intervals(j, effect, claim);
   for (const auto& effect : truth.effects) check_bounds(j, effect, d.absent);
+  j.localisation = localise(truth, d);
   if (passed(j) && !truth.nothing_hidden() && d.heldout_after && d.floor && *d.floor > 0.0)
     j.heldout_over_floor = *d.heldout_after / *d.floor;
   return j;

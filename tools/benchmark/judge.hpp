@@ -1,4 +1,5 @@
 #pragma once
+#include "tools/benchmark/localisation.hpp"
 #include "tools/benchmark/records.hpp"
 
 namespace sandhopper::benchmark {
@@ -28,6 +29,7 @@ struct Judged {
   std::size_t intervals = 0, intervals_hold = 0, intervals_without_counterpart = 0;
   // Hidden effects called absent, and those of them that are within the stated bound.
   std::size_t bounded = 0, bounds_hold = 0;
+  std::optional<Localisation> localisation;  // nullopt: not scored
 };
 
 // Probability from which a claim counts as confident.

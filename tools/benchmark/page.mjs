@@ -55,9 +55,24 @@ function figureRow(ofPlants) {
     ...ofPlants.map((f) => (f === undefined ? 'not asked' : shown(f, known[0], asked))), shown(all, known[0], asked)];
 }
 
+// One row of the localisation: `value` of the counted cells of each plant, and of all plants together.
+function localisationRow(name, must, value) {
+  const known = plants.map((plant) => plant.own.localisation).filter((l) => l?.campaigns > 0);
+  const all = Object.fromEntries(['campaigns', 'true_positives', 'false_positives', 'missed'].map((key) => [key, sum(known.map((l) => l[key]))]));
+  const cell = (l) => {
+    if (!l?.campaigns) return 'not measured';
+    const share = value(l);
+    return Number.isNaN(share) ? 'none reported' : `${percent(share)} in ${l.campaigns}${must && share < must ? ', **missed**' : ''}`;
+  };
+  return [name, must ? `at least ${100 * must}` : '', ...plants.map((plant) => cell(plant.own.localisation)), cell(all)];
+}
+
 const figures = plants[0].own.figures.map((_, i) => figureRow(plants.map((plant) => plant.own.figures[i])));
 for (const { figure } of plants.find((plant) => plant.splits?.length)?.splits ?? [])
   figures.push(figureRow(plants.map((plant) => plant.splits?.find((f) => f.figure === figure))));
+figures.push(localisationRow('localisation: precision', 0, (l) => l.true_positives / (l.true_positives + l.false_positives)));
+figures.push(localisationRow('localisation: recall', 0, (l) => l.true_positives / (l.true_positives + l.missed)));
+figures.push(localisationRow('localisation: F1', 0.75, (l) => 2 * l.true_positives / (2 * l.true_positives + l.false_positives + l.missed)));
 const named = plants.map((p) => p.own.figures[1].count);
 figures.push(['mean class size of the right names', 'at most 2.5', ...plants.map((p) => p.own.mean_class_size.toFixed(2)),
   (sum(plants.map((p, i) => p.own.mean_class_size * named[i])) / sum(named)).toFixed(2)]);

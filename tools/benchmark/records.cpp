@@ -34,6 +34,17 @@ std::vector<std::string> texts(const nlohmann::json& json, const char* key) {
   return all;
 }
 
+// Entries without the names of a channel and a phase are left out.
+std::set<Cell> cells_of(const nlohmann::json& json) {
+  std::set<Cell> cells;
+  for (const auto& one : json) {
+    if (!one.is_object() || !one.contains("channel") || !one.contains("phase")) continue;
+    const auto &channel = one["channel"], &phase = one["phase"];
+    if (channel.is_string() && phase.is_string()) cells.insert({channel, phase});
+  }
+  return cells;
+}
+
 Truth truth_of(const nlohmann::json& json, std::string name) {
   Truth t;
   t.name = std::move(name);
@@ -43,6 +54,7 @@ Truth truth_of(const nlohmann::json& json, std::string name) {
     Truth::Effect e{effect.at("id"), effect.at("size_relative"), {}};
     for (const auto& [key, value] : effect.at("parameters").items())
       if (value.is_number()) e.parameters[key] = value.get<double>();
+    if (effect.contains("cells") && effect["cells"].is_array()) e.cells = cells_of(effect["cells"]);
     t.effects.push_back(std::move(e));
   }
   if (json.at("unknown_port").is_string()) t.unknown_port = json["unknown_port"].get<std::string>();
@@ -73,6 +85,15 @@ Claim claim_of(const nlohmann::json& json) {
 
 bool Truth::holds(const std::string& id) const {
   return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.id == id; });
+}
+
+std::set<Cell> Truth::cells() const {
+  std::set<Cell> all;
+  for (const auto& effect : effects) {
+    if (!effect.cells) return {};
+    all.insert(effect.cells->begin(), effect.cells->end());
+  }
+  return all;
 }
 
 bool Claim::covers(const std::string& other) const {
@@ -116,6 +137,7 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
     for (const auto& bound : json["absent"])
       if (const auto value = bound.is_object() ? number(bound, "upper_bound") : std::nullopt)
         d.absent.push_back({bound.value("id", ""), bound.value("parameter", ""), *value});
+  if (json.contains("where") && json["where"].is_array()) d.where = cells_of(json["where"]);
   if (json.contains("baselines") && json["baselines"].is_object())
     for (const auto& [name, one] : json["baselines"].items())
       if (one.is_object() && one.contains("id") && one["id"].is_string()) d.baselines[name] = one["id"];

@@ -2,11 +2,18 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 // Input of the scorer: the answers of `hop conceal` and the diagnosis.json files of `hop diagnose`.
 namespace sandhopper::benchmark {
+
+// A part of the recordings: one channel in one phase of the motion.
+struct Cell {
+  std::string channel, phase;
+  auto operator<=>(const Cell&) const = default;
+};
 
 // An answer of `hop conceal`: the hidden effects.
 struct Truth {
@@ -16,6 +23,8 @@ struct Truth {
     std::string id;
     double size;  // relative to typical
     std::map<std::string, double> parameters;
+    // Cells in which it exceeds the noise; nullopt if the answer does not state them.
+    std::optional<std::set<Cell>> cells{};
   };
   std::vector<Effect> effects;
   std::optional<std::string> unknown_port;
@@ -24,6 +33,8 @@ struct Truth {
 
   bool nothing_hidden() const { return effects.empty(); }
   bool holds(const std::string& id) const;
+  // The cells of all hidden effects; empty if the answer does not state those of every one.
+  std::set<Cell> cells() const;
 };
 
 // One entry of `effects` in diagnosis.json.
@@ -52,6 +63,7 @@ struct Diagnosis {
   std::string verdict, detail;
   std::vector<Claim> claims;
   std::vector<UpperBound> absent;
+  std::set<Cell> where;
   std::optional<double> heldout_after, floor;
   std::optional<double> seconds;
   bool asks_for_a_split = false;                 // Recommends a trial to separate the members of a class.

@@ -16,7 +16,15 @@ std::string shown(const Figure& f) {
   return fmt::format("{} ({}–{})", percent(f.value()), percent(interval.low), percent(interval.high));
 }
 
-std::string bound(const Figure& f, double limit) { return (f.less_is_better ? "≤ " : "≥ ") + percent(limit); }
+std::string shown(const std::optional<double>& share) { return share ? percent(*share) : "–"; }
+
+std::string at_least(double limit) { return "≥ " + percent(limit); }
+
+std::string met_text(std::size_t of, bool met) { return of == 0 ? "–" : met ? "yes" : "no"; }
+
+std::string bound(const Figure& f, double limit) {
+  return f.less_is_better ? "≤ " + percent(limit) : at_least(limit);
+}
 
 StudyTable figures_table(const std::vector<Column>& columns, const std::vector<Figure>& splits) {
   StudyTable table{.title = "Figures of the benchmark, % (95 % Wilson interval)", .columns = {"figure"}};
@@ -28,25 +36,50 @@ StudyTable figures_table(const std::vector<Column>& columns, const std::vector<F
     for (const auto& column : columns) row.push_back(shown(column.score.figures[i]));
     for (const auto& text : {fmt::format("{}", own.of), bound(own, own.must), bound(own, own.aim)})
       row.push_back(text);
-    row.push_back(own.of == 0 ? "–" : own.met() ? "yes" : "no");
+    row.push_back(met_text(own.of, own.met()));
     table.rows.push_back(std::move(row));
   }
   for (const auto& split : splits) {
     std::vector<std::string> row{split.name, shown(split)};
     row.resize(1 + columns.size(), "–");
     row.insert(row.end(), {fmt::format("{}", split.of), bound(split, split.must), bound(split, split.aim),
-                           split.of == 0 ? "–"
-                           : split.met() ? "yes"
-                                         : "no"});
+                           met_text(split.of, split.met())});
     table.rows.push_back(std::move(row));
   }
   const auto& own = columns.front().score;
+  std::vector<std::string> row{"localisation, F1 of the cells"};
+  for (const auto& column : columns) row.push_back(shown(column.score.localisation.f1()));
+  const auto& where = own.localisation;
+  row.insert(row.end(), {fmt::format("{}", where.campaigns), at_least(Localisation::kMust),
+                         at_least(Localisation::kAim), met_text(where.campaigns, where.met())});
+  table.rows.push_back(std::move(row));
   table.note = fmt::format(
       "Typical size: {} to {} times the size in the generator's list. Mean class size of the right names "
       "there: {:.2f}. {} "
       "parameters have "
       "no counterpart of the same name or unit in the diagnosis and are not in the intervals' figure.",
       kTypicalFrom, kTypicalTo, own.mean_class_size, own.intervals_without_counterpart);
+  return table;
+}
+
+StudyTable localisation_table(const Score& score) {
+  StudyTable table{
+      .title = "Localisation: cells that are reported, against those with a hidden effect",
+      .columns = {"plant", "campaigns", "true positives", "false positives", "missed", "precision, %",
+                  "recall, %", "F1, %"},
+      .note =
+          "A cell is one channel in one phase of the motion. A hidden effect is in it if it changes the cell "
+          "by more than the sensor's noise in at least one trial. Only campaigns whose diagnosis says that "
+          "physics is missing are counted."};
+  const auto add = [&](const std::string& name, const Localisation& l) {
+    std::vector<std::string> row{name};
+    for (const auto count : {l.campaigns, l.true_positives, l.false_positives, l.missed})
+      row.push_back(fmt::format("{}", count));
+    for (const auto& share : {l.precision(), l.recall(), l.f1()}) row.push_back(shown(share));
+    table.rows.push_back(std::move(row));
+  };
+  for (const auto& [plant, localisation] : score.localisation_by_plant) add(plant, localisation);
+  add("all", score.localisation);
   return table;
 }
 
@@ -119,9 +152,12 @@ StudyTable by_effect(const Score& score) {
 }
 
 StudyTable every_case(const Score& score) {
-  StudyTable table{.title = "Every case",
-                   .columns = {"campaign", "plant", "kind", "hidden (size)", "said", "right", "visibility"},
-                   .text_columns = 5};
+  StudyTable table{
+      .title = "Every case",
+      .columns = {"campaign", "plant", "kind", "hidden (size)", "said", "right", "visibility", "precision, %",
+                  "recall, %"},
+      .text_columns = 5,
+      .note = "Precision and recall of the localisation: – if it is not scored, or no cell is reported."};
   for (const auto& j : score.cases) {
     std::string hidden;
     for (const auto& effect : j.truth->effects)
@@ -130,7 +166,9 @@ StudyTable every_case(const Score& score) {
                           passed(j)           ? "yes"
                           : j.confident_wrong ? "NO, and sure"
                                               : "no",
-                          fmt::format("{:.2f}", j.truth->visibility)});
+                          fmt::format("{:.2f}", j.truth->visibility),
+                          j.localisation ? shown(j.localisation->precision()) : "–",
+                          j.localisation ? shown(j.localisation->recall()) : "–"});
   }
   return table;
 }
@@ -156,12 +194,16 @@ Study score_study(const std::vector<Column>& columns, const std::vector<Figure>&
   for (const auto& f : own.figures)
     if (f.of > 0 && !f.met())
       study.warnings.push_back(fmt::format("{}: {} %, must be {} %.", f.name, shown(f), bound(f, f.must)));
+  if (own.localisation.campaigns > 0 && !own.localisation.met())
+    study.warnings.push_back(fmt::format("localisation, F1: {} %, must be {} %.",
+                                         shown(own.localisation.f1()), at_least(Localisation::kMust)));
   StudyTable plants{.title = "Right name or class at typical size, by plant",
                     .columns = {"plant", "right, %", "of"}};
   for (const auto& [plant, f] : own.right_by_plant)
     plants.rows.push_back({plant, shown(f), fmt::format("{}", f.of)});
   study.sections = {{.title = "Figures", .items = {figures_table(columns, splits)}},
                     {.title = "Certainty and size", .items = {reliability(own), ladder(own), plants}},
+                    {.title = "Localisation", .items = {localisation_table(own)}},
                     {.title = "By effect", .items = {by_effect(own)}},
                     {.title = "Cases", .items = {every_case(own)}}};
   return study;
@@ -180,6 +222,14 @@ std::vector<std::string> score_text(const std::vector<Column>& columns, const st
                                 : f.met() ? "met"
                                           : "MISSED"));
   lines.push_back(fmt::format("{:<52} {:>20.2f}", "mean class size of the right names", own.mean_class_size));
+  const auto& where = own.localisation;
+  lines.push_back(fmt::format("{:<52} {:>20} % of {:<4} must {:<7} {}", "localisation, F1 of the cells",
+                              shown(where.f1()), where.campaigns, at_least(Localisation::kMust),
+                              where.campaigns == 0 ? "–"
+                              : where.met()        ? "met"
+                                                   : "MISSED"));
+  lines.push_back(fmt::format("{:<52} {:>20} %, {} %", "localisation, precision and recall",
+                              shown(where.precision()), shown(where.recall())));
   lines.push_back(
       fmt::format("{:<52} {:>20.3f}", "expected calibration error", own.expected_calibration_error));
   lines.push_back(fmt::format("{:<52} {}", "time of a diagnosis", time_text(seconds)));

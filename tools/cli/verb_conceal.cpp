@@ -169,6 +169,8 @@ ExitCode score(Session& session, const Options& options) {
   bool met = true;
   for (const auto& column : columns) session.result["tools"][column.name] = benchmark::to_json(column.score);
   for (const auto& figure : columns.front().score.figures) met = met && (figure.of == 0 || figure.met());
+  const auto& where = columns.front().score.localisation;
+  met = met && (where.campaigns == 0 || where.met());
   for (const auto& split : splits) session.result["splits"].push_back(benchmark::to_json(split));
   if (!options.report.empty()) {
     write_study_page(benchmark::score_study(columns, splits, seconds), options.report);

@@ -229,7 +229,7 @@ std::unique_ptr<Bench> build(const Case& c, const std::vector<HiddenEffect>& hid
   return bench;
 }
 
-Table record(const Case& c, const Bench& bench, const Setup& setup, const Random& trial) {
+Table record(const Case& c, const Bench& bench, const Setup& setup, const TrialRandom& trial) {
   auto table = bench.record(setup, trial);
   if (auto* dead = table.find(c.dead_channel))
     std::fill(dead->values.begin(), dead->values.end(), std::numeric_limits<double>::quiet_NaN());

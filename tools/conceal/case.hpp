@@ -66,6 +66,6 @@ Case make_case(const Request& request, std::uint64_t index);
 std::unique_ptr<Bench> build(const Case& c, const std::vector<HiddenEffect>& hidden);
 
 // A trial as it is written to the campaign's folder, with dead channel and gaps.
-Table record(const Case& c, const Bench& bench, const Setup& setup, const Random& trial);
+Table record(const Case& c, const Bench& bench, const Setup& setup, const TrialRandom& trial);
 
 }  // namespace sandhopper::conceal

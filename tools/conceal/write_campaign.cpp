@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "tools/conceal/cells.hpp"
 #include "tools/conceal/visibility.hpp"
 
 namespace sandhopper::conceal {
@@ -59,6 +60,17 @@ std::string campaign_toml(const Case& c, const std::vector<Setup>& setups,
   return text;
 }
 
+Json to_json(const EffectCells& cells) {
+  if (!cells) return nullptr;
+  auto all = Json::array();
+  for (const auto& cell : *cells)
+    all.push_back({{"channel", cell.channel},
+                   {"phase", cell.phase},
+                   {"ratio", six_digits(cell.ratio)},
+                   {"max_trial_ratio", six_digits(cell.max_trial_ratio)}});
+  return all;
+}
+
 }  // namespace
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
@@ -84,6 +96,8 @@ void write_campaign(const std::filesystem::path& folder, const Case& c, const st
 
 Json answer(const Case& c, const Request& request, std::uint64_t index) {
   Json json{{"plant", c.plant->name()}, {"kind", name_of(c.kind)}, {"effects", c.effects}};
+  const auto cells = cells_of_effects(c);
+  for (std::size_t e = 0; e < cells.size(); ++e) json["effects"][e]["cells"] = to_json(cells[e]);
   json["unknown_port"] = c.unknown_port;
   json["class"] = c.ambiguity;
   const auto seen = visibility(c, c.hidden);

@@ -67,6 +67,11 @@ double static_N(const Bed& b, const BedState& s, double z_m) {
   return force * (1.0 + s.stiffness_relative + fluctuation_at(s, z)) * ageing(b, s);
 }
 
+double believed_static_N(Bed bed, double z_m) {
+  bed.hidden = {};
+  return static_N(bed, {}, z_m);
+}
+
 VirginForce virgin(const Bed& b, const BedState& s, double t_s, double z_m, double v_mps) {
   const auto& h = b.hidden;
   const double z = below_surface_m(b, s, z_m);

@@ -59,6 +59,8 @@ struct VirginForce {
 
 // Quasi-static force at depth z, N, with hidden effects.
 double static_N(const Bed& bed, const BedState& state, double z_m);
+// The same without hidden effects: a measure for the size of one, whatever else is hidden.
+double believed_static_N(Bed bed, double z_m);
 // Force on virgin grains at depth z and downward speed v.
 VirginForce virgin(const Bed& bed, const BedState& state, double t_s, double z_m, double v_mps);
 // Force above the deepest point so far (unloading and reloading), N. `damped_mass_kg`: mass for the damping

@@ -6,7 +6,7 @@
 namespace sandhopper::conceal {
 namespace {
 
-double at_20_mm_N(const Bed& bed) { return static_N(bed, {}, 0.02); }
+double at_20_mm_N(const Bed& bed) { return believed_static_N(bed, 0.02); }
 
 Json added_mass(Bed& b, double size, Random&) {
   b.hidden.added_mass_kg = size * 0.12 * std::pow(b.foot_radius_m / 0.04, 3);

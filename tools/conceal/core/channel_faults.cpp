@@ -33,9 +33,9 @@ Trace through(const Trace& truth, const ChannelChain& chain, const ChannelFaults
 
 void record_channel(Table& table, const std::string& name, const Trace& truth,
                     const std::vector<double>& rows_s, const ChannelChain& chain, const ChannelFaults& faults,
-                    const Random& trial) {
+                    const TrialRandom& trial) {
   const auto signal = through(truth, chain, faults);
-  auto noise = trial.stream("noise " + name);
+  auto noise = trial.noise("noise " + name);
   const double phase = trial.stream("phase " + name).uniform();
   const auto dropped =
       episodes(rows_s, faults.dropout_rate_Hz, faults.dropout_s, trial.stream("dropout " + name));

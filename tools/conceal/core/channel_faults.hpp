@@ -38,6 +38,6 @@ struct ChannelChain {
 // `rows_s`.
 void record_channel(Table& table, const std::string& name, const Trace& truth,
                     const std::vector<double>& rows_s, const ChannelChain& chain, const ChannelFaults& faults,
-                    const Random& trial);
+                    const TrialRandom& trial);
 
 }  // namespace sandhopper::conceal

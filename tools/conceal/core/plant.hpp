@@ -27,7 +27,10 @@ class Bench {
   virtual ~Bench() = default;
   virtual Belief belief() const = 0;
   virtual std::vector<Setup> draw_setups(int trials, Random random) const = 0;
-  virtual Table record(const Setup& setup, Random random) const = 0;
+  virtual Table record(const Setup& setup, const TrialRandom& trial) const = 0;
+  // Phase of the motion in each row of that recording, in the words of diagnosis.json (`where`).
+  virtual std::vector<std::string> phases(const Setup& setup, const TrialRandom& trial,
+                                          const Table& recorded) const = 0;
   // Hides an effect that the belief does not contain. `size` is relative to typical. Returns its parameters.
   virtual Json hide(const std::string& id, double size, Random random) = 0;
   // Limits channels or set-ups so that the members of the ambiguity cannot be distinguished.
@@ -44,6 +47,8 @@ class Plant {
   virtual std::vector<Ambiguity> ambiguities() const = 0;
   // Channels that may be recorded dead.
   virtual std::vector<std::string> expendable() const = 0;
+  // Channels that a simulation of this plant takes from the recording. It cannot predict them.
+  virtual std::vector<std::string> inputs() const = 0;
   virtual std::unique_ptr<Bench> build(Random random) const = 0;
 };
 

@@ -27,11 +27,13 @@ struct PlantSpec {
   World (*draw)(Random&);
   Belief (*belief)(const World&);
   std::vector<Setup> (*draw_setups)(const World&, int trials, Random&);
-  Table (*record)(const World&, const Setup&, const Random&);
+  Table (*record)(const World&, const Setup&, const TrialRandom&);
+  std::vector<std::string> (*phases)(const World&, const Setup&, const TrialRandom&, const Table&);
   std::vector<Recipe<World>> listed;
   std::vector<Recipe<World>> unlisted;
   std::vector<Restriction<World>> restrictions;
   std::vector<std::string> expendable;  // Channels that may be recorded dead.
+  std::vector<std::string> inputs;      // Channels that a simulation takes from the recording.
 };
 
 // A plant made from the functions of its folder.
@@ -49,6 +51,7 @@ class PlantOf final : public Plant {
     return all;
   }
   std::vector<std::string> expendable() const override { return spec_.expendable; }
+  std::vector<std::string> inputs() const override { return spec_.inputs; }
   std::unique_ptr<Bench> build(Random random) const override {
     return std::make_unique<BenchOf>(spec_, spec_.draw(random));
   }
@@ -68,8 +71,12 @@ class PlantOf final : public Plant {
     std::vector<Setup> draw_setups(int trials, Random random) const override {
       return spec_.draw_setups(believed_, trials, random);
     }
-    Table record(const Setup& setup, Random random) const override {
-      return spec_.record(world_, setup, random);
+    Table record(const Setup& setup, const TrialRandom& trial) const override {
+      return spec_.record(world_, setup, trial);
+    }
+    std::vector<std::string> phases(const Setup& setup, const TrialRandom& trial,
+                                    const Table& recorded) const override {
+      return spec_.phases(world_, setup, trial, recorded);
     }
     Json hide(const std::string& id, double size, Random random) override {
       for (const auto* recipes : {&spec_.listed, &spec_.unlisted})

@@ -24,4 +24,18 @@ class Random {
   std::uint64_t state_;
 };
 
+// Random numbers of one trial: sensor noise, and everything else (bed, release, offsets of the sensors). With
+// other noise the same trial is repeated: only the noise of its sensors differs.
+class TrialRandom {
+ public:
+  TrialRandom(const Random& trial) : TrialRandom(trial, trial) {}  // NOLINT: a trial with its own noise
+  TrialRandom(const Random& trial, const Random& noise) : trial_(trial), noise_(noise) {}
+
+  Random stream(std::string_view purpose) const { return trial_.stream(purpose); }
+  Random noise(std::string_view purpose) const { return noise_.stream(purpose); }
+
+ private:
+  Random trial_, noise_;
+};
+
 }  // namespace sandhopper::conceal

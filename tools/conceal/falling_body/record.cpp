@@ -46,7 +46,7 @@ struct Fall {
 
 }  // namespace
 
-Table record(const World& w, const Setup& setup, const Random& trial) {
+Table record(const World& w, const Setup& setup, const TrialRandom& trial) {
   const double height_m = setup.number("release_height_m", 2.0) +
                           trial.stream("release height").normal(0.0, w.release_height_spread_m);
   const double speed_mps = -setup.number("release_speed_mps", 0.0) +

@@ -15,15 +15,18 @@ const Plant& hopper_plant() {
       append(listed, std::move(effects));
     auto unlisted = for_bed_of<World>(bed_unlisted_effects());
     append(unlisted, unlisted_effects());
-    return PlantSpec<World>{"hopper",
-                            draw,
-                            belief,
-                            draw_setups,
-                            record,
-                            std::move(listed),
-                            std::move(unlisted),
-                            restrictions(),
-                            {"load_cell_force_N", "tof_height_m", "imu_foot_accel_z_mps2", "mocap_body_z_m"}};
+    return PlantSpec<World>{
+        .name = "hopper",
+        .draw = draw,
+        .belief = belief,
+        .draw_setups = draw_setups,
+        .record = record,
+        .phases = phases,
+        .listed = std::move(listed),
+        .unlisted = std::move(unlisted),
+        .restrictions = restrictions(),
+        .expendable = {"load_cell_force_N", "tof_height_m", "imu_foot_accel_z_mps2", "mocap_body_z_m"},
+        .inputs = {"phase", "motor_left_temperature_C", "motor_right_temperature_C"}};
   }());
   return plant;
 }

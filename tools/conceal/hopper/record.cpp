@@ -11,7 +11,7 @@ namespace {
 // Builds one recording, channel by channel.
 class Recorder {
  public:
-  Recorder(const World& w, const Run& run, const Random& trial) : w_(w), run_(run), trial_(trial) {
+  Recorder(const World& w, const Run& run, const TrialRandom& trial) : w_(w), run_(run), trial_(trial) {
     for (std::size_t i = 0; i < run.cycles.size(); ++i) rows_s_.push_back(kCycle_s * static_cast<double>(i));
     table_.add("t_s", 6).values = rows_s_;
   }
@@ -45,7 +45,7 @@ class Recorder {
   // Specific force. In stance the vibration of the structure adds noise.
   void add_imu(const std::string& name, const Trace& acceleration) {
     const auto& s = w_.sensors;
-    auto random = trial_.stream("structure " + name);
+    auto random = trial_.noise("structure " + name);
     Trace specific = acceleration;
     for (std::size_t i = 0; i < specific.values.size(); ++i) {
       const double ringing = random.normal(0.0, 1.8 * s.imu_structure_noise_mps2);
@@ -66,14 +66,14 @@ class Recorder {
  private:
   const World& w_;
   const Run& run_;
-  const Random& trial_;
+  const TrialRandom& trial_;
   std::vector<double> rows_s_;
   Table table_;
 };
 
 }  // namespace
 
-Table record(const World& w, const Setup& setup, const Random& trial) {
+Table record(const World& w, const Setup& setup, const TrialRandom& trial) {
   const auto run = simulate(w, setup, trial);
   const auto& s = w.sensors;
   Recorder r(w, run, trial);

@@ -27,11 +27,11 @@ Robot as_built(const World& w) {
 // Simulates one trial: the controller once per cycle, the drive once per piece, contact events in between.
 class Trial {
  public:
-  Trial(const World& w, const Setup& setup, const Random& trial)
+  Trial(const World& w, const Setup& setup, const TrialRandom& trial)
       : w_(w),
         scene_{w, as_built(w), setup.number("payload_kg", 0.0), {}, 0.0, false},
         controller_(w, setup),
-        encoder_(trial.stream("encoder")),
+        encoder_(trial.noise("encoder")),
         kind_(setup.kind()) {
     const double exact = w.sensors.ideal ? 0.0 : 1.0;
     auto& bed = scene_.bed;
@@ -212,7 +212,7 @@ class Trial {
 
 }  // namespace
 
-Run simulate(const World& world, const Setup& setup, const Random& trial) {
+Run simulate(const World& world, const Setup& setup, const TrialRandom& trial) {
   return Trial(world, setup, trial).run(setup.number("duration_s", 1.0));
 }
 

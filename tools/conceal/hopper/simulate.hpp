@@ -18,6 +18,6 @@ struct Run {
 };
 
 // Throws std::invalid_argument for a kind of trial that this robot cannot do.
-Run simulate(const World& world, const Setup& setup, const Random& trial);
+Run simulate(const World& world, const Setup& setup, const TrialRandom& trial);
 
 }  // namespace sandhopper::conceal::hopper

@@ -97,7 +97,10 @@ struct World {
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);
-Table record(const World& world, const Setup& setup, const Random& trial);
+Table record(const World& world, const Setup& setup, const TrialRandom& trial);
+// Phase of the motion in each row of a recording (README.md).
+std::vector<std::string> phases(const World& world, const Setup& setup, const TrialRandom& trial,
+                                const Table& recorded);
 
 std::vector<Recipe<World>> rail_effects();
 std::vector<Recipe<World>> joint_effects();

@@ -12,15 +12,17 @@ const Plant& intruder_plant() {
     append(listed, for_bed_of<World>(bed_depth_effects()));
     append(listed, for_bed_of<World>(bed_history_effects()));
     append(listed, rig_effects());
-    return PlantSpec<World>{"intruder",
-                            draw,
-                            belief,
-                            draw_setups,
-                            record,
-                            std::move(listed),
-                            for_bed_of<World>(bed_unlisted_effects()),
-                            restrictions(),
-                            {"foot_velocity_mps", "foot_accel_mps2"}};
+    return PlantSpec<World>{.name = "intruder",
+                            .draw = draw,
+                            .belief = belief,
+                            .draw_setups = draw_setups,
+                            .record = record,
+                            .phases = phases,
+                            .listed = std::move(listed),
+                            .unlisted = for_bed_of<World>(bed_unlisted_effects()),
+                            .restrictions = restrictions(),
+                            .expendable = {"foot_velocity_mps", "foot_accel_mps2"},
+                            .inputs = {"foot_z_m", "foot_velocity_mps", "foot_accel_mps2"}};
   }());
   return plant;
 }

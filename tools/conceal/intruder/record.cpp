@@ -10,14 +10,14 @@ namespace {
 // than the actuator.
 class Press {
  public:
-  Press(const World& w, const Setup& setup, const Random& trial) : world_(w), bed_(w.bed) {
+  Press(const World& w, const Setup& setup, const TrialRandom& trial) : world_(w), bed_(w.bed) {
     bed_.foot_radius_m = setup.number("plate_diameter_m", 2.0 * bed_.foot_radius_m) / 2.0;
     state_.stiffness_relative = trial.stream("bed").normal(0.0, w.bed_stiffness_spread);
     state_.fluctuation = draw_fluctuation(w.bed_fluctuation, trial.stream("grains"));
     state_.bed_depth_m = setup.number("bed_depth_m", 0.15);
     state_.wait_s = setup.number("wait_s", 0.0);
     state_.pushes = static_cast<int>(setup.number("pushes_since_preparation", 0.0));
-    state_.surface_m = trial.stream("surface").normal(0.0, w.surface_height_spread_m);
+    state_.surface_m = surface_m(w, trial);
   }
 
   double force_N(double t_s, double depth_m, double speed_mps, double acceleration_mps2) {
@@ -64,7 +64,7 @@ class Press {
 
 }  // namespace
 
-Table record(const World& w, const Setup& setup, const Random& trial) {
+Table record(const World& w, const Setup& setup, const TrialRandom& trial) {
   const auto motion = prescribed(w, setup);
   Press press(w, setup, trial);
   Trace force{motion.depth_m.step_s, {}}, height{motion.depth_m.step_s, {}}, rise = height, lift = height;

@@ -38,7 +38,7 @@ Json bias(World& w, double size, Random& random) {
 }
 
 Json saturation(World& w, double size, Random&) {
-  const double limit_N = 1.05 * static_N(w.bed, {}, w.deepest_m) / (1.0 + 0.5 * size);
+  const double limit_N = 1.05 * believed_static_N(w.bed, w.deepest_m) / (1.0 + 0.5 * size);
   w.faults["force_N"].limit = limit_N;
   return {{"channel", "force_N"}, {"limit", limit_N}};
 }

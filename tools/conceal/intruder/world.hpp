@@ -37,12 +37,17 @@ struct Motion {
 };
 // Motion for a set-up (impact_speed_mps, depth_m, profile), starting 20 mm above the surface.
 Motion prescribed(const World& world, const Setup& setup);
+// Height of the bed's surface above the zero of the prescribed motion in this trial.
+double surface_m(const World& world, const TrialRandom& trial);
 
 // Draws an apparatus, its belief, the set-ups of a campaign, and one recording.
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);
-Table record(const World& world, const Setup& setup, const Random& trial);
+Table record(const World& world, const Setup& setup, const TrialRandom& trial);
+// Phase of the motion in each row of a recording (README.md).
+std::vector<std::string> phases(const World& world, const Setup& setup, const TrialRandom& trial,
+                                const Table& recorded);
 std::vector<Recipe<World>> rig_effects();
 std::vector<Restriction<World>> restrictions();
 

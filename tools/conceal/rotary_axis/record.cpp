@@ -101,7 +101,7 @@ double command_Nm(const World& w, const Reference& goal, const State& x) {
   return std::clamp(torque_Nm, -0.9 * w.torque_range_Nm, 0.9 * w.torque_range_Nm);
 }
 
-Motion simulate(const World& w, const Setup& setup, const Random& trial) {
+Motion simulate(const World& w, const Setup& setup, const TrialRandom& trial) {
   Motion m;
   for (auto* trace : {&m.position_rad, &m.velocity_radps, &m.torque_Nm, &m.delivered_Nm})
     trace->step_s = kTick_s;
@@ -145,7 +145,7 @@ double step_of(double range, int bits) { return 2.0 * range / ((1 << bits) - 1);
 
 }  // namespace
 
-Table record(const World& w, const Setup& setup, const Random& trial) {
+Table record(const World& w, const Setup& setup, const TrialRandom& trial) {
   auto motion = simulate(w, setup, trial);
   for (double& p : motion.position_rad.values)
     p += w.eccentricity_rad * std::sin(p + w.eccentricity_phase_rad);

@@ -60,7 +60,7 @@ struct World {
 World draw(Random& random);
 Belief belief(const World& world);
 std::vector<Setup> draw_setups(const World& world, int trials, Random& random);
-Table record(const World& world, const Setup& setup, const Random& trial);
+Table record(const World& world, const Setup& setup, const TrialRandom& trial);
 
 std::vector<Recipe<World>> friction_effects();
 std::vector<Recipe<World>> load_effects();
