@@ -3,6 +3,7 @@
 #include <map>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/evidence/screen.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -12,6 +13,7 @@ using Set = std::vector<std::size_t>;
 
 // Standard error in typical sizes above which the recordings do not bound the effect.
 constexpr double kUnbounded = 1e6;
+constexpr int kPasses = 6;  // of doubling a bound: sizes up to 32 times it are tried
 
 // All fitted subsets of the set, including itself and the empty set.
 std::vector<Set> fitted_parts(const Search& search, const Set& set) {
@@ -47,6 +49,78 @@ std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& sear
   return largest;
 }
 
+// An effect that is not linear, a short lag for example, changes the recordings otherwise at its bound than
+// its derivative says. So the secants from 0 to sizes x above the bound b are tried, too. A size is possible
+// if
+//   x <= |size(x)| + t se(x),   size(x), se(x): estimate and standard error with the secant as the signature
+// and then b becomes the right side. Both signs, beside the best set. x starts at b and doubles in each pass.
+// A bound that still grows in the last pass is taken out. The effect may also be there in place of
+// tolerances.
+void enlarge_to_secants(const Problem& problem, const Search& search, double quantile,
+                        std::map<std::size_t, double>& bounds) {
+  const SetFit& best = search.best();
+  const auto screen_secants = [&](const std::map<std::size_t, double>& sizes) {
+    return screen(problem, best.fit.point, search.columns_for(best.set),
+                  signatures_at(problem, best.fit.point, {.laws = false, .sizes = &sizes}));
+  };
+  std::map<std::size_t, double> tried;
+  for (const auto& [candidate, bound] : bounds)
+    if (bound < kUnbounded && !best.fit.point.hypothesis.contains(candidate)) tried[candidate] = bound;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::map<std::size_t, double> above, below, room;
+    for (const auto& [candidate, x] : tried) {
+      const auto& p = problem.candidates[candidate].parameters[0];
+      if (x < p.high / p.typical) above[candidate] = x;
+      if (-x > p.low / p.typical) below[candidate] = -x;
+    }
+    for (const auto* sizes : {&above, &below})
+      for (const auto& s : screen_secants(*sizes))
+        room[s.candidate] =
+            std::max(room[s.candidate], std::abs(s.evidence.size()) + quantile * s.evidence.standard_error());
+    for (const auto& [candidate, size] : room) {
+      const double x = tried[candidate];
+      tried[candidate] = 2.0 * x;
+      if (size < x) continue;
+      tried[candidate] = 2.0 * size;
+      if (pass + 1 == kPasses)
+        bounds.erase(candidate);
+      else
+        bounds[candidate] = std::max(bounds[candidate], size);
+    }
+  }
+}
+
+// Delay of a channel by its tolerances at a point, s: of its sampling instant, and half the window over which
+// it is averaged.
+double delay_of_tolerances_s(const Problem& problem, const Point& point, const std::string& channel) {
+  double delay_s = 0.0;
+  for (std::size_t i = 0; i < problem.tolerances.size(); ++i) {
+    const Tolerance& tolerance = problem.tolerances[i];
+    if (tolerance.channel != channel) continue;
+    delay_s +=
+        point.tolerances[i] * tolerance.scale * (tolerance.window_s > 0.0 ? 0.5 * tolerance.window_s : 1.0);
+  }
+  return std::abs(delay_s);
+}
+
+// A delay or a lag of a channel may be there in place of the channel's tolerances, which then fit as well.
+// Adds their delay to the bounds of such effects.
+void add_tolerances(const Problem& problem, const Point& point, std::map<std::size_t, double>& bounds) {
+  for (auto& [index, typicals] : bounds) {
+    const Candidate& candidate = problem.candidates[index];
+    auto values = shape_choices(candidate).front();
+    values[0] = candidate.parameters[0].typical;
+    Edits edits;
+    candidate.effect->apply(problem.context, candidate.channel, values, edits);
+    std::map<std::string, double> delays_s;
+    for (const SensorEdit& edit : edits.sensors)
+      if (edit.kind == SensorEdit::Kind::delay_s || edit.kind == SensorEdit::Kind::lag_s)
+        delays_s[edit.channel] += edit.value;
+    for (const auto& [channel, delay_s] : delays_s)
+      if (delay_s != 0.0) typicals += delay_of_tolerances_s(problem, point, channel) / std::abs(delay_s);
+  }
+}
+
 // True if the candidate may be present: it may replace a found effect, or an unknown effect may hide it (in
 // the plant, or at the same sensor).
 bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Candidate& candidate) {
@@ -62,7 +136,10 @@ bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Cand
 
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
-  for (const auto& [index, typicals] : largest_sizes(problem, search, quantile)) {
+  auto bounds = largest_sizes(problem, search, quantile);
+  enlarge_to_secants(problem, search, quantile, bounds);
+  add_tolerances(problem, search.best().fit.point, bounds);
+  for (const auto& [index, typicals] : bounds) {
     const auto& candidate = problem.candidates[index];
     if (search.best().fit.point.hypothesis.contains(index) || !(typicals < kUnbounded) ||
         may_be_there(problem, diagnosis, candidate))

@@ -101,6 +101,9 @@ class Search {
   bool stopped() const { return stopped_; }  // True if it ended before its time.
   void set_stopped() { stopped_ = true; }    // A later search with better noise was ended in its place.
 
+  // Derivatives by the nuisances that fits from this set use.
+  const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
+
  private:
   bool over() { return stopped_ = stopped_ || is_over_(); }
   void grow_sets();
@@ -125,7 +128,6 @@ class Search {
   void prune();
   bool try_proposals();
   bool fit_part(const SetFit& whole, const std::vector<std::size_t>& part, const FitOptions& options = {});
-  const std::vector<KeptColumns>* columns_for(const std::vector<std::size_t>& set) const;
   Fit fit_at(const Point& start, FitOptions options = {}) const;
   void finish(SetFit& fit) const;
   void borrow(SetFit& fit) const;

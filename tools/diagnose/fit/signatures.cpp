@@ -17,7 +17,7 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
   std::vector<Edits> moved;
   std::vector<double> steps;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
-    if (point.hypothesis.contains(c)) continue;
+    if (point.hypothesis.contains(c) || (options.sizes && !options.sizes->contains(c))) continue;
     const Candidate& candidate = problem.candidates[c];
     for (const auto& choice : shape_choices(candidate)) {
       Signatures::Alternative alternative{c, choice, {}, {}, static_cast<Index>(moved.size())};
@@ -25,7 +25,8 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
         if (!is_amplitude(candidate.parameters, i)) continue;
         Hypothesis with = point.hypothesis;
         auto values = choice;
-        const double step = signature_step(candidate, choice, i);
+        const bool secant = options.sizes != nullptr && alternative.amplitudes.empty();
+        const double step = secant ? options.sizes->at(c) : signature_step(candidate, choice, i);
         values[i] = step * candidate.parameters[i].typical;
         with.candidates.push_back(c);
         with.values.push_back(values);

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/fit/signatures.hpp"
+
+// Upper bounds of effects that were not found.
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr double kDrag_kg_per_m = 0.003;
+
+double drag_N(double, double, double v) { return -kDrag_kg_per_m * std::abs(v) * v; }
+
+// Drops whose belief knows the drag: 1/2 rho c A = 0.003 kg/m with the density 1.2 kg/m^3 and the area 0.01
+// m^2.
+Recordings drops_with_known_drag() {
+  auto recordings = drops(drag_N);
+  recordings.belief.numbers["medium.drag_coefficient"] = kDrag_kg_per_m / (0.5 * 1.2 * 0.01);
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  return recordings;
+}
+
+// A delay of 4 ms is within the tolerance of the accelerometer's times, rows come every 5 ms. So nothing is
+// found, but a lag of 4 ms may be there in place of the tolerance, beside what the noise allows on top.
+TEST(DiagnoseAbsent, ALagInPlaceOfATolerancesDelayIsWithinItsBound) {
+  constexpr double kDelay_s = 0.004, kRow_s = 0.005, kLeastNoise_s = 0.002;
+  auto recordings = drops_with_known_drag();
+  for (auto& trial : recordings.trials) {
+    auto& a = trial.channels.at("accel_mps2");
+    for (std::size_t i = a.size() - 1; i > 0; --i) a[i] += (a[i - 1] - a[i]) * kDelay_s / kRow_s;
+  }
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.verdict, Verdict::consistent);
+  const auto lag = std::ranges::find(d.absent, "imu.lag[accel_mps2]", &Bound::id);
+  ASSERT_NE(lag, d.absent.end());
+  EXPECT_GT(lag->value, kDelay_s + kLeastNoise_s);
+}
+
+// The column of a candidate with a given size is the secant up to that size.
+TEST(DiagnoseAbsent, ASignatureOfAGivenSizeIsTheSecant) {
+  constexpr double kSize = 3.0;
+  const auto recordings = drops_with_known_drag();
+  const Prepared prepared = prepare(recordings);
+  const Problem& problem = prepared.problem;
+  const auto lag = std::ranges::find(problem.candidates, "imu.lag[accel_mps2]", &Candidate::label);
+  ASSERT_NE(lag, problem.candidates.end());
+  const auto index = static_cast<std::size_t>(lag - problem.candidates.begin());
+  const Point point = null_point(problem);
+  const std::map<std::size_t, double> sizes{{index, kSize}};
+  const auto signatures = signatures_at(problem, point, {.laws = false, .sizes = &sizes});
+  ASSERT_FALSE(signatures.alternatives.empty());
+  for (const auto& alternative : signatures.alternatives) EXPECT_EQ(alternative.candidate, index);
+
+  Hypothesis with;
+  with.candidates = {index};
+  with.values = {signatures.alternatives.front().values};
+  with.values[0][0] = kSize * lag->parameters[0].typical;
+  const TrialModel& trial = *problem.trials[0];
+  const auto at = [&](const Hypothesis& hypothesis) {
+    return predicted(problem, trial, edits_for(problem, hypothesis, point.tolerances), point.nuisances[0]);
+  };
+  const Eigen::VectorXd secant = (at(with) - at({})) / kSize;
+  ASSERT_GT(secant.norm(), 0.0);
+  EXPECT_LT((signatures.columns[0].col(0) - secant).norm(), 1e-12 * secant.norm());
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose
