@@ -20,6 +20,7 @@ TEST(DiagnoseWhere, ADragShowsWhereABodyIsFast) {
   EXPECT_TRUE(is_named(d, "accel_mps2", "late"));
   EXPECT_TRUE(is_named(d, "height_m", "late"));
   EXPECT_FALSE(is_named(d, "height_m", "early"));
+  EXPECT_EQ(d.where.front().phase_in_words(), "the last third");
   double shares = 0.0;
   for (const auto& w : d.where) {
     EXPECT_EQ(w.port, "body");

@@ -56,6 +56,7 @@ struct Where {
   double p_value = 1.0;
 
   std::string share_in_words() const;
+  std::string phase_in_words() const;  // "flight down", "the first third"
 };
 
 // RMS errors of the null and of the answer, in the channel's unit.

@@ -39,7 +39,7 @@ std::string effect_text(const FoundEffect& e) {
 std::string where_text(const Where& w) {
   std::string text = "where  ";
   if (!w.port.empty()) text += w.port + ": ";
-  text += fmt::format("{} during {}, {}", w.channel, w.phase, w.share_in_words());
+  text += fmt::format("{} during {}, {}", w.channel, w.phase_in_words(), w.share_in_words());
   if (!w.coordinate.empty())
     text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
   return text + fmt::format(", p = {:.1g}\n", w.p_value);
@@ -87,6 +87,15 @@ std::string Where::share_in_words() const {
   return fmt::format(
       "{:.0f} % of {}", 100.0 * share_of_excess,
       unexplained ? "the squared error above the noise floor" : "the change by what was found");
+}
+
+std::string Where::phase_in_words() const {
+  if (phase == "early") return "the first third";
+  if (phase == "middle") return "the second third";
+  if (phase == "late") return "the last third";
+  std::string words = phase;
+  std::ranges::replace(words, '_', ' ');
+  return words;
 }
 
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {

@@ -27,7 +27,7 @@ bool nothing_found(const Diagnosis& d) { return d.effects.empty(); }
 std::string place_of(const Where& w) {
   const auto axis = quantity_of(w.coordinate);
   std::string text =
-      fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, in_words(w.phase), w.from_s, w.to_s);
+      fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, w.phase_in_words(), w.from_s, w.to_s);
   if (!w.coordinate.empty() && w.coordinate != "t_s")
     text += fmt::format("; {} {} to {} {}", axis.words, number(w.range_low), number(w.range_high), axis.unit);
   return text + fmt::format("; {}, {}", w.share_in_words(), p_text(w.p_value));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/model/quantity.hpp"
@@ -142,8 +143,9 @@ StudySection where_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change", "p", "trials"};
   table.text_columns = 4;
-  for (const auto& w : d.where)
-    table.rows.push_back({w.channel, in_words(w.phase), w.port, quantity_of(w.coordinate).label(),
+  constexpr std::size_t kMostRows = 15;  // A hopper has up to 84 cells; the first ones tell most.
+  for (const auto& w : d.where | std::views::take(kMostRows))
+    table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
                           number(w.range_low), number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
                           fmt::format("{:.1e}", w.p_value), fmt::format("{}", w.trials.size())});
   table.note =
@@ -153,6 +155,8 @@ StudySection where_section(const Diagnosis& d) {
       "more. At most one in twenty is there by chance. Share: of the squared change, relative to the noise, "
       "over all channels and phases. The axis is the quantity along which the change is least even, with the "
       "range of its larger values. Trials: in how many the change is above the noise.";
+  if (d.where.size() > kMostRows)
+    table.note += fmt::format(" The {} smaller ones are in diagnosis.json.", d.where.size() - kMostRows);
   return {"Where it shows", {table}};
 }
 
