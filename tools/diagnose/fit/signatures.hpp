@@ -32,8 +32,8 @@ struct Signatures {
 
 struct SignatureOptions {
   bool laws = true;  // include laws of free form
-  // Only these candidates, by index, with secants in place of derivatives: the size of the first amplitude, in
-  // typical sizes, to which its column refers.
+  // Only these candidates, by index, with secants in place of derivatives: the size of the first amplitude,
+  // in typical sizes, to which its column refers.
   const std::map<std::size_t, double>* sizes = nullptr;
 };
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options = {});
