@@ -4,7 +4,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 
-// Where in the recordings an answer says that its finding shows.
+// The part `where` of an answer: the channels and phases in which the finding shows.
 namespace sandhopper::diagnose {
 namespace {
 

@@ -20,7 +20,9 @@ std::string shown(const std::optional<double>& share) { return share ? percent(*
 
 std::string at_least(double limit) { return "≥ " + percent(limit); }
 
-std::string met_text(std::size_t of, bool met) { return of == 0 ? "–" : met ? "yes" : "no"; }
+std::string met_text(std::size_t of, bool met, const char* yes = "yes", const char* no = "no") {
+  return of == 0 ? "–" : met ? yes : no;
+}
 
 std::string bound(const Figure& f, double limit) {
   return f.less_is_better ? "≤ " + percent(limit) : at_least(limit);
@@ -217,17 +219,12 @@ std::vector<std::string> score_text(const std::vector<Column>& columns, const st
   figures.insert(figures.end(), splits.begin(), splits.end());
   for (const auto& f : figures)
     lines.push_back(fmt::format("{:<52} {:>20} % of {:<4} must {:<7} {}", f.name, shown(f), f.of,
-                                bound(f, f.must),
-                                f.of == 0 ? "–"
-                                : f.met() ? "met"
-                                          : "MISSED"));
+                                bound(f, f.must), met_text(f.of, f.met(), "met", "MISSED")));
   lines.push_back(fmt::format("{:<52} {:>20.2f}", "mean class size of the right names", own.mean_class_size));
   const auto& where = own.localisation;
   lines.push_back(fmt::format("{:<52} {:>20} % of {:<4} must {:<7} {}", "localisation, F1 of the cells",
                               shown(where.f1()), where.campaigns, at_least(Localisation::kMust),
-                              where.campaigns == 0 ? "–"
-                              : where.met()        ? "met"
-                                                   : "MISSED"));
+                              met_text(where.campaigns, where.met(), "met", "MISSED")));
   lines.push_back(fmt::format("{:<52} {:>20} %, {} %", "localisation, precision and recall",
                               shown(where.precision()), shown(where.recall())));
   lines.push_back(

@@ -92,10 +92,7 @@ std::string Where::share_in_words() const {
 std::string Where::phase_in_words() const {
   if (phase == "early") return "the first third";
   if (phase == "middle") return "the second third";
-  if (phase == "late") return "the last third";
-  std::string words = phase;
-  std::ranges::replace(words, '_', ' ');
-  return words;
+  return phase == "late" ? "the last third" : in_words(phase);
 }
 
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {

@@ -49,13 +49,11 @@ std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& sear
   return largest;
 }
 
-// An effect that is not linear, a short lag for example, changes the recordings otherwise at its bound than
-// its derivative says. So the secants from 0 to sizes x above the bound b are tried, too. A size is possible
-// if
+// An effect that is not linear, friction for example, changes the recordings otherwise at its bound than its
+// derivative says. So the secants from 0 to sizes x above the bound b are tried, too. A size is possible if
 //   x <= |size(x)| + t se(x),   size(x), se(x): estimate and standard error with the secant as the signature
 // and then b becomes the right side. Both signs, beside the best set. x starts at b and doubles in each pass.
-// A bound that still grows in the last pass is taken out. The effect may also be there in place of
-// tolerances.
+// A bound that still grows in the last pass is taken out.
 void enlarge_to_secants(const Problem& problem, const Search& search, double quantile,
                         std::map<std::size_t, double>& bounds) {
   const SetFit& best = search.best();

@@ -19,36 +19,36 @@ struct Stages {
 };
 
 Stages stages_of(const Problem& problem) {
-  Stages stages{problem.phases, {}};
-  if (!problem.plant->phases_are_stages()) stages.names = {"early", "middle", "late"};
+  const bool by_phase = problem.plant->phases_are_stages();
+  Stages stages;
+  stages.names = by_phase ? problem.phases : std::vector<std::string>{"early", "middle", "late"};
   for (const auto& trial : problem.trials) {
-    double first = 1e300, last = -1e300;
-    for (const Row& row : trial->rows) {
-      first = std::min(first, row.time_s);
-      last = std::max(last, row.time_s);
-    }
     auto& of = stages.of.emplace_back();
-    for (const Row& row : trial->rows)
-      of.push_back(problem.plant->phases_are_stages() ? row.phase
-                   : last > first                     ? std::min(std::size_t{2}, static_cast<std::size_t>(
-                                                                 3.0 * (row.time_s - first) / (last - first)))
-                                                      : 0);
+    if (by_phase) {
+      for (const Row& row : trial->rows) of.push_back(row.phase);
+      continue;
+    }
+    if (trial->rows.empty()) continue;
+    const auto [first, last] = std::ranges::minmax(trial->rows, {}, &Row::time_s);
+    for (const Row& row : trial->rows) {
+      const double share = (row.time_s - first.time_s) / std::max(last.time_s - first.time_s, 1e-300);
+      of.push_back(std::min(std::size_t{2}, static_cast<std::size_t>(3.0 * share)));
+    }
   }
   return stages;
 }
 
-// The recordings as two parts: the one to be placed, and the rest. Noise alone leaves `rest`, or `gap` if
-// nothing was found.
+// The difference between belief and recordings that the cells show, and the residual beside it.
 struct Gap {
-  bool unexplained = false;                // nothing was found: the error of the simulation as believed
-  const std::vector<Eigen::VectorXd>& of;  // [trial]
-  const std::vector<Eigen::VectorXd>& rest;
+  bool unexplained = false;                   // nothing was found: the error of the simulation as believed
+  const std::vector<Eigen::VectorXd>& of;     // [trial]: change by what was found, or that error
+  const std::vector<Eigen::VectorXd>& after;  // [trial]: residual with what was found
 };
 
 Gap gap_of(const Residuals& residuals) {
   const bool found = std::ranges::any_of(residuals.found, [](const auto& v) { return v.norm() > 0.0; });
   if (found) return {false, residuals.found, residuals.after};
-  return {true, residuals.before, residuals.before};
+  return {true, residuals.before, residuals.after};
 }
 
 // One channel in one stage.
@@ -91,7 +91,7 @@ class Cell {
       const double sd = problem_.noise.sd(*problem_.trials[t], row);
       const double g = gap(t, k) / sd;
       own += g * g;
-      both += g * (g + gap_.rest[t][static_cast<Index>(k)] / sd);
+      both += g * (g + gap_.after[t][static_cast<Index>(k)] / sd);
       ++n;
       if (std::abs(g) < 1.0) return;
       first = std::min(first, row.time_s);

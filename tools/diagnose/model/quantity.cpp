@@ -54,8 +54,13 @@ Quantity quantity_of(const std::string& key) {
       q = {key.substr(0, key.size() - std::char_traits<char>::length(suffix)), unit};
       break;
     }
-  std::replace(q.words.begin(), q.words.end(), '_', ' ');
+  q.words = in_words(q.words);
   return q;
+}
+
+std::string in_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,

@@ -13,6 +13,8 @@ struct Quantity {
 };
 Quantity quantity_of(const std::string& key);
 
+std::string in_words(std::string name);  // "fast_fall" -> "fast fall"
+
 // A trial as text: "drop, release height 2 m, payload 0.1 kg". The key `session` is left out, because it does
 // not describe what was done.
 std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,

@@ -194,11 +194,6 @@ StudyAnswer what_next(const Diagnosis& d) {
 
 }  // namespace
 
-std::string in_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 bool is_changed(const Diagnosis& d) { return !nothing_found(d) && d.detail != Detail::data_fault; }
 
 std::vector<StudyAnswer> page_answers(const Diagnosis& d) {

@@ -25,7 +25,6 @@ void write_diagnosis_page(const Diagnosis& diagnosis, const PageFacts& facts,
                           const std::filesystem::path& path);
 
 // Parts of the page.
-std::string in_words(std::string name);       // "fast_fall" -> "fast fall"
 bool is_changed(const Diagnosis& diagnosis);  // True if a finding changes the simulation.
 std::vector<StudyAnswer> page_answers(const Diagnosis& diagnosis);
 std::vector<StudySection> page_sections(const Diagnosis& diagnosis, const PageFacts& facts);
