@@ -31,8 +31,9 @@ Stages stages_of(const Problem& problem) {
     if (trial->rows.empty()) continue;
     const auto [first, last] = std::ranges::minmax(trial->rows, {}, &Row::time_s);
     for (const Row& row : trial->rows) {
-      const double share = (row.time_s - first.time_s) / std::max(last.time_s - first.time_s, 1e-300);
-      of.push_back(std::min(std::size_t{2}, static_cast<std::size_t>(3.0 * share)));
+      const double length_s = std::max(last.time_s - first.time_s, 1e-300);
+      const double thirds = 3.0 * (row.time_s - first.time_s) / length_s;
+      of.push_back(std::min(std::size_t{2}, static_cast<std::size_t>(thirds)));
     }
   }
   return stages;
