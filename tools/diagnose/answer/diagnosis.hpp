@@ -101,10 +101,10 @@ struct ResidualRow {
   double noise_sd = 0.0;
 };
 
-struct Bound {  // Upper bound of an effect that was not found.
+struct Bound {  // Upper bound of an effect that was not found; all of an answer hold together with 95 %.
   std::string id;
   std::string parameter;
-  double value = 0.0;     // 95 % upper bound of its magnitude
+  double value = 0.0;     // of its magnitude
   double typicals = 0.0;  // the same, in typical sizes
 };
 

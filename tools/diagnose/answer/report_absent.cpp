@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
@@ -23,19 +24,40 @@ std::vector<Set> fitted_parts(const Search& search, const Set& set) {
   return parts;
 }
 
-// 95 % bound of each effect's size, in typical sizes: the largest of all cases in which the effect stands
+// Largest size of a screened effect, in typical sizes: |size| + t s with
+//   s^2 = se^2 + v / sum I,   v: deviance along any parameter that another form of the found laws leaves
+struct Margin {
+  double quantile = 0.0;  // t
+  double form = 0.0;      // v
+  double largest(const TrialEvidence& evidence) const {
+    const double information = std::accumulate(evidence.information.begin(), evidence.information.end(), 0.0);
+    if (information <= 0.0) return 1e300;
+    return std::abs(evidence.size()) +
+           quantile * std::sqrt(std::pow(evidence.standard_error(), 2) + form / information);
+  }
+};
+
+// The margin beside a set. All bounds of an answer hold together with 95 % (Bonferroni).
+Margin margin_beside(const Problem& problem, const Search& search, const SetFit& set) {
+  return {student_t_quantile(0.05 / static_cast<double>(problem.candidates.size()),
+                             4.0 + static_cast<double>(problem.trials.size()) - 1.0),
+          form_deviance(problem, search.null().fit.deviance - set.fit.deviance)};
+}
+
+// Bound of each effect's size, in typical sizes: the largest of all cases in which the effect stands
 // beside the found ones or replaces some of them. A found name may be wrong; then the true effect may have
 // its full size.
-std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& search, double quantile) {
+std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& search) {
   std::map<std::size_t, double> largest;
   const auto consider = [&](std::size_t candidate, double typicals) {
     auto& size = largest[candidate];
     size = std::max(size, typicals);
   };
   const auto parts = fitted_parts(search, search.best().set);
-  for (const auto& part : parts)
-    for (const auto& s : search.screened(part))
-      consider(s.candidate, std::abs(s.evidence.size()) + quantile * s.evidence.standard_error());
+  for (const auto& part : parts) {
+    const Margin margin = margin_beside(problem, search, search.sets().at(part));
+    for (const auto& s : search.screened(part)) consider(s.candidate, margin.largest(s.evidence));
+  }
   // If an effect is not linear, the fitted size may exceed the linear bound.
   for (const auto& [set, tried] : search.sets())
     for (std::size_t i = 0; i < tried.fit.point.hypothesis.candidates.size(); ++i) {
@@ -51,12 +73,13 @@ std::map<std::size_t, double> largest_sizes(const Problem& problem, Search& sear
 
 // An effect that is not linear, friction for example, changes the recordings otherwise at its bound than its
 // derivative says. So the secants from 0 to sizes x above the bound b are tried, too. A size is possible if
-//   x <= |size(x)| + t se(x),   size(x), se(x): estimate and standard error with the secant as the signature
+//   x <= |size(x)| + t s(x),   size(x), s(x): estimate and standard deviation with the secant as the
+//   signature
 // and then b becomes the right side. Both signs, beside the best set. x starts at b and doubles in each pass.
 // A bound that still grows in the last pass is taken out.
-void enlarge_to_secants(const Problem& problem, const Search& search, double quantile,
-                        std::map<std::size_t, double>& bounds) {
+void enlarge_to_secants(const Problem& problem, const Search& search, std::map<std::size_t, double>& bounds) {
   const SetFit& best = search.best();
+  const Margin margin = margin_beside(problem, search, best);
   const auto screen_secants = [&](const std::map<std::size_t, double>& sizes) {
     return screen(problem, best.fit.point, search.columns_for(best.set),
                   signatures_at(problem, best.fit.point, {.laws = false, .sizes = &sizes}));
@@ -73,8 +96,7 @@ void enlarge_to_secants(const Problem& problem, const Search& search, double qua
     }
     for (const auto* sizes : {&above, &below})
       for (const auto& s : screen_secants(*sizes))
-        room[s.candidate] =
-            std::max(room[s.candidate], std::abs(s.evidence.size()) + quantile * s.evidence.standard_error());
+        room[s.candidate] = std::max(room[s.candidate], margin.largest(s.evidence));
     for (const auto& [candidate, size] : room) {
       const double x = tried[candidate];
       tried[candidate] = 2.0 * x;
@@ -133,9 +155,8 @@ bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Cand
 }  // namespace
 
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
-  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
-  auto bounds = largest_sizes(problem, search, quantile);
-  enlarge_to_secants(problem, search, quantile, bounds);
+  auto bounds = largest_sizes(problem, search);
+  enlarge_to_secants(problem, search, bounds);
   add_tolerances(problem, search.best().fit.point, bounds);
   for (const auto& [index, typicals] : bounds) {
     const auto& candidate = problem.candidates[index];

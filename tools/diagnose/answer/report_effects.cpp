@@ -14,12 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Covariance of a fit's parameters in typical sizes. Sandwich estimate: the scatter of the scores between
-// trials, averaged with the noise, which counts as `kModelTrials` trials. In addition, a believed law of
-// another form leaves up to the plant's `form_error` of the explained deviance as a residual common to all
-// trials; a fraction `kAlong` (RMS) of it lies along a parameter.
+// trials, averaged with the noise, which counts as `kModelTrials` trials; in addition another form of the
+// laws (`form_deviance`).
 MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
   constexpr double kModelTrials = 4.0;
-  constexpr double kAlong = 1.0 / 6.0;
   const auto directions = parameter_directions(problem, point);
   const auto linear = linearise_all(problem, point, directions);
   const auto k = static_cast<Index>(directions.size());
@@ -41,8 +39,7 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   // The prior counts like an observation, because sampling limits how well a channel's delay is known.
   const MatrixXd middle =
       (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) + (held - information);
-  const double form = kAlong * kAlong * problem.plant->form_error() * explained;
-  const MatrixXd covariance = inverse * middle * inverse + form * inverse;
+  const MatrixXd covariance = inverse * middle * inverse + form_deviance(problem, explained) * inverse;
   return covariance.topLeftCorner(own, own);
 }
 
@@ -129,6 +126,11 @@ void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
 }
 
 }  // namespace
+
+double form_deviance(const Problem& problem, double explained) {
+  constexpr double kAlong = 1.0 / 6.0;  // RMS share of a residual along a parameter
+  return kAlong * kAlong * problem.plant->form_error() * std::max(0.0, explained);
+}
 
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
                     Diagnosis& diagnosis) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/discrepancy/overlap.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
 
 namespace sandhopper::diagnose {
@@ -16,32 +17,43 @@ constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form
 // Weight relative to the best set below which an alternative does not join the class.
 constexpr double kLeastShare = 0.05;
 
+// Weight of each fitted set, relative to the best one.
+std::map<std::vector<std::size_t>, double> weights(const Search& search, double temperature) {
+  std::map<std::vector<std::size_t>, double> weight;
+  for (const auto& [set, fit] : search.sets()) {
+    // A rival may hold an effect it does not need, but it must not have more effects than the best set.
+    if (fit.fit.status == FitStatus::failed || set.size() > search.best().set.size()) continue;
+    const double difference = search.criterion(fit) - search.criterion(search.best());
+    weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);
+  }
+  return weight;
+}
+
 }  // namespace
 
 Posterior posterior(const Problem& problem, const Search& search, double remainder) {
   Posterior out;
   const double differs = std::max(kShareOfExplained, kShareOfForm * problem.plant->form_error());
   const SetFit& best = search.best();
-  const double best_score = search.criterion(best);
-  const double explained =
-      with_form_unnoticed(problem, search.null().fit.deviance - best.fit.deviance) / search.dispersion();
-  const double temperature = 1.0 + remainder / kRemainderScale + differs * explained;
+  const double explained = with_form_unnoticed(problem, search.null().fit.deviance - best.fit.deviance);
+  const double at_least = 1.0 + remainder / kRemainderScale;
+  const double temperature = at_least + differs * explained / search.dispersion();
   out.apart = -2.0 * std::log(kLeastShare) * temperature;
   out.apart_per_explained = -2.0 * std::log(kLeastShare) * differs;
-  std::map<std::vector<std::size_t>, double> weight;
-  double total = 0.0;
-  for (const auto& [set, fit] : search.sets()) {
-    // A rival may hold an effect it does not need, but it must not have more effects than the best set.
-    if (fit.fit.status == FitStatus::failed || set.size() > best.set.size()) continue;
-    const double difference = search.criterion(fit) - best_score;
-    weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);
-    total += weight[set];
-  }
-  for (const auto candidate : best.set) {
+  for (std::size_t e = 0; e < best.fit.point.hypothesis.candidates.size(); ++e) {
+    const auto candidate = best.fit.point.hypothesis.candidates[e];
     auto rest = best.set;
-    rest.erase(std::remove(rest.begin(), rest.end(), candidate), rest.end());
-    // A name joins the class if it explains something that the other effects leave.
+    std::erase(rest, candidate);
     const auto others = search.sets().find(rest);
+    // The other effects stay when this one is exchanged. Their form counts only where this one acts.
+    const double where_it_acts = others == search.sets().end() || rest.empty()
+                                     ? explained
+                                     : std::min(explained, others->second.fit.deviance - best.fit.deviance +
+                                                               shown_by_others(problem, best.fit.point, e));
+    const auto weight = weights(search, at_least + differs * where_it_acts / search.dispersion());
+    double total = 0.0;
+    for (const auto& [set, w] : weight) total += w;
+    // A name joins the class if it explains something that the other effects leave.
     const double without_any = others == search.sets().end() ? 1e300 : search.criterion(others->second);
     std::vector<std::pair<double, std::size_t>> rivals;
     double with = 0.0;
@@ -52,7 +64,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
       }
       if (set.size() != best.set.size() || !std::includes(set.begin(), set.end(), rest.begin(), rest.end()))
         continue;
-      if (w < kLeastShare * weight[best.set]) continue;
+      if (w < kLeastShare) continue;
       with += w;
       if (search.criterion(search.sets().at(set)) > without_any) continue;
       for (const auto other : set)

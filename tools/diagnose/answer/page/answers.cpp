@@ -98,7 +98,7 @@ StudyAnswer what(const Diagnosis& d) {
                             number(d.absent[i].value), q.unit.empty() ? "" : " " + q.unit);
     }
     if (!bounds.empty())
-      box.lines.emplace_back(Style::text, "Hardest to exclude, at 95 %: " + bounds + ". All bounds below.");
+      box.lines.emplace_back(Style::text, "Hardest to exclude: " + bounds + ". All bounds below.");
     return box;
   }
   const std::size_t most = d.effects.size() > 2 ? 3 : 2;
