@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 #include "tools/diagnose/fit/signatures.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
 
 // Upper bounds of effects that were not found.
 namespace sandhopper::diagnose {
@@ -67,6 +70,29 @@ TEST(DiagnoseAbsent, ASignatureOfAGivenSizeIsTheSecant) {
   const Eigen::VectorXd secant = (at(with) - at({})) / kSize;
   ASSERT_GT(secant.norm(), 0.0);
   EXPECT_LT((signatures.columns[0].col(0) - secant).norm(), 1e-12 * secant.norm());
+}
+
+// The bounds of one answer hold together: each leaves out its share of 5 %.
+TEST(DiagnoseAbsent, EveryBoundLeavesOutItsShareOfTheRisk) {
+  Problem problem = prepare(drops_with_known_drag()).problem;
+  const Point point = fit_from(problem, null_point(problem)).point;
+  keep_columns(problem, point);
+  Search search(problem, {});
+  search.run(point);
+  ASSERT_TRUE(search.best().set.empty());
+  Diagnosis d;
+  report_absent(problem, search, d);
+  std::size_t compared = 0;
+  for (const auto& s : search.screened({})) {
+    const auto bound = std::ranges::find(d.absent, problem.candidates[s.candidate].label(), &Bound::id);
+    if (bound == d.absent.end()) continue;
+    const double t = student_t_quantile(0.05 / static_cast<double>(problem.candidates.size()),
+                                        s.evidence.degrees_of_freedom());
+    EXPECT_GE(bound->typicals * (1.0 + 1e-9), std::abs(s.evidence.size()) + t * s.evidence.standard_error())
+        << bound->id;
+    ++compared;
+  }
+  EXPECT_GT(compared, 5u);
 }
 
 }  // namespace

@@ -80,5 +80,32 @@ TEST(DiagnoseSearch, AClassHoldsNoNameThatExplainsNothing) {
         << problem.candidates[name].label();
 }
 
+// A large fault of the accelerometer explains nothing in the heights. So it does not widen the class of a
+// small fault of the heights.
+TEST(DiagnoseSearch, AStrongEffectElsewhereDoesNotWidenAClass) {
+  constexpr double kBias_mps2 = 1.0, kScale = 1.002;
+  const auto class_size = [&](double bias_mps2) {
+    auto recordings = drops([](double, double, double) { return 0.0; }, 1, 8, kScale);
+    recordings.belief.numbers["medium.density_kg_per_m3"] = 0.0;
+    for (auto& belief : recordings.beliefs) belief = recordings.belief;
+    for (auto& trial : recordings.trials)
+      for (auto& a : trial.channels.at("accel_mps2")) a += bias_mps2;
+    const Problem problem = prepared(recordings);
+    Search search(problem, {.most_effects = 2});
+    search.run(null_point(problem));
+    search.fit_every_other();
+    const auto belief = posterior(problem, search, 0.0);
+    for (const auto candidate : search.best().set) {
+      if (problem.candidates[candidate].label() != "sensor.scale[height_m]") continue;
+      const auto names = belief.alternatives.find(candidate);
+      return names == belief.alternatives.end() ? 1 : 1 + static_cast<int>(names->second.size());
+    }
+    return 0;
+  };
+  const int alone = class_size(0.0);
+  EXPECT_GT(alone, 0);
+  EXPECT_EQ(class_size(kBias_mps2), alone);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -1,27 +1,17 @@
 #include "tools/diagnose/evidence/log_evidence.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "tools/diagnose/discrepancy/free_laws.hpp"
+#include "tools/diagnose/evidence/form_error.hpp"
 #include "tools/diagnose/evidence/log_determinant.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 
 namespace sandhopper::diagnose {
-namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
-
-// Prior covariance of the form error and the size error of one effect in one trial, at the knots of FormOf.
-MatrixXd form_covariance() {
-  return (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
-         kLimits.size_of_trial * kLimits.size_of_trial;
-}
-
-}  // namespace
 
 double log_integral_over_size(double best, double sd, bool either_sign) {
   // Midpoint rule in ln|b|. The grid covers only the part that contributes.
@@ -56,42 +46,24 @@ double log_prior(const Problem& problem, std::size_t effects) {
 
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {
   auto directions = parameter_directions(problem, point);
-  std::vector<FormOf> forms;
-  std::size_t at = 0;
-  for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[e]].parameters;
-    FormOf form;
-    for (std::size_t j = 0; j < parameters.size(); ++j, ++at)
-      if (is_amplitude(parameters, j))
-        form.directions.emplace_back(at, point.hypothesis.values[e][j] / parameters[j].typical);
-    forms.push_back(std::move(form));
-  }
   directions.insert(directions.end(), more.begin(), more.end());
+  const auto forms = forms_of(problem, point.hypothesis);
+  const auto effects = static_cast<Index>(forms.size());
   const auto linear =
       linearise_all(problem, point, directions, {.forms = &forms, .with_repeatable_error = true});
   // Columns: [residual, directions | forms | repeatable error]. The forms differ between trials, so they are
   // eliminated trial by trial.
-  const auto n = static_cast<Index>(forms.size()) * kFormKnots;
   const auto before = static_cast<Index>(directions.size()) + 1;
   std::vector<Index> shared, of_form;
   for (Index i = 0; i < linear.front().gram.rows(); ++i)
-    (i >= before && i < before + n ? of_form : shared).push_back(i);
+    (i >= before && i < before + effects * kFormKnots ? of_form : shared).push_back(i);
+  const MatrixXd information = form_information(effects);
   AtFit out;
-  for (const auto& trial : linear) out.plain.emplace_back(trial.gram(shared, shared));
-  if (n == 0) {
-    out.grams = out.plain;
-    return out;
-  }
-  MatrixXd prior = MatrixXd::Zero(n, n);
-  const MatrixXd one = form_covariance().inverse();
-  for (Index f = 0; f < static_cast<Index>(forms.size()); ++f)
-    prior.block(f * kFormKnots, f * kFormKnots, kFormKnots, kFormKnots) = one;
-  const double of_prior = log_determinant(prior);
   for (const auto& trial : linear) {
-    const MatrixXd held = trial.gram(of_form, of_form) + prior;
-    const MatrixXd cross = trial.gram(shared, of_form);
-    out.grams.emplace_back(trial.gram(shared, shared) - cross * held.ldlt().solve(cross.transpose()));
-    out.log_determinant += log_determinant(held) - of_prior;
+    out.plain.emplace_back(trial.gram(shared, shared));
+    auto without = without_forms(trial.gram, shared, of_form, information);
+    out.grams.push_back(std::move(without.gram));
+    out.log_determinant += without.log_determinant;
   }
   return out;
 }

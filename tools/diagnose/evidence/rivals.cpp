@@ -66,12 +66,13 @@ Contest::Contest(const Problem& problem, const PlannedTrials& planned, std::size
   }
   const auto linear = planned.linearised(trial, edits_of(problem, *fits_[0]), directions_);
   // Every direction was simulated as a difference to the first explanation. For the derivatives of another
-  // one, subtract that explanation's own difference, divided by the step.
+  // one, subtract that explanation's own difference, divided by the step; a central difference does not hold
+  // it.
   transform_ = MatrixXd::Identity(linear.gram.rows(), linear.gram.cols());
   for (const auto& c : columns_)
     for (Index k = c.from; k < c.from + c.count && c.difference > 0; ++k) {
       const Direction& direction = directions_[static_cast<std::size_t>(k - 1)];
-      if (direction.tolerance < 0) transform_(c.difference, k) = -1.0 / direction.step;
+      if (direction.tolerance < 0 && !direction.opposite) transform_(c.difference, k) = -1.0 / direction.step;
     }
   gram_ = transform_.transpose() * linear.gram * transform_;
 }

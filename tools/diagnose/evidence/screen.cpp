@@ -35,6 +35,7 @@ std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
 
 double signature_step(const Candidate& candidate, const std::vector<double>& choice, std::size_t amplitude) {
   const auto& p = candidate.parameters[amplitude];
+  if (choice[amplitude] == 0.0 && p.central_step > 0.0) return p.central_step / p.typical;
   return choice[amplitude] != 0.0 ? choice[amplitude] / p.typical
                                   : std::min(candidate.probe(), p.high / p.typical);
 }

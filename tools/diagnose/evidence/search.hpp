@@ -13,8 +13,10 @@ namespace sandhopper::diagnose {
 struct EffectEvidence {
   std::size_t candidate = 0;
   TrialEvidence evidence;
-  double gain = 0.0;     // Rise of the deviance without the effect, in the linear approximation.
-  double p_value = 1.0;  // Student's t over trials, Bonferroni-corrected for all candidates.
+  double gain = 0.0;  // Rise of the deviance without the effect, in the linear approximation.
+  // Student's t over trials, Bonferroni-corrected for all candidates, with the form errors of the other
+  // effects (form_error.hpp) eliminated.
+  double p_value = 1.0;
   // Sign-flip test over trials, family-wise.
   double flip_p_value = 1.0;
   double dispersion = 1.0;  // Variance between trials / variance from the noise alone, >= 1.

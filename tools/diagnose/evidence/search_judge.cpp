@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 
-#include "tools/diagnose/discrepancy/overlap.hpp"
+#include "tools/diagnose/evidence/form_error.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
@@ -28,9 +29,6 @@ constexpr double kFlips = 0.05;
 // Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
 // priori than one more effect.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
-// p-value for an effect named beside a stronger one. With 12 trials, real effects lie orders of magnitude
-// below it. Effects that only correct the form of the other law do not reach it.
-constexpr double kSignificanceBeside = 1e-4;
 // If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
 constexpr double kMostlyTrue = 0.3;
 // p-value that suffices without sign flips if a few trials carry nearly all information.
@@ -43,15 +41,6 @@ constexpr double kHopeless = 0.2;
 constexpr double kBeyondDoubt = 1e-8;
 constexpr double kUnmistakablePerRow =
     0.3;  // Gain per row above which an effect is never too small to be named.
-// Smallest gain of an effect, relative to the deviance that all effects explain.
-constexpr double kSmallestShare = 0.002;
-constexpr std::size_t kTrialsToDoubt = 10;
-// Plants with at least this relative form error, and campaigns of at least `kTrialsToDoubt` trials, use
-// `kSignificanceBeside`.
-constexpr double kFormInDoubt = 0.01;
-// Part of the plant's form error below which a gain is not a separate effect.
-constexpr double kShareOfFormError = 0.2;
-
 // Edits of the simulation by effect `e` alone.
 Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
@@ -148,12 +137,52 @@ bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
   return signed_rank_p_value(drops) < kFlips;
 }
 
+// Columns of one effect in a trial's Gram matrix, whose column 0 is the residual.
+struct EffectColumns {
+  std::vector<Index> own;          // its amplitudes
+  std::vector<double> amplitudes;  // their values in typical sizes
+  std::vector<Index> others;       // what is eliminated beside them
+  VectorXd others_prior;           // and the information of its prior
+};
+
+// Evidence for the amplitudes of an effect, with the other columns eliminated. The effect is first added back
+// to the residual, so that column 0 is the residual without it.
+GroupGain gain_of(const std::vector<MatrixXd>& grams, const EffectColumns& effect) {
+  const auto own = static_cast<Index>(effect.own.size());
+  const auto others = static_cast<Index>(effect.others.size());
+  std::vector<Index> columns{0};
+  columns.insert(columns.end(), effect.own.begin(), effect.own.end());
+  columns.insert(columns.end(), effect.others.begin(), effect.others.end());
+  MatrixXd back = MatrixXd::Identity(1 + own + others, 1 + own + others);
+  for (Index i = 0; i < own; ++i) back(1 + i, 0) = effect.amplitudes[static_cast<std::size_t>(i)];
+  std::vector<TrialLinear> trials(grams.size());
+  for (std::size_t t = 0; t < grams.size(); ++t)
+    trials[t].gram = back.transpose() * grams[t](columns, columns) * back;
+  std::vector<Index> first(effect.own.size());
+  std::iota(first.begin(), first.end(), Index{1});
+  return group_gain(eliminated(trials, 1 + own, others, effect.others_prior), first, 0.01);
+}
+
+// The trials' Gram matrices without `forms`, the form errors of other effects.
+std::vector<MatrixXd> grams_without(const std::vector<TrialLinear>& trials, Index kept,
+                                    const std::vector<Index>& forms) {
+  std::vector<Index> columns(static_cast<std::size_t>(kept));
+  std::iota(columns.begin(), columns.end(), Index{0});
+  const MatrixXd information = form_information(static_cast<Index>(forms.size()) / kFormKnots);
+  std::vector<MatrixXd> grams;
+  for (const auto& trial : trials)
+    grams.push_back(without_forms(trial.gram, columns, forms, information).gram);
+  return grams;
+}
+
 }  // namespace
 
 void Search::judge(SetFit& result) {
   const Point& point = result.fit.point;
   const auto directions = parameter_directions(*problem_, point);
-  const auto linear = linearise_all(*problem_, point, directions, {.columns = columns_for(result.set)});
+  const auto forms = forms_of(*problem_, point.hypothesis);
+  const auto linear =
+      linearise_all(*problem_, point, directions, {.forms = &forms, .columns = columns_for(result.set)});
   const auto k = static_cast<Index>(directions.size());
   const auto parameters = static_cast<Index>(point.hypothesis.parameters());
   const VectorXd prior = prior_information(*problem_, point);
@@ -164,77 +193,59 @@ void Search::judge(SetFit& result) {
   result.beside = deviances_without_one(result);
   result.needed = result.sound = true;
   result.hopeless = false;
+  const auto plain = grams_without(linear, k + 1, {});
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto& candidate = problem_->candidates[point.hypothesis.candidates[e]];
     const auto width = static_cast<Index>(candidate.parameters.size());
-    // Evidence for the amplitudes of this effect, with everything else eliminated. The effect's own shape
-    // parameters are not eliminated: they must not absorb it.
-    std::vector<TrialLinear> reordered = linear;
-    std::vector<Index> order{0, first};
-    std::vector<double> amplitudes;
-    std::vector<Index> amplitude_columns;
+    // The effect's own shape parameters are not eliminated: they must not absorb it.
+    EffectColumns columns;
     for (Index i = 0; i < width; ++i) {
       const auto& p = candidate.parameters[static_cast<std::size_t>(i)];
       if (is_amplitude(candidate.parameters, static_cast<std::size_t>(i))) {
-        amplitude_columns.push_back(first + i);
-        amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
+        columns.own.push_back(first + i);
+        columns.amplitudes.push_back(point.hypothesis.values[e][static_cast<std::size_t>(i)] / p.typical);
       }
     }
     const auto delays = delays_s(*problem_, point.hypothesis, e);
     // A late input is the same as all channels early.
     const bool of_input = std::ranges::any_of(
         delays, [&](const auto& delay) { return !problem_->context.channels.contains(delay.first); });
-    std::vector<Index> others;
     for (Index i = 1; i <= k; ++i) {
       const bool own = i >= first && i < first + width;
       const bool same_as_own =
           i > parameters &&
           (of_input ||
            delays.contains(problem_->tolerances[static_cast<std::size_t>(i - 1 - parameters)].channel));
-      if (!own && !same_as_own) others.push_back(i);
+      if (!own && !same_as_own) columns.others.push_back(i);
     }
-    const auto n_own = static_cast<Index>(amplitude_columns.size());
-    const auto n_others = static_cast<Index>(others.size());
-    VectorXd others_prior(n_others);
-    for (Index i = 0; i < n_others; ++i) others_prior[i] = prior[others[static_cast<std::size_t>(i)] - 1];
+    const auto n_others = static_cast<Index>(columns.others.size());
+    columns.others_prior.resize(n_others);
     // If a tolerance is already at its limit in the fit without the effect, it cannot absorb the effect: hold
     // it.
     const auto parent = sets_.find(without(result.set, point.hypothesis.candidates[e]));
     const Point& there = parent != sets_.end() ? parent->second.fit.point : null().fit.point;
     const VectorXd prior_there = prior_information(*problem_, there).tail(k - parameters);
-    for (Index i = 0; i < n_others; ++i)
-      if (const Index tolerance = others[static_cast<std::size_t>(i)] - 1 - parameters; tolerance >= 0)
-        others_prior[i] = std::max(others_prior[i], prior_there[tolerance]);
-    for (auto& trial : reordered) {
-      MatrixXd gram(1 + n_own + n_others, 1 + n_own + n_others);
-      std::vector<Index> columns{0};
-      columns.insert(columns.end(), amplitude_columns.begin(), amplitude_columns.end());
-      columns.insert(columns.end(), others.begin(), others.end());
-      for (Index i = 0; i < gram.rows(); ++i)
-        for (Index j = 0; j < gram.cols(); ++j)
-          gram(i, j) = trial.gram(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
-      // Add the effect back to the residual, so that column 0 is the residual without it.
-      VectorXd back = VectorXd::Zero(gram.rows());
-      back[0] = 1.0;
-      for (Index i = 0; i < n_own; ++i) back[1 + i] = amplitudes[static_cast<std::size_t>(i)];
-      const VectorXd column = gram * back;
-      const double corner = back.dot(column);
-      gram.col(0) = column;
-      gram.row(0) = column.transpose();
-      gram(0, 0) = corner;
-      trial.gram = gram;
+    for (Index i = 0; i < n_others; ++i) {
+      const Index direction = columns.others[static_cast<std::size_t>(i)] - 1;
+      columns.others_prior[i] = prior[direction];
+      if (const Index tolerance = direction - parameters; tolerance >= 0)
+        columns.others_prior[i] = std::max(columns.others_prior[i], prior_there[tolerance]);
     }
-    const auto grams = eliminated(reordered, 1 + n_own, n_others, others_prior);
-    std::vector<Index> own;
-    for (Index i = 0; i < n_own; ++i) own.push_back(1 + i);
-    const auto group = group_gain(grams, own, 0.01);
+    const auto group = gain_of(plain, columns);
+    // Beside other effects: with their laws free to have another form. An effect that only corrects that form
+    // is not needed.
+    std::vector<Index> of_others;
+    for (Index i = 0; i < static_cast<Index>(forms.size()) * kFormKnots; ++i)
+      if (i / kFormKnots != static_cast<Index>(e)) of_others.push_back(k + 1 + i);
+    const auto beyond_forms =
+        of_others.empty() ? group : gain_of(grams_without(linear, k + 1, of_others), columns);
     EffectEvidence evidence;
     evidence.candidate = point.hypothesis.candidates[e];
     evidence.evidence = group.evidence;
     evidence.gain = group.gain;
     evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
     evidence.p_value =
-        std::min(1.0, group.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
+        std::min(1.0, beyond_forms.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
     for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
       const auto& p = candidate.parameters[i];
       const double value = point.hypothesis.values[e][i];
@@ -259,16 +270,11 @@ void Search::judge(SetFit& result) {
   }
   if (late_together(*problem_, point.hypothesis)) result.sound = false;
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
-  const double explained = with_form_unnoticed(*problem_, null().fit.deviance - result.fit.deviance);
-  const double least_share = std::max(kSmallestShare, kShareOfFormError * problem_->plant->form_error());
   const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
   const bool alone = enough && result.set.size() == 1;
-  const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
+  const double significance = alone ? kSignificanceAlone : kSignificance;
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
-    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
-                        problem_->plant->form_error() >= kFormInDoubt;
-    const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
@@ -313,16 +319,6 @@ void Search::judge(SetFit& result) {
     if (!(evidence.p_value < significance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
         !came_true)
       result.sound = false;
-    // A law of another form can leave a residual of this size where the other effects act. If only readings
-    // change, compare with the deviance explained in those channels.
-    if (result.sound && evidence.gain < least_share * explained) {
-      const auto read = channels_read(*problem_, point.hypothesis, e);
-      const double there =
-          read.empty() ? std::min(explained, shown_by_others(*problem_, point, e))
-                       : with_form_unnoticed(*problem_, deviance_of(*problem_, null().fit.point, read) -
-                                                            deviance_of(*problem_, result.fit.point, read));
-      result.sound = result.evidence.size() > 1 && evidence.gain >= least_share * there;
-    }
     result.needed = result.needed && result.sound && !evidence.too_small && !evidence.unnoticed;
     if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
   }

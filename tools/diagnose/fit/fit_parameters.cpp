@@ -71,11 +71,18 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
   for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
     const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
-      Hypothesis moved = point.hypothesis;
+      const auto moved_by = [&](double step) {
+        Hypothesis moved = point.hypothesis;
+        moved.values[i][j] += step * parameters[j].typical;
+        return edits_for(problem, moved, point.tolerances);
+      };
+      if (const double step = parameters[j].central_step / parameters[j].typical; step > 0.0) {
+        directions.push_back({moved_by(step), step, -1, moved_by(-step)});
+        continue;
+      }
       double step = kDerivativeStep;
-      if (moved.values[i][j] + step * parameters[j].typical > parameters[j].high) step = -step;
-      moved.values[i][j] += step * parameters[j].typical;
-      directions.push_back({edits_for(problem, moved, point.tolerances), step});
+      if (point.hypothesis.values[i][j] + step * parameters[j].typical > parameters[j].high) step = -step;
+      directions.push_back({moved_by(step), step});
     }
   }
   for (std::size_t k = 0; k < point.hypothesis.law.size(); ++k) {

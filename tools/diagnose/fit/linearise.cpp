@@ -244,7 +244,7 @@ struct Gathered {
   }
 };
 
-// `simulate(direction)` predicts the trial with that direction's edits.
+// `simulate(edits)` predicts the trial with these edits.
 template <class Simulate>
 Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::vector<Direction>& directions,
                   const Simulate& simulate) {
@@ -261,7 +261,7 @@ Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::v
   columns.x.resize(residual.size(), 1 + static_cast<Index>(simulated.size()));
   columns.x.col(0) = residual;
   for (std::size_t i = 0; i < simulated.size(); ++i)
-    columns.x.col(static_cast<Index>(i) + 1) = (simulate(*simulated[i]) - centre) / simulated[i]->step;
+    columns.x.col(static_cast<Index>(i) + 1) = derivative(*simulated[i], centre, simulate);
   return columns;
 }
 
@@ -292,8 +292,8 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
 
   TrialLinear out;
   out.residual = residual_of(trial, centre);
-  Gathered columns = gathered(out.residual, centre, directions, [&](const Direction& direction) {
-    return predicted(problem, trial, direction.edits, nuisances);
+  Gathered columns = gathered(out.residual, centre, directions, [&](const Edits& edits) {
+    return predicted(problem, trial, edits, nuisances);
   });
   MatrixXd& x = columns.x;
   if (options.forms != nullptr) {

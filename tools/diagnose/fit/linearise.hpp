@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,12 +10,23 @@
 
 namespace sandhopper::diagnose {
 
-// A direction in which the simulation may change. Its derivative is (prediction(edits) - prediction) / step.
+// A direction in which the simulation may change. Its derivative is (prediction(edits) - prediction) / step,
+// or (prediction(edits) - prediction(opposite)) / (2 step) if there is an opposite.
 struct Direction {
   Edits edits;
   double step = 1.0;
   int tolerance = -1;  // >= 0: index of a tolerance; its derivative is a kept column
+  std::optional<Edits> opposite{};
 };
+
+// Derivative in a direction; `simulate(edits)` gives a prediction, `centre` is the one without the change.
+template <class Simulate>
+Eigen::VectorXd derivative(const Direction& direction, const Eigen::VectorXd& centre,
+                           const Simulate& simulate) {
+  const Eigen::VectorXd above = simulate(direction.edits);
+  if (!direction.opposite) return (above - centre) / direction.step;
+  return (above - simulate(*direction.opposite)) / (2.0 * direction.step);
+}
 
 // Linear model of one trial at one point. X holds the whitened residual r, then one whitened derivative per
 // direction. The trial's nuisances are eliminated under their priors:

@@ -14,8 +14,7 @@ using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options) {
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
   Signatures out;
-  std::vector<Edits> moved;
-  std::vector<double> steps;
+  std::vector<Direction> moved;
   for (std::size_t c = 0; c < problem.candidates.size(); ++c) {
     if (point.hypothesis.contains(c) || (options.sizes && !options.sizes->contains(c))) continue;
     const Candidate& candidate = problem.candidates[c];
@@ -24,16 +23,20 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
       for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
         if (!is_amplitude(candidate.parameters, i)) continue;
         Hypothesis with = point.hypothesis;
-        auto values = choice;
+        const auto& values = choice;
         const bool secant = options.sizes != nullptr && alternative.amplitudes.empty();
         const double step = secant ? options.sizes->at(c) : signature_step(candidate, choice, i);
-        values[i] = step * candidate.parameters[i].typical;
         with.candidates.push_back(c);
         with.values.push_back(values);
+        const auto moved_by = [&](double by) {
+          with.values.back()[i] = by * candidate.parameters[i].typical;
+          return edits_for(problem, with, point.tolerances);
+        };
         alternative.amplitudes.push_back(i);
         alternative.steps.push_back(step);
-        moved.push_back(edits_for(problem, with, point.tolerances));
-        steps.push_back(step);
+        moved.push_back({moved_by(step), step});
+        if (!secant && choice[i] == 0.0 && candidate.parameters[i].central_step > 0.0)
+          moved.back().opposite = moved_by(-step);
       }
       out.alternatives.push_back(std::move(alternative));
     }
@@ -41,10 +44,7 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
   if (options.laws)
     for (auto& family : free_families(problem, point)) {
       const auto first = static_cast<Index>(moved.size());
-      for (const auto& term : family.terms) {
-        moved.push_back(with_term(base, term, kTermStep));
-        steps.push_back(kTermStep);
-      }
+      for (const auto& term : family.terms) moved.push_back({with_term(base, term, kTermStep), kTermStep});
       out.laws.push_back({std::move(family), first});
     }
   out.columns.resize(problem.trials.size());
@@ -53,9 +53,11 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
     const VectorXd centre = predicted(problem, trial, base, point.nuisances[t]);
     MatrixXd& columns = out.columns[t];
     columns.resize(centre.size(), static_cast<Index>(moved.size()));
+    const auto simulate = [&](const Edits& edits) {
+      return predicted(problem, trial, edits, point.nuisances[t]);
+    };
     for (std::size_t i = 0; i < moved.size(); ++i)
-      columns.col(static_cast<Index>(i)) =
-          (predicted(problem, trial, moved[i], point.nuisances[t]) - centre) / steps[i];
+      columns.col(static_cast<Index>(i)) = derivative(moved[i], centre, simulate);
   });
   return out;
 }

@@ -9,6 +9,9 @@
 
 namespace sandhopper::diagnose {
 
+// Step of derivatives by the height of a bed's surface: of the nuisance, and of effects that act as it does.
+inline constexpr double kSurfaceStep_m = 1e-4;
+
 enum class PlantKind : std::uint8_t { falling_body, rotary_axis, intruder, hopper };
 
 // The believed model: every number of nominal.toml under "table.key". An absent key takes the caller's

@@ -27,6 +27,10 @@ struct EffectParameter {
   bool amplitude = false;        // for a later parameter: 0 switches off a part of the effect
   double power = 1.0;            // reported as (base + scale * value)^power
   bool other_law_above = false;  // at its upper bound the law is another effect: such a fit is rejected
+  // Step of a central difference, in the parameter's unit; 0: a forward difference by a small part of the
+  // typical size. Where a nuisance acts on the recordings in the same way, give the nuisance's step: then
+  // both have the same derivative, and one can stand in for the other without loss.
+  double central_step = 0.0;
   // More values to screen. Shape: each is a separate start. Amplitude: sizes at which the derivative is taken
   // as well, because another size acts on other rows.
   std::vector<double> shapes{};

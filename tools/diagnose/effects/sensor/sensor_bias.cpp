@@ -5,7 +5,12 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string& channel) {
   if (c.plant == PlantKind::intruder)
-    return {{.name = "bias_m", .typical = 1e-3, .low = -0.03, .high = 0.03, .either_sign = true}};
+    return {{.name = "bias_m",
+             .typical = 1e-3,
+             .low = -0.03,
+             .high = 0.03,
+             .either_sign = true,
+             .central_step = kSurfaceStep_m}};
   if (channel == "torque_Nm") {
     const double typical = 0.05 * c.facts.torque_Nm;
     return {{.name = "bias_Nm",

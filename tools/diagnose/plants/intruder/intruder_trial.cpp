@@ -59,7 +59,7 @@ class IntruderTrial final : public TrialModel {
     rest_speed_mps_ = std::min(kNoiseBand * motion_.speed_sd_mps, 0.1 * fastest_mps);
     const double spread_surface = belief.value("spread.surface_height_m");
     const double spread_force = belief.value("spread.load_cell_offset_N");
-    add_nuisance("surface_height_m", std::max(spread_surface, kSurfaceUnknown_m), 1e-4);
+    add_nuisance("surface_height_m", std::max(spread_surface, kSurfaceUnknown_m), kSurfaceStep_m);
     add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
     add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
                  1e-2);
