@@ -213,6 +213,9 @@ Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& 
   auto second = searched_again(problem, search, search_options, options, diagnosis);
   if (!second && singles_first && !search.stopped()) search.widen(options.most_effects);
   Search& best = second ? *second : search;
+  // A rig may lack two frictions, a wrong inertia and an encoder's zero at once.
+  if (!costly && best.best().set.size() == options.most_effects && misfit_of(problem, best).noticeable)
+    best.widen(options.most_effects + 1);
   if (!singles_first || best.best().set.size() < 2 || best.stopped()) return best;
   search_options.fits_per_screen = 3;
   auto third = searched_again(problem, best, search_options, options, diagnosis);

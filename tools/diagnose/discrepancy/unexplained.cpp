@@ -149,6 +149,9 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
     out.law = first_of(alone, [&](const FreeGain& gain) {
       return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
     });
+    // Without the names the law explains what they explain, too. Only what they leave counts as left.
+    if (out.law && explained > 0.0)
+      out.law->held_out = std::min(out.law->held_out, std::max(0.0, out.misfit.unexplained));
   }
   // If a free law explains more on held-out trials than the best names on the trials they were fitted to, the
   // names are wrong.

@@ -341,14 +341,17 @@ void Search::grow_sets() {
               [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
     const auto before = best_;
     choose_best();
-    const double smaller = criterion(sets_.at(front.front()));
+    const SetFit& smaller = sets_.at(front.front());
+    // While physics is missing the trials differ for that reason. Their scatter must not end the growth.
+    const double noise = std::min(dispersion_, std::max(1.0, smaller.fit.deviance / problem_->rows()));
+    const bool worse = criterion(*grown.front(), noise) >= criterion(smaller, noise);
     front.clear();
     const double explained = this->null().fit.deviance - grown.front()->fit.deviance;
     for (const auto* fit : grown)
       if (front.size() < options_.beam && worth_growing(*problem_, fit->fit.point.hypothesis) &&
           fit->fit.deviance - grown.front()->fit.deviance <= kNearlyAsGood * explained)
         front.push_back(fit->set);
-    if (front.empty() || (criterion(*grown.front()) >= smaller && best_ == before)) break;
+    if (front.empty() || (worse && best_ == before)) break;
   }
 }
 

@@ -29,6 +29,11 @@ constexpr double kFlips = 0.05;
 // Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
 // priori than one more effect.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
+// p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials. Real
+// effects lie orders of magnitude below it there; effects that only correct the form of the other law at some
+// of its states do not reach it.
+constexpr double kSignificanceBeside = 1e-4;
+constexpr std::size_t kTrialsToDoubt = 10;
 // If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
 constexpr double kMostlyTrue = 0.3;
 // p-value that suffices without sign flips if a few trials carry nearly all information.
@@ -272,9 +277,11 @@ void Search::judge(SetFit& result) {
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
   const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
   const bool alone = enough && result.set.size() == 1;
-  const double significance = alone ? kSignificanceAlone : kSignificance;
+  const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
+    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt;
+    const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
     const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);

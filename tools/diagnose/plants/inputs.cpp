@@ -23,14 +23,23 @@ Samples samples_of(const Trial& trial, const std::string& channel) {
 }
 
 double fluctuation_rms(const Samples& s) {
+  constexpr std::size_t kPoints = 4;
   std::vector<double> differences;
-  for (std::size_t i = 3; i < s.value.size(); ++i)
-    differences.push_back(
-        std::abs(s.value[i] - 3.0 * s.value[i - 1] + 3.0 * s.value[i - 2] - s.value[i - 3]));
+  for (std::size_t first = 0; first + kPoints <= s.value.size(); ++first) {
+    // Third divided difference over the norm of its weights: 0 for a parabola at any times, and with the
+    // standard deviation of a sample for noise.
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = first; i < first + kPoints; ++i) {
+      double weight = 1.0;
+      for (std::size_t j = first; j < first + kPoints; ++j)
+        if (j != i) weight *= (s.time_s[first + 1] - s.time_s[first]) / (s.time_s[i] - s.time_s[j]);
+      sum += weight * s.value[i];
+      squares += weight * weight;
+    }
+    differences.push_back(std::abs(sum) / std::sqrt(squares));
+  }
   if (differences.size() < 5) return 0.0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return 1.4826 * *middle / std::sqrt(20.0);  // variance of a third difference is 20 times a sample's
+  return 1.4826 * median(std::move(differences));
 }
 
 std::vector<double> last_turns(std::span<const double> position, double least) {

@@ -17,8 +17,8 @@ struct Samples {
 };
 Samples samples_of(const Trial& trial, const std::string& channel);
 
-// Robust standard deviation of a channel's white noise, from third differences of successive samples. 0 with
-// fewer than 8 samples.
+// Robust standard deviation of a channel's white noise, from third divided differences of successive samples:
+// a parabola adds nothing to it, also where rows are missing. 0 with fewer than 8 samples.
 double fluctuation_rms(const Samples& samples);
 
 // Local fit of a polynomial (degree 2) over `half_width` samples to each side: value, first and second
