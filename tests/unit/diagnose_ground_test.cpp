@@ -36,5 +36,22 @@ TEST(DiagnoseGround, ASofterUnloadingLineIsNotAYieldingRig) {
   EXPECT_EQ(named, (std::set<std::string>{"load_cell.inertia", "terrain.unloading"}));
 }
 
+// The surface may lie 1 mm higher or lower in each trial, and a bias of the depth acts as a surface does that
+// is off in all trials alike. Half of it must not become a crater.
+TEST(DiagnoseGround, ABiasOfTheDepthIsNamedAlone) {
+  constexpr double kBias_m = 0.005;
+  auto recordings = presses([](double, double) { return 0.0; }, 5, 10);
+  recordings.belief.numbers["spread.surface_height_m"] = 1e-3;
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  for (auto& trial : recordings.trials)
+    for (double& z : trial.channels.at("foot_z_m")) z += kBias_m;
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  EXPECT_EQ(d.effects.front().id, "sensor.bias");
+  const auto& bias = d.effects.front().parameters.front();
+  EXPECT_LT(bias.low, kBias_m);
+  EXPECT_GT(bias.high, kBias_m);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -50,7 +50,31 @@ TEST(DiagnoseOtherForms, AnEccentricEncoderIsEccentricForTheVelocityAsWell) {
     ASSERT_EQ(d.effects.size(), 1u) << of_both;
     EXPECT_EQ(d.effects.front().id, "encoder.eccentricity");
     EXPECT_NEAR(value_of(d.effects.front(), "part_of_velocity"), of_both ? 1.0 : 0.0, 0.1);
+    const auto& amplitude = d.effects.front().parameters.front();
+    EXPECT_EQ(amplitude.name, "eccentricity_rad");
+    EXPECT_LT(amplitude.low, 0.02);
+    EXPECT_GT(amplitude.high, 0.02);
+    EXPECT_LT(amplitude.high - amplitude.low, 0.005);
   }
+}
+
+// The change of a believed number as a share of it comes first, then the number, then its change.
+TEST(DiagnoseOtherForms, AnotherInertiaIsToldAsAShareOfTheBelievedOne) {
+  constexpr double kShare = 0.05;
+  auto recordings = swings([](double, double, double) { return 0.0; }, 26, 8);
+  recordings.belief.numbers["axis.inertia_kg_m2"] /= 1.0 + kShare;
+  const double believed = recordings.belief.numbers["axis.inertia_kg_m2"];
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  const auto d = diagnose(recordings);
+  ASSERT_EQ(d.effects.size(), 1u);
+  ASSERT_EQ(d.effects.front().id, "axis.inertia");
+  const auto& told = d.effects.front().parameters;
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[0].name, "inertia_change_fraction");
+  EXPECT_NEAR(told[0].value, kShare, 0.005);
+  EXPECT_NEAR(told[1].value, believed * (1.0 + told[0].value), 1e-9);
+  EXPECT_NEAR(told[2].value, believed * told[0].value, 1e-9);
+  EXPECT_NEAR(told[0].high - told[0].value, (told[1].high - told[1].value) / believed, 1e-9);
 }
 
 // A bed that becomes stiffer with every push: this shows only in the stiffness, which may differ from trial
@@ -84,6 +108,20 @@ TEST(DiagnoseOtherForms, WhatGoesWithNothingActsAtThePlantsOnlyPort) {
   }));
   EXPECT_EQ(d.verdict, Verdict::unknown_physics);
   EXPECT_TRUE(std::ranges::any_of(d.effects, [](const auto& e) { return e.id == "unknown@body"; }));
+}
+
+// Friction explains most of the gap; a torque that is on no list leaves more than the noise. A law of free
+// form fitted without the friction explains what the friction explains, too: that must not count as left.
+TEST(DiagnoseOtherForms, ANameKeepsItsShareBesideWhatIsOnNoList) {
+  const auto d = diagnose(swings(
+      [](double angle, double w, double) { return -0.08 * w - 0.1 * std::max(0.0, std::sin(3.0 * angle)); },
+      27, 6));
+  EXPECT_EQ(d.verdict, Verdict::missing_physics);
+  const auto friction = std::ranges::find(d.effects, "axis.viscous", &FoundEffect::id);
+  ASSERT_NE(friction, d.effects.end());
+  EXPECT_GE(friction->probability, 0.5);
+  EXPECT_TRUE(
+      std::ranges::any_of(d.effects, [](const auto& e) { return e.is_unknown() && e.probability <= 0.5; }));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(DiagnoseSearch, AStrongEffectElsewhereDoesNotWidenAClass) {
     search.fit_every_other();
     const auto belief = posterior(problem, search, 0.0);
     for (const auto candidate : search.best().set) {
-      if (problem.candidates[candidate].label() != "sensor.scale[height_m]") continue;
+      if (problem.candidates[candidate].label() != "tof.scale[height_m]") continue;
       const auto names = belief.alternatives.find(candidate);
       return names == belief.alternatives.end() ? 1 : 1 + static_cast<int>(names->second.size());
     }

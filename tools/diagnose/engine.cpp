@@ -88,6 +88,11 @@ void note_what_is_no_fault(std::vector<DataFault>& faults, const Recordings& cle
   for (const auto& limit : take_known_limits(faults, clean.belief))
     diagnosis.notes.push_back(fmt::format("{}: {} stretches at the end of its range, {:.4g}; left out",
                                           limit.channel, limit.stretches, limit.limit));
+  for (const auto& spikes : take_spikes(faults))
+    diagnosis.notes.push_back(fmt::format(
+        "{}: jumps away and back within one or two samples, {} times in {} of {} trials, by up to "
+        "{:.3g}; left out",
+        spikes.channel, spikes.stretches, spikes.trials.size(), clean.trials.size(), spikes.limit));
   for (const auto& event : take_single_events(faults, clean.trials.size()))
     diagnosis.notes.push_back(fmt::format("{}: {} once, for {:.3g} s; left out", event.channel,
                                           event.id == "data.stuck" ? "stood still" : "fell out",

@@ -14,7 +14,7 @@ struct FoundParameter {
   std::string name;
   double value = 0.0;
   double low = 0.0, high = 0.0;  // 95 % interval
-  bool derived = false;          // Repeats the parameter before it as a change against the belief.
+  bool derived = false;          // Says the same as another parameter in another way, or as a change.
 };
 
 // One effect of the answer: listed, unknown ("unknown@PORT"), or a fault of the data.

@@ -79,7 +79,8 @@ bool explains_little(const Diagnosis& d) {
 bool FoundEffect::may_be_zero() const {
   if (parameters.empty()) return false;
   // For a number of the belief, its change decides, not its value.
-  const auto& size = parameters.size() > 1 && parameters[1].derived ? parameters[1] : parameters[0];
+  const bool next = !parameters[0].derived && parameters.size() > 1 && parameters[1].derived;
+  const auto& size = parameters[next ? 1 : 0];
   return size.low <= 0.0 && size.high >= 0.0 && size.low < size.high;
 }
 

@@ -72,6 +72,18 @@ std::string filled(std::string text, const std::string& channel) {
   return text;
 }
 
+// Amplitude sqrt(a^2 + b^2) of a sine part `j` and the cosine part after it, with the interval of its
+// linearisation at the fit. `at`: row of the sine part in the covariance.
+FoundParameter amplitude_of(const Candidate& candidate, const std::vector<double>& values,
+                            const MatrixXd& covariance, double quantile, std::size_t j, Index at) {
+  const auto &sine = candidate.parameters[j], &cosine = candidate.parameters[j + 1];
+  const double amplitude = std::hypot(values[j], values[j + 1]);
+  const Eigen::Vector2d along(sine.typical * values[j], cosine.typical * values[j + 1]);
+  const double variance = along.dot(covariance.block(at, at, 2, 2) * along);
+  const double half = amplitude > 0.0 ? quantile * std::sqrt(std::max(0.0, variance)) / amplitude : 0.0;
+  return {sine.amplitude_name, amplitude, std::max(0.0, amplitude - half), amplitude + half, true};
+}
+
 // Fitted parameters of one effect with their 95 % intervals. `at`: row of its first parameter in the
 // covariance.
 std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std::vector<double>& values,
@@ -89,6 +101,12 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
       out.high = out.value + within;
     }
     if (out.low > out.high) std::swap(out.low, out.high);
+    if (!p.other_name.empty()) {
+      const auto other = [&](double reported) { return p.other_scale * (reported - p.base) / p.scale; };
+      found.push_back({p.other_name, other(out.value), other(out.low), other(out.high), true});
+    }
+    if (!p.amplitude_name.empty())
+      found.push_back(amplitude_of(candidate, values, covariance, quantile, j, at));
     found.push_back(out);
     // For a number that the belief already contains, also give its change.
     if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)

@@ -3,13 +3,14 @@
 
 namespace sandhopper::diagnose {
 
-// Priors of the evidence. The evidence is only printed (--search); the answer does not use it yet.
+// Priors of the evidence. The answer uses only the model error of effects, where it judges if one effect is
+// needed beside others (`form_error`). The rest serves the masses that --search prints.
 struct Limits {
   double effects_expected = 1.0;  // Prior mean of the number of listed effects that are missing.
   double unknown_expected = 0.2;  // Prior mean of the number of missing effects that are not listed.
   double size_spread = 1.0;       // Standard deviation of ln(size / typical).
 
-  // Standard deviations of the model error of an effect. Guessed, not yet learnt from campaigns.
+  // Standard deviations of the model error of an effect. Guessed, not learnt from campaigns.
   double form = 0.1;  // Relative to the effect's signature: smooth in time, independent between trials.
   double size_of_trial = 0.05;  // Relative scatter of the effect's size between trials.
   // Standard deviations of an unknown law, in the scale of its port; equally probable.

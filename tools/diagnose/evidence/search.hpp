@@ -14,8 +14,8 @@ struct EffectEvidence {
   std::size_t candidate = 0;
   TrialEvidence evidence;
   double gain = 0.0;  // Rise of the deviance without the effect, in the linear approximation.
-  // Student's t over trials, Bonferroni-corrected for all candidates, with the form errors of the other
-  // effects (form_error.hpp) eliminated.
+  // Student's t over trials, Bonferroni-corrected for all candidates; the larger of those without and with
+  // form errors of the other effects (form_error.hpp).
   double p_value = 1.0;
   // Sign-flip test over trials, family-wise.
   double flip_p_value = 1.0;

@@ -29,11 +29,13 @@ constexpr double kFlips = 0.05;
 // Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
 // priori than one more effect.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
-// p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials. Real
+// p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials and for
+// plants with at least the relative form error `kFormInDoubt`. Real
 // effects lie orders of magnitude below it there; effects that only correct the form of the other law at some
 // of its states do not reach it.
 constexpr double kSignificanceBeside = 1e-4;
 constexpr std::size_t kTrialsToDoubt = 10;
+constexpr double kFormInDoubt = 0.01;
 // If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
 constexpr double kMostlyTrue = 0.3;
 // p-value that suffices without sign flips if a few trials carry nearly all information.
@@ -237,8 +239,8 @@ void Search::judge(SetFit& result) {
         columns.others_prior[i] = std::max(columns.others_prior[i], prior_there[tolerance]);
     }
     const auto group = gain_of(plain, columns);
-    // Beside other effects: with their laws free to have another form. An effect that only corrects that form
-    // is not needed.
+    // Beside other effects also with their laws free to have another form: an effect that only corrects that
+    // form is not needed. The form errors take up scatter between trials, too, so both tests count.
     std::vector<Index> of_others;
     for (Index i = 0; i < static_cast<Index>(forms.size()) * kFormKnots; ++i)
       if (i / kFormKnots != static_cast<Index>(e)) of_others.push_back(k + 1 + i);
@@ -249,8 +251,8 @@ void Search::judge(SetFit& result) {
     evidence.evidence = group.evidence;
     evidence.gain = group.gain;
     evidence.typicals = typicals_of(*problem_, point.hypothesis, e);
-    evidence.p_value =
-        std::min(1.0, beyond_forms.evidence.p_value() * static_cast<double>(problem_->candidates.size()));
+    const double p_value = std::max(group.evidence.p_value(), beyond_forms.evidence.p_value());
+    evidence.p_value = std::min(1.0, p_value * static_cast<double>(problem_->candidates.size()));
     for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
       const auto& p = candidate.parameters[i];
       const double value = point.hypothesis.values[e][i];
@@ -280,7 +282,8 @@ void Search::judge(SetFit& result) {
   const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
-    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt;
+    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
+                        problem_->plant->form_error() >= kFormInDoubt;
     const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);

@@ -22,10 +22,16 @@ struct EffectParameter {
   double high = 1.0;
   bool either_sign = false;  // fits start with both signs
   double base = 0.0;
-  double scale = 1.0;            // 0: the reported number is `base`, read off the data
-  double resolution = 0.0;       // half-width of its reported interval where scale is 0
-  bool amplitude = false;        // for a later parameter: 0 switches off a part of the effect
-  double power = 1.0;            // reported as (base + scale * value)^power
+  double scale = 1.0;       // 0: the reported number is `base`, read off the data
+  double resolution = 0.0;  // half-width of its reported interval where scale is 0
+  bool amplitude = false;   // for a later parameter: 0 switches off a part of the effect
+  double power = 1.0;       // reported as (base + scale * value)^power
+  // The same size as readers look for it, reported first: `other_scale` times the value under `other_name`;
+  // or, for the sine part of an angle whose cosine part comes next, the amplitude of both under
+  // `amplitude_name`.
+  std::string other_name{};
+  double other_scale = 1.0;
+  std::string amplitude_name{};
   bool other_law_above = false;  // at its upper bound the law is another effect: such a fit is rejected
   // Step of a central difference, in the parameter's unit; 0: a forward difference by a small part of the
   // typical size. Where a nuisance acts on the recordings in the same way, give the nuisance's step: then

@@ -7,10 +7,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kOutlying = 8.0;  // least jump to the code, in rms changes of the neighbours
-// Largest difference of the samples before and after, as a share of the jump.
-constexpr double kAlike = 0.5;
-constexpr std::size_t kDropoutNeighbours = 6;  // samples on each side
 constexpr double kIsolated = 0.3;  // a value farther from all others, as a share of their range, is isolated
 constexpr double kOften = 2.0;     // least mean number of gaps in trials that have any
 constexpr double kManyTrials = 0.5;  // least share of the trials that have gaps
@@ -47,8 +43,8 @@ double changes_beside(const std::vector<double>& v, std::size_t first, std::size
     sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
     ++count;
   };
-  for (std::size_t i = first > kDropoutNeighbours ? first - kDropoutNeighbours : 1; i < first; ++i) add(i);
-  for (std::size_t i = last + 2; i < std::min(v.size(), last + 2 + kDropoutNeighbours); ++i) add(i);
+  for (std::size_t i = first > kJumpNeighbours ? first - kJumpNeighbours : 1; i < first; ++i) add(i);
+  for (std::size_t i = last + 2; i < std::min(v.size(), last + 2 + kJumpNeighbours); ++i) add(i);
   return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
 }
 
@@ -86,7 +82,7 @@ bool rests_there(const std::vector<double>& v, const Dropout& s, double code, do
   double at_code = 0.0, count = 0.0;
   const auto look = [&](std::ptrdiff_t from, std::ptrdiff_t by) {
     bool left = false;
-    for (std::size_t n = 0; n < kDropoutNeighbours; ++n, from += by) {
+    for (std::size_t n = 0; n < kJumpNeighbours; ++n, from += by) {
       if (from < 0 || from >= static_cast<std::ptrdiff_t>(v.size())) return;
       const double off = std::abs(v[static_cast<std::size_t>(from)] - code);
       if (off == 0.0 && left) return;

@@ -15,6 +15,11 @@ struct SampledChannel {
 };
 std::vector<SampledChannel> sampled(std::vector<Trial>& trials, const std::string& channel);
 
+// A jump away and back: its least size, in changes of the neighbours; the largest difference of the samples
+// before and after it, as a share of the jump; the neighbours looked at on each side.
+inline constexpr double kOutlying = 8.0, kAlike = 0.5;
+inline constexpr std::size_t kJumpNeighbours = 6;
+
 // Smallest change between successive samples: the resolution.
 double value_grid(const std::vector<SampledChannel>& channel);
 // Standard deviation of a sample's noise: fluctuation_rms, median over the trials.
@@ -22,6 +27,9 @@ double own_noise(const std::vector<SampledChannel>& channel);
 
 // Stretches in which a channel jumps to a fixed value (zero, or one isolated from all others) and back.
 void find_dropouts(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
+// One or two samples of a position that jump far away and back. They are emptied; DataFault::limit is the
+// largest jump.
+void find_spikes(std::vector<Trial>& trials, const std::string& channel, std::vector<DataFault>& faults);
 // Whole rows that are missing again and again in most trials.
 void find_lost_rows(const std::vector<Trial>& trials, std::vector<DataFault>& faults);
 

@@ -58,6 +58,7 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
   std::vector<DataFault> faults;
   find_lost_rows(trials, faults);
   for (const auto& channel : channels) {
+    find_spikes(trials, channel, faults);
     find_dropouts(trials, channel, faults);
     find_stuck(trials, channel, faults);
     find_clipping(trials, channel, faults);

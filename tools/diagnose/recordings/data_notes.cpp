@@ -27,6 +27,10 @@ std::vector<DataFault> take_known_limits(std::vector<DataFault>& faults, const B
   });
 }
 
+std::vector<DataFault> take_spikes(std::vector<DataFault>& faults) {
+  return taken(faults, [](const DataFault& fault) { return fault.id == "data.spike"; });
+}
+
 std::vector<DataFault> take_single_events(std::vector<DataFault>& faults, std::size_t trials) {
   return taken(faults, [&](const DataFault& fault) {
     return trials >= kTooFewTrials && fault.stretches == 1 && fault.limit == 0.0;

@@ -6,12 +6,17 @@ namespace {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double believed = c.belief.value("axis.gravity_torque_Nm", 0.0);
   const double typical = std::max(0.1 * std::abs(believed), 0.1 * c.facts.torque_Nm);
-  return {{.name = "gravity_torque_Nm",
-           .typical = typical,
-           .low = -100.0 * typical,
-           .high = 100.0 * typical,
-           .either_sign = true,
-           .base = believed}};
+  EffectParameter torque{.name = "gravity_torque_Nm",
+                         .typical = typical,
+                         .low = -100.0 * typical,
+                         .high = 100.0 * typical,
+                         .either_sign = true,
+                         .base = believed};
+  if (believed != 0.0) {
+    torque.other_name = "gravity_change_fraction";
+    torque.other_scale = 1.0 / believed;
+  }
+  return {torque};
 }
 
 const EffectRegistration kEffect({.id = "axis.gravity",

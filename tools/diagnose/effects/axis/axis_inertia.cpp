@@ -12,7 +12,9 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .low = -0.9 * believed,
            .high = 10.0 * believed,
            .either_sign = true,
-           .base = believed}};
+           .base = believed,
+           .other_name = "inertia_change_fraction",
+           .other_scale = 1.0 / believed}};
 }
 
 const EffectRegistration kEffect({.id = "axis.inertia",

@@ -5,7 +5,13 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 0.07 * c.facts.foot_radius_m;
-  return {{.name = "tilt_depth_m", .typical = typical, .low = 0.0, .high = 8.0 * typical},
+  // A disk of this radius, tilted by a small angle, dips in by radius x angle before its centre touches.
+  return {{.name = "tilt_depth_m",
+           .typical = typical,
+           .low = 0.0,
+           .high = 8.0 * typical,
+           .other_name = "tilt_rad",
+           .other_scale = 1.0 / c.facts.foot_radius_m},
           {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0, .shapes = {1.0, 3.0}}};
 }
 

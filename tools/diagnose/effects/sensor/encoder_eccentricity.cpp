@@ -7,14 +7,18 @@ namespace {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const std::string channel = c.plant == PlantKind::hopper ? "motor_left_position_rad" : "position_rad";
   if (!c.has(channel) || range_of(c, channel) < 0.5) return {};
-  std::vector<EffectParameter> all{
-      {.name = "eccentricity_sin_rad", .typical = 0.01, .low = -0.3, .high = 0.3, .either_sign = true},
-      {.name = "eccentricity_cos_rad",
-       .typical = 0.01,
-       .low = -0.3,
-       .high = 0.3,
-       .either_sign = true,
-       .amplitude = true}};
+  std::vector<EffectParameter> all{{.name = "eccentricity_sin_rad",
+                                    .typical = 0.01,
+                                    .low = -0.3,
+                                    .high = 0.3,
+                                    .either_sign = true,
+                                    .amplitude_name = "eccentricity_rad"},
+                                   {.name = "eccentricity_cos_rad",
+                                    .typical = 0.01,
+                                    .low = -0.3,
+                                    .high = 0.3,
+                                    .either_sign = true,
+                                    .amplitude = true}};
   // The velocity channel is the derivative of this encoder (1) or comes from another sensor (0).
   if (c.plant == PlantKind::rotary_axis && c.has("velocity_radps"))
     all.push_back({.name = "part_of_velocity", .shapes = {0.0}});
