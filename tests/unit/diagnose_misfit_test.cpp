@@ -83,7 +83,14 @@ double left_of(const Recordings& recordings) {
   Problem& problem = prepared.problem;
   const auto fit = fit_from(problem, null_point(problem));
   update_noise(problem, fit.point);
-  return left_over_noise(problem, fit_from(problem, fit.point));
+  const Fit again = fit_from(problem, fit.point);
+  return left_over_noise(problem, again, again).after;
+}
+
+TEST(DiagnoseMisfit, TheShareThatIsLeftIsThatOfTheExcessOverTheNoise) {
+  EXPECT_NEAR((LeftOver{.before = 5.0, .after = 2.0}).share(), 3.0 / 24.0, 1e-12);
+  EXPECT_EQ((LeftOver{.before = 5.0, .after = 0.9}).share(), 0.0);
+  EXPECT_EQ((LeftOver{.before = 2.0, .after = 2.5}).share(), 1.0);
 }
 
 TEST(DiagnoseMisfit, MoreThanTheNoiseIsLeftWhereSomethingIsMissing) {

@@ -110,16 +110,15 @@ TEST(DiagnoseOtherForms, WhatGoesWithNothingActsAtThePlantsOnlyPort) {
   EXPECT_TRUE(std::ranges::any_of(d.effects, [](const auto& e) { return e.id == "unknown@body"; }));
 }
 
-// Friction explains most of the gap; a torque that is on no list leaves more than the noise. A law of free
-// form fitted without the friction explains what the friction explains, too: that must not count as left.
+// Friction that differs from angle to angle: listed friction closes most of the gap, and several times the
+// noise is left. A law of free form fitted without the names explains what they explain, too: that must not
+// count as left.
 TEST(DiagnoseOtherForms, ANameKeepsItsShareBesideWhatIsOnNoList) {
   const auto d = diagnose(swings(
-      [](double angle, double w, double) { return -0.08 * w - 0.1 * std::max(0.0, std::sin(3.0 * angle)); },
-      27, 6));
+      [](double angle, double w, double) { return -0.08 * w * (1.0 + std::sin(5.0 * angle)); }, 27, 6));
   EXPECT_EQ(d.verdict, Verdict::missing_physics);
-  const auto friction = std::ranges::find(d.effects, "axis.viscous", &FoundEffect::id);
-  ASSERT_NE(friction, d.effects.end());
-  EXPECT_GE(friction->probability, 0.5);
+  EXPECT_GE(d.effects.front().probability, 0.5);
+  EXPECT_FALSE(d.effects.front().is_unknown());
   EXPECT_TRUE(
       std::ranges::any_of(d.effects, [](const auto& e) { return e.is_unknown() && e.probability <= 0.5; }));
 }

@@ -42,7 +42,10 @@ double noise_over_sensors(const Problem& problem) {
   return count > 0.0 ? std::exp(sum / count) : 1.0;
 }
 
-double left_over_noise(const Problem& problem, const Fit& fit) {
+namespace {
+
+// Per channel with a stated noise: residual RMS / noise RMS, median over the trials; 0 with too few trials.
+std::vector<double> residual_over_noise(const Problem& problem, const Fit& fit) {
   const Edits edits = edits_for(problem, fit.point.hypothesis, fit.point.tolerances);
   std::vector<std::vector<double>> ratios(problem.channels.size());
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
@@ -59,10 +62,23 @@ double left_over_noise(const Problem& problem, const Fit& fit) {
       if (noise[c] > 0.0 && believed_noise(problem.context.belief, problem.channels[c]) > 0.0)
         ratios[c].push_back(std::sqrt(left[c] / noise[c]));
   }
-  double most = 0.0;
-  for (const auto& of_channel : ratios)
-    if (of_channel.size() >= kTooFewTrials) most = std::max(most, median(of_channel));
-  return most;
+  std::vector<double> of_channel;
+  for (const auto& of_trials : ratios)
+    of_channel.push_back(of_trials.size() >= kTooFewTrials ? median(of_trials) : 0.0);
+  return of_channel;
+}
+
+}  // namespace
+
+double LeftOver::share() const {
+  if (after <= 1.0) return 0.0;
+  return before > after ? (after * after - 1.0) / (before * before - 1.0) : 1.0;
+}
+
+LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& with) {
+  const auto before = residual_over_noise(problem, without), after = residual_over_noise(problem, with);
+  const auto most = std::ranges::max_element(after) - after.begin();
+  return after.empty() ? LeftOver{} : LeftOver{before[most], after[most]};
 }
 
 std::optional<LoudChannel> loudest_channel(const Problem& problem) {

@@ -175,7 +175,8 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
 
   // If the sensors' noise is known, a residual above it is something missing. The same holds for a nuisance
   // that all trials move alike.
-  out.left = left_over_noise(problem, best.fit);
+  const LeftOver over = left_over_noise(problem, search.null().fit, best.fit);
+  out.left = over.after;
   if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
   out.leans = std::abs(out.lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
   // Not for costly plants: a hopper's accelerometers vibrate with the structure, and no belief states that
@@ -204,9 +205,12 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
   out.unknown = out.misfit.large || more_than_noise || by_balance || form_outdoes ||
                 (out.law && (out.share > most_share || out.remainder() > kUnknownPerRow * rows));
   double left = out.remainder();
+  // In the deviance's unit: the part of the explained deviance that would close as much of the excess.
+  const double of_excess = over.share() < 1.0 && explained > 0.0
+                               ? explained * over.share() / (1.0 - over.share())
+                               : (out.left * out.left - 1.0) * rows;
   if (out.unknown)
-    left = std::max({left, out.misfit.unexplained, (out.left * out.left - 1.0) * rows,
-                     out.leans ? out.lean.z * out.lean.z : 0.0,
+    left = std::max({left, out.misfit.unexplained, of_excess, out.leans ? out.lean.z * out.lean.z : 0.0,
                      // The part of the estimated noise that is not the sensor's own.
                      out.loud ? (1.0 - std::pow(out.loud->times, -2)) * rows : 0.0});
   out.gap_closed = best.set.empty() || explained <= 0.0 ? 0.0 : explained / (explained + std::max(0.0, left));
