@@ -187,9 +187,11 @@ std::vector<MatrixXd> grams_without(const std::vector<TrialLinear>& trials, Inde
 void Search::judge(SetFit& result) {
   const Point& point = result.fit.point;
   const auto directions = parameter_directions(*problem_, point);
-  const auto forms = forms_of(*problem_, point.hypothesis);
+  // A single effect stands beside no other whose form could matter.
+  const auto forms = result.set.size() > 1 ? forms_of(*problem_, point.hypothesis) : std::vector<FormOf>{};
   const auto linear =
-      linearise_all(*problem_, point, directions, {.forms = &forms, .columns = columns_for(result.set)});
+      linearise_all(*problem_, point, directions,
+                    {.forms = forms.empty() ? nullptr : &forms, .columns = columns_for(result.set)});
   const auto k = static_cast<Index>(directions.size());
   const auto parameters = static_cast<Index>(point.hypothesis.parameters());
   const VectorXd prior = prior_information(*problem_, point);

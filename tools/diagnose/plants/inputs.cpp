@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -22,19 +23,35 @@ Samples samples_of(const Trial& trial, const std::string& channel) {
   return samples;
 }
 
+namespace {
+
+// Weights of the third divided difference of four samples: a parabola through them gives 0. Where no row is
+// missing they are those of even steps, because small differences between time stamps are their jitter.
+std::array<double, 4> third_difference(std::span<const double, 4> time_s) {
+  constexpr double kUneven = 1.5;
+  double least = time_s[1] - time_s[0], most = least;
+  for (std::size_t i = 2; i < time_s.size(); ++i) {
+    least = std::min(least, time_s[i] - time_s[i - 1]);
+    most = std::max(most, time_s[i] - time_s[i - 1]);
+  }
+  if (most < kUneven * least) return {-1.0, 3.0, -3.0, 1.0};
+  std::array<double, 4> weights{1.0, 1.0, 1.0, 1.0};
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      if (j != i) weights[i] *= least / (time_s[i] - time_s[j]);
+  return weights;
+}
+
+}  // namespace
+
 double fluctuation_rms(const Samples& s) {
-  constexpr std::size_t kPoints = 4;
   std::vector<double> differences;
-  for (std::size_t first = 0; first + kPoints <= s.value.size(); ++first) {
-    // Third divided difference over the norm of its weights: 0 for a parabola at any times, and with the
-    // standard deviation of a sample for noise.
+  for (std::size_t i = 0; i + 4 <= s.value.size(); ++i) {
+    const auto weights = third_difference(std::span(s.time_s).subspan(i).first<4>());
     double sum = 0.0, squares = 0.0;
-    for (std::size_t i = first; i < first + kPoints; ++i) {
-      double weight = 1.0;
-      for (std::size_t j = first; j < first + kPoints; ++j)
-        if (j != i) weight *= (s.time_s[first + 1] - s.time_s[first]) / (s.time_s[i] - s.time_s[j]);
-      sum += weight * s.value[i];
-      squares += weight * weight;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      sum += weights[k] * s.value[i + k];
+      squares += weights[k] * weights[k];
     }
     differences.push_back(std::abs(sum) / std::sqrt(squares));
   }
