@@ -16,8 +16,8 @@ namespace sandhopper::diagnose {
 void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis);
 // Notes on stretches in which something happened once.
 void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis);
-// A believed law of another form leaves up to the plant's `form_error` of the explained deviance as a residual
-// common to all trials. The expected part of it along any one parameter.
+// A believed law of another form leaves up to the plant's `form_error` of the explained deviance as a
+// residual common to all trials. The expected part of it along any one parameter.
 double form_deviance(const Problem& problem, double explained);
 // The effects of the best set with parameters, intervals and probabilities.
 void report_effects(const Problem& problem, const Search& search, const Posterior& belief,
