@@ -66,5 +66,20 @@ TEST(DiagnoseDataSpikes, ThreeSamplesOrTheNoiseAreNone) {
   EXPECT_TRUE(remove_data_faults(trials).empty());
 }
 
+// A sensor that falls to the same value every time has dropouts, which are a fault.
+TEST(DiagnoseDataSpikes, ADropoutIsNone) {
+  Random random(5, 1);
+  std::vector<Trial> trials(6);
+  for (auto& trial : trials)
+    for (int i = 0; i < 300; ++i) {
+      trial.time_s.push_back(0.01 * i);
+      trial.channels["height_m"].push_back(i % 50 == 20 ? 0.0
+                                                        : 6.0 - 0.5 * 0.01 * i + 1e-3 * random.normal());
+    }
+  const auto faults = remove_data_faults(trials);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().id, "data.dropout");
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -58,10 +58,10 @@ std::vector<DataFault> remove_data_faults(std::vector<Trial>& trials) {
   std::vector<DataFault> faults;
   find_lost_rows(trials, faults);
   for (const auto& channel : channels) {
-    find_spikes(trials, channel, faults);
     find_dropouts(trials, channel, faults);
     find_stuck(trials, channel, faults);
     find_clipping(trials, channel, faults);
+    find_spikes(trials, channel, faults);  // last: samples at a code are dropouts
   }
   return faults;
 }
