@@ -16,6 +16,19 @@ std::size_t empty_cells(const Trial& trial, const std::string& channel) {
       std::ranges::count_if(trial.channels.at(channel), [](double v) { return std::isnan(v); }));
 }
 
+// Trials of `rows` heights at 100 Hz, height_m(row, noise), with a noise of 1 mm.
+template <class Height>
+std::vector<Trial> heights(std::size_t trials, int rows, const Height& height_m) {
+  Random random(4, 1);
+  std::vector<Trial> all(trials);
+  for (auto& trial : all)
+    for (int i = 0; i < rows; ++i) {
+      trial.time_s.push_back(0.01 * i);
+      trial.channels["height_m"].push_back(height_m(i, 1e-3 * random.normal()));
+    }
+  return all;
+}
+
 TEST(DiagnoseDataSpikes, AreLeftOutAndNoted) {
   auto recordings = presses([](double, double) { return 0.0; }, 2, 6);
   for (auto& trial : recordings.trials) {
@@ -55,27 +68,16 @@ TEST(DiagnoseDataSpikes, ABounceOrABlowIsNone) {
 
 // Two kinds of reading that are no spikes: too long, and no farther than the noise goes.
 TEST(DiagnoseDataSpikes, ThreeSamplesOrTheNoiseAreNone) {
-  Random random(4, 1);
-  std::vector<Trial> trials(2);
-  for (auto& trial : trials)
-    for (int i = 0; i < 200; ++i) {
-      trial.time_s.push_back(0.01 * i);
-      trial.channels["height_m"].push_back(1.0 - 0.1 * 0.01 * i + 1e-3 * random.normal() +
-                                           (i >= 100 && i < 103 ? 0.1 : 0.0));
-    }
+  auto trials = heights(2, 200, [](int i, double noise_m) {
+    return 1.0 - 0.1 * 0.01 * i + noise_m + (i >= 100 && i < 103 ? 0.1 : 0.0);
+  });
   EXPECT_TRUE(remove_data_faults(trials).empty());
 }
 
 // A sensor that falls to the same value every time has dropouts, which are a fault.
 TEST(DiagnoseDataSpikes, ADropoutIsNone) {
-  Random random(5, 1);
-  std::vector<Trial> trials(6);
-  for (auto& trial : trials)
-    for (int i = 0; i < 300; ++i) {
-      trial.time_s.push_back(0.01 * i);
-      trial.channels["height_m"].push_back(i % 50 == 20 ? 0.0
-                                                        : 6.0 - 0.5 * 0.01 * i + 1e-3 * random.normal());
-    }
+  auto trials = heights(
+      6, 300, [](int i, double noise_m) { return i % 50 == 20 ? 0.0 : 6.0 - 0.5 * 0.01 * i + noise_m; });
   const auto faults = remove_data_faults(trials);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults.front().id, "data.dropout");

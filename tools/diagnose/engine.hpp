@@ -5,7 +5,7 @@
 #include "tools/diagnose/fit/prepare.hpp"
 
 namespace sandhopper::diagnose {
-// `most_effects`: largest number of effects in one set.
+// `most_effects`: largest number of effects in one set; one more for a cheap plant if so many leave much.
 
 struct EngineOptions {
   std::size_t most_effects = 3;

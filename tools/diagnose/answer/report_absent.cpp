@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
@@ -30,7 +29,7 @@ struct Margin {
   double quantile = 0.0;  // t
   double form = 0.0;      // v
   double largest(const TrialEvidence& evidence) const {
-    const double information = std::accumulate(evidence.information.begin(), evidence.information.end(), 0.0);
+    const double information = evidence.total_information();
     if (information <= 0.0) return 1e300;
     return std::abs(evidence.size()) +
            quantile * std::sqrt(std::pow(evidence.standard_error(), 2) + form / information);

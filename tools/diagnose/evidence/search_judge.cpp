@@ -30,9 +30,8 @@ constexpr double kFlips = 0.05;
 // priori than one more effect.
 constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
 // p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials and for
-// plants with at least the relative form error `kFormInDoubt`. Real
-// effects lie orders of magnitude below it there; effects that only correct the form of the other law at some
-// of its states do not reach it.
+// plants with at least the relative form error `kFormInDoubt`. Real effects lie orders of magnitude below it
+// there; effects that only correct the form of the other law at some of its states do not reach it.
 constexpr double kSignificanceBeside = 1e-4;
 constexpr std::size_t kTrialsToDoubt = 10;
 constexpr double kFormInDoubt = 0.01;
@@ -265,11 +264,7 @@ void Search::judge(SetFit& result) {
     }
     if (within_tolerance(*problem_, delays) || within_conversion(*problem_, point.hypothesis, e))
       result.sound = false;
-    const double model = std::max(1e-300, [&] {
-      double s = 0.0;
-      for (const double i : group.evidence.information) s += i;
-      return s;
-    }());
+    const double model = std::max(1e-300, group.evidence.total_information());
     const double robust = std::pow(group.evidence.standard_error() * model, 2);
     evidence.dispersion = std::max(1.0, robust / model);
     dispersion += robust / model;

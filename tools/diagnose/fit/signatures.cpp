@@ -23,11 +23,10 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
       for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
         if (!is_amplitude(candidate.parameters, i)) continue;
         Hypothesis with = point.hypothesis;
-        const auto& values = choice;
         const bool secant = options.sizes != nullptr && alternative.amplitudes.empty();
         const double step = secant ? options.sizes->at(c) : signature_step(candidate, choice, i);
         with.candidates.push_back(c);
-        with.values.push_back(values);
+        with.values.push_back(choice);
         const auto moved_by = [&](double by) {
           with.values.back()[i] = by * candidate.parameters[i].typical;
           return edits_for(problem, with, point.tolerances);

@@ -30,6 +30,8 @@ double student_t_quantile(double two_sided, double nu) {
   return quantile(complement(StudentT(nu), 0.5 * two_sided));
 }
 
+double TrialEvidence::total_information() const { return sum(information); }
+
 double TrialEvidence::size() const {
   const double information_sum = sum(information);
   return information_sum > 0.0 ? sum(score) / information_sum : 0.0;

@@ -18,6 +18,7 @@ struct TrialEvidence {
   std::vector<double> score;
   std::vector<double> information;
 
+  double total_information() const;
   double size() const;
   double t() const;  // size / standard error
   double degrees_of_freedom() const;
