@@ -42,14 +42,25 @@ LegTable::LegTable(const Leg& leg) : leg_(leg), intervals_(kIntervals) {
     }
 }
 
-LegDynamics LegTable::dynamics(double angle_rad) const noexcept {
+inline bool LegTable::interpolate(double angle_rad, std::size_t count, Quantities& q) const noexcept {
   const double place = (angle_rad - kFirst_rad) / kStep_rad;
-  if (!(place >= 0.0 && place < static_cast<double>(kIntervals))) return leg_.dynamics(angle_rad);
+  if (!(place >= 0.0 && place < static_cast<double>(kIntervals))) return false;
   const auto i = static_cast<std::size_t>(place);
   const double u = place - static_cast<double>(i);
   const auto& [c0, c1, c2, c3] = intervals_[i];
+  for (std::size_t k = 0; k < count; ++k) q[k] = c0[k] + u * (c1[k] + u * (c2[k] + u * c3[k]));
+  return true;
+}
+
+LegKinematics LegTable::kinematics(double angle_rad) const noexcept {
   Quantities q;
-  for (std::size_t k = 0; k < kQuantities; ++k) q[k] = c0[k] + u * (c1[k] + u * (c2[k] + u * c3[k]));
+  if (!interpolate(angle_rad, 3, q)) return leg_.kinematics(angle_rad);
+  return {q[0], q[1], q[2]};
+}
+
+LegDynamics LegTable::dynamics(double angle_rad) const noexcept {
+  Quantities q;
+  if (!interpolate(angle_rad, kQuantities, q)) return leg_.dynamics(angle_rad);
   LegDynamics d{};
   d.leg = {q[0], q[1], q[2]};
   d.m11_kg = leg_.total_mass_kg();

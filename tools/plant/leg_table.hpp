@@ -17,6 +17,7 @@ class LegTable {
 
   // dm12_kg_m_per_rad and dreduced_mass_kg_per_rad are 0, because the plant does not use them.
   LegDynamics dynamics(double angle_rad) const noexcept;
+  LegKinematics kinematics(double angle_rad) const noexcept;
 
  private:
   static constexpr std::size_t kQuantities = 10;  // an even number is faster; the last one is unused
@@ -24,6 +25,10 @@ class LegTable {
   struct Interval {
     Quantities c0, c1, c2, c3;  // coefficients of the powers of the position in the interval, 0 to 1
   };
+
+  // The first `count` quantities at an angle; false: the angle is outside of the table.
+  bool interpolate(double angle_rad, std::size_t count, Quantities& q) const noexcept;
+
   Leg leg_;
   std::vector<Interval> intervals_;
 };

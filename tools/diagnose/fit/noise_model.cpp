@@ -182,26 +182,27 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
     if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&
         trial.rows[k].block == trial.rows[k - 1].block)
       before[k] = static_cast<std::uint8_t>(std::min<std::size_t>(before[k - 1] + 1u, kOrder));
+  // Coefficients of the filter along a column, for scaled values: 1 / s, -a_1 / s, -a_2 / s, ….
+  Eigen::ArrayXd scale(static_cast<Eigen::Index>(rows));
+  Eigen::ArrayXXd filter = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(rows), kOrder + 1);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const Row& row = trial.rows[k];
+    scale[i] = used[k] ? 1.0 / sd(trial, row) : 0.0;
+    const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
+    const bool filtered = before[k] >= a.size();
+    filter(i, 0) = filtered ? 1.0 / innovation_sd : 1.0;
+    for (std::size_t j = 0; j < a.size() && filtered; ++j)
+      filter(i, static_cast<Eigen::Index>(j) + 1) = -a[j] / innovation_sd;
+  }
+  const auto n = static_cast<Eigen::Index>(rows);
+  Eigen::ArrayXd scaled(n);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    auto column = values.col(c);
-    std::array<double, kOrder> past{};  // scaled residuals, newest first
-    for (std::size_t k = 0; k < rows; ++k) {
-      double& value = column[static_cast<Eigen::Index>(k)];
-      if (!used[k]) {
-        value = 0.0;
-        continue;
-      }
-      const Row& row = trial.rows[k];
-      const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
-      const double e = value / sd(trial, row);
-      value = e;
-      if (before[k] >= a.size()) {
-        for (std::size_t j = 0; j < a.size(); ++j) value -= a[j] * past[j];
-        value /= innovation_sd;
-      }
-      for (std::size_t j = kOrder - 1; j > 0; --j) past[j] = past[j - 1];
-      past[0] = e;
-    }
+    scaled = (scale > 0.0).select(values.col(c).array() * scale, 0.0);  // the unused may hold anything
+    auto column = values.col(c).array();
+    column = filter.col(0) * scaled;
+    for (Eigen::Index lag = 1; lag <= static_cast<Eigen::Index>(kOrder) && lag < n; ++lag)
+      column.tail(n - lag) += filter.col(lag).tail(n - lag) * scaled.head(n - lag);
   }
 }
 

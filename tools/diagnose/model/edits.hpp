@@ -41,6 +41,8 @@ struct BeliefEdit {
   std::string key;
   double factor = 1.0;
   double addend = 0.0;
+
+  bool operator==(const BeliefEdit&) const = default;
 };
 
 // All changes that a set of effects makes to a simulation. Empty: the model as believed.

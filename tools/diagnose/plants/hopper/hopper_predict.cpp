@@ -11,8 +11,16 @@ constexpr double kAtRest = 0.01;  // start of a release at rest: share of the un
 
 }  // namespace
 
+const WorldConfig& HopperTrial::edited_world(const Edits& edits) const {
+  if (edits.belief != edits_of_world_) {
+    edited_world_ = world_of(belief_, edits);
+    edits_of_world_ = edits.belief;
+  }
+  return edited_world_;
+}
+
 void HopperTrial::predict(const Edits& edits, std::span<const double> n, std::span<double> out) const {
-  const WorldConfig world = world_of(belief_, edits);
+  const WorldConfig& world = edited_world(edits);
   std::vector<double> plant_nuisances;
   for (std::size_t i = 0; i < n.size(); ++i)
     if (i < kTofBias || i >= kFirstKnot) plant_nuisances.push_back(n[i]);

@@ -182,8 +182,12 @@ class MeasuredRate {
 // The believed controller on the simulated leg; see HopperRun for what else can drive it.
 class SpringLeg {
  public:
-  SpringLeg(const HopperRun& run, const Leg& leg)
-      : run_(run), leg_(leg), own_(run.world.controller, run.compression_stiffness_N_per_m), rate_(run) {}
+  SpringLeg(const HopperRun& run, const Leg& leg, const LegTable& table)
+      : run_(run),
+        leg_(leg),
+        table_(table),
+        own_(run.world.controller, run.compression_stiffness_N_per_m),
+        rate_(run) {}
 
   void follow(double rate_radps) { rate_.follow(rate_radps); }
 
@@ -194,8 +198,9 @@ class SpringLeg {
       return std::clamp(run_.recorded_command_Nm->at(time_s), -limit, limit);
     if (run_.phases == nullptr || run_.phases->empty())
       return std::clamp(own_.step(leg_, {state.foot_z_m, angle_rad, rate_()}), -limit, limit);
-    const double own = spring_torque_Nm(world, run_.compression_stiffness_N_per_m, leg_,
-                                        {phase_at(*run_.phases, time_s), angle_rad, rate_()});
+    const double own =
+        spring_torque_Nm(world, run_.compression_stiffness_N_per_m,
+                         {phase_at(*run_.phases, time_s), table_.kinematics(angle_rad), rate_()});
     const double residual = run_.command_residual_Nm != nullptr ? run_.command_residual_Nm->at(time_s) : 0.0;
     return std::clamp(own + residual, -limit, limit);
   }
@@ -203,6 +208,7 @@ class SpringLeg {
  private:
   const HopperRun& run_;
   const Leg& leg_;
+  const LegTable& table_;
   NominalController own_;
   MeasuredRate rate_;
 };
@@ -296,7 +302,7 @@ HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s) {
   return phase;
 }
 
-double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m, const Leg& leg,
+double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,
                         const SpringState& at) {
   const auto& c = world.controller;
   double k = c.flight_stiffness_N_per_m, length = c.compression_length_m, b = c.flight_damping_N_s_per_m;
@@ -306,10 +312,9 @@ double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N
     k = c.extension_stiffness_N_per_m;
     length = c.extension_length_m;
   }
-  const auto kinematics = leg.kinematics(at.angle_rad);
-  const double force = k * (length - kinematics.length_m) - b * kinematics.dlength_m_per_rad * at.rate_radps;
+  const double force = k * (length - at.leg.length_m) - b * at.leg.dlength_m_per_rad * at.rate_radps;
   const double limit = world.motor.torque_limit_Nm * world.robot.leg.motor_count;
-  return std::clamp(force * kinematics.dlength_m_per_rad, -limit, limit);
+  return std::clamp(force * at.leg.dlength_m_per_rad, -limit, limit);
 }
 
 HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
@@ -324,7 +329,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   options.leg_table = table.get();
   Plant plant(run.world, bed, options);
   const double surface_m = run.surface_m + ground.deeper_m();
-  SpringLeg spring(run, plant.leg());
+  SpringLeg spring(run, plant.leg(), *table);
   Actuator actuator(edits, run);
   const MeasuredAngle measured(edits);
   plant.place_in_crater(start_of(run, measured, surface_m, spring), run.crater_m);

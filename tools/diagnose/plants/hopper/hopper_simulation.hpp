@@ -26,9 +26,10 @@ HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s);
 // Virtual spring, F = K (L0 - L) - B dL/dt, torque of both motors = F L', within the drives' limit.
 struct SpringState {
   HopperPhase phase;
-  double angle_rad, rate_radps;
+  LegKinematics leg;
+  double rate_radps;
 };
-double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m, const Leg& leg,
+double spring_torque_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,
                         const SpringState& at);
 
 inline constexpr double kHopperStep_s = 5e-4;

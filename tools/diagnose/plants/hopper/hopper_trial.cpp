@@ -40,7 +40,7 @@ std::vector<double> unsure_of_time(const Samples& samples, double age_sd_s) {
 }  // namespace
 
 HopperTrial::HopperTrial(const Trial& trial, const Belief& belief)
-    : belief_(with_payload(belief, trial)), world_(world_of(belief_, {})) {
+    : belief_(with_payload(belief, trial)), world_(world_of(belief_, {})), edited_world_(world_) {
   name = trial.name;
   const Leg leg(world_.robot.leg);
   bed_history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),

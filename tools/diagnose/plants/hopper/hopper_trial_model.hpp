@@ -112,6 +112,8 @@ class HopperTrial final : public TrialModel {
   void end_before_next_landing();
   void label_rows();
 
+  // The believed world after `edits`. The last one is kept, because most predictions in a row share it.
+  const WorldConfig& edited_world(const Edits& edits) const;
   // Simulates one block. If `edits` change the controller, the residual command is computed against the
   // changed one.
   HopperTraces simulated(const WorldConfig& world, const Edits& edits, std::uint32_t block,
@@ -143,6 +145,8 @@ class HopperTrial final : public TrialModel {
   mutable std::map<std::size_t, std::vector<double>> believed_commands_;  // key: first row of a span
   Belief belief_;
   WorldConfig world_;
+  mutable std::vector<BeliefEdit> edits_of_world_;
+  mutable WorldConfig edited_world_;
   double compression_stiffness_ = 375.0;
   double motor_temperature_C_ = kRoom_C;
   BedHistory bed_history_;

@@ -70,8 +70,9 @@ Signal RecordedController::residual_Nm(const WorldConfig& world, double compress
   Samples residual = commands_;
   for (std::size_t i = 0; i < residual.value.size(); ++i) {
     const double t = residual.time_s[i];
-    residual.value[i] -= spring_torque_Nm(world, compression_stiffness_N_per_m, leg_,
-                                          {phase_at(phases, t), smooth_angle_.at(t), smooth_rate_.at(t)});
+    residual.value[i] -=
+        spring_torque_Nm(world, compression_stiffness_N_per_m,
+                         {phase_at(phases, t), leg_.kinematics(smooth_angle_.at(t)), smooth_rate_.at(t)});
   }
   return on_grid(residual, 0.0, kTick_s, smooth_angle_.values.size(), false);
 }
@@ -82,8 +83,9 @@ void RecordedController::commands_Nm(const WorldConfig& world, double compressio
   std::size_t k = 0;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     while (k + 1 < measured_.time_s.size() && measured_.time_s[k + 1] <= times_s[i] + 1e-7) ++k;
-    const SpringState at{phase_at(phases, times_s[i]), measured_.angle_rad[k], measured_.rate_radps[k]};
-    out[i] = spring_torque_Nm(world, compression_stiffness_N_per_m, leg_, at) / world.robot.leg.motor_count;
+    const SpringState at{phase_at(phases, times_s[i]), leg_.kinematics(measured_.angle_rad[k]),
+                         measured_.rate_radps[k]};
+    out[i] = spring_torque_Nm(world, compression_stiffness_N_per_m, at) / world.robot.leg.motor_count;
   }
 }
 
