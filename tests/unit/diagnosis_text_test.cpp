@@ -26,5 +26,25 @@ TEST(DiagnosisText, AGapOfWhichHalfIsLeftPointsAtUnitsAndColumnsFirst) {
   EXPECT_THAT(to_text(unknown(20.0, 19.0)), HasSubstr("hop campaign check"));
 }
 
+FoundEffect found(const char* id, double probability) {
+  FoundEffect effect;
+  effect.id = id;
+  effect.probability = probability;
+  effect.parameters = {{"size", 1.0, 0.9, 1.1, false}};
+  return effect;
+}
+
+TEST(DiagnosisText, AnEffectThatIsMoreLikelyNotThereIsAGuessInTheHeadline) {
+  Diagnosis d;
+  d.verdict = Verdict::missing_physics;
+  d.detail = Detail::known;
+  d.effects = {found("axis.coulomb", 0.95), found("axis.viscous", 0.34)};
+  EXPECT_EQ(headline(d), "Something is missing: axis.coulomb, perhaps axis.viscous.");
+  d.effects.back().probability = 0.5;
+  EXPECT_EQ(headline(d), "Something is missing: axis.coulomb, axis.viscous.");
+  d.effects = {found("axis.viscous", 0.34)};
+  EXPECT_EQ(headline(d), "Something is missing: perhaps axis.viscous.");
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "tools/diagnose/model/quantity.hpp"
 
@@ -69,6 +70,15 @@ std::string absent_text(const std::vector<Bound>& absent) {
   return text + "\n";
 }
 
+// The listed effects; those that are more likely not there than there follow as a guess.
+std::string names_in_words(const Diagnosis& d) {
+  std::vector<std::string> likely, guesses;
+  for (const auto& e : d.effects)
+    if (!e.is_unknown()) (e.probability < 0.5 ? guesses : likely).push_back(e.id);
+  if (guesses.empty()) return joined(likely);
+  return likely.empty() ? "perhaps " + joined(guesses) : joined(likely) + ", perhaps " + joined(guesses);
+}
+
 // True if at least half of the held-out error remains in the channel with the largest error.
 bool explains_little(const Diagnosis& d) {
   return !d.fits.empty() && d.fits.front().heldout.after >= 0.5 * d.fits.front().heldout.before;
@@ -119,15 +129,11 @@ std::string headline(const Diagnosis& d) {
                  "look at units, signs, columns, the part that is cut out and the belief's numbers first "
                  "(hop campaign check)."
                : "Something is missing that is on no list.";
-  std::vector<std::string> names;
-  bool all_suspected = true;
-  for (const auto& e : d.effects)
-    if (!e.is_unknown()) {
-      names.push_back(e.id);
-      all_suspected = all_suspected && e.may_be_zero();
-    }
-  if (!names.empty() && all_suspected)
-    return fmt::format("Something may be missing: {}; its 95 % interval holds zero.", joined(names));
+  const std::string names = names_in_words(d);
+  const auto is_name = [](const FoundEffect& e) { return !e.is_unknown(); };
+  if (!names.empty() &&
+      std::ranges::all_of(d.effects | std::views::filter(is_name), &FoundEffect::may_be_zero))
+    return fmt::format("Something may be missing: {}; its 95 % interval holds zero.", names);
   if (d.detail == Detail::data_fault) return "The physics agrees; the recording has faults.";
   if (d.detail == Detail::one_of_class)
     return "Something is missing; these recordings leave more than one explanation.";
@@ -135,8 +141,8 @@ std::string headline(const Diagnosis& d) {
     return fmt::format(
         "Something is missing: {}; that closes {} of the gap between simulation and recording, "
         "and what is left is on no list.",
-        joined(names), percent(d.gap_closed));
-  return "Something is missing: " + joined(names) + ".";
+        names, percent(d.gap_closed));
+  return "Something is missing: " + names + ".";
 }
 
 double simulations_per_second(const Diagnosis& d) {

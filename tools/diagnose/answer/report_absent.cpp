@@ -39,7 +39,7 @@ struct Margin {
 // The margin beside a set. All bounds of an answer hold together with 95 % (Bonferroni).
 Margin margin_beside(const Problem& problem, const Search& search, const SetFit& set) {
   return {student_t_quantile(0.05 / static_cast<double>(problem.candidates.size()),
-                             4.0 + static_cast<double>(problem.trials.size()) - 1.0),
+                             degrees_of_freedom(problem.trials.size())),
           form_deviance(problem, search.null().fit.deviance - set.fit.deviance)};
 }
 

@@ -14,10 +14,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Covariance of a fit's parameters in typical sizes. Sandwich estimate: the scatter of the scores between
-// trials, averaged with the noise, which counts as `kModelTrials` trials; in addition another form of the
+// trials, averaged with the noise (kModelTrials); in addition another form of the
 // laws (`form_deviance`).
 MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
-  constexpr double kModelTrials = 4.0;
   const auto directions = parameter_directions(problem, point);
   const auto linear = linearise_all(problem, point, directions);
   const auto k = static_cast<Index>(directions.size());
@@ -38,7 +37,8 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   const double trials = static_cast<double>(linear.size());
   // The prior counts like an observation, because sampling limits how well a channel's delay is known.
   const MatrixXd middle =
-      (kModelTrials * information + trials * between) / (kModelTrials + trials - 1.0) + (held - information);
+      (kModelTrials * information + trials * between) / degrees_of_freedom(linear.size()) +
+      (held - information);
   const MatrixXd covariance = inverse * middle * inverse + form_deviance(problem, explained) * inverse;
   return covariance.topLeftCorner(own, own);
 }
@@ -156,7 +156,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   const Point& point = best.fit.point;
   const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
   const MatrixXd covariance = parameter_covariance(problem, point, explained);
-  const double quantile = student_t_quantile(0.05, 4.0 + static_cast<double>(problem.trials.size()) - 1.0);
+  const double quantile = student_t_quantile(0.05, degrees_of_freedom(problem.trials.size()));
   Index at = 0;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto c = point.hypothesis.candidates[e];

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <numeric>
 
 #include "tools/experiment/parallel.hpp"
 
@@ -338,21 +337,6 @@ std::vector<TrialLinear> linearise_all(const Problem& problem, const Point& poin
     out[i] = linearise(problem, t, base, point.nuisances[t], directions, options);
   });
   return out;
-}
-
-double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels) {
-  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
-  std::vector<double> of_trial(problem.trials.size(), 0.0);
-  parallel_for(of_trial.size(), [&](std::size_t t) {
-    const TrialModel& trial = *problem.trials[t];
-    VectorXd r = residual_of(trial, predicted(problem, trial, edits, point.nuisances[t]));
-    whiten(problem, t, r);
-    for (Index k = 0; k < r.size(); ++k) {
-      const auto& channel = problem.channels[trial.rows[static_cast<std::size_t>(k)].channel];
-      if (std::ranges::find(channels, channel) != channels.end()) of_trial[t] += r[k] * r[k];
-    }
-  });
-  return std::accumulate(of_trial.begin(), of_trial.end(), 0.0);
 }
 
 KeptColumns columns_of(const Problem& problem, std::size_t trial, const Edits& base,

@@ -79,9 +79,6 @@ Eigen::VectorXd predicted(const Problem& problem, const TrialModel& trial, const
 // Recorded minus predicted.
 Eigen::VectorXd residual_of(const TrialModel& trial, const Eigen::VectorXd& prediction);
 
-// Part of the deviance that comes from the rows of these channels, without priors.
-double deviance_of(const Problem& problem, const Point& point, const std::vector<std::string>& channels);
-
 // Derivatives of all trials by tolerances and nuisances at this point, whitened with the present noise model.
 std::vector<KeptColumns> columns_at(const Problem& problem, const Point& point);
 

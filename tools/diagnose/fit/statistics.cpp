@@ -9,8 +9,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kModelTrials = 4.0;  // nu0 of TrialEvidence
-
 using StudentT = boost::math::students_t;
 
 double sum(const std::vector<double>& values) {
@@ -35,10 +33,6 @@ double TrialEvidence::total_information() const { return sum(information); }
 double TrialEvidence::size() const {
   const double information_sum = sum(information);
   return information_sum > 0.0 ? sum(score) / information_sum : 0.0;
-}
-
-double TrialEvidence::degrees_of_freedom() const {
-  return kModelTrials + static_cast<double>(score.size()) - 1.0;
 }
 
 double TrialEvidence::standard_error() const {

@@ -10,9 +10,15 @@ double student_t_two_sided(double t, double degrees_of_freedom);
 // The value of t with this two-sided tail probability.
 double student_t_quantile(double two_sided, double degrees_of_freedom);
 
+// A variance between trials is regularised as if this many more trials had shown the noise's own variance.
+inline constexpr double kModelTrials = 4.0;
+// Its degrees of freedom.
+inline double degrees_of_freedom(std::size_t trials) {
+  return kModelTrials + static_cast<double>(trials) - 1.0;
+}
+
 // Evidence for the size b of an effect, trial by trial: score u_t and information I_t. The best b is sum u /
-// sum I. Its variance is the scatter between trials, regularised as if nu0 = 4 more trials had shown the
-// variance of the noise alone:
+// sum I. Its variance is the scatter between trials, regularised by nu0 = kModelTrials:
 //   standard error = sqrt(var) / sum I,   var = (nu0 sum I + T sum (u_t - b I_t)^2) / (nu0 + T - 1)
 struct TrialEvidence {
   std::vector<double> score;
@@ -21,7 +27,7 @@ struct TrialEvidence {
   double total_information() const;
   double size() const;
   double t() const;  // size / standard error
-  double degrees_of_freedom() const;
+  double degrees_of_freedom() const { return diagnose::degrees_of_freedom(score.size()); }
   double p_value() const;           // for this candidate alone, not corrected for the others
   double standard_error() const;    // standard deviation of size()
   double effective_trials() const;  // (sum I)^2 / sum I^2
