@@ -40,6 +40,85 @@ constexpr std::array<std::pair<const char*, const char*>, 28> kUnits{{{"_rad_per
                                                                       {"_s", "s"},
                                                                       {"_J", "J"}}};
 
+// The head of an order: takes the words and values that it names out of a set-up.
+class Order {
+ public:
+  Order(std::map<std::string, std::string>& words, std::map<std::string, double>& setup)
+      : words_(words), setup_(setup) {}
+
+  std::string of(const std::string& kind) {
+    if (kind == "drop") return drop();
+    if (kind == "hop")
+      return "Let the robot hop" + taken(" from {}", "release_height_m") +
+             taken(" with a leg stiffness of {}", "compression_stiffness_N_per_m");
+    if (kind == "intrusion") return intrusion();
+    if (kind == "motion") return motion();
+    if (kind == "hold")
+      return setup_.contains("position_rad")
+                 ? "Hold the axis" + taken(" at {}", "position_rad") + taken(" for {}", "duration_s")
+                 : "Hold everything still";
+    if (kind == "press") return "Press the foot in slowly";
+    if (kind == "air_sweep") return "Sweep the foot in the air with the body clamped";
+    if (kind == "tap") return "Tap the foot";
+    return "Record a trial of the kind " + in_words(kind);
+  }
+
+ private:
+  // `text` with the value of a key in place of {}; empty if the set-up lacks the key.
+  std::string taken(std::string text, const std::string& key) {
+    const auto found = setup_.find(key);
+    if (found == setup_.end()) return "";
+    text.replace(text.find("{}"), 2, measured(found->second, quantity_of(key).unit));
+    setup_.erase(found);
+    return text;
+  }
+
+  std::string profile() {
+    const auto found = words_.find("profile");
+    return found == words_.end() ? "" : found->second;
+  }
+
+  std::string drop() {
+    const auto speed = setup_.find("release_speed_mps");
+    const bool is_thrown = speed != setup_.end() && speed->second > 0.0;
+    if (speed != setup_.end() && !is_thrown) setup_.erase(speed);
+    return (is_thrown ? "Throw the body down" : "Drop the body") + taken(" from {}", "release_height_m") +
+           taken(" at {}", "release_speed_mps");
+  }
+
+  std::string intrusion() {
+    const auto how = profile();
+    const auto plate = "the plate" + taken(" of {} diameter", "plate_diameter_m");
+    const auto depth = taken(" to {}", "depth_m"), speed = taken(" at {}", "impact_speed_mps");
+    if (how == "cycles" || how == "stop_and_withdraw" || how == "through") words_.erase("profile");
+    if (how == "cycles") return "Push " + plate + " in and pull it out in cycles" + depth + speed;
+    if (how == "stop_and_withdraw") return "Push " + plate + " in" + depth + speed + ", stop and pull it out";
+    return "Push " + plate + " in" + depth + speed + (how == "through" ? " without a stop" : "");
+  }
+
+  std::string motion() {
+    const auto how = profile();
+    if (how == "release" || how == "sine" || how == "chirp" || how == "ramp") words_.erase("profile");
+    if (how == "release")
+      return "Let the axis go" + taken(" from {}", "release_position_rad") +
+             taken(" and record it for {}", "duration_s");
+    if (how == "sine")
+      return "Drive the axis along a sine" + taken(" of {}", "amplitude_rad") +
+             taken(" at {}", "frequency_Hz") + taken(" for {}", "duration_s");
+    if (how == "chirp")
+      return "Drive the axis along a sine" + taken(" of {}", "amplitude_rad") + " that speeds up" +
+             taken(" from {}", "frequency_Hz") + taken(" to {}", "end_frequency_Hz") +
+             taken(" within {}", "duration_s");
+    if (how == "ramp")
+      return "Drive the axis to and fro" + taken(" by {} to each side", "amplitude_rad") +
+             taken(" at a steady {}", "speed_radps") + taken(" for {}", "duration_s");
+    return "Drive the axis" + taken(" for {}", "duration_s");
+  }
+
+  std::map<std::string, std::string>& words_;
+  std::map<std::string, double>& setup_;
+};
+
 }  // namespace
 
 Quantity quantity_of(const std::string& key) {
@@ -63,14 +142,24 @@ std::string in_words(std::string name) {
   return name;
 }
 
-std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,
-                           const std::map<std::string, double>& setup) {
+std::string measured(double value, const std::string& unit) {
+  constexpr double kShort_m = 0.1;
+  if (unit == "m" && value != 0.0 && std::abs(value) < kShort_m) return measured(1e3 * value, "mm");
+  std::string text = std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string trial_in_words(const std::string& kind, std::map<std::string, std::string> words,
+                           std::map<std::string, double> setup, Telling telling) {
+  setup.erase("session");
   std::string text = kind;
-  for (const auto& [key, word] : words) text += ", " + word;
+  if (telling == Telling::order) text = Order(words, setup).of(kind);
+  for (const auto& [key, word] : words) text += ", " + in_words(word);
   for (const auto& [key, value] : setup) {
-    if (key == "session") continue;
     const auto q = quantity_of(key);
-    text += fmt::format(", {} {}{}", q.words, number(value), q.unit.empty() ? "" : " " + q.unit);
+    const auto size = telling == Telling::order ? measured(value, q.unit)
+                                                : number(value) + (q.unit.empty() ? "" : " " + q.unit);
+    text += fmt::format(", {} {}", q.words, size);
   }
   return text;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -15,10 +16,15 @@ Quantity quantity_of(const std::string& key);
 
 std::string in_words(std::string name);  // "fast_fall" -> "fast fall"
 
-// A trial as text: "drop, release height 2 m, payload 0.1 kg". The key `session` is left out, because it does
-// not describe what was done.
-std::string trial_in_words(const std::string& kind, const std::map<std::string, std::string>& words,
-                           const std::map<std::string, double>& setup);
+// A value with its unit, to three significant digits; lengths below 0.1 m in mm: "1.9 m", "46 mm".
+std::string measured(double value, const std::string& unit);
+
+// A trial as text. label: "drop, release height 2 m, payload 0.1 kg". order: the head of a sentence that
+// tells a lab what to do, "Drop the body from 2 m, payload 0.1 kg". The key `session` is left out, because it
+// does not describe what was done.
+enum class Telling : std::uint8_t { label, order };
+std::string trial_in_words(const std::string& kind, std::map<std::string, std::string> words,
+                           std::map<std::string, double> setup, Telling telling = Telling::label);
 
 // Four significant digits; three below 0.001 and from 100,000 on. No trailing zeros, and no exponent between
 // 0.001 and 10,000.
