@@ -125,12 +125,13 @@ inline Effect adds_to(std::vector<BelievedNumber> numbers, Effect effect) {
 }
 
 // Effect "gain error of a sensor", under the name that this kind of sensor uses.
-inline Effect scale_effect(std::string id, std::vector<PlantKind> plants,
+inline Effect scale_effect(std::string id, BenchTest bench_test, std::vector<PlantKind> plants,
                            std::function<std::vector<std::string>(const Context&)> channels) {
   return {.id = std::move(id),
           .port = Port::sensor,
           .statement = "{channel} reads in proportion too much or too little.",
           .equation = "y = (1 + s) x",
+          .bench_tests = {std::move(bench_test)},
           .plants = std::move(plants),
           .channels = std::move(channels),
           .parameters =

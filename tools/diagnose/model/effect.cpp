@@ -20,6 +20,12 @@ std::vector<Effect> known_effects() {
   return effects;
 }
 
+const BenchTest* bench_test_of(const Effect& effect, PlantKind plant) {
+  for (const auto& test : effect.bench_tests)
+    if (test.plants.empty() || std::ranges::find(test.plants, plant) != test.plants.end()) return &test;
+  return nullptr;
+}
+
 Port port_on(PlantKind plant, Port port) {
   return port == Port::joint && plant == PlantKind::rotary_axis ? Port::axis : port;
 }

@@ -65,6 +65,17 @@ inline bool is_amplitude(const std::vector<EffectParameter>& parameters, std::si
   return index == 0 || parameters[index].amplitude;
 }
 
+// A test off the usual kind of trial that tells an effect from those that resemble it. Nothing simulates it,
+// so no chance is stated for it.
+struct BenchTest {
+  std::string kind{};  // kind of trial (guide: The recording contract); empty: the test is no recording
+  // One imperative sentence, "Do this: see that.". Placeholders: {channel} of a sensor's fault; {robot} and
+  // {foot} for what the plant calls them (next/bench_test.cpp).
+  std::string sentence{};
+  std::vector<std::string> same_for{};  // ids of effects that show in this test in the same way
+  std::vector<PlantKind> plants{};      // empty: all plants of the effect
+};
+
 // A piece of physics, or a sensor fault, that a simulation may lack. Each has one file in effects/, which
 // registers it, and a test that hides it in a small campaign and finds it.
 struct Effect {
@@ -72,7 +83,8 @@ struct Effect {
   Port port{};
   std::string statement{};  // one sentence; {channel} stands for the channel of a sensor's fault
   std::string equation{};
-  std::vector<std::string> same_as{};  // ids of effects that change the recordings in the same way
+  std::vector<BenchTest> bench_tests{};  // the first one for the plant counts; none: no such test is known
+  std::vector<std::string> same_as{};    // ids of effects that change the recordings in the same way
   std::vector<PlantKind> plants{};
   // For a sensor fault: channels whose sensor may have it, each a separate candidate. Null for physics.
   std::function<std::vector<std::string>(const Context&)> channels{};
@@ -88,6 +100,9 @@ struct Effect {
   std::function<bool(const Context&, std::span<const double> values, std::map<std::string, double>& numbers)>
       as_keys{};
 };
+
+// The effect's bench test for a plant; null if it has none.
+const BenchTest* bench_test_of(const Effect& effect, PlantKind plant);
 
 // Adds an effect to known_effects(). Each effect's file defines one at namespace scope.
 class EffectRegistration {

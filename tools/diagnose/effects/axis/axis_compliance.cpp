@@ -20,6 +20,10 @@ const EffectRegistration kEffect(
      .port = Port::geometry,
      .statement = "The shaft twists under the torque: the motor, whose angle is recorded, leads the load.",
      .equation = "position = th + c torque; velocity = th' + part c d(torque)/dt",
+     .bench_tests = {{.kind = "clamped",
+                      .sentence = "Block the far end of the shaft and raise the torque in steps: the "
+                                  "recorded angle follows the torque only if the shaft twists; inertia, "
+                                  "friction and delays have nothing to act on at rest."}},
      .plants = {PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {

@@ -29,15 +29,20 @@ bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, 
   return true;
 }
 
-const EffectRegistration kEffect({.id = "axis.coulomb",
-                                  .port = Port::axis,
-                                  .statement = "Dry friction of constant size opposes the axis.",
-                                  .equation = "tau += -c sign(w)",
-                                  .plants = {PlantKind::rotary_axis},
-                                  .parameters = parameters,
-                                  .apply = apply,
-                                  .belief_key = "axis.coulomb_friction_Nm",
-                                  .as_keys = as_keys});
+const EffectRegistration kEffect(
+    {.id = "axis.coulomb",
+     .port = Port::axis,
+     .statement = "Dry friction of constant size opposes the axis.",
+     .equation = "tau += -c sign(w)",
+     .bench_tests =
+         {{.sentence =
+               "Turn the axis by a torque gauge with the drive off, slowly and at twice the speed, both "
+               "ways: dry friction takes the same torque at both speeds and turns with the direction."}},
+     .plants = {PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = apply,
+     .belief_key = "axis.coulomb_friction_Nm",
+     .as_keys = as_keys});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -19,15 +19,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   return {torque};
 }
 
-const EffectRegistration kEffect({.id = "axis.gravity",
-                                  .port = Port::inertia,
-                                  .statement = "Gravity pulls on the axis otherwise than believed.",
-                                  .equation = "tau += -dG sin(theta)",
-                                  .plants = {PlantKind::rotary_axis},
-                                  .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
-                                              Edits& edits) { edits.add("axis.gravity_torque_Nm", v[0]); },
-                                  .belief_key = "axis.gravity_torque_Nm"});
+const EffectRegistration kEffect(
+    {.id = "axis.gravity",
+     .port = Port::inertia,
+     .statement = "Gravity pulls on the axis otherwise than believed.",
+     .equation = "tau += -dG sin(theta)",
+     .bench_tests =
+         {{.sentence =
+               "Lift and lower the level arm slowly by a force gauge with the drive off: the mean of the two "
+               "forces times the lever is the torque of gravity, free of friction and of the drive."}},
+     .plants = {PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("axis.gravity_torque_Nm", v[0]); },
+     .belief_key = "axis.gravity_torque_Nm"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -17,15 +17,21 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .other_scale = 1.0 / believed}};
 }
 
-const EffectRegistration kEffect({.id = "axis.inertia",
-                                  .port = Port::inertia,
-                                  .statement = "The inertia of the axis is not what is believed.",
-                                  .equation = "J -> J + dJ",
-                                  .plants = {PlantKind::rotary_axis},
-                                  .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
-                                              Edits& edits) { edits.add("axis.inertia_kg_m2", v[0]); },
-                                  .belief_key = "axis.inertia_kg_m2"});
+const EffectRegistration kEffect(
+    {.id = "axis.inertia",
+     .port = Port::inertia,
+     .statement = "The inertia of the axis is not what is believed.",
+     .equation = "J -> J + dJ",
+     .bench_tests =
+         {{.kind = "motion",
+           .sentence =
+               "Repeat one motion with a disk of known inertia bolted to the axis: how far that slows the "
+               "axis gives its own inertia, whatever the scale of the torque, gravity and friction."}},
+     .plants = {PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("axis.inertia_kg_m2", v[0]); },
+     .belief_key = "axis.inertia_kg_m2"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::axis,
      .statement = "Friction grows with the torque the gear carries and the load its bearing does.",
      .equation = "tau += -mu (|torque| + part |G sin(th)|) sign(w)",
+     .bench_tests = {{.kind = "motion",
+                      .sentence =
+                          "Repeat a slow motion up and down with a weight on the arm: the torques up and "
+                          "down move apart under the weight only if friction grows with the load."}},
      .plants = {PlantKind::rotary_axis},
      .parameters =
          [](const Context& c, const std::string&) {

@@ -33,6 +33,10 @@ const EffectRegistration kEffect(
      .statement = "A constant torque acts that the recorded torque does not show, or "
                   "the arm hangs at another angle than believed.",
      .equation = "tau += tau_0, G sin(theta) -> G sin(theta - theta_0)",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence = "Let the arm hang with the drive off and check it with a plumb line: it hangs askew "
+                       "only if a torque or its balance turns it, while a false reading turns nothing."}},
      .plants = {PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = apply});

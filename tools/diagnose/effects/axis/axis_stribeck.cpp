@@ -29,6 +29,9 @@ const EffectRegistration kEffect(
      .port = Port::axis,
      .statement = "Near standstill dry friction is larger than in motion (Stribeck).",
      .equation = "tau += -dF (1 + q (w/w_s)^2)^(-1/q) sign(w); tail q: 0 exp(-(w/w_s)^2), 1 Hess and Soom",
+     .bench_tests =
+         {{.sentence = "Pull the axis by a torque gauge from rest to a slow turn with the drive off: a peak "
+                       "just before it turns, and less torque as it speeds up, is Stribeck friction."}},
      .plants = {PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

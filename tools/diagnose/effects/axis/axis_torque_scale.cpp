@@ -8,6 +8,11 @@ const EffectRegistration kEffect(
      .port = Port::actuator,
      .statement = "The torque that acts is in proportion to the reported one, but not equal to it.",
      .equation = "torque = (1 + e) reported",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence =
+               "Let the drive hold the arm level without and with a known weight on it: the torque rises by "
+               "weight times lever unless its scale is wrong; offsets and the arm itself cancel."}},
      .plants = {PlantKind::rotary_axis},
      .parameters =
          [](const Context&, const std::string&) {

@@ -15,16 +15,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
-const EffectRegistration kEffect({.id = "axis.viscous",
-                                  .port = Port::axis,
-                                  .statement = "Friction proportional to speed opposes the axis.",
-                                  .equation = "tau += -b w",
-                                  .plants = {PlantKind::rotary_axis},
-                                  .parameters = parameters,
-                                  .apply =
-                                      [](const Context&, const std::string&, std::span<const double> v,
-                                         Edits& edits) { edits.add("axis.viscous_friction_Nm_s", v[0]); },
-                                  .belief_key = "axis.viscous_friction_Nm_s"});
+const EffectRegistration kEffect(
+    {.id = "axis.viscous",
+     .port = Port::axis,
+     .statement = "Friction proportional to speed opposes the axis.",
+     .equation = "tau += -b w",
+     .bench_tests =
+         {{.sentence =
+               "Turn the axis by a torque gauge with the drive off at three steady speeds: viscous friction "
+               "adds torque in proportion to speed, dry friction none, and drag of the air its square."}},
+     .plants = {PlantKind::rotary_axis},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("axis.viscous_friction_Nm_s", v[0]); },
+     .belief_key = "axis.viscous_friction_Nm_s"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

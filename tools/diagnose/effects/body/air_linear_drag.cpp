@@ -13,16 +13,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
-const EffectRegistration kEffect({.id = "air.linear_drag",
-                                  .port = Port::body,
-                                  .statement = "The medium resists with a force proportional to speed.",
-                                  .equation = "F += -b v",
-                                  .plants = {PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply =
-                                      [](const Context&, const std::string&, std::span<const double> v,
-                                         Edits& edits) { edits.add("medium.linear_drag_N_s_per_m", v[0]); },
-                                  .belief_key = "medium.linear_drag_N_s_per_m"});
+const EffectRegistration kEffect(
+    {.id = "air.linear_drag",
+     .port = Port::body,
+     .statement = "The medium resists with a force proportional to speed.",
+     .equation = "F += -b v",
+     .bench_tests =
+         {{.sentence =
+               "Tow the body by a force gauge through the medium at a steady speed and at twice of it: "
+               "linear drag doubles, quadratic drag grows fourfold, and mass and added mass add nothing."}},
+     .plants = {PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("medium.linear_drag_N_s_per_m", v[0]); },
+     .belief_key = "medium.linear_drag_N_s_per_m"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

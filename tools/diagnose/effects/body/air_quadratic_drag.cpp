@@ -57,6 +57,15 @@ const EffectRegistration kEffect(
      .port = Port::body,
      .statement = "The medium resists with a force that grows with the square of speed.",
      .equation = "F += -1/2 rho A C_d |v| v",
+     .bench_tests =
+         {{.sentence =
+               "Tow the body by a force gauge through the medium at a steady speed and at twice of it: "
+               "quadratic drag grows fourfold, linear drag doubles, and mass and added mass add nothing.",
+           .plants = {PlantKind::falling_body}},
+          {.kind = "motion",
+           .sentence = "Repeat a fast motion with a light card on the arm that doubles its area: drag of the "
+                       "air grows with the area, and friction in the bearings does not.",
+           .plants = {PlantKind::rotary_axis}}},
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = apply,

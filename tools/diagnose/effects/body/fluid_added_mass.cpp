@@ -43,6 +43,9 @@ const EffectRegistration kEffect(
      .port = Port::body,
      .statement = "The body sets fluid around it in motion, which adds to its inertia but not to its weight.",
      .equation = "(m + C_m rho V) h'' = F; into a liquid (m + m_a(d)) h'' = F + m_a'(d) h'^2",
+     .bench_tests =
+         {{.sentence = "Let the body bob on a soft spring in the fluid and out of it: added mass makes the "
+                       "period longer, while drag only damps and buoyancy only moves the rest position."}},
      .plants = {PlantKind::falling_body},
      .parameters = parameters,
      .apply = apply,

@@ -30,14 +30,19 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   edits.law(LawPort::body, [=](const BodyState& s) { return force * wetted_share(s.depth_m, length); });
 }
 
-const EffectRegistration kEffect({.id = "fluid.buoyancy",
-                                  .port = Port::body,
-                                  .statement = "The medium carries part of the weight, whatever the speed.",
-                                  .equation = "F += B rho V g",
-                                  .plants = {PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply = apply,
-                                  .belief_key = "medium.buoyancy_factor"});
+const EffectRegistration kEffect(
+    {.id = "fluid.buoyancy",
+     .port = Port::body,
+     .statement = "The medium carries part of the weight, whatever the speed.",
+     .equation = "F += B rho V g",
+     .bench_tests =
+         {{.sentence =
+               "Weigh the body at rest in the fluid and out of it: the weight that it loses is buoyancy, "
+               "since drag and added mass need motion and a wrong mass shows out of the fluid."}},
+     .plants = {PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = apply,
+     .belief_key = "medium.buoyancy_factor"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -10,6 +10,10 @@ const EffectRegistration kEffect(
      .port = Port::rail,
      .statement = "The cable pulls at the body like a spring, perhaps damped.",
      .equation = "F += -k (z - z_0 + T z')",
+     .bench_tests =
+         {{.sentence =
+               "Pull the unpowered body along the rail by a force gauge, with the cable on and off: a force "
+               "that changes with height and goes with the cable is the cable, not mass or friction."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {

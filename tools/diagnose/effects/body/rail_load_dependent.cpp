@@ -8,6 +8,9 @@ const EffectRegistration kEffect(
      .port = Port::rail,
      .statement = "The rail's friction grows with the force that the leg carries.",
      .equation = "F += -mu |F_leg| sign(v)",
+     .bench_tests = {{.sentence =
+                          "Pull the unpowered body along the rail by a force gauge, with and without a "
+                          "weight that pulls it sideways: only friction that depends on the load grows."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {

@@ -8,6 +8,9 @@ const EffectRegistration kEffect(
      .port = Port::rail,
      .statement = "Near standstill the rail's friction is larger than in motion (Stribeck).",
      .equation = "F += -dF exp(-(v/v_s)^2) sign(v)",
+     .bench_tests = {{.sentence =
+                          "Pull the resting, unpowered body along the rail by a force gauge until it slides: "
+                          "a peak before it slides, and less force as it speeds up, is Stribeck friction."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {

@@ -14,17 +14,20 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
             [=](const RailState& s) { return -pressed_N * sign_smooth(s.velocity_mps, kSwitchSpeed_mps); });
 }
 
-const EffectRegistration kEffect({.id = "rail.tilt",
-                                  .port = Port::rail,
-                                  .statement = "The rail is not upright.",
-                                  .equation = "g -> g cos(alpha), F += -mu m g sin(alpha) sign(v)",
-                                  .plants = {PlantKind::hopper},
-                                  .parameters =
-                                      [](const Context&, const std::string&) {
-                                        return std::vector<EffectParameter>{
-                                            {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5}};
-                                      },
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "rail.tilt",
+     .port = Port::rail,
+     .statement = "The rail is not upright.",
+     .equation = "g -> g cos(alpha), F += -mu m g sin(alpha) sign(v)",
+     .bench_tests = {{.sentence = "Hold a plumb line to the rail: a tilt shows there at once, while a wrong "
+                                  "mass, friction or a faulty accelerometer leaves the rail upright."}},
+     .plants = {PlantKind::hopper},
+     .parameters =
+         [](const Context&, const std::string&) {
+           return std::vector<EffectParameter>{
+               {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5}};
+         },
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

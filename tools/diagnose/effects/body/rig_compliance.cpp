@@ -29,6 +29,10 @@ const EffectRegistration kEffect(
      .port = Port::geometry,
      .statement = "The rig yields under the force: the foot is less deep than the encoder says.",
      .equation = "z = z_recorded - F / k_r",
+     .bench_tests = {{.kind = "clamped",
+                      .sentence =
+                          "Press the plate on a rigid block: the recorded position goes on with the force "
+                          "only if the rig yields, because a bed or its surface plays no part."}},
      .plants = {PlantKind::intruder},
      .parameters = parameters,
      .apply = apply,

@@ -31,6 +31,9 @@ const EffectRegistration kEffect(
      .port = Port::clock,
      .statement = "The clock of {channel} runs fast or slow by a constant ratio.",
      .equation = "t' = (1 + d) t",
+     .bench_tests =
+         {{.sentence = "Log {channel} for ten minutes together with a pulse each second from a reference "
+                       "clock: only a clock that runs fast or slow drifts steadily away from the pulses."}},
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
      .channels = channels,
      .parameters =

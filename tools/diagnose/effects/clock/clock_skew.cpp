@@ -45,6 +45,16 @@ const EffectRegistration kEffect(
      .port = Port::clock,
      .statement = "The time stamps of {channel} are late against the other channels.",
      .equation = "y(t) = x(t - skew)",
+     .bench_tests =
+         {{.kind = "motion",
+           .sentence =
+               "Record a sharp step of {channel} and of another channel in the log and on an oscilloscope: a "
+               "shift between them that only the log shows is an error of its time stamps.",
+           .plants = {PlantKind::rotary_axis}},
+          {.kind = "tap",
+           .sentence = "Tap the {robot} with a hammer: {channel} shows the blow late but sharp if its time "
+                       "stamps are late, smeared if it lags, and on time if a force is the cause.",
+           .plants = {PlantKind::falling_body, PlantKind::intruder, PlantKind::hopper}}},
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
      .channels = channels,
      .parameters = parameters,

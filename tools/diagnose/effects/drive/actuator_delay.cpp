@@ -8,6 +8,17 @@ const EffectRegistration kEffect(
      .port = Port::actuator,
      .statement = "Torque acts later than it is reported or commanded.",
      .equation = "torque(t) = reported(t - T)",
+     .bench_tests =
+         {{.kind = "clamped",
+           .sentence = "Block the axis on a load cell and record a step of motor current and of its force on "
+                       "one oscilloscope: a force that starts late is a delay, and false time stamps show in "
+                       "the log alone.",
+           .plants = {PlantKind::rotary_axis}},
+          {.kind = "clamped",
+           .sentence =
+               "Clamp the body and record a step of the command and of the motor current on one "
+               "oscilloscope: a late current is a delay, which no force, sensor or clock can imitate there.",
+           .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {

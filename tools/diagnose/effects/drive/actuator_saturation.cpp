@@ -14,6 +14,17 @@ const EffectRegistration kEffect(
      .port = Port::actuator,
      .statement = "The motor's torque falls behind its current at high torque: the iron saturates.",
      .equation = "torque = reported (1 - s (reported / reference)^2)",
+     .bench_tests =
+         {{.kind = "clamped",
+           .sentence =
+               "Block the axis on a load cell and raise the reported torque in steps: saturation takes a "
+               "larger part of each further step, while a wrong scale takes the same part of all.",
+           .plants = {PlantKind::rotary_axis}},
+          {.kind = "clamped",
+           .sentence =
+               "Clamp the body with the foot on a scale and raise the motor current in steps: saturation "
+               "takes a larger part of each further step, a wrong torque constant the same part of all.",
+           .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters =
          [](const Context& c, const std::string&) {

@@ -16,6 +16,11 @@ const EffectRegistration kEffect(
      .port = Port::actuator,
      .statement = "The motors' torque falls as they get warm: the magnets weaken.",
      .equation = "torque = K_t i (1 - c (T - 25 C))",
+     .bench_tests = {{.kind = "hop",
+                      .sentence = "Record the same hop with cold and with warm motors, each on a freshly "
+                                  "prepared bed: only torque that falls with temperature sets the two apart, "
+                                  "and neither the bed nor a fixed torque constant.",
+                      .same_for = {"actuator.voltage_limit"}}},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {

@@ -8,6 +8,9 @@ const EffectRegistration kEffect(
      .port = Port::actuator,
      .statement = "The motors give more or less torque for a current than believed.",
      .equation = "tau = K_t (1 + e) i",
+     .bench_tests = {{.sentence =
+                          "Turn each motor with open leads and measure voltage over speed: this is the "
+                          "torque constant, and no mass, friction, saturation or load cell enters."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context& c, const std::string&) {

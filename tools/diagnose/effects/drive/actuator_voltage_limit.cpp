@@ -29,6 +29,10 @@ const EffectRegistration kEffect(
      .statement =
          "The bus voltage, less what the motors' speed takes of it, does not drive the commanded current.",
      .equation = "|i| <= (V - K_e w) / R",
+     .bench_tests = {{.kind = "hop",
+                      .sentence =
+                          "Record the same hop with a higher bus voltage: the current reaches its command "
+                          "only if the voltage was the limit; saturation and a wrong torque constant stay."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

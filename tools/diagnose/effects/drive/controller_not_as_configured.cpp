@@ -21,6 +21,10 @@ const EffectRegistration kEffect(
      .port = Port::controller,
      .statement = "The controller's leg spring has another stiffness than it was set to.",
      .equation = "k_c -> (1 + c) k_c, k_e -> (1 + e) k_e",
+     .bench_tests = {{.kind = "clamped",
+                      .sentence = "Clamp the body, press the foot in by known steps and read the commanded "
+                                  "torque: commands over steps give the stiffness that the controller uses, "
+                                  "whatever the motors and the bed do."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {

@@ -37,6 +37,17 @@ const EffectRegistration kEffect(
      .statement = "Grains that move with the foot add to its inertia; as they are taken up with depth they "
                   "also resist with the square of speed.",
      .equation = "F += m_a(z) z'' + m_a'(z) z'^2, m_a = m (1 - (1 - (z/z_c)^p)^3)",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence =
+               "Start the plate from rest inside the bed at full acceleration, and again in air: resistance "
+               "at the first instant that only the bed shows is added mass, because drag needs speed.",
+           .plants = {PlantKind::intruder}},
+          {.kind = "hop",
+           .sentence =
+               "Record a hop with the stiffest leg and look just before the foot turns back in the bed: drag "
+               "is gone at that speed, added mass acts still, and a wrong foot mass shows in flight, too.",
+           .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

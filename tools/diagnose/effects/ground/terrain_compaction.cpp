@@ -15,13 +15,27 @@ void apply(const Context&, const std::string&, std::span<const double> v, Edits&
   stiffen(edits, v[2], [=](const GroundState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
 }
 
-const EffectRegistration kEffect({.id = "terrain.compaction",
-                                  .port = Port::ground,
-                                  .statement = "Each push since the bed was prepared leaves it stiffer.",
-                                  .equation = "F_d -> F_d (1 + C (1 - exp(-n / n_0)))",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.compaction",
+     .port = Port::ground,
+     .statement = "Each push since the bed was prepared leaves it stiffer.",
+     .equation = "F_d -> F_d (1 + C (1 - exp(-n / n_0)))",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence =
+               "Prepare the bed afresh in the middle of a session and repeat its first trial: compaction "
+               "starts again from nothing, while a drift of the rig or its sensors goes on.",
+           .same_for = {"terrain.crater", "terrain.strengthening"},
+           .plants = {PlantKind::intruder}},
+          {.kind = "hop",
+           .sentence =
+               "Prepare the bed afresh in the middle of a session and repeat its first hop at once: "
+               "compaction starts again from nothing, while motors stay warm and sensors keep their drift.",
+           .same_for = {"terrain.crater", "terrain.strengthening"},
+           .plants = {PlantKind::hopper}}},
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -13,13 +13,18 @@ void apply(const Context&, const std::string&, std::span<const double> v, Edits&
   edits.law(LawPort::ground_surface, [drop_m](const GroundState& s) { return -drop_m * s.pushes; });
 }
 
-const EffectRegistration kEffect({.id = "terrain.crater",
-                                  .port = Port::ground,
-                                  .statement = "Each push since the bed was prepared lowers its surface.",
-                                  .equation = "z = z_recorded - c n",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.crater",
+     .port = Port::ground,
+     .statement = "Each push since the bed was prepared lowers its surface.",
+     .equation = "z = z_recorded - c n",
+     .bench_tests =
+         {{.sentence =
+               "Measure the height of the bed under the {foot} with a ruler after each push: a crater lowers "
+               "it push by push, while compaction or a drifting sensor does not lower it as much."}},
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

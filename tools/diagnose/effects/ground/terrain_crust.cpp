@@ -29,6 +29,11 @@ const EffectRegistration kEffect(
      .statement =
          "A cohesive crust resists from the first millimetres on, whatever the depth, until it is broken.",
      .equation = "F += F_c (1 - exp(-z / z_c))",
+     .bench_tests =
+         {{.kind = "press",
+           .sentence =
+               "Press the {foot} slowly into an untouched bed, and again where the top millimetres were "
+               "raked loose: the force of a crust is gone, while a false zero or a depth law stays."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

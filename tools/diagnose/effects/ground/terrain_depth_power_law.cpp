@@ -35,14 +35,19 @@ bool as_keys(const Context& c, std::span<const double> v, std::map<std::string, 
   return true;
 }
 
-const EffectRegistration kEffect({.id = "terrain.depth_power_law",
-                                  .port = Port::ground,
-                                  .statement = "Resistance grows with another power of depth than believed.",
-                                  .equation = "F_d -> F_d (z / z_r)^(n - n_0)",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply = apply,
-                                  .as_keys = as_keys});
+const EffectRegistration kEffect(
+    {.id = "terrain.depth_power_law",
+     .port = Port::ground,
+     .statement = "Resistance grows with another power of depth than believed.",
+     .equation = "F_d -> F_d (z / z_r)^(n - n_0)",
+     .bench_tests = {{.kind = "press",
+                      .sentence = "Press the {foot} very slowly to its full depth and plot force over depth "
+                                  "on logarithmic scales: a power law is straight; a crust, a tilt, a false "
+                                  "zero or the floor bends it, and drag is silent."}},
+     .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = apply,
+     .as_keys = as_keys});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

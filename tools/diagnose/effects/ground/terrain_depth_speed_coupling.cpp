@@ -29,6 +29,11 @@ const EffectRegistration kEffect(
      .statement = "Speed and depth do not add: speed changes the resistance in proportion to depth, or the "
                   "larger of a depth law and a speed law acts.",
      .equation = "F = F_d (1 + s v^2 / (v^2 + v_0^2)) or max(F_d, c v^2)",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence =
+               "Push the {foot} in at two steady speeds and compare shallow with deep: the force that speed "
+               "adds is the same at both depths if depth and speed add, and changes with depth if not."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

@@ -27,6 +27,9 @@ const EffectRegistration kEffect(
      .port = Port::ground,
      .statement = "Near the floor of the container the bed stiffens exponentially.",
      .equation = "F_d -> F_d (1 + A exp((z - z_nearest) / l))",
+     .bench_tests = {{.kind = "press",
+                      .sentence = "Repeat a slow press in a bed of twice the depth: stiffening by the floor "
+                                  "is gone at the old depth, while a power law of depth is still there."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

@@ -28,6 +28,11 @@ const EffectRegistration kEffect(
      .port = Port::ground,
      .statement = "The foot is tilted, so that it comes to bear only over some depth.",
      .equation = "F_d -> F_d (1 - exp(-(z / z_t)^p))",
+     .bench_tests =
+         {{.kind = "press",
+           .sentence =
+               "Level the {foot} with a spirit level and shims and repeat a slow press: the soft first "
+               "millimetres are gone only if a tilt caused them, not a false zero or a depth law."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply});

@@ -15,6 +15,11 @@ const EffectRegistration kEffect(
      .statement =
          "The pressure at a depth depends on the size of the plate (R_0: the median plate's radius).",
      .equation = "F_d -> F_d (R / R_0)^p",
+     .bench_tests =
+         {{.kind = "press",
+           .sentence =
+               "Press plates of three sizes slowly to one depth on freshly prepared beds: pressures that "
+               "differ are a law of plate size, while a wrong stiffness or load cell shifts all alike."}},
      .plants = {PlantKind::intruder},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

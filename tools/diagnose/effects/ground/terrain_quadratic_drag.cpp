@@ -19,13 +19,19 @@ void apply(const Context&, const std::string&, std::span<const double> v, Edits&
   });
 }
 
-const EffectRegistration kEffect({.id = "terrain.quadratic_drag",
-                                  .port = Port::ground,
-                                  .statement = "The bed resists with the square of the intrusion speed.",
-                                  .equation = "F += c v^2 (1 - exp(-z / z_0)), v > 0",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.quadratic_drag",
+     .port = Port::ground,
+     .statement = "The bed resists with the square of the intrusion speed.",
+     .equation = "F += c v^2 (1 - exp(-z / z_0)), v > 0",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence =
+               "Push the {foot} at a steady speed and at twice of it to several of its widths: the force "
+               "that speed adds grows fourfold with drag, also down there, where added mass grows no more."}},
+     .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -26,18 +26,23 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   edits.scale(key_of(c), 1.0 + v[0]);
 }
 
-const EffectRegistration kEffect({.id = "terrain.stiffness",
-                                  .port = Port::ground,
-                                  .statement = "The bed is stiffer or softer than believed.",
-                                  .equation = "F_d -> (1 + e) F_d",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
-                                  .parameters = parameters,
-                                  .apply = apply,
-                                  .as_keys = [](const Context& c, std::span<const double> v,
-                                                std::map<std::string, double>& numbers) {
-                                    numbers[key_of(c)] *= 1.0 + v[0];
-                                    return true;
-                                  }});
+const EffectRegistration kEffect(
+    {.id = "terrain.stiffness",
+     .port = Port::ground,
+     .statement = "The bed is stiffer or softer than believed.",
+     .equation = "F_d -> (1 + e) F_d",
+     .bench_tests =
+         {{.kind = "press",
+           .sentence =
+               "Press the {foot} slowly with the bed standing on a second scale: a stiffer bed shows in both "
+               "forces, while a load cell or motor with a wrong scale disagrees with the second."}},
+     .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
+     .parameters = parameters,
+     .apply = apply,
+     .as_keys = [](const Context& c, std::span<const double> v, std::map<std::string, double>& numbers) {
+       numbers[key_of(c)] *= 1.0 + v[0];
+       return true;
+     }});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -15,13 +15,23 @@ void apply(const Context&, const std::string&, std::span<const double> v, Edits&
   stiffen(edits, v[2], [=](const GroundState& s) { return share * std::log1p(s.wait_s / time_s); });
 }
 
-const EffectRegistration kEffect({.id = "terrain.strengthening",
-                                  .port = Port::ground,
-                                  .statement = "The bed grows stiffer while it waits.",
-                                  .equation = "F_d -> F_d (1 + A ln(1 + t / t_0))",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.strengthening",
+     .port = Port::ground,
+     .statement = "The bed grows stiffer while it waits.",
+     .equation = "F_d -> F_d (1 + A ln(1 + t / t_0))",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence = "Repeat one push on freshly prepared beds that have rested for different times: "
+                       "strengthening grows with the rest alone, while compaction needs earlier pushes.",
+           .plants = {PlantKind::intruder}},
+          {.kind = "hop",
+           .sentence = "Repeat one hop on freshly prepared beds that have rested for different times: "
+                       "strengthening grows with the rest alone, while compaction needs earlier hops.",
+           .plants = {PlantKind::hopper}}},
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

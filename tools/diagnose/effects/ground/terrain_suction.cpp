@@ -27,13 +27,19 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
   edits.law(LawPort::ground_tension, pull);
 }
 
-const EffectRegistration kEffect({.id = "terrain.suction",
-                                  .port = Port::ground,
-                                  .statement = "The bed holds the foot back when it is withdrawn.",
-                                  .equation = "F += -F_s (1 - exp(-(z / z_1)^p)), v < 0",
-                                  .plants = {PlantKind::intruder, PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = apply});
+const EffectRegistration kEffect(
+    {.id = "terrain.suction",
+     .port = Port::ground,
+     .statement = "The bed holds the foot back when it is withdrawn.",
+     .equation = "F += -F_s (1 - exp(-(z / z_1)^p)), v < 0",
+     .bench_tests =
+         {{.kind = "press",
+           .sentence =
+               "Pull the {foot} slowly out of the bed until it hangs free: suction pulls it down until it "
+               "lets go, while an offset of the load cell stays in the air and unloading cannot pull."}},
+     .plants = {PlantKind::intruder, PlantKind::hopper},
+     .parameters = parameters,
+     .apply = apply});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

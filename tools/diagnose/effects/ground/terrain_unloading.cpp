@@ -24,6 +24,11 @@ const EffectRegistration kEffect(
      .port = Port::ground,
      .statement = "The bed gives back along another line than believed when the foot moves up.",
      .equation = "F = F_max - r k (z_max - z)",
+     .bench_tests = {{.kind = "press",
+                      .sentence = "Press slowly and draw back by a fraction of a millimetre at several "
+                                  "depths: the slope of these small loops is unloading; suction only shifts "
+                                  "them, and drag and added mass need speed.",
+                      .same_for = {"rig.compliance", "leg.series_elasticity"}}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,
      .apply = apply,

@@ -27,6 +27,11 @@ const EffectRegistration kEffect(
      .port = Port::ground,
      .statement = "The bed resists in proportion to the speed, into it and out of it.",
      .equation = "F += b v (1 - exp(-z / z_0)), F >= 0",
+     .bench_tests =
+         {{.kind = "intrusion",
+           .sentence =
+               "Stop the {foot} abruptly at one depth from two speeds: viscous force is gone at once and "
+               "twice as much from twice the speed, while a lagging load cell creeps up to its value."}},
      .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
      .parameters = parameters,
      .apply = apply});

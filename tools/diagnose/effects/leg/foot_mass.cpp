@@ -13,15 +13,19 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
-const EffectRegistration kEffect({.id = "foot.mass",
-                                  .port = Port::inertia,
-                                  .statement = "The foot's mass is not what is believed.",
-                                  .equation = "m_f -> m_f + dm",
-                                  .plants = {PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
-                                              Edits& edits) { edits.add("robot.foot_mass_kg", v[0]); },
-                                  .belief_key = "robot.foot_mass_kg"});
+const EffectRegistration kEffect(
+    {.id = "foot.mass",
+     .port = Port::inertia,
+     .statement = "The foot's mass is not what is believed.",
+     .equation = "m_f -> m_f + dm",
+     .bench_tests = {{.sentence =
+                          "Weigh the foot on a balance, apart from the links: a wrong mass shows there, and "
+                          "nothing of rotor inertia, added mass of the bed or a load cell does."}},
+     .plants = {PlantKind::hopper},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("robot.foot_mass_kg", v[0]); },
+     .belief_key = "robot.foot_mass_kg"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -18,6 +18,11 @@ const EffectRegistration kEffect(adds_to(
      .port = Port::joint,
      .statement = "There is play between motors and links: each reversal of the torque costs it.",
      .equation = "tau_t = K (|p| - play/2) sign(p) + D dp/dt where teeth touch, 0 between; p = rotor - link",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence =
+               "Let the drives hold their angle and push the foot lightly to and fro by hand: play gives way "
+               "without force up to a stop, a spring gives way in proportion, friction not at all."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters}));
 

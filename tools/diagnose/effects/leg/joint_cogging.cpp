@@ -39,6 +39,9 @@ const EffectRegistration kEffect(
      .port = Port::joint,
      .statement = "Torque ripples with the angle of the motor (cogging).",
      .equation = "tau += A sin(h theta) + B cos(h theta) + A_2 sin(2 h theta) + B_2 cos(2 h theta)",
+     .bench_tests = {{.sentence = "Turn the motor slowly both ways by a torque gauge without current: "
+                                  "cogging repeats at the same angles with the same sign, friction turns "
+                                  "with the direction, an encoder gives no torque."}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

@@ -13,15 +13,20 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
-const EffectRegistration kEffect({.id = "joint.rotor_inertia",
-                                  .port = Port::inertia,
-                                  .statement = "The rotors' inertia is not what is believed.",
-                                  .equation = "J -> J + dJ",
-                                  .plants = {PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
-                                              Edits& edits) { edits.add("robot.rotor_inertia_kg_m2", v[0]); },
-                                  .belief_key = "robot.rotor_inertia_kg_m2"});
+const EffectRegistration kEffect(
+    {.id = "joint.rotor_inertia",
+     .port = Port::inertia,
+     .statement = "The rotors' inertia is not what is believed.",
+     .equation = "J -> J + dJ",
+     .bench_tests =
+         {{.sentence =
+               "Take the links off and turn the bare rotors, without and with a disk of known inertia: the "
+               "two accelerations give the rotor inertia, and no foot, link, gravity or bed enters."}},
+     .plants = {PlantKind::hopper},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("robot.rotor_inertia_kg_m2", v[0]); },
+     .belief_key = "robot.rotor_inertia_kg_m2"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

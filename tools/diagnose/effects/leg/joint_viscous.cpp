@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::joint,
      .statement = "Friction proportional to speed acts in the joints.",
      .equation = "tau += -b w, each motor",
+     .bench_tests = {{.kind = "air_sweep",
+                      .sentence = "Sweep the foot in the air with the body clamped at three speeds: viscous "
+                                  "friction of the joints adds torque in proportion to speed, dry friction "
+                                  "does not, and the rail does not move."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context&, const std::string&) {

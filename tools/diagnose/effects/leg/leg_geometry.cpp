@@ -13,15 +13,19 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
-const EffectRegistration kEffect({.id = "leg.geometry",
-                                  .port = Port::geometry,
-                                  .statement = "The upper links have another length than believed.",
-                                  .equation = "l_1 -> l_1 + dl",
-                                  .plants = {PlantKind::hopper},
-                                  .parameters = parameters,
-                                  .apply = [](const Context&, const std::string&, std::span<const double> v,
-                                              Edits& edits) { edits.add("robot.upper_link_length_m", v[0]); },
-                                  .belief_key = "robot.upper_link_length_m"});
+const EffectRegistration kEffect(
+    {.id = "leg.geometry",
+     .port = Port::geometry,
+     .statement = "The upper links have another length than believed.",
+     .equation = "l_1 -> l_1 + dl",
+     .bench_tests = {{.sentence =
+                          "Measure the links from joint to joint with callipers: a wrong length shows there, "
+                          "while an offset of an encoder or of a height leaves the links as they are."}},
+     .plants = {PlantKind::hopper},
+     .parameters = parameters,
+     .apply = [](const Context&, const std::string&, std::span<const double> v,
+                 Edits& edits) { edits.add("robot.upper_link_length_m", v[0]); },
+     .belief_key = "robot.upper_link_length_m"});
 
 }  // namespace
 }  // namespace sandhopper::diagnose

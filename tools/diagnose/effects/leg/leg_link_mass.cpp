@@ -20,13 +20,16 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   return {link("lower_link_mass_kg", kLower.of(c)), link("upper_link_mass_kg", kUpper.of(c))};
 }
 
-const EffectRegistration kEffect(
-    adds_to({kLower, kUpper}, {.id = "leg.link_mass",
-                               .port = Port::inertia,
-                               .statement = "The leg's links are heavier or lighter than believed.",
-                               .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
-                               .plants = {PlantKind::hopper},
-                               .parameters = parameters}));
+const EffectRegistration kEffect(adds_to(
+    {kLower, kUpper},
+    {.id = "leg.link_mass",
+     .port = Port::inertia,
+     .statement = "The leg's links are heavier or lighter than believed.",
+     .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
+     .bench_tests = {{.sentence = "Weigh the links on a balance, each by itself: a wrong mass shows there, "
+                                  "and nothing of foot, rotors, joints or accelerometers does."}},
+     .plants = {PlantKind::hopper},
+     .parameters = parameters}));
 
 }  // namespace
 }  // namespace sandhopper::diagnose

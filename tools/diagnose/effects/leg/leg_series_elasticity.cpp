@@ -18,15 +18,19 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
       {.name = "series_damping_ratio", .typical = 0.1, .low = -0.08, .high = 0.9, .base = kDamping.of(c)}};
 }
 
-const EffectRegistration kEffect(
-    adds_to({kCompliance, kDamping},
-            {.id = "leg.series_elasticity",
-             .port = Port::joint,
-             .statement =
-                 "The leg yields along its length: a spring lies between what the encoders see and the foot.",
-             .equation = "x = x_encoder - s,  F = k_s s + 2 zeta sqrt(k_s m_f) ds/dt",
-             .plants = {PlantKind::hopper},
-             .parameters = parameters}));
+const EffectRegistration kEffect(adds_to(
+    {kCompliance, kDamping},
+    {.id = "leg.series_elasticity",
+     .port = Port::joint,
+     .statement =
+         "The leg yields along its length: a spring lies between what the encoders see and the foot.",
+     .equation = "x = x_encoder - s,  F = k_s s + 2 zeta sqrt(k_s m_f) ds/dt",
+     .bench_tests = {{.kind = "clamped",
+                      .sentence = "Clamp the body with the foot on a rigid block and raise the torque in "
+                                  "steps: the encoders go on in proportion to the force only if the leg "
+                                  "yields; play moves them once, and a bed is not there."}},
+     .plants = {PlantKind::hopper},
+     .parameters = parameters}));
 
 }  // namespace
 }  // namespace sandhopper::diagnose

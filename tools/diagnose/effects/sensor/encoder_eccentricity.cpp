@@ -30,6 +30,11 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The encoder's disk or magnet is off centre: the angle's error repeats once a turn.",
      .equation = "y = theta + A sin(theta) + B cos(theta); of the velocity its derivative, in part",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence =
+               "Set the shaft to known angles all round a turn, at rest, and read the encoder: an error that "
+               "repeats once a turn is eccentricity, a constant one an offset, and torques do not enter."}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

@@ -28,6 +28,16 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The encoder's zero is off: the angle is not the one that is read.",
      .equation = "y = theta + o",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence =
+               "Let the arm hang with the drive off and check it with a plumb line: if it hangs true and the "
+               "reading is not zero, the encoder is off, not a torque or the balance of the arm.",
+           .plants = {PlantKind::rotary_axis}},
+          {.kind = "hold",
+           .sentence = "Hold the leg at two lengths set by gauge blocks: an offset of the encoder is the "
+                       "same angle at both, while a wrong link length errs by another angle at each.",
+           .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .channels = channels,
      .parameters = parameters,

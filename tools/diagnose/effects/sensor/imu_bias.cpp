@@ -3,6 +3,12 @@
 namespace sandhopper::diagnose {
 namespace {
 
+const BenchTest kUpsideDown{
+    .kind = "hold",
+    .sentence =
+        "Hold the {robot} still upright and upside down: the mean of the two readings of {channel} is its "
+        "bias, while a wrong scale or a tilt cancels in it."};
+
 void apply(const Context&, const std::string& channel, std::span<const double> v, Edits& edits) {
   edits.sensor(channel, SensorEdit::Kind::offset, v[0]);
 }
@@ -17,6 +23,7 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
+     .bench_tests = {kUpsideDown},
      .plants = {PlantKind::hopper},
      .channels = accelerometers,
      .parameters =
@@ -30,6 +37,7 @@ const EffectRegistration kInFall({.id = "imu.bias",
                                   .port = Port::sensor,
                                   .statement = "{channel} reads a constant amount off.",
                                   .equation = "y = x + o",
+                                  .bench_tests = {kUpsideDown},
                                   .same_as = {"sensor.bias"},
                                   .plants = {PlantKind::falling_body},
                                   .channels = accelerometers,

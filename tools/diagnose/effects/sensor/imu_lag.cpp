@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "{channel} follows with a lag of first or second order.",
      .equation = "tau1 tau2 y'' + (tau1 + tau2) y' + y = x, tau1 + tau2 = lag",
+     .bench_tests =
+         {{.kind = "tap",
+           .sentence = "Tap the {robot} with a hammer: {channel} shows the blow smeared and late if it lags, "
+                       "late but sharp if its time stamps are, and on time if a force is the cause."}},
      .plants = {PlantKind::falling_body, PlantKind::hopper},
      .channels = accelerometers,
      .parameters = [](const Context&, const std::string&) { return lag_parameters(); },

@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
      .equation = "y = x cos(alpha)",
+     .bench_tests = {{.kind = "hold",
+                      .sentence = "Hold the robot still, lying on each of its sides: if {channel} is tilted "
+                                  "it reads opposite parts of gravity on opposite sides, if biased the same, "
+                                  "and if only its scale is wrong, zero."}},
      .plants = {PlantKind::hopper},
      .channels = accelerometers,
      .parameters =

@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The load cell reads in proportion too much or too little.",
      .equation = "y = (1 + g) F",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence = "Put two known weights on the load cell, one after the other: a wrong gain errs in "
+                       "proportion to the weight, an offset by the same force, and no mass or bed enters."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =

@@ -9,6 +9,11 @@ const EffectRegistration kEffect(
      .statement =
          "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
      .equation = "y = F - m a",
+     .bench_tests =
+         {{.kind = "air_sweep",
+           .sentence =
+               "Move the {foot} fast up and down in the air: a load cell that reads a force in step with the "
+               "acceleration carries a mass, because added mass and drag of a bed are not there."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =

@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The load cell follows with a lag of first or second order.",
      .equation = "tau1 tau2 y'' + (tau1 + tau2) y' + y = F, tau1 + tau2 = lag",
+     .bench_tests = {{.kind = "tap",
+                      .sentence =
+                          "Tap the unloaded load cell with a hammer: a lag smears the peak, late time stamps "
+                          "shift it whole, and no bed, friction or mass of the {foot} enters."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters = [](const Context&, const std::string&) { return lag_parameters(); },

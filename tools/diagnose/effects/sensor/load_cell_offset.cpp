@@ -8,6 +8,9 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The load cell reads a constant amount off.",
      .equation = "y = F + o",
+     .bench_tests = {{.kind = "hold",
+                      .sentence = "Read the load cell with nothing on it before and after a trial: what it "
+                                  "shows is its offset, because a gain, suction or a crust needs a load."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =

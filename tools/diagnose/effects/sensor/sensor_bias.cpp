@@ -27,6 +27,21 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "{channel} reads a constant amount off.",
      .equation = "y = x + o",
+     .bench_tests =
+         {{.kind = "hold",
+           .sentence = "Hold the body still at two known heights: a bias of {channel} is the same at both, a "
+                       "wrong scale errs in proportion to the height, and no force acts on a body at rest.",
+           .plants = {PlantKind::falling_body}},
+          {.kind = "hold",
+           .sentence = "Hold the axis still where it rests with the drive off: {channel} must read zero "
+                       "there; anything else is its bias, because no torque, friction or inertia acts.",
+           .plants = {PlantKind::rotary_axis}},
+          {.kind = "press",
+           .sentence =
+               "Lower the plate slowly until it just pinches a sheet of paper on the bed: {channel} is not "
+               "zero there only if it is biased, while crust, tilt and depth laws need more force or depth.",
+           .same_for = {"terrain.crater"},
+           .plants = {PlantKind::intruder}}},
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder},
      .channels =
          [](const Context& c) {

@@ -86,6 +86,9 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "{channel} stops at the end of its range while the quantity goes on.",
      .equation = "y = min(x, limit), |y| <= limit under noise",
+     .bench_tests = {{.sentence = "Move what {channel} measures slowly past its highest recorded value "
+                                  "beside a second gauge: the reading stops there, although nothing moves "
+                                  "fast, only if the range of the sensor ends."}},
      .plants = {PlantKind::falling_body, PlantKind::rotary_axis, PlantKind::intruder, PlantKind::hopper},
      .channels = channels,
      .parameters = parameters,

@@ -8,6 +8,10 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The height's zero is not the surface.",
      .equation = "z_recorded = z + o",
+     .bench_tests = {{.kind = "hold",
+                      .sentence = "Hold the robot still on two gauge blocks: a bias of tof_height_m is the "
+                                  "same at both heights, a wrong scale errs in proportion to the height, and "
+                                  "a crust of the bed does not enter."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context& c, const std::string&) {

@@ -19,6 +19,12 @@ const EffectRegistration kEffect(
      .port = Port::sensor,
      .statement = "The time-of-flight sensor answers later than believed.",
      .equation = "y(t) = x(t - T)",
+     .bench_tests =
+         {{.kind = "motion",
+           .sentence =
+               "Jerk the unpowered robot up and down the rail by hand: tof_height_m follows the twice "
+               "integrated accelerometer late by one time if it answers late; a bias is there at rest, too.",
+           .same_for = {"clock.skew"}}},
      .same_as = {"clock.skew"},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
