@@ -113,6 +113,19 @@ TEST_F(BenchmarkRunner, CountsATrialAsSplittingOnlyWhereItWasRecommendedForThat)
   }
 }
 
+// The apparatus cannot weigh or tap, so a set-up that holds no more than a kind asks for no trial.
+TEST_F(BenchmarkRunner, ATestOnTheBenchIsNoTrialThatItCouldSimulate) {
+  const auto asks = [&](const std::string& setup) {
+    std::ofstream(folder / "bench.json") << "{\"verdict\": \"missing_physics\", \"next_trial\": "
+                                            "{\"purpose\": \"split\", \"setup\": "
+                                         << setup << "}}";
+    return read_diagnosis(folder / "bench.json")->asks_for_a_split;
+  };
+  EXPECT_FALSE(asks("{}"));
+  EXPECT_FALSE(asks("{\"kind\": \"tap\"}"));
+  EXPECT_TRUE(asks("{\"kind\": \"drop\", \"release_height_m\": 2.0}"));
+}
+
 // Suction acts on the foot's way up only (tests/conceal/cells_test.cpp).
 TEST_F(BenchmarkRunner, ScoresTheCellsThatTheToolReports) {
   auto o = options(

@@ -60,7 +60,30 @@ TEST(Reach, IsWhatWasRecordedUnlessTheCampaignListsMore) {
   EXPECT_TRUE(reach.allows("profile", "cycles"));
   EXPECT_FALSE(reach.allows("profile", "stop_and_withdraw"));
   EXPECT_TRUE(reach.allows("other", "anything"));
-  EXPECT_THAT(Reach::anything().settings("payload_kg", {1.0}), ElementsAre(1.0));
+}
+
+TEST(Reach, OfFreeNumbersHoldsWhatTheCampaignDoesNotLimitButNoParts) {
+  const Reach own(recorded(), read("impact_speed_mps = { from = 0.1, to = 0.4 }\nprofile = [\"cycles\"]"),
+                  {{"mode", {"slow"}}});
+  const Reach reach = own.with_free_numbers();
+  EXPECT_THAT(reach.settings("release_height_m", {0.01, 0.1, 0.5}), ElementsAre(0.01, 0.1, 0.5));
+  EXPECT_THAT(reach.settings("impact_speed_mps", {0.02, 0.3, 1.0}), ElementsAre(0.1, 0.3, 0.4));
+  EXPECT_FALSE(reach.allows("impact_speed_mps", 0.5));
+  EXPECT_TRUE(reach.allows("release_height_m", 0.5));
+  EXPECT_THAT(reach.parts("plate_diameter_m", {0.07}), ElementsAre(0.06, 0.08));
+  EXPECT_THAT(reach.parts("payload_kg", {1.0}), IsEmpty());
+  EXPECT_TRUE(reach.allows("mode", "fast"));
+  EXPECT_FALSE(reach.allows("profile", "through"));
+  EXPECT_THAT(own.with_any_part().parts("payload_kg", {1.0}), ElementsAre(1.0));
+  EXPECT_THAT(own.with_any_part().settings("impact_speed_mps", {0.02, 0.3}), ElementsAre(0.1, 0.3, 0.4));
+}
+
+TEST(Reach, TellsTheRecordedRangesThatASetUpLeaves) {
+  const Reach reach(recorded(), read("impact_speed_mps = [0.1, 0.4]"), {});
+  EXPECT_EQ(reach.ranges_left_by({{"release_height_m", 0.1}}), "");
+  EXPECT_EQ(reach.ranges_left_by({{"release_height_m", 0.20000000001}, {"impact_speed_mps", 0.4}}), "");
+  EXPECT_EQ(reach.ranges_left_by({{"release_height_m", 1.9}, {"payload_kg", 1.0}}),
+            "release height 0.05 to 0.2 m");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/answer/diagnosis_json.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -37,6 +38,9 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
   EXPECT_GT(d.next.settles, 0.8);
   EXPECT_LE(d.next.settles, d.next.splits);
   EXPECT_EQ(d.next.purpose, "split");
+  EXPECT_FALSE(d.next.beyond_recorded) << "the campaign lists payloads and speeds";
+  EXPECT_THAT(d.next.why, HasSubstr(" the body "));
+  EXPECT_TRUE(d.next.why.starts_with(d.next.order + ": ")) << d.next.why;
   EXPECT_THAT(d.next.why, HasSubstr(d.next.channel));
   ASSERT_GT(d.next.time_s.size(), 20u);
   ASSERT_EQ(d.next.by_first.size(), d.next.time_s.size());
@@ -52,10 +56,26 @@ TEST(DiagnoseNextTrial, ProposesNoSetUpThatTheLabDoesNotHave) {
   const auto d = diagnose(more_drag());
   ASSERT_EQ(d.detail, Detail::one_of_class);
   EXPECT_FALSE(d.next.setup.contains("payload_kg"));
-  if (d.next.kind.empty())
-    EXPECT_THAT(d.next.why, HasSubstr("lists under [available]"));
-  else
-    EXPECT_LE(d.next.setup.at("release_height_m"), 7.0);
+  EXPECT_TRUE(d.next.setup.empty()) << "drag over mass is the same in every drop: " << d.next.why;
+  EXPECT_THAT(d.next.why, HasSubstr("lists under [available] a trial would: "));
+  EXPECT_THAT(d.next.why, HasSubstr("payload"));
+}
+
+// No drop without a payload tells drag from mass, but a balance or a force gauge does. No chance is stated:
+// nothing was simulated.
+TEST(DiagnoseNextTrial, IsATestOnTheBenchWhereNoTrialWithinReachTellsTheClass) {
+  const auto d = diagnose(more_drag());
+  ASSERT_EQ(d.detail, Detail::one_of_class);
+  EXPECT_EQ(d.next.purpose, "split");
+  EXPECT_THAT(d.next.order, ::testing::AnyOf(HasSubstr("Weigh the body"), HasSubstr("Tow the body")));
+  EXPECT_TRUE(d.next.why.starts_with(d.next.order + ": ")) << d.next.why;
+  EXPECT_THAT(d.next.why, HasSubstr("It tells "));
+  const auto told = to_json(d).at("next_trial");
+  EXPECT_EQ(told.at("why"), d.next.why);
+  EXPECT_EQ(told.at("purpose"), "split");
+  EXPECT_FALSE(told.contains("probability_it_splits"));
+  EXPECT_FALSE(told.contains("beyond_recorded"));
+  EXPECT_THAT(to_text(d), HasSubstr("next   " + d.next.order + ":\n"));
 }
 
 // Air slows the fall by a third. A planned trial must last until the body lands according to the corrected
@@ -83,8 +103,9 @@ TEST(DiagnoseNextTrial, PlansADropThatAirSlowsUntilItLands) {
   EXPECT_NEAR(d.next.time_s.back(), landing_s, 0.1 * landing_s);
 }
 
-// A drive that acts late and a torque with early time stamps give the same recordings, whatever is recorded.
-TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
+// A drive that acts late and a torque with early time stamps give the same recordings of the axis, whatever
+// is recorded. An oscilloscope tells them apart.
+TEST(DiagnoseNextTrial, IsATestOnAnOscilloscopeWhereOnlyTheClocksAreInDoubt) {
   auto recordings = swings([](double, double, double) { return 0.0; }, 1, 10);
   for (auto& trial : recordings.trials) {
     auto& torque = trial.channels["torque_Nm"];
@@ -93,9 +114,12 @@ TEST(DiagnoseNextTrial, IsNoneWhereNoTrialTellsTheClass) {
   }
   const auto d = diagnose(recordings);
   ASSERT_EQ(d.detail, Detail::one_of_class);
-  EXPECT_EQ(d.next.kind, "");
-  EXPECT_EQ(d.next.purpose, "");
+  EXPECT_EQ(d.next.purpose, "split");
+  EXPECT_TRUE(d.next.setup.empty());
+  EXPECT_EQ(d.next.splits, 0.0);
+  EXPECT_THAT(d.next.why, HasSubstr("oscilloscope"));
   EXPECT_THAT(d.next.why, HasSubstr("not one tells"));
+  EXPECT_EQ(to_json(d).at("next_trial").at("setup"), nlohmann::ordered_json({{"kind", d.next.kind}}));
 }
 
 TEST(DiagnoseNextTrial, TightensTheWidestBoundWhereNothingIsMissing) {
@@ -136,10 +160,7 @@ TEST(DiagnoseNextTrial, DrivesNoAxisThatHasNoDrive) {
   auto r = swings([](double, double w, double torque) { return -torque - 0.05 * w; });
   for (auto& trial : r.trials) std::ranges::fill(trial.channels["torque_Nm"], 0.0);
   const auto d = diagnose(r);
-  if (d.next.kind.empty())
-    EXPECT_THAT(d.next.why, HasSubstr("[available]"));
-  else
-    EXPECT_TRUE(d.next.setup.contains("release_position_rad")) << d.next.why;
+  if (!d.next.setup.empty()) EXPECT_TRUE(d.next.setup.contains("release_position_rad")) << d.next.why;
 }
 
 TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {

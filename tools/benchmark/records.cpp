@@ -148,8 +148,9 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
   if (json.contains("next_trial") && json["next_trial"].is_object()) {
     const auto& next = json["next_trial"];
     const auto setup = next.value("setup", nlohmann::json());
-    d.asks_for_a_split =
-        setup.is_object() && !setup.empty() && next.value("purpose", nlohmann::json("split")) == "split";
+    // A set-up that holds no more than its kind is a test on the bench, which the apparatus does not have.
+    const bool is_trial = setup.is_object() && setup.size() > setup.count("kind");
+    d.asks_for_a_split = is_trial && next.value("purpose", nlohmann::json("split")) == "split";
   }
   return d;
 }

@@ -141,23 +141,29 @@ struct UnknownForce {
   Curve curve;
 };
 
-// The recommended trial.
+// The recommended trial, or the bench test if no trial that can be simulated splits a class.
 struct NextTrial {
   // "split" a class, "sharpen" intervals, "map" an unknown force, "bound" absent effects, "repeat" after a
   // repair. Empty: no trial is recommended.
   std::string purpose;
-  std::string why;
-  std::string kind;
+  std::string why;    // Begins with `order`, if a trial is recommended.
+  std::string order;  // What to do: "Drop the body from 1.9 m".
+  std::string kind;   // Empty: the test is no recording (a weighing), or no trial is recommended.
   std::map<std::string, double> setup;
   std::map<std::string, std::string> words;  // Set-up keys whose values are words (profile).
+  // The set-up lies outside of what was recorded, and the campaign does not state its limits.
+  bool beyond_recorded = false;
   // Probability that one such trial separates all rivals from the found effect, and at least one of them. 0
-  // if there are no rivals.
+  // if there are no rivals, or for a bench test, which is not simulated.
   double settles = 0.0, splits = 0.0;
   // Predictions by two explanations; empty if there is only one.
   std::string channel;
   std::string first, second;
   double floor = 0.0;
   std::vector<double> time_s, by_first, by_second;
+
+  bool is_recommended() const { return !purpose.empty(); }
+  std::string reason() const;  // `why` without the order
 };
 
 // A nuisance parameter: mean and standard deviation over the trials, fitted without any effect and with the

@@ -60,6 +60,7 @@ Json next_json(const NextTrial& next) {
   for (const auto& [key, text] : next.words) setup[key] = text;
   for (const auto& [key, value] : next.setup) setup[key] = value;
   Json trial{{"why", next.why}, {"purpose", next.purpose}, {"setup", setup}};
+  if (next.beyond_recorded) trial["beyond_recorded"] = true;
   if (next.splits > 0.0) {
     trial["probability_it_settles"] = next.settles;
     trial["probability_it_splits"] = next.splits;

@@ -54,8 +54,8 @@ std::string error_text(const ChannelFit& f) {
 }
 
 std::string next_text(const NextTrial& next) {
-  if (next.kind.empty()) return next.why.empty() ? "" : "next   " + next.why + "\n";
-  return fmt::format("next   {}\n       {}\n", trial_in_words(next.kind, next.words, next.setup), next.why);
+  if (!next.is_recommended()) return next.why.empty() ? "" : "next   " + next.why + "\n";
+  return fmt::format("next   {}:\n       {}\n", next.order, next.reason());
 }
 
 // The widest bounds, and the number of the others.
@@ -92,6 +92,10 @@ bool FoundEffect::may_be_zero() const {
   const bool next = !parameters[0].derived && parameters.size() > 1 && parameters[1].derived;
   const auto& size = parameters[next ? 1 : 0];
   return size.low <= 0.0 && size.high >= 0.0 && size.low < size.high;
+}
+
+std::string NextTrial::reason() const {
+  return order.empty() || !why.starts_with(order + ": ") ? why : why.substr(order.size() + 2);
 }
 
 std::string Where::share_in_words() const {

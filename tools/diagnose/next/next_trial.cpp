@@ -9,7 +9,8 @@
 #include "tools/diagnose/evidence/rivals.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 #include "tools/diagnose/model/quantity.hpp"
-#include "tools/experiment/parallel.hpp"
+#include "tools/diagnose/next/bench_test.hpp"
+#include "tools/diagnose/next/choice.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -21,40 +22,10 @@ using Eigen::VectorXd;
 constexpr double kNarrow = 0.5;  // A bound below this fraction of the typical size is narrow enough.
 // Smallest worth of a recommended trial, in doublings of the information.
 constexpr double kWorthATrial = 0.2;
-constexpr double kPriceOfTrouble = 0.1;  // Doublings subtracted per unit of cost.
-constexpr double kASession = 10.0;       // Largest number of repeats that is still recommended.
+constexpr double kASession = 10.0;    // Largest number of repeats that is still recommended.
 constexpr double kEnoughGain = 10.0;  // Gain / gain that separates two explanations; more counts no further.
 // Number of points of a predicted trace.
 constexpr std::size_t kMostPoints = 400;
-
-// The trial with the largest worth minus cost (the first of equals). `worth`: without cost, in doublings of
-// the information; `all`: the worth of every trial.
-struct Choice {
-  std::size_t trial = 0;
-  double worth = 0.0;
-  std::vector<double> all;
-};
-template <class Worth>
-Choice best_of(const PlannedTrials& planned, const Worth& worth) {
-  Choice choice;
-  choice.all.resize(planned.size());
-  parallel_for(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
-  double most = -1e300;
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    if (const double net = choice.all[i] - kPriceOfTrouble * planned[i].cost; net > most) {
-      most = net;
-      choice.trial = i;
-      choice.worth = choice.all[i];
-    }
-  return choice;
-}
-
-void take(const DoableTrial& trial, const char* purpose, NextTrial& next) {
-  next.purpose = purpose;
-  next.kind = trial.trial.kind;
-  next.setup = trial.trial.setup;
-  next.words = trial.words;
-}
 
 // Stores the two predictions of the channel in which they differ most relative to the noise.
 void show(const Problem& problem, const TrialModel& model, const Contest::Predictions& at, NextTrial& next) {
@@ -204,7 +175,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
     return;
   }
   take(planned[choice.trial], "sharpen", next);
-  next.why = fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; an average one to {:.0f} %.",
+  next.why = fmt::format("narrows the interval{} of {} to {:.0f} % of {} width; an average one to {:.0f} %.",
                          amplitudes.size() > 1 ? "s" : "",
                          diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
                          100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
@@ -231,7 +202,7 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
   });
   take(planned[choice.trial], "map", next);
   next.why = fmt::format(
-      "Maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with an average one "
+      "maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with an average one "
       "to {:.0f} %.",
       rest.family.port, rest.family.variable, 100.0 * std::exp2(-0.5 * choice.worth),
       100.0 * std::exp2(-0.5 * median(choice.all)));
@@ -292,10 +263,9 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   }
   take(planned[choice.trial], "bound", next);
   next.why = fmt::format(
-      "{}The widest bound is that of {}, {:.3g} times its typical size; this trial narrows it to "
-      "{:.3g} times.",
-      few ? "At least five trials are needed to know how far they repeat. " : "", candidate.label(), typicals,
-      typicals * std::exp2(-0.5 * choice.worth));
+      "{} widest bound is that of {}, {:.3g} times its typical size; this trial narrows it to {:.3g} times.",
+      few ? "at least five trials are needed to know how far they repeat. The" : "the", candidate.label(),
+      typicals, typicals * std::exp2(-0.5 * choice.worth));
 }
 
 // "repeat": one of the recorded trials, after the faulty sensor was repaired.
@@ -305,32 +275,78 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
   next.kind = first.kind;
   next.setup = first.setup;
   next.setup.erase("session");
-  next.why = fmt::format("Mend {} first, then record one of these again: the fault must be gone.",
+  next.order = trial_in_words(next.kind, {}, next.setup, Telling::order);
+  next.why = fmt::format("again as recorded, but mend {} first. The fault must be gone.",
                          diagnosis.effects.front().channel);
 }
 
-// Proposes the trial with the largest worth among those within `reach`.
-void propose_within(const Reach& reach, Problem& problem, const Recordings& recordings, Search& search,
-                    const Posterior& belief, const std::vector<Rivals>& rivals, const FreeGain* rest,
-                    const Diagnosis& diagnosis, NextTrial& next) {
-  const Point& point = search.best().fit.point;
-  const Edits edits = edits_for(problem, point.hypothesis, point.tolerances);
-  const PlannedTrials planned(problem,
-                              problem.plant->doable(recordings.trials, recordings.belief, edits, reach));
+// All that the choice of a next trial depends on, besides the reach of the lab.
+struct Question {
+  Problem& problem;
+  const Recordings& recordings;
+  Search& search;
+  const Posterior& belief;
+  const std::vector<Rivals>& rivals;
+  const FreeGain* rest;
+  const Diagnosis& diagnosis;
+};
+
+// Set-ups of the trials that were compared.
+using Setups = std::vector<std::pair<std::map<std::string, double>, std::map<std::string, std::string>>>;
+
+// Proposes the trial with the largest worth among those within `reach`. Leaves `next` unchanged if their
+// set-ups are the `compared` ones, to which no wider reach adds anything.
+void propose_within(const Reach& reach, const Question& q, Setups& compared, NextTrial& next) {
+  const Point& point = q.search.best().fit.point;
+  const Edits edits = edits_for(q.problem, point.hypothesis, point.tolerances);
+  const PlannedTrials planned(
+      q.problem, q.problem.plant->doable(q.recordings.trials, q.recordings.belief, edits, reach));
+  Setups setups;
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    setups.emplace_back(planned[i].trial.setup, planned[i].words);
+  if (planned.size() > 0 && setups == compared) return;
+  compared = std::move(setups);
   if (planned.size() == 0) {
     next.why =
         "No trial can be planned from the set-ups of this campaign. List what can be set for the next one "
         "under [available] in campaign.toml (guide: The recording contract).";
     return;
   }
-  if (!diagnosis.unknown.empty() && rest != nullptr)
-    map_further(problem, planned, search, *rest, next);
-  else if (search.best().set.empty())
-    bound_closer(problem, planned, search, diagnosis.verdict == Verdict::insufficient_data, next);
-  else if (!rivals.empty())
-    split(problem, planned, search, belief, rivals, next);
+  if (!q.diagnosis.unknown.empty() && q.rest != nullptr)
+    map_further(q.problem, planned, q.search, *q.rest, next);
+  else if (q.search.best().set.empty())
+    bound_closer(q.problem, planned, q.search, q.diagnosis.verdict == Verdict::insufficient_data, next);
+  else if (!q.rivals.empty())
+    split(q.problem, planned, q.search, q.belief, q.rivals, next);
   else
-    sharpen(problem, planned, search, diagnosis, next);
+    sharpen(q.problem, planned, q.search, q.diagnosis, next);
+}
+
+// No trial within reach splits a class: another set-up that any lab can make, else a test on the bench.
+void look_further(const Reach& reach, const Question& q, Setups& compared, NextTrial& next) {
+  NextTrial further;
+  propose_within(reach.with_free_numbers(), q, compared, further);
+  if (further.is_recommended()) {
+    next = std::move(further);
+    next.beyond_recorded = true;
+    return;
+  }
+  if (!further.why.empty()) next.why = further.why;
+  for (const auto& group : q.rivals)
+    if (const auto test = bench_test_for(group.names, q.problem.candidates, q.problem.context.plant)) {
+      next.purpose = "split";
+      next.kind = test->kind;
+      next.order = test->order;
+      next.why = test->why + " " + next.why;
+      break;
+    }
+  NextTrial with_parts;
+  propose_within(reach.with_any_part(), q, compared, with_parts);
+  if (with_parts.is_recommended())
+    next.why += fmt::format(
+        " With a part that this campaign has neither recorded nor lists under [available] a trial would: "
+        "{}: {}",
+        with_parts.order, with_parts.why);
 }
 
 }  // namespace
@@ -338,18 +354,17 @@ void propose_within(const Reach& reach, Problem& problem, const Recordings& reco
 void propose_next_trial(Problem& problem, const Recordings& recordings, Search& search,
                         const Posterior& belief, const FreeGain* rest, Diagnosis& diagnosis) {
   NextTrial& next = diagnosis.next;
-  if (diagnosis.detail == Detail::data_fault) return record_again(recordings, diagnosis, next);
   const Reach reach(recordings.trials, recordings.available, recordings.words);
-  const auto rivals = rivals_of(problem, search, belief);
-  propose_within(reach, problem, recordings, search, belief, rivals, rest, diagnosis, next);
-  if (!next.kind.empty() || rivals.empty()) return;
-  NextTrial beyond;
-  propose_within(Reach::anything(), problem, recordings, search, belief, rivals, rest, diagnosis, beyond);
-  if (beyond.kind.empty()) return;
-  next.why += fmt::format(
-      " A set-up that this campaign has neither recorded nor lists under [available] "
-      "would: {}. {}",
-      trial_in_words(beyond.kind, beyond.words, beyond.setup), beyond.why);
+  if (diagnosis.detail == Detail::data_fault) {
+    record_again(recordings, diagnosis, next);
+  } else {
+    const auto rivals = rivals_of(problem, search, belief);
+    const Question question{problem, recordings, search, belief, rivals, rest, diagnosis};
+    Setups compared;
+    propose_within(reach, question, compared, next);
+    if (!next.is_recommended() && !rivals.empty()) look_further(reach, question, compared, next);
+  }
+  complete(reach, next);
 }
 
 }  // namespace sandhopper::diagnose

@@ -8,7 +8,9 @@
 namespace sandhopper::diagnose {
 
 // Chooses the next trial among set-ups that were recorded or that the campaign lists under [available], and
-// fills diagnosis.next. If none of them separates the rivals, the text names another set-up that would.
+// fills diagnosis.next. If none of them separates the rivals: a set-up beyond the recorded ones in numbers
+// that any lab can choose; else a test on the bench (bench_test.hpp), and the text names the set-up with
+// another part that would separate them, if there is one.
 //   split    rival explanations are left: xi* = argmax mean_ij log2(1 + min(lambda_ij(xi) / apart, enough)) -
 //            cost(xi). No trial if a session of them would not separate a rival.
 //   sharpen  one explanation: largest reduction of its parameters' variances

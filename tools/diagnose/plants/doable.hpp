@@ -22,15 +22,15 @@ Extent extent_of(const std::vector<Trial>& recorded, const std::string& key, dou
 // Drops over release height, release speed and payload, simulated with `edits`.
 std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector<Trial>& recorded,
                                       const Belief& belief, const Edits& edits, const Reach& reach);
-// Motions of a rotary axis, simulated with `edits`. If a set-up key is not in reach, only motions within the
-// recorded angles and speeds.
+// Motions of a rotary axis, simulated with `edits`. If a set-up key is neither listed nor recorded, only
+// motions within the recorded angles and speeds, unless numbers are free.
 std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, const Belief& belief,
                                         const Edits& edits, const Reach& reach);
 // Intrusions over profile, speed, depth and plate. Only the motion is planned: force_N is 0.
 std::vector<DoableTrial> doable_intrusions(const std::vector<Trial>& recorded, const Belief& belief,
                                            const Reach& reach);
-// First strides over release height and leg stiffness, simulated with `edits`. Any stiffness is in reach,
-// because it is only a parameter of the robot.
+// First strides over release height and leg stiffness, simulated with `edits`. Any stiffness that the
+// campaign does not exclude is in reach, because it is only a parameter of the robot.
 std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const Belief& belief,
                                      const Edits& edits, const Reach& reach);
 

@@ -182,13 +182,15 @@ StudyAnswer how_much_better(const Diagnosis& d) {
 
 StudyAnswer what_next(const Diagnosis& d) {
   StudyAnswer box{"What next", {}, {}, 2};
-  if (d.next.kind.empty()) {
+  if (!d.next.is_recommended()) {
     box.lines.emplace_back(Style::lead, "No trial to recommend");
     if (!d.next.why.empty()) box.lines.emplace_back(Style::text, d.next.why);
     return box;
   }
-  box.lines.emplace_back(Style::lead, trial_in_words(d.next.kind, d.next.words, d.next.setup));
-  box.lines.emplace_back(Style::text, d.next.why);
+  box.lines.emplace_back(Style::lead, d.next.order + ":");
+  if (d.next.beyond_recorded)
+    box.lines.emplace_back(Style::quiet, "Beyond the recorded set-ups; the campaign states no limit.");
+  box.lines.emplace_back(Style::text, d.next.reason());
   return box;
 }
 

@@ -35,8 +35,8 @@ const EffectRegistration kEffect(
      .port = Port::inertia,
      .statement = "The body's mass is not what is believed.",
      .equation = "m -> m + e (p m + (1 - p) m_0), p = 1 if all trials have one mass m_0",
-     .bench_tests = {{.sentence = "Weigh the body on a balance, out of the medium: a wrong mass shows there, "
-                                  "and nothing of drag, buoyancy, added mass or a sensor does.",
+     .bench_tests = {{.sentence = "Weigh the body on a balance in air: a wrong mass shows there, and nothing "
+                                  "of drag, added mass or a sensor of the drop does.",
                       .plants = {PlantKind::falling_body}},
                      {.sentence = "Weigh the body on a balance, without foot and links: a wrong mass shows "
                                   "there, and nothing of the motors, the rail, the cable or a sensor does.",

@@ -10,8 +10,9 @@ const EffectRegistration kEffect(
      .equation = "y = (1 + g) F",
      .bench_tests =
          {{.kind = "hold",
-           .sentence = "Put two known weights on the load cell, one after the other: a wrong gain errs in "
-                       "proportion to the weight, an offset by the same force, and no mass or bed enters."}},
+           .sentence =
+               "Put two known weights on the load cell, one after the other: a wrong gain errs in proportion "
+               "to the weight, an offset by the same force, and neither the {robot} nor a bed enters."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =

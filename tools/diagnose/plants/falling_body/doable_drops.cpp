@@ -7,7 +7,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kHighest_m = 30.0;  // highest planned release, unless a higher one was recorded
+// Highest planned release, unless a higher one was recorded: of a campaign that lists its heights, and of
+// one that does not, which may have no more than a room.
+constexpr double kHighest_m = 30.0, kHighestInARoom_m = 2.5;
 constexpr double kLongest_s = 10.0;  // longest planned recording
 
 struct Drop {
@@ -117,10 +119,12 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
   if (release_heights.empty()) release_heights = {heights.high};
   const auto speeds = with_none(reach.settings("release_speed_mps", {3.0, 8.0}));
   const auto payloads = with_none(reach.parts("payload_kg", {0.5 * mass_kg, mass_kg, 3.0 * mass_kg}));
+  const double highest_m =
+      std::max(reach.lists("release_height_m") ? kHighest_m : kHighestInARoom_m, heights.high);
   for (const double height_m : release_heights)
     for (const double speed_mps : speeds)
       for (const double payload_kg : payloads) {
-        if (height_m > std::max(kHighest_m, heights.high)) continue;
+        if (height_m > highest_m) continue;
         DoableTrial one;
         one.belief = belief;
         one.trial = planned(plant, recorded.front(), belief, edits, {height_m, speed_mps, payload_kg});

@@ -96,7 +96,10 @@ std::vector<DoableTrial> doable_hops(const std::vector<Trial>& recorded, const B
   const auto heights = extent_of(recorded, "release_height_m", 0.05);
   auto release_heights = reach.settings("release_height_m", {0.01, 0.03, 0.05, 0.08, 0.12});
   if (release_heights.empty()) release_heights = {heights.high};
-  for (const double stiffness : {250.0, 375.0, 500.0})
+  // The leg's stiffness is a number of the controller, so any is in reach unless the campaign lists some.
+  const auto stiffnesses =
+      reach.with_free_numbers().settings("compression_stiffness_N_per_m", {250.0, 375.0, 500.0});
+  for (const double stiffness : stiffnesses)
     for (const double height_m : release_heights) {
       if (stiffness < kSoft_N_per_m && height_m > kHighestForSoft_m) continue;
       trials.push_back(planned(*sample, belief, edits, course.hops.front().state, {height_m, stiffness}));

@@ -138,23 +138,25 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
   const double furthest_rad = largest_of(recorded, "position_rad"),
                fastest_radps = largest_of(recorded, "velocity_radps");
-  // An axis that no recorded torque drives can only be let go, unless the campaign lists more. The torque of
+  // An axis that no recorded torque drives can only be let go, unless the campaign lists more: a drive is a
+  // part. The torque of
   // a free axis is filled in as 0 where it is not recorded.
   const double strongest_recorded_Nm = largest_of(recorded, "torque_Nm");
   const bool is_driven = std::isfinite(strongest_recorded_Nm) && strongest_recorded_Nm > 0.0;
   for (const auto& wish : wishes(duration_s, reach)) {
-    if (wish.target_rad && !is_driven && !reach.is_anything() &&
-        reach.settings(wish.setup.begin()->first, {}).empty())
+    if (wish.target_rad && !is_driven && !reach.has_any_part() && !reach.knows(wish.setup.begin()->first))
       continue;
     if (!wish.profile.empty() && !reach.allows("profile", wish.profile)) continue;
+    if (!std::ranges::all_of(wish.setup, [&](const auto& e) { return reach.allows(e.first, e.second); }))
+      continue;
     const PlannedMotion m = wish.target_rad
                                 ? followed(axis, duration_s, wish.target_rad)
                                 : released(axis, duration_s, wish.setup.at("release_position_rad"));
-    const bool is_known = std::ranges::all_of(
-        wish.setup, [&](const auto& entry) { return !reach.settings(entry.first, {}).empty(); });
+    const bool is_known =
+        std::ranges::all_of(wish.setup, [&](const auto& e) { return reach.knows(e.first); });
     const bool goes_beyond =
         !is_within(m.angle_rad, furthest_rad) || !is_within(m.speed_radps, fastest_radps);
-    if (!is_known && goes_beyond && !reach.is_anything()) continue;
+    if (!is_known && goes_beyond && !reach.has_free_numbers()) continue;
     double strongest_Nm = 0.0;
     for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));
     if (!(strongest_Nm < 0.8 * range_Nm)) continue;
