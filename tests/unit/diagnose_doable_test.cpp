@@ -7,6 +7,7 @@
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/answer/diagnosis_json.hpp"
 #include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/model/quantity.hpp"
 #include "tools/diagnose/next/choice.hpp"
 
 namespace sandhopper::diagnose {

@@ -160,7 +160,8 @@ TEST(DiagnoseNextTrial, DrivesNoAxisThatHasNoDrive) {
   auto r = swings([](double, double w, double torque) { return -torque - 0.05 * w; });
   for (auto& trial : r.trials) std::ranges::fill(trial.channels["torque_Nm"], 0.0);
   const auto d = diagnose(r);
-  if (!d.next.setup.empty()) EXPECT_TRUE(d.next.setup.contains("release_position_rad")) << d.next.why;
+  for (const char* driven : {"position_rad", "amplitude_rad", "frequency_Hz", "speed_radps"})
+    EXPECT_FALSE(d.next.setup.contains(driven)) << d.next.why;
 }
 
 TEST(DiagnoseNextTrial, StandsInTheAnswersFileWithItsSetUp) {
