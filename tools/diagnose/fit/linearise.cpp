@@ -18,13 +18,6 @@ constexpr double kNuisanceStep = 0.5;   // greatest step, in standard deviations
 // Step of the derivative, limited to the plausible range of the nuisance.
 double step_of(const Nuisance& nuisance) { return std::min(nuisance.step, kNuisanceStep * nuisance.sd); }
 
-// m' m
-MatrixXd self_product(const MatrixXd& m) {
-  MatrixXd half = MatrixXd::Zero(m.cols(), m.cols());
-  half.selfadjointView<Eigen::Lower>().rankUpdate(m.transpose());
-  return half.selfadjointView<Eigen::Lower>();
-}
-
 struct Centre {
   std::size_t index;
   const Edits& edits;
@@ -38,7 +31,7 @@ void whiten(const Problem& problem, std::size_t index, KeptColumns& kept) {
   kept.white_block = kept.block;
   whiten(problem, index, kept.white_shared);
   whiten(problem, index, kept.white_block);
-  kept.gram = self_product(kept.white_shared);
+  kept.gram = kept.white_shared.transpose() * kept.white_shared;
   if (!trial.block_nuisances.empty()) {
     const auto nb = static_cast<Index>(trial.block_nuisances.size());
     kept.block_gram.assign(trial.blocks, MatrixXd::Zero(nb, nb));
@@ -92,7 +85,9 @@ MatrixXd gram_of(const MatrixXd& x, const std::vector<Index>& columns, const Kep
   const Index own = x.cols(), more = static_cast<Index>(columns.size());
   const MatrixXd cross = x.transpose() * kept.white_shared;
   MatrixXd gram(own + more, own + more);
-  gram.topLeftCorner(own, own) = self_product(x);
+  MatrixXd products = MatrixXd::Zero(own, own);
+  products.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+  gram.topLeftCorner(own, own) = products.selfadjointView<Eigen::Lower>();
   for (Index j = 0; j < more; ++j) {
     const Index c = columns[static_cast<std::size_t>(j)];
     gram.block(0, own + j, own, 1) = cross.col(c);

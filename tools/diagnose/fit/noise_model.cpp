@@ -182,27 +182,29 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
     if (used[k] && used[k - 1] && trial.rows[k].channel == trial.rows[k - 1].channel &&
         trial.rows[k].block == trial.rows[k - 1].block)
       before[k] = static_cast<std::uint8_t>(std::min<std::size_t>(before[k - 1] + 1u, kOrder));
-  // Coefficients of the filter along a column, for scaled values: 1 / s, -a_1 / s, -a_2 / s, ….
-  Eigen::ArrayXd scale(static_cast<Eigen::Index>(rows));
-  Eigen::ArrayXXd filter = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(rows), kOrder + 1);
+  // The filter along a column: w_k = (e_k - a_1 e_{k-1} - …) / s with e_k = value_k / sd_k.
+  const auto n = static_cast<Eigen::Index>(rows);
+  Eigen::ArrayXd sds = Eigen::ArrayXd::Zero(n);  // 0: the row is not used and may hold anything
+  Eigen::ArrayXd innovation = Eigen::ArrayXd::Ones(n);
+  Eigen::ArrayXXd past = Eigen::ArrayXXd::Zero(n, kOrder);
   for (std::size_t k = 0; k < rows; ++k) {
+    if (!used[k]) continue;
     const auto i = static_cast<Eigen::Index>(k);
     const Row& row = trial.rows[k];
-    scale[i] = used[k] ? 1.0 / sd(trial, row) : 0.0;
+    sds[i] = sd(trial, row);
     const auto& [a, innovation_sd] = channels_[row.channel].correlation_of_phase[row.phase];
-    const bool filtered = before[k] >= a.size();
-    filter(i, 0) = filtered ? 1.0 / innovation_sd : 1.0;
-    for (std::size_t j = 0; j < a.size() && filtered; ++j)
-      filter(i, static_cast<Eigen::Index>(j) + 1) = -a[j] / innovation_sd;
+    if (before[k] < a.size()) continue;
+    innovation[i] = innovation_sd;
+    for (std::size_t j = 0; j < a.size(); ++j) past(i, static_cast<Eigen::Index>(j)) = a[j];
   }
-  const auto n = static_cast<Eigen::Index>(rows);
   Eigen::ArrayXd scaled(n);
   for (Eigen::Index c = 0; c < values.cols(); ++c) {
-    scaled = (scale > 0.0).select(values.col(c).array() * scale, 0.0);  // the unused may hold anything
     auto column = values.col(c).array();
-    column = filter.col(0) * scaled;
+    scaled = (sds > 0.0).select(column / sds, 0.0);
+    column = scaled;
     for (Eigen::Index lag = 1; lag <= static_cast<Eigen::Index>(kOrder) && lag < n; ++lag)
-      column.tail(n - lag) += filter.col(lag).tail(n - lag) * scaled.head(n - lag);
+      column.tail(n - lag) -= past.col(lag - 1).tail(n - lag) * scaled.head(n - lag);
+    column /= innovation;
   }
 }
 
