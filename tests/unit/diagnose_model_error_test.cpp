@@ -118,6 +118,33 @@ PerRow per_row(const Recordings& recordings) {
   return out;
 }
 
+// Hops with the dry friction of the belief, as a program simulates them whose friction changes its sign
+// within `switch_factor` times the believed speeds. `more`: friction that the belief lacks, relative.
+Recordings hops_with_friction(double switch_factor, double more) {
+  Recordings r;
+  r.plant = PlantKind::hopper;
+  Edits edits;
+  for (const char* key : {"robot.rail_coulomb_N", "robot.joint_coulomb_Nm"}) edits.scale(key, 1.0 + more);
+  for (int i = 0; i < 4; ++i) {
+    HopperRun run = hop_from(0.04 + 0.004 * i, 0.45, edits);
+    run.friction_switch_factor = switch_factor;
+    r.trials.push_back(recorded(run, {}, static_cast<std::uint64_t>(i) + 1));
+    r.trials.back().name = std::to_string(i);
+    r.beliefs.push_back(r.belief);
+  }
+  return r;
+}
+
+// The belief does not say how dry friction changes its sign. Another program's way must not count as a
+// misfit; more friction must.
+TEST(DiagnoseModelError, SetValuedFrictionIsNoMisfit) {
+  const auto same = per_row(hops_with_friction(1.0, 0.0)), sharp = per_row(hops_with_friction(0.1, 0.0)),
+             more = per_row(hops_with_friction(1.0, 0.5));
+  EXPECT_GT(sharp.noise_alone, 1.3 * same.noise_alone);
+  EXPECT_LT(sharp.with_model_error, 1.05 * same.with_model_error);
+  EXPECT_GT(more.with_model_error, 1.3 * same.with_model_error);
+}
+
 // A recorded phase change is known only to one row. A liftoff that is half a row off must not count as a
 // misfit.
 TEST(DiagnoseModelError, ALiftoffHalfARowOffTheRecordedOneIsNoMisfit) {

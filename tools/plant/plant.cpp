@@ -53,7 +53,8 @@ double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
   double friction = 0.0, cogging = 0.0;
   if (robot_.joint_coulomb_Nm != 0.0)
     friction =
-        -motors_ * robot_.joint_coulomb_Nm * std::tanh(s.angular_velocity_radps / kJointSwitchSpeed_radps);
+        -motors_ * robot_.joint_coulomb_Nm *
+        std::tanh(s.angular_velocity_radps / (options_.friction_switch_factor * kJointSwitchSpeed_radps));
   if (robot_.cogging_amplitude_Nm != 0.0)
     cogging = motors_ * robot_.cogging_amplitude_Nm * std::sin(robot_.cogging_periods_per_rev * s.angle_rad);
   const double stops = kEndStopStiffness_Nm_per_rad * (std::max(0.0, kEndStopLow_rad - s.angle_rad) -
@@ -93,7 +94,8 @@ Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept 
   const double body_velocity = toe_velocity + d.leg.dlength_m_per_rad * s.angular_velocity_radps;
   r.rail_force_N = -robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
   if (robot_.rail_coulomb_N != 0.0)
-    r.rail_force_N -= robot_.rail_coulomb_N * std::tanh(body_velocity / kRailSwitchSpeed_mps);
+    r.rail_force_N -= robot_.rail_coulomb_N *
+                      std::tanh(body_velocity / (options_.friction_switch_factor * kRailSwitchSpeed_mps));
   r.joint_torque_Nm = joint_torque_Nm(s);
   if (options_.extension != nullptr) {
     const double body_z = s.foot_z_m - s.series_m + leg_.parameters().foot_height_m + d.leg.length_m;

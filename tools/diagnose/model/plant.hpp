@@ -48,13 +48,13 @@ struct Coordinate {
   std::vector<double> values;  // one per row
 };
 
-// Numerical variant of the simulation: the same physics with another step size, or with one recorded event at
-// another time.
+// Variant of the simulation that another program with the same belief might be: another step size, one
+// recorded event at another time, or believed dry friction that changes its sign within other speeds.
 struct Variant {
-  enum class Kind : std::uint8_t { none, step, event };
+  enum class Kind : std::uint8_t { none, step, event, friction };
   Kind kind = Kind::none;
   std::size_t event = 0;  // index of the recorded event
-  double amount = 0.0;    // step: factor of the step size; event: delay in rows
+  double amount = 0.0;    // step, friction: factor of the step size, of the speeds; event: delay in rows
 
   bool empty() const { return kind == Kind::none; }
 };

@@ -39,11 +39,13 @@ void HopperTrial::predict(const Edits& edits, std::span<const double> n, std::sp
 }
 
 std::vector<VariantPair> HopperTrial::variants() const {
-  constexpr double kFiner = 0.5, kHalfARow = 0.5;
+  // Nearly set-valued friction; sharper still, the steps would not resolve it.
+  constexpr double kFiner = 0.5, kHalfARow = 0.5, kSharper = 0.1;
   std::vector<VariantPair> pairs{{{}, {Variant::Kind::step, 0, kFiner}}};
   for (std::size_t i = 1; i < course_.phases.size(); ++i)
     if (course_.phases[i].time_s < course_.end_s)
       pairs.push_back({{Variant::Kind::event, i, -kHalfARow}, {Variant::Kind::event, i, kHalfARow}});
+  pairs.push_back({{}, {Variant::Kind::friction, 0, kSharper}});
   return pairs;
 }
 
@@ -55,6 +57,7 @@ void HopperTrial::predict_variant(const Variant& variant, const Edits& edits, st
   for (std::uint32_t b = 0; b < blocks; ++b) {
     HopperRun run = run_of(world, b, n);
     if (variant.kind == Variant::Kind::step) run.step_s *= variant.amount;
+    if (variant.kind == Variant::Kind::friction) run.friction_switch_factor = variant.amount;
     if (run.phases != nullptr) run.phases = &phases;
     run.switch_between_cycles = variant.kind == Variant::Kind::event;
     const auto traces = simulate_hopper(run, edits);

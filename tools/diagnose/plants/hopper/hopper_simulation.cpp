@@ -324,6 +324,7 @@ HopperTraces simulate_hopper(const HopperRun& run, const Edits& edits) {
   if (!ground.empty()) bed.extend(&ground);
   Plant::Options options;
   options.cable_force_N = run.cable_force_N;
+  options.friction_switch_factor = run.friction_switch_factor;
   if (!ports.empty()) options.extension = &ports;
   const auto table = leg_table(Leg(run.world.robot.leg));
   options.leg_table = table.get();

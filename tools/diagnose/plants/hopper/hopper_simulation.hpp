@@ -48,6 +48,7 @@ struct HopperRun {
   BedHistory bed_history{};
   double from_s = 0.0, to_s = 1.0;
   double step_s = kHopperStep_s;
+  double friction_switch_factor = 1.0;  // Plant::Options
   // True: the command follows a phase change at once, not with the next cycle.
   bool switch_between_cycles = false;
   const std::vector<PhaseChange>* phases = nullptr;
