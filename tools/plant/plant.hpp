@@ -70,7 +70,7 @@ class Plant {
     double cable_force_N = 0.0;  // constant, pulls the body down
     bool bed_memory = true;      // false: the surface is restored as soon as the foot is above
                                  // it
-    // Of the speeds within which the believed dry friction of rail and joints changes its sign.
+    // Factor on the speeds within which the believed dry friction of rail and joints changes its sign.
     double friction_switch_factor = 1.0;
     const PlantExtension* extension = nullptr;  // must outlive the plant
     const LegTable* leg_table = nullptr;        // of the same leg, used instead of it; must outlive the plant

@@ -147,7 +147,7 @@ struct NextTrial {
   // repair. Empty: no trial is recommended.
   std::string purpose;
   std::string why;    // Begins with `order`, if a trial is recommended.
-  std::string order;  // What to do: "Drop the body from 1.9 m".
+  std::string order;  // An imperative: "Drop the body from 1.9 m".
   std::string kind;   // Empty: the test is no recording (a weighing), or no trial is recommended.
   std::map<std::string, double> setup;
   std::map<std::string, std::string> words;  // Set-up keys whose values are words (profile).

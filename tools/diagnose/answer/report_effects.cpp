@@ -14,8 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Covariance of a fit's parameters in typical sizes. Sandwich estimate: the scatter of the scores between
-// trials, averaged with the noise (kModelTrials); in addition another form of the
-// laws (`form_deviance`).
+// trials, averaged with the noise (kModelTrials); in addition another form of the laws (`form_deviance`).
 MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
   const auto directions = parameter_directions(problem, point);
   const auto linear = linearise_all(problem, point, directions);

@@ -51,7 +51,7 @@ std::vector<VariantPair> HopperTrial::variants() const {
 
 void HopperTrial::predict_variant(const Variant& variant, const Edits& edits, std::span<const double> n,
                                   std::span<double> out) const {
-  const WorldConfig world = world_of(belief_, edits);
+  const WorldConfig& world = edited_world(edits);
   auto phases = course_.phases;
   if (variant.kind == Variant::Kind::event) phases[variant.event].time_s += variant.amount * kTick_s;
   for (std::uint32_t b = 0; b < blocks; ++b) {
