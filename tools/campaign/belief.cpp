@@ -172,8 +172,9 @@ Belief belief_of_silence(CampaignPlant plant) {
   if (auto* hopper = std::get_if<HopperBelief>(&belief)) {
     quiet(hopper->terrain);
     hopper->robot.rail_coulomb_N = hopper->robot.joint_coulomb_Nm = hopper->robot.cogging_amplitude_Nm = 0.0;
-    hopper->sensors.robot.encoder_velocity_bandwidth_Hz =
-        BeliefSensors::without_effect().robot.encoder_velocity_bandwidth_Hz;
+    const auto none = BeliefSensors::without_effect().robot;
+    hopper->sensors.robot.encoder_velocity_bandwidth_Hz = none.encoder_velocity_bandwidth_Hz;
+    hopper->sensors.robot.imu_rate_Hz = none.imu_rate_Hz;
   }
   return belief;
 }

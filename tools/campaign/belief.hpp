@@ -191,7 +191,8 @@ using Belief = std::variant<HopperBelief, IntruderBelief, FallingBodyBelief, Rot
 // Belief of a plant without nominal.toml. For a hopper: this project's robot in its bed.
 Belief default_belief(CampaignPlant plant);
 // The same without effects that a nominal.toml must state explicitly: no friction of rail and joints, no
-// cogging, no low-pass behind the speed that the controller reads. The bed has only its linear stiffness: no
+// cogging, no low-pass behind the speed that the controller reads, no clock of its own in an accelerometer,
+// so that its sample is one of the row's time. The bed has only its linear stiffness: no
 // intercept, added mass, drag or separate unloading line.
 Belief belief_of_silence(CampaignPlant plant);
 // Value of a key whose number is still to be written (`key = "?"`).

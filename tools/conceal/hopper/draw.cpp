@@ -59,7 +59,8 @@ Json controller_keys(const Gains& g) {
 }
 
 Json sensor_keys(const Sensors& s) {
-  return {{"imu_noise_mps2", s.imu_noise_mps2},
+  return {{"imu_rate_Hz", s.imu_rate_Hz},
+          {"imu_noise_mps2", s.imu_noise_mps2},
           {"imu_bandwidth_Hz", s.imu_bandwidth_Hz},
           {"tof_rate_Hz", s.tof_rate_Hz},
           {"tof_noise_m", s.tof_noise_m},

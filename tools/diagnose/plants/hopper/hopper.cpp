@@ -62,6 +62,10 @@ class Hopper final : public PlantModel {
   // Learned from 13 campaigns of another program with nothing missing (README, model error).
   double port_error() const override { return 0.035; }
   bool changes_within_rows() const override { return true; }
+  double unsure_age_s(const std::string& channel, const Belief& belief, double row_s) const override {
+    if (!channel.starts_with("imu_")) return 0.0;
+    return imu_rate_is_stated(belief) ? std::min(row_s, 1.0 / belief.value("sensors.imu_rate_Hz")) : row_s;
+  }
   // The current loop may run at 1 kHz, 10 kHz or 40 kHz, or continuously.
   double drive_unsure_s() const override { return 5e-5; }
 

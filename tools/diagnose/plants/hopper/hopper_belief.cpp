@@ -33,6 +33,12 @@ WorldConfig world_of(const Belief& belief, const Edits& edits) {
   return world;
 }
 
+bool imu_rate_is_stated(const Belief& belief) {
+  constexpr double kAsGoodAsNone_Hz = 4000.0;  // as for a bandwidth: nothing of it is seen in rows of 1 ms
+  const double rate_Hz = belief.value("sensors.imu_rate_Hz");
+  return rate_Hz > 0.0 && rate_Hz < kAsGoodAsNone_Hz;
+}
+
 Belief with_payload(Belief belief, const Trial& trial) {
   const double payload_kg = trial.setup_or("payload_kg", 0.0);
   if (payload_kg != 0.0)

@@ -52,7 +52,7 @@ std::vector<VariantPair> HopperTrial::variants() const {
 void HopperTrial::predict_variant(const Variant& variant, const Edits& edits, std::span<const double> n,
                                   std::span<double> out) const {
   const WorldConfig& world = edited_world(edits);
-  auto phases = course_.phases;
+  auto phases = phases_at_cycles_;
   if (variant.kind == Variant::Kind::event) phases[variant.event].time_s += variant.amount * kTick_s;
   for (std::uint32_t b = 0; b < blocks; ++b) {
     HopperRun run = run_of(world, b, n);
@@ -111,7 +111,7 @@ HopperRun HopperTrial::run_of(const WorldConfig& world, std::uint32_t block,
     run.start.angular_velocity_radps += share * own[kRate];
     run.crater_m = std::max(0.0, run.crater_m + (block == 0 ? 0.0 : own[kCrater]));
   }
-  run.phases = &course_.phases;
+  run.phases = &phases_at_cycles_;
   if (!commands_.values.empty()) run.recorded_command_Nm = &commands_;
   if (!residual_.values.empty()) run.command_residual_Nm = &residual_;
   return run;

@@ -144,6 +144,17 @@ MeasuredLeg measured_leg(const Trial& trial) {
   return leg;
 }
 
+std::vector<PhaseChange> at_cycles(const HopperCourse& course, double cycle_s) {
+  auto phases = course.phases;
+  for (auto& change : phases) {
+    double from_s = course.hops.empty() ? 0.0 : course.hops.front().from_s;
+    for (const auto& hop : course.hops)
+      if (hop.from_s <= change.time_s) from_s = hop.from_s;
+    change.time_s = from_s + std::round((change.time_s - from_s) / cycle_s) * cycle_s;
+  }
+  return phases;
+}
+
 HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_m) {
   HopperCourse course;
   if (trial.time_s.empty()) return course;

@@ -42,6 +42,11 @@ MeasuredLeg measured_leg(const Trial& trial);
 // release.
 HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_m);
 
+// The phase changes at the cycles of a controller that runs every `cycle_s` from the start of each hop: a
+// recorded change belongs to the cycle that is nearest to its time stamp, which may be early or late by less
+// than half a cycle.
+std::vector<PhaseChange> at_cycles(const HopperCourse& course, double cycle_s);
+
 // Mean of both motors, or the value of the one that was recorded.
 Samples mean_of_motors(const Trial& trial, const std::string& quantity);
 

@@ -48,6 +48,7 @@ HopperTrial::HopperTrial(const Trial& trial, const Belief& belief)
   compression_stiffness_ = trial.setup_or("compression_stiffness_N_per_m", 375.0);
   course_ = course_of(trial, leg, world_.controller.compression_length_m);
   if (course_.hops.empty()) return;
+  phases_at_cycles_ = at_cycles(course_, 1.0 / world_.controller.rate_Hz);
   end_before_end_stop(trial);
   const auto temperature = mean_of_motors(trial, "temperature_C");
   for (const double t : temperature.value)
@@ -135,9 +136,9 @@ double HopperTrial::rate_Hz(std::size_t c) const {
 }
 
 double HopperTrial::period_within_rows_s(std::size_t c, double step_s) const {
-  if (c != kImuBody && c != kImuFoot) return 0.0;
+  if (!is_accelerometer(c)) return 0.0;
   const double rate_Hz = belief_.value("sensors.imu_rate_Hz");
-  return rate_Hz * step_s > 1.01 ? 1.0 / rate_Hz : 0.0;
+  return rate_Hz * step_s > 1.01 && imu_rate_is_stated(belief_) ? 1.0 / rate_Hz : 0.0;
 }
 
 void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
@@ -158,6 +159,8 @@ void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
   for (std::size_t i = 0; i < samples.value.size(); i += every) {
     const double t = samples.time_s[i];
     if (t < course_.hops.front().from_s || t > course_.end_s) continue;
+    // At the release an accelerometer reads the catch or the fall, and its low-pass starts from either.
+    if (is_accelerometer(c) && course_.hops.front().at_rest && t <= course_.hops.front().from_s) continue;
     const std::uint32_t block = block_at(t);
     auto& span = spans_[c][block];
     if (span.count++ == 0) span.first = rows.size();

@@ -77,6 +77,7 @@ enum Source : std::size_t {
   kLoadCell
 };
 constexpr bool is_command(std::size_t source) { return source == kLeftCommand || source == kRightCommand; }
+constexpr bool is_accelerometer(std::size_t source) { return source == kImuBody || source == kImuFoot; }
 
 // Rows, nuisances and labels are in hopper_trial.cpp, runs and readings in hopper_predict.cpp.
 class HopperTrial final : public TrialModel {
@@ -151,6 +152,7 @@ class HopperTrial final : public TrialModel {
   double motor_temperature_C_ = kRoom_C;
   BedHistory bed_history_;
   HopperCourse course_;
+  std::vector<PhaseChange> phases_at_cycles_;  // those of `course_`, for the simulated controller
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
   RecordedController controller_;
   BedGrains grains_;

@@ -69,8 +69,8 @@ class RotaryAxis final : public PlantModel {
   double form_error() const override { return 0.01; }
   std::vector<std::string> phases() const override { return {"rest", "slow", "fast"}; }
   bool phases_are_stages() const override { return false; }
-  bool filtered_in_rows(const std::string& channel, const Belief& belief) const override {
-    return channel == "velocity_radps" && speed_of_encoder(belief);
+  double unsure_age_s(const std::string& channel, const Belief& belief, double row_s) const override {
+    return channel == "velocity_radps" && speed_of_encoder(belief) ? row_s : 0.0;
   }
 
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
