@@ -7,6 +7,7 @@
 
 #include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/discrepancy/low_rank.hpp"
+#include "tools/diagnose/discrepancy/port_error_evidence.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
@@ -157,6 +158,50 @@ TEST(DiagnoseModelError, ALiftoffHalfARowOffTheRecordedOneIsNoMisfit) {
             3.0 * (off.with_model_error - as_recorded.with_model_error));
   EXPECT_LT(off.with_model_error, as_recorded.with_model_error + 0.1);
   EXPECT_GT(far.with_model_error, as_recorded.with_model_error + 0.3);
+}
+
+// Hops on whose rail a force acts that no effect describes: smooth in time, different in every trial.
+Recordings hops_with_rail_force(double force_N) {
+  Recordings r;
+  r.plant = PlantKind::hopper;
+  for (int i = 0; i < 4; ++i) {
+    Edits edits;
+    edits.law(LawPort::rail, [=](const PortState& s) {
+      return force_N * std::sin(2.0 * std::numbers::pi * time_of(s) / 0.12 + 1.7 * i);
+    });
+    r.trials.push_back(recorded(hop_from(0.04 + 0.004 * i, 0.45), edits, static_cast<std::uint64_t>(i) + 1));
+    r.trials.back().name = std::to_string(i);
+    r.beliefs.push_back(r.belief);
+  }
+  return r;
+}
+
+// A port error is learnt where there is one, and none where there is none.
+TEST(DiagnoseModelError, TheEvidenceOfAPortErrorFindsItsSize) {
+  const std::vector<double> sizes{0.0, 0.01, 0.3};
+  const auto without = port_error_evidence(hops_with_rail_force(0.0), sizes),
+             with = port_error_evidence(hops_with_rail_force(0.1), sizes);
+  std::printf("without %.1f %.1f %.1f, with %.1f %.1f %.1f\n", without[0], without[1], without[2], with[0],
+              with[1], with[2]);
+  EXPECT_GT(without[0], without[2]);
+  EXPECT_GT(with[1], with[0]);
+  EXPECT_GT(with[1], with[2]);
+}
+
+TEST(DiagnoseModelError, TheNoiseAddsTheDeterminantOfItsWhitening) {
+  Recordings recordings = hops_with_rail_force(0.0);
+  Prepared prepared = prepare(recordings);
+  Problem& problem = prepared.problem;
+  update_noise(problem, null_point(problem));
+  const TrialModel& trial = *problem.trials[0];
+  const auto rows = static_cast<Eigen::Index>(trial.rows.size());
+  MatrixXd map = MatrixXd::Identity(rows, rows);
+  problem.noise.whiten(trial, problem.used[0], map);
+  double expected = 0.0;
+  for (Eigen::Index k = 0; k < rows; ++k)
+    if (problem.used[0][static_cast<std::size_t>(k)]) expected += std::log(map(k, k));
+  EXPECT_LT(map.triangularView<Eigen::StrictlyUpper>().toDenseMatrix().norm(), 1e-12);
+  EXPECT_NEAR(problem.noise.log_determinant(trial, problem.used[0]), expected, 1e-6 * std::abs(expected));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"
@@ -16,6 +17,7 @@
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/answer/residuals_csv.hpp"
+#include "tools/diagnose/discrepancy/port_error_evidence.hpp"
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
@@ -29,6 +31,7 @@ struct Options {
   bool residuals = false;
   bool report = true;
   double limit_s = std::numeric_limits<double>::infinity();
+  std::vector<double> port_errors;
 };
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -91,6 +94,20 @@ ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& fold
   return ExitCode::no;
 }
 
+// How well each size of the port error explains a campaign in which nothing is missing.
+ExitCode tell_port_errors(Session& session, const sandhopper::diagnose::Recordings& recordings,
+                          const std::vector<double>& sizes, Progress& progress) {
+  const auto evidence = sandhopper::diagnose::port_error_evidence(
+      recordings, sizes, [&](double share) { progress.at(share, "fitting the belief as it is"); });
+  session.result["port_error_evidence"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    session.say("port error {}: log evidence {:.1f}", sizes[i], evidence[i]);
+    session.result["port_error_evidence"].push_back(
+        {{"port_error", sizes[i]}, {"log_evidence", evidence[i]}});
+  }
+  return ExitCode::ok;
+}
+
 ExitCode diagnose(Session& session, const Options& options) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -103,6 +120,8 @@ ExitCode diagnose(Session& session, const Options& options) {
       options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
   made(folder);  // before the work: a folder that cannot be made is said at once
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
+  if (!options.port_errors.empty())
+    return tell_port_errors(session, input.recordings, options.port_errors, progress);
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;
   const auto used = used_numbers(campaign);
@@ -152,6 +171,12 @@ Run set_up(Arguments& arguments) {
   arguments.add_flag("--search", options->search, "also print what was tried");
   arguments.add_flag("--residuals", options->residuals,
                      "also write residuals.csv: recorded minus simulated, before and after, of every row");
+  arguments
+      .add_option("--port-errors", options->port_errors,
+                  "no diagnosis: how well these sizes of the model error at the ports, in shares of each "
+                  "port's scale, explain a campaign in which nothing is missing")
+      .separated_by(',')
+      .in_range(0.0, 10.0);
   return [options](Session& session) { return diagnose(session, *options); };
 }
 

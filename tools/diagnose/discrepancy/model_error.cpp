@@ -69,7 +69,7 @@ ModelError at(const Problem& problem, const TrialModel& trial, const Edits& base
       rest.array() += (s.numerical * 0.5 * (other + one - 2.0 * centre)).array().square();
     }
   }
-  if (const double size = problem.plant->port_error(); size > 0.0)
+  if (const double size = problem.port_error; size > 0.0)
     for (const auto& port : problem.plant->free_ports(problem.context))
       if (!port.sensor)
         parts.emplace_back(size * port_columns(problem, trial, base, nuisances, centre, port, s.port_knot_s));

@@ -26,9 +26,9 @@ constexpr double kComesTrue = 0.05;
 // p-value of sign flips, family-wise; required in addition to Student's t over trials. Also the p-value of
 // the signed-rank test that most trials are worse without the effect (six trials reach 0.016 at best).
 constexpr double kFlips = 0.05;
-// Limits for an effect that is named alone. They are wider: that anything is missing is more probable a
-// priori than one more effect.
-constexpr double kSignificanceAlone = 0.05, kFlipsAlone = 0.1;
+// The p-value by Student's t for an effect that is named alone is larger: that anything is missing is more
+// probable a priori than one more effect. Sign flips have one level.
+constexpr double kSignificanceAlone = 0.05;
 // p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials and for
 // plants with at least the relative form error `kFormInDoubt`. Real effects lie orders of magnitude below it
 // there; effects that only correct the form of the other law at some of its states do not reach it.
@@ -316,8 +316,8 @@ void Search::judge(SetFit& result) {
                               evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
                               (hidden || drop > kMostlyTrue * evidence.gain);
     const bool flips_decide = enough && !beyond_doubt;
-    const double flip_needed = !flips_decide ? 1.0 : alone ? kFlipsAlone : kFlips;
-    evidence.weak = !(evidence.p_value < kSignificance) || (flips_decide && evidence.flip_p_value > kFlips);
+    const double flip_needed = flips_decide ? kFlips : 1.0;
+    evidence.weak = !(evidence.p_value < kSignificance);
     const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
     const double lost = std::min(evidence.gain, drop);
     evidence.too_small = evidence.typicals < smallest;

@@ -208,6 +208,21 @@ void NoiseModel::whiten(const TrialModel& trial, const std::vector<std::uint8_t>
   }
 }
 
+double NoiseModel::log_determinant(const TrialModel& trial, const std::vector<std::uint8_t>& used) const {
+  // W is triangular and reaches back kOrder rows. An impulse in every (kOrder + 1)th row shows its diagonal.
+  constexpr Eigen::Index kApart = static_cast<Eigen::Index>(kOrder) + 1;
+  const auto rows = static_cast<Eigen::Index>(trial.rows.size());
+  double sum = 0.0;
+  for (Eigen::Index first = 0; first < kApart; ++first) {
+    Eigen::MatrixXd impulses = Eigen::MatrixXd::Zero(rows, 1);
+    for (Eigen::Index k = first; k < rows; k += kApart) impulses(k, 0) = 1.0;
+    whiten(trial, used, impulses);
+    for (Eigen::Index k = first; k < rows; k += kApart)
+      if (used[static_cast<std::size_t>(k)]) sum += std::log(impulses(k, 0));
+  }
+  return sum;
+}
+
 NoiseModel estimate_noise(const std::vector<const TrialModel*>& trials,
                           const std::vector<std::vector<std::uint8_t>>& used,
                           const std::vector<Eigen::VectorXd>& residuals, std::size_t phases,

@@ -34,6 +34,8 @@ class NoiseModel {
   // and the autoregression starts anew after them.
   void whiten(const TrialModel& trial, const std::vector<std::uint8_t>& used,
               Eigen::Ref<Eigen::MatrixXd> values) const;
+  // ln|W| of this linear map W over the used rows: what the noise adds to a log likelihood.
+  double log_determinant(const TrialModel& trial, const std::vector<std::uint8_t>& used) const;
   const ChannelNoise& channel(std::size_t i) const { return channels_[i]; }
   // Standard deviation of one row, as whitening uses it.
   double sd(const TrialModel& trial, const Row& row) const;

@@ -23,7 +23,8 @@ using Eigen::VectorXd;
 constexpr double kClockTolerance = 0.15;
 // Upper limit of that, as a share of the row period: a slow sensor's sample is written to the next row.
 constexpr double kRowTolerance = 0.5;
-// Share of PlantModel::unsure_age_s that is one standard deviation: 1 / sqrt(12), any age being equally likely.
+// Share of PlantModel::unsure_age_s that is one standard deviation: 1 / sqrt(12), any age being equally
+// likely.
 constexpr double kAgeTolerance = 0.29;
 // Share of a conversion time: a mean over it is half a conversion old.
 constexpr double kConversionTolerance = 0.29;
@@ -181,11 +182,9 @@ std::vector<Tolerance> tolerances_of(const Problem& problem) {
   const double row_s = problem.row_s;
   for (const auto& [channel, scale] : problem.context.channels) {
     const double sampling_s = std::min(kClockTolerance * scale.step_s, kRowTolerance * row_s);
-    const double age_s =
-        kAgeTolerance * problem.plant->unsure_age_s(channel, problem.context.belief, row_s);
+    const double age_s = kAgeTolerance * problem.plant->unsure_age_s(channel, problem.context.belief, row_s);
     const double mean_s = kConversionTolerance * conversion_s(problem.context.belief, channel);
-    tolerances.push_back(
-        {"time of " + channel, std::hypot(sampling_s, age_s, mean_s), channel, sampling_s});
+    tolerances.push_back({"time of " + channel, std::hypot(sampling_s, age_s, mean_s), channel, sampling_s});
     // It is also unknown if a value is the one at an instant, or the mean over the row or over the
     // conversion.
     if (problem.plant->changes_within_rows())
@@ -266,6 +265,7 @@ Prepared prepare(const Recordings& recordings) {
   Prepared prepared;
   Problem& problem = prepared.problem;
   problem.plant = make_plant(recordings.plant);
+  problem.port_error = problem.plant->port_error();
   problem.channels = problem.plant->channels();
   problem.phases = problem.plant->phases();
   problem.context.plant = recordings.plant;

@@ -57,7 +57,8 @@ struct Problem {
   std::vector<Candidate> candidates;
   Edits in_place;  // effects that the belief contains already
   std::vector<Tolerance> tolerances;
-  double row_s = 0.0;  // median time between rows
+  double row_s = 0.0;       // median time between rows
+  double port_error = 0.0;  // PlantModel::port_error
   // Per channel: least standard deviation of the noise, from the recordings' fast fluctuation.
   std::vector<double> floor_sd;
   NoiseModel noise;

@@ -22,10 +22,15 @@ double Signal::at(double time_s) const {
 void Signal::low_pass(double time_constant_s) {
   if (values.empty() || time_constant_s <= 0.0) return;
   const double ratio = step_s / time_constant_s;
-  // Exact for an input that is linear over each step.
   const double decay = std::exp(-ratio);
-  const double slope_gain = 1.0 - (1.0 - decay) / ratio;
   double before = values.front(), state = values.front();
+  if (means) {
+    for (double& value : values) value = state = decay * state + (1.0 - decay) * value;
+    start_s += 0.5 * step_s;
+    means = false;
+    return;
+  }
+  const double slope_gain = 1.0 - (1.0 - decay) / ratio;
   for (double& value : values) {
     const double now = value;
     state = decay * state + (1.0 - decay) * before + slope_gain * (now - before);

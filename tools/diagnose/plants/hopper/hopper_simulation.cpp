@@ -249,8 +249,10 @@ class Writer {
   Writer(HopperTraces& traces, const Plant& plant, double surface_m, bool means)
       : traces_(traces), plant_(plant), surface_m_(surface_m), means_(means) {
     if (!means_) return;
-    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N})
+    for (Signal* signal : {&traces.body_accel_mps2, &traces.foot_accel_mps2, &traces.force_N}) {
       signal->start_s += 0.5 * signal->step_s;
+      signal->means = true;
+    }
   }
 
   void before_step(std::size_t i, double command_Nm) {

@@ -64,6 +64,11 @@ HopperTrial::HopperTrial(const Trial& trial, const Belief& belief)
   runs_ = HopperRuns(kRunsKept * blocks);
   add_nuisances();
   end_before_next_landing();
+  if (blocks == 1 && !residual_.values.empty()) {
+    const auto run = simulate_hopper(run_of(world_, 0, std::vector<double>(nuisance_count(), 0.0)), {});
+    controller_.smooth_about(run.angle_rad, run.rate_radps);
+    residual_ = controller_.residual_Nm(world_, compression_stiffness_, course_.phases);
+  }
   for (std::size_t c = 0; c < kSources.size(); ++c) add_rows(trial, c);
   if (!rows.empty()) label_rows();
 }

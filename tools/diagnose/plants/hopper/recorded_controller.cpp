@@ -33,13 +33,36 @@ Smoothed smoothed_twice(const Samples& samples) {
 
 RecordedController::RecordedController(const Trial& trial, const Leg& leg, const WorldConfig& believed,
                                        double end_s)
-    : leg_(leg), measured_(measured_leg(trial)), commands_(commands_of(trial)), end_s_(end_s) {
+    : leg_(leg),
+      measured_(measured_leg(trial)),
+      commands_(commands_of(trial)),
+      end_s_(end_s),
+      rate_time_constant_s_(1.0 /
+                            (2.0 * std::numbers::pi * believed.sensors.encoder_velocity_bandwidth_Hz)) {
+  take_smoothed(nullptr, nullptr);
+}
+
+void RecordedController::smooth_about(const Signal& angle_rad, const Signal& rate_radps) {
+  take_smoothed(&angle_rad, &rate_radps);
+}
+
+void RecordedController::take_smoothed(const Signal* angle_rad, const Signal* rate_radps) {
   if (!measured()) return;
-  const Smoothed smoothed = smoothed_twice({measured_.time_s, measured_.angle_rad});
+  Samples apart{measured_.time_s, measured_.angle_rad};
+  if (angle_rad != nullptr)
+    for (std::size_t i = 0; i < apart.value.size(); ++i) apart.value[i] -= angle_rad->at(apart.time_s[i]);
+  const Smoothed smoothed = smoothed_twice(apart);
   const auto count = static_cast<std::size_t>(end_s_ / kTick_s) + 2;
-  smooth_angle_ = on_grid({measured_.time_s, smoothed.value}, 0.0, kTick_s, count, false);
-  smooth_rate_ = on_grid({measured_.time_s, smoothed.rate}, 0.0, kTick_s, count, false);
-  smooth_rate_.low_pass(1.0 / (2.0 * std::numbers::pi * believed.sensors.encoder_velocity_bandwidth_Hz));
+  const auto together = [&](const std::vector<double>& of_difference, const Signal* simulated) {
+    Signal sum = on_grid({measured_.time_s, of_difference}, 0.0, kTick_s, count, false);
+    if (simulated != nullptr)
+      for (std::size_t i = 0; i < count; ++i)
+        sum.values[i] += simulated->at(kTick_s * static_cast<double>(i));
+    return sum;
+  };
+  smooth_angle_ = together(smoothed.value, angle_rad);
+  smooth_rate_ = together(smoothed.rate, rate_radps);
+  smooth_rate_.low_pass(rate_time_constant_s_);
 }
 
 void RecordedController::find_age(const WorldConfig& world, double compression_stiffness_N_per_m,

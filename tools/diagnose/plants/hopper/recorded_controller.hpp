@@ -23,6 +23,11 @@ class RecordedController {
   void find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
                 const std::vector<PhaseChange>& phases);
 
+  // Smooths the recorded leg again, as its difference from a simulated one. The leg's rate bends sharply where
+  // the command jumps; smoothing the recording itself would round that off, and the command that follows from
+  // it. `angle_rad`, `rate_radps`: of a simulation with the same phase changes.
+  void smooth_about(const Signal& angle_rad, const Signal& rate_radps);
+
   // Recorded command minus what this controller computes from the smoothed recorded leg; both motors, on a 1
   // ms grid from 0. The rest is the encoder's noise that passed the controller. Empty if the leg or the
   // commands were not recorded.
@@ -43,13 +48,14 @@ class RecordedController {
 
  private:
   static constexpr std::size_t kLeastSamples = 50;
+  void take_smoothed(const Signal* angle_rad, const Signal* rate_radps);
   std::optional<double> due_s(const WorldConfig& world, double from_s, double to_s, double shorter_m) const;
 
   Leg leg_{LegParameters{}};
   MeasuredLeg measured_;
   Samples commands_;
   Signal smooth_angle_{0.0, 1e-3, {}}, smooth_rate_{0.0, 1e-3, {}};
-  double end_s_ = 0.0;
+  double end_s_ = 0.0, rate_time_constant_s_ = 0.0;
 };
 
 // The same for a recorded trial.
