@@ -65,6 +65,14 @@ TEST(DiagnoseRecorder, LateStampsMoveNoCommandByACycle) {
   EXPECT_GT(misfit(next, current), misfit(exact, current) + 0.2);
 }
 
+// The leg's rate bends where the command jumps at liftoff. Smoothing the recorded leg must not round that off:
+// what follows from it would be a false current, and a leg that is off by a milliradian.
+TEST(DiagnoseRecorder, TheLegAfterLiftoffIsThatOfTheRecording) {
+  const Trial trial = hop();
+  EXPECT_LT(misfit(trial, "motor_left_current_A"), 0.02);
+  EXPECT_LT(misfit(trial, "motor_left_position_rad"), 2e-4);
+}
+
 TEST(DiagnoseRecorder, APhaseChangeBelongsToTheNearestCycle) {
   HopperCourse course;
   course.hops = {{.from_s = 0.1}, {.from_s = 0.5004}};

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/diagnose/plants/hopper/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper/hopper_trial_model.hpp"
@@ -146,6 +147,14 @@ double HopperTrial::period_within_rows_s(std::size_t c, double step_s) const {
   return rate_Hz * step_s > 1.01 && imu_rate_is_stated(belief_) ? 1.0 / rate_Hz : 0.0;
 }
 
+double HopperTrial::imu_settling_s(double period_s) const {
+  const auto& s = world_.sensors;
+  const double apart = world_.gravity_mps2 / std::max(s.imu_noise_mps2, s.imu_resolution_mps2);
+  const double time_constant_s =
+      s.imu_bandwidth_Hz > 0.0 ? 0.5 / (std::numbers::pi * s.imu_bandwidth_Hz) : 0.0;
+  return period_s + (apart > 1.0 ? time_constant_s * std::log(apart) : 0.0);
+}
+
 void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
   sensors_[c] = sensor_belief(belief_, kSources[c].sensor, kSources[c].unit);
   spans_[c].assign(blocks, {});
@@ -161,11 +170,11 @@ void HopperTrial::add_rows(const Trial& trial, std::size_t c) {
   if (ages.size() != samples.value.size()) ages.assign(samples.value.size(), 0.5 * period_s);
   const std::size_t every = step_s < 1.5e-3 ? kSources[c].every : 1;
   const auto unsure = unsure_of_time(samples, period_s / std::sqrt(12.0));
+  const double settled_s = course_.hops.front().from_s + imu_settling_s(period_s);
   for (std::size_t i = 0; i < samples.value.size(); i += every) {
     const double t = samples.time_s[i];
     if (t < course_.hops.front().from_s || t > course_.end_s) continue;
-    // At the release an accelerometer reads the catch or the fall, and its low-pass starts from either.
-    if (is_accelerometer(c) && course_.hops.front().at_rest && t <= course_.hops.front().from_s) continue;
+    if (is_accelerometer(c) && course_.hops.front().at_rest && t <= settled_s) continue;
     const std::uint32_t block = block_at(t);
     auto& span = spans_[c][block];
     if (span.count++ == 0) span.first = rows.size();

@@ -97,6 +97,9 @@ class HopperTrial final : public TrialModel {
   void take_commands(const Trial& trial);
   void add_nuisances();
   double deepest_believed_m() const;
+  // Time after the release until an accelerometer's low-pass has forgotten whether it started from the catch,
+  // which reads 1 g, or from the fall: t = period + tau ln(g / noise).
+  double imu_settling_s(double period_s) const;
   // Sampling rate of a sensor with a clock of its own; 0: it is sampled with the rows.
   double rate_Hz(std::size_t c) const;
   // Sampling period of a sensor that samples faster than the rows, with its own clock; 0 for others. It
