@@ -178,6 +178,21 @@ TEST(DiagnoseSignal, ALagFollowsAStepExponentially) {
   EXPECT_NEAR(signal.at(5e-3), 1.0 - std::exp(-1.0), 0.01);
 }
 
+// A mean over steps that jumps between two of them: the low-pass must follow the jump where it happens, not
+// from the middle of the step before. Values at the ends of the steps are exact.
+TEST(DiagnoseSignal, ALowPassFollowsAJumpOfMeansWhereItHappens) {
+  constexpr double kStep_s = 5e-4, kJump_s = 0.01, kTime_s = 4e-4;
+  const auto after = [&](bool means) {
+    Signal signal{0.5 * kStep_s, kStep_s, {}, means};
+    for (int i = 0; i < 100; ++i) signal.values.push_back(kStep_s * i < kJump_s - 1e-9 ? 0.0 : 1.0);
+    signal.low_pass(kTime_s);
+    return signal.at(kJump_s + 2.0 * kStep_s);
+  };
+  const double exact = 1.0 - std::exp(-2.0 * kStep_s / kTime_s);
+  EXPECT_NEAR(after(true), exact, 1e-12);
+  EXPECT_GT(std::abs(after(false) - exact), 0.01);
+}
+
 TEST(DiagnoseEffects, AreAllOffAtZeroAndHaveSoundParameters) {
   std::set<std::pair<std::string, PlantKind>> ids;
   for (const auto& effect : known_effects()) {

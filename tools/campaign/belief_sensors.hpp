@@ -14,6 +14,7 @@ namespace sandhopper {
 struct OtherSensors {
   double tof_range_m = 0.0;
   double encoder_latency_s = 0.0;
+  double current_bandwidth_Hz = 0.0;
   double current_range_A = 0.0;
   double load_cell_range_N = 0.0;
   double load_cell_latency_s = 0.0;
@@ -63,6 +64,7 @@ struct OtherSensors {
     constexpr Range kBits{0.0, 64.0};
     visit("tof_range_m", self.tof_range_m, kAmount);
     visit("encoder_latency_s", self.encoder_latency_s, kLatency);
+    visit("current_bandwidth_Hz", self.current_bandwidth_Hz, kAmount);
     visit("current_range_A", self.current_range_A, kAmount);
     visit("load_cell_range_N", self.load_cell_range_N, kAmount);
     visit("load_cell_latency_s", self.load_cell_latency_s, kLatency);

@@ -6,11 +6,12 @@ namespace sandhopper {
 namespace {
 
 constexpr std::array kSensors{
-    KeyMeaning{"sensors.imu_rate_Hz", "samples a second of the accelerometers", "h"},
+    KeyMeaning{"sensors.imu_rate_Hz", "samples a second of the accelerometers; not stated: one with each row",
+               "h"},
     KeyMeaning{"sensors.imu_bandwidth_Hz", "cut-off frequency of their low-pass", "h"},
     KeyMeaning{"sensors.imu_noise_mps2", "noise of one acceleration sample", "h"},
     KeyMeaning{"sensors.imu_structure_noise_mps2", "noise that the structure's ringing adds in stance", "H"},
-    KeyMeaning{"sensors.imu_resolution_mps2", "step of the accelerometers' digits", "H"},
+    KeyMeaning{"sensors.imu_resolution_mps2", "step of the accelerometers' digits", "h"},
     KeyMeaning{"sensors.imu_range_mps2", "acceleration at which they stop (clip)", "h"},
     KeyMeaning{"sensors.imu_latency_s", "delay of the accelerometers", "h"},
     KeyMeaning{"sensors.imu_gyro_noise_radps", "noise of one sample of the rate gyroscopes", "H"},
@@ -26,7 +27,8 @@ constexpr std::array kSensors{
         "hr"},
     KeyMeaning{"sensors.encoder_latency_s", "delay of angle and speed", "h"},
     KeyMeaning{"sensors.current_noise_A", "noise of one sample of a motor's current", "H"},
-    KeyMeaning{"sensors.current_range_A", "current at which the measurement stops (clips)", "H"},
+    KeyMeaning{"sensors.current_bandwidth_Hz", "cut-off frequency of its low-pass", "h"},
+    KeyMeaning{"sensors.current_range_A", "current at which the measurement stops (clips)", "h"},
     KeyMeaning{"sensors.load_cell_rate_Hz", "samples a second of the load cell", "hi"},
     KeyMeaning{"sensors.load_cell_bandwidth_Hz", "cut-off frequency of its low-pass", "hi"},
     KeyMeaning{"sensors.load_cell_noise_N", "noise of one force sample", "hi"},
