@@ -59,6 +59,24 @@ TEST(BedTrial, SamplesOfTheProfileHaveTheForceOfTheGroundAlsoWhenTheStanceSwitch
   EXPECT_LT(worst_N, 10.0);
 }
 
+// `hop trial` waits the same time, in which the height filter settles.
+TEST(BedTrial, RobotHangsBeforeItsRelease) {
+  CycleConfig cycle;
+  cycle.limits.strides = 1;
+  for (const std::int64_t hang_cycles : {std::int64_t{0}, kHang_cycles}) {
+    HoppedCycles hop(cycle, {}, {.seed = 4, .noise = true}, hang_cycles);
+    std::int64_t armed = 0, released = 0;
+    while (released == 0 && hop.next()) {
+      const auto now = static_cast<std::int64_t>(hop.frame().cycle);
+      for (const auto& event : hop.controller().events())
+        if (event.kind == EventKind::armed) armed = now;
+      if (hop.output().command.open_catch) released = now;
+    }
+    ASSERT_GT(armed, 0);
+    EXPECT_EQ(released - armed, hang_cycles + 1);
+  }
+}
+
 TEST(BedTrial, LandingsErrAsTheirPriorSays) {
   const double prior_m = ProfileConfig{}.landing_depth_sd_m;
   double squares_m2 = 0.0, landings = 0.0;

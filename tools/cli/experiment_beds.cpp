@@ -62,6 +62,24 @@ void say_later(Session& session, const std::vector<BedScore>& scores) {
   }
 }
 
+void say_depth_errors(Session& session, const std::vector<BedScore>& scores) {
+  session.say(
+      "\nerrors of the estimated depth in first strides, standard deviations: surface at contact [mm],");
+  session.say("drift [mm/s], lag [ms], rest [mm]");
+  session.say("  {:<17} {:>8} {:>8} {:>8} {:>8}", "bed", "surface", "drift", "lag", "rest");
+  std::vector<StrideDepthErrors> all;
+  const auto line = [&](const std::string& name, const std::vector<StrideDepthErrors>& errors) {
+    const auto s = depth_error_spread(errors);
+    session.say("  {:<17} {:>8.2f} {:>8.1f} {:>8.2f} {:>8.2f}", name, 1e3 * s.surface_sd_m,
+                1e3 * s.drift_sd_mps, 1e3 * s.lag_sd_s, 1e3 * s.rest_sd_m);
+  };
+  for (const auto& s : scores) {
+    line(s.bed, s.depth_errors);
+    all.insert(all.end(), s.depth_errors.begin(), s.depth_errors.end());
+  }
+  line("all", all);
+}
+
 std::string alarms(const EventScore& s) { return fmt::format("{:.0f}/{:.0f}", s.false_alarms, s.absent); }
 
 void say_events(Session& session, const std::vector<BedScore>& scores, bool first) {
@@ -126,6 +144,7 @@ ExitCode run(Session& session, const Options& options) {
   const auto scores = scored_beds(score_beds, setup);
   say_first(session, scores);
   say_later(session, scores);
+  say_depth_errors(session, scores);
   say_events(session, scores, true);
   say_events(session, scores, false);
   if (options.null) say_null(session, scores);

@@ -164,6 +164,7 @@ void score_trial(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t s
   score.trials += 1.0;
   score.incomplete += trial.strides.empty();
   score.contact_error_m += trial.contact_error_m;
+  score.depth_errors.push_back(trial.depth_errors);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto& stride = trial.strides[i];
     const auto& answer = answers[i];
@@ -244,6 +245,7 @@ nlohmann::ordered_json json_of(const EventScores& s) {
 }  // namespace
 
 void to_json(nlohmann::ordered_json& json, const BedScore& s) {
+  const auto depth = depth_error_spread(s.depth_errors);
   nlohmann::ordered_json shapes;
   for (std::size_t i = 0; i < s.first.shapes.size(); ++i)
     shapes[std::string(EnumNames<GroundShape>::value[i])] = s.first.shapes[i];
@@ -251,6 +253,11 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
           {"trials", s.trials},
           {"incomplete", s.incomplete},
           {"mean_contact_error_m", s.contact_error_m / std::max(1.0, s.trials - s.incomplete)},
+          {"depth_errors",
+           {{"surface_sd_m", depth.surface_sd_m},
+            {"drift_sd_mps", depth.drift_sd_mps},
+            {"lag_sd_s", depth.lag_sd_s},
+            {"rest_sd_m", depth.rest_sd_m}}},
           {"first_strides",
            {{"strides", s.first.strides},
             {"band", json_of(s.first.band)},

@@ -75,7 +75,8 @@ struct EventScores {
 struct BedScore {
   std::string bed;
   double trials = 0.0, incomplete = 0.0;
-  double contact_error_m = 0.0;  // sum over trials
+  double contact_error_m = 0.0;                   // sum over trials
+  std::vector<StrideDepthErrors> depth_errors{};  // of first strides
   FirstStrideScore first{};
   CraterScore crater{};
   EventScores first_events{}, later_events{};

@@ -44,6 +44,30 @@ std::vector<BedCase> make_cases() {
   return cases;
 }
 
+// Depth errors of a first stride, one for each length over which a bed's fluctuation is correlated.
+class DepthErrorRecorder {
+ public:
+  DepthErrorRecorder(double spacing_m, StrideDepthErrors& errors) : spacing_m_(spacing_m), errors_(errors) {}
+
+  void on_contact(const Estimate& e) {
+    contact_ns_ = e.force_time_ns;
+    contact_mps_ = e.force_velocity_mps;
+  }
+  void add(const Estimate& e, double depth_m, double true_depth_m) {
+    if (depth_m < next_m_) return;
+    next_m_ = depth_m + spacing_m_;
+    errors_.push_back({1e-9 * static_cast<double>(e.force_time_ns - contact_ns_),
+                       e.force_velocity_mps - contact_mps_, true_depth_m - depth_m});
+  }
+
+ private:
+  double spacing_m_;
+  StrideDepthErrors& errors_;
+  double next_m_ = 1e-9;
+  std::int64_t contact_ns_ = 0;
+  double contact_mps_ = 0.0;
+};
+
 }  // namespace
 
 const std::vector<BedCase>& bed_cases() {
@@ -75,7 +99,9 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
   BedTrial trial;
   trial.truth = bed_truth_of(TrialDraw(world, {.seed = seed, .noise = true, .start_ns = 0}).bed());
   bool touched = false;
-  HoppedCycles hop(cycle, world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true});
+  HoppedCycles hop(cycle, world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true},
+                   kHang_cycles);
+  DepthErrorRecorder errors(cycle.stiffness.joint.fluctuation_length_m, trial.depth_errors);
   double crater_m = 0.0;
   std::optional<double> new_ground_error_m;
   while (hop.next()) {
@@ -84,8 +110,11 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
     if (!touched && hop.output().estimate.direct_force_N >= cycle.stiffness.contact_force_N &&
         hop.output().state == State::flight) {
       touched = true;
+      errors.on_contact(hop.output().estimate);
       trial.contact_error_m = std::max(0.0, -truth.foot_z_m);
     }
+    if (touched && trial.strides.empty())
+      errors.add(hop.output().estimate, controller.new_ground_m(), -hop.truth_before().foot_z_m);
     if (controller.new_ground_m() > 0.0 && !new_ground_error_m)
       new_ground_error_m = controller.new_ground_m() + hop.truth_before().foot_z_m;
     if (controller.stride_finished()) {

@@ -7,6 +7,7 @@
 #include "firmware/controller_config.hpp"
 #include "firmware/records.hpp"
 #include "terrain/ground_events.hpp"
+#include "tools/experiment/depth_errors.hpp"
 #include "tools/experiment/treatments.hpp"
 #include "tools/plant/bed_truth.hpp"
 
@@ -42,6 +43,7 @@ struct BedTrial {
   BedTruth truth{};
   std::vector<BedStride> strides{};  // strides with a liftoff
   double contact_error_m = 0.0;      // true depth at the first contact
+  StrideDepthErrors depth_errors{};  // of the first stride's samples on new ground, 2 mm apart
 };
 
 // Runs trial number `seed` - 1 of a case. Its set-up cycles through hop_cells(). Ends after `strides`

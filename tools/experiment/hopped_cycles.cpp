@@ -2,8 +2,9 @@
 
 namespace sandhopper {
 
-HoppedCycles::HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup)
-    : world_(world, setup, 0), board_(world_), controller_(cycle) {}
+HoppedCycles::HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup,
+                           std::int64_t hang_cycles)
+    : world_(world, setup, 0), board_(world_), controller_(cycle), hang_cycles_(hang_cycles) {}
 
 bool HoppedCycles::next(const std::function<void(SensorFrame&)>& change) {
   ++cycle_;
@@ -19,7 +20,8 @@ bool HoppedCycles::next(const std::function<void(SensorFrame&)>& change) {
   output_ = &controller_.step(told_);
   board_.write(output_->command);
   for (const auto& event : controller_.events())
-    if (event.kind == EventKind::armed) request_ = Request::release;
+    if (event.kind == EventKind::armed) release_cycle_ = cycle_ + hang_cycles_;
+  if (cycle_ == release_cycle_) request_ = Request::release;
   return !faulted() && !(output_->state == State::idle && cycle_ > 1) && cycle_ + 1 < kLongest_cycles;
 }
 

@@ -12,7 +12,10 @@ namespace sandhopper {
 // release.
 class HoppedCycles {
  public:
-  HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup);
+  // The robot hangs for `hang_cycles` between arming and release. At 0 the height filter still has the spread
+  // that it starts with; after kHang_cycles it has settled, as in every simulated trial of `hop trial`.
+  HoppedCycles(const CycleConfig& cycle, const WorldConfig& world, const TrialSetup& setup,
+               std::int64_t hang_cycles = 0);
 
   // Runs one cycle. Returns false when the trial is over. `change` may modify the controller's input.
   bool next(const std::function<void(SensorFrame&)>& change = {});
@@ -36,6 +39,7 @@ class HoppedCycles {
   PlantTruth truth_{}, before_{};
   Request request_ = Request::arm;
   std::int64_t cycle_ = 0;
+  std::int64_t hang_cycles_, release_cycle_ = kLongest_cycles;
 };
 
 }  // namespace sandhopper

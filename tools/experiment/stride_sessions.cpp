@@ -90,7 +90,10 @@ class Session {
     CycleConfig cycle = setup_.cycle;
     cycle.controller.compression_stiffness_N_per_m = how.leg_stiffness_N_per_m;
     cycle.limits.strides = 1;
-    HoppedCycles trial(cycle, world_, {.release_height_m = how.drop_height_m, .seed = seed, .noise = true});
+    HoppedCycles trial(
+        cycle, world_,
+        {.release_height_m = how.drop_height_m, .seed = seed, .noise = true, .robot_seed = seed_},
+        kHang_cycles);
     Stride stride;
     while (trial.next()) {
       stride.deepest_m = trial.truth().max_depth_m;

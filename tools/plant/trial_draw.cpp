@@ -91,8 +91,9 @@ Drive TrialDraw::drive(Side side) const {
   const bool left = side == Side::left;
   Drive::Imperfection imperfection{.noisy = setup_.noise};
   if (setup_.noise) {
-    Random random(setup_.seed, kDriveSpread);
-    imperfection.torque_constant_relative = config_.spread.torque_constant_relative * limited_normal(random);
+    Random robot(setup_.robot_seed.value_or(setup_.seed), kDriveSpread), random(setup_.seed, kDriveSpread);
+    imperfection.torque_constant_relative = config_.spread.torque_constant_relative * limited_normal(robot);
+    random.normal();  // this number is the torque constant's if the robot has no seed of its own
     const double offset_left_A = config_.spread.current_offset_A * limited_normal(random);
     const double offset_right_A = config_.spread.current_offset_A * limited_normal(random);
     imperfection.current_offset_A = left ? offset_left_A : offset_right_A;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "terrain/bed.hpp"
 #include "tools/plant/drive.hpp"
@@ -17,6 +18,7 @@ class TrialDraw {
     std::uint64_t seed;
     bool noise;
     std::int64_t start_ns;
+    std::optional<std::uint64_t> robot_seed{};  // of the torque constant's error; none: `seed`
   };
   TrialDraw(const WorldConfig& config, const Setup& setup) : config_(config), setup_(setup) {}
 

@@ -9,7 +9,11 @@ namespace sandhopper {
 
 World::World(const WorldConfig& config, const TrialSetup& setup, std::int64_t start_ns)
     : World(config, setup,
-            TrialDraw(config, {.seed = setup.seed, .noise = setup.noise, .start_ns = start_ns}), start_ns) {}
+            TrialDraw(config, {.seed = setup.seed,
+                               .noise = setup.noise,
+                               .start_ns = start_ns,
+                               .robot_seed = setup.robot_seed}),
+            start_ns) {}
 
 World::World(const WorldConfig& config, const TrialSetup& setup, const TrialDraw& draw, std::int64_t start_ns)
     : gravity_mps2_(config.gravity_mps2),

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "drivers/samples.hpp"
 #include "firmware/command.hpp"
@@ -22,7 +23,14 @@ struct TrialSetup {
   std::uint64_t seed = 1;
   bool noise = true;
   bool bed_memory = true;  // later strides land in the crater of earlier ones
+  // Seed of the robot: trials with the same one have the same error of the torque constant. Without it that
+  // error is drawn for each trial.
+  std::optional<std::uint64_t> robot_seed{};
 };
+
+// Cycles from arming to release in a simulated trial. The height filter starts with a spread of 10 mm; after
+// less time than this, its height still changes in the stance.
+inline constexpr std::int64_t kHang_cycles = 100;
 
 // Robot, bed and sensors. Their time advances on a 0.1 ms grid from `start_ns`, and only in advance_to().
 // Until open_catch() the catch holds the robot: foot at the release height, leg at its flight length; the

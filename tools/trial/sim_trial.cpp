@@ -13,15 +13,15 @@ namespace sandhopper {
 namespace {
 
 constexpr std::uint64_t kArm_cycle = 10;
-constexpr std::uint64_t kHang_cycles = 100;  // between armed and release
-constexpr std::uint64_t kTail_cycles = 20;   // after the end
+constexpr std::uint64_t kTail_cycles = 20;  // after the end
 
 // Acts as the operator of a simulated trial.
 class Script {
  public:
   Request next(std::uint64_t cycle) noexcept {
     if (cycle == kArm_cycle) return Request::arm;
-    if (armed_at_ != 0 && cycle == armed_at_ + kHang_cycles) return Request::release;
+    if (armed_at_ != 0 && cycle == armed_at_ + static_cast<std::uint64_t>(kHang_cycles))
+      return Request::release;
     return Request::none;
   }
   void see(const Event& event, std::uint64_t cycle) noexcept {
