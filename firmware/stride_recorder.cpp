@@ -94,6 +94,7 @@ void StrideRecorder::update(const Estimate& e, State state) noexcept {
     touched_ = true;
     current_.contact_ns = e.force_time_ns;
     contact_depth_m_ = e.force_depth_m;
+    profile_.on_contact(e.force_velocity_mps, current_.stride > 0);
     if (current_.stride == 0) datum_m_ = e.force_depth_m;
     if (!leaving_) begin_events(e);
   }

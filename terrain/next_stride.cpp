@@ -45,6 +45,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   const double falling_kg = robot.body_mass_kg + robot.foot_mass_kg;
   const double fall_mps2 = robot.gravity_mps2 - robot.rail_friction_N / falling_kg;
   const double speed = std::sqrt(2.0 * fall_mps2 * std::max(setup.drop_height_m, 0.0));
+  regression.on_contact(speed);
   Hop hop{.foot_mps = speed, .body_mps = speed};
   double deepest_m = 0.0;
   for (int i = 1; i < kLongest_steps; ++i) {

@@ -62,8 +62,7 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   const double nearer = std::abs(share - 0.5);
   const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);
   const double bend = 0.5 * kProfileCell_m * share * (1.0 - share);
-  const double depth_N = prior_.depth_noise_m * slope_N_per_m_[cell];
-  point.sd = std::sqrt(std::max(variance + fluctuation_N2, 0.0) + depth_N * depth_N + unresolved +
+  point.sd = std::sqrt(std::max(variance + fluctuation_N2, 0.0) + unresolved +
                        bend * bend * slope_change_squared(cell));
   return point;
 }

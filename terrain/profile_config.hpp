@@ -9,10 +9,12 @@ struct ProfileConfig {
   // credible range of loose to compacted glass beads is 1000 to 3600 N/m.
   double believed_stiffness_N_per_m = 1500.0;
   double stiffness_spread_relative = 0.7;
-  // Error of the time between force and depth: half a cycle. It acts as a depth error proportional to speed.
-  double depth_lag_sd_s = 0.0005;
-  // Error of the estimated depth that is neither an offset nor a drift.
-  double depth_noise_m = 0.0003;
+  // Errors of the estimated depth in a first stride: the offset at contact, the lag, and the rest. Maximum
+  // likelihood in simulated strides on nine families of beds (`hop experiment beds`, errors of the depth):
+  // 0.42 mm, 0.77 ms (0.5 to 1.0 ms by family), 0.25 mm.
+  double surface_sd_m = 0.0004;
+  double depth_lag_sd_s = 0.00085;
+  double depth_noise_m = 0.00025;
   // Error of the depth when a foot lands in its crater, in addition to the error of the crater's depth. It is
   // the root mean square of simulated landings on nine families of beds, 0.8 to 1.0 mm (`hop experiment
   // beds`, column `landing`).
@@ -27,6 +29,7 @@ struct ProfileConfig {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
+    visit("surface_sd_m", self.surface_sd_m, Range{1e-6, 0.1});
     visit("depth_lag_sd_s", self.depth_lag_sd_s, Range{1e-6, 0.01});
     visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
     visit("landing_depth_sd_m", self.landing_depth_sd_m, Range{0.0, 0.1});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -38,15 +39,17 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
   }
 }
 
-// Replaces d by D = d + r T and integrates out the terms of this stride alone (Schur complement).
-void ProfileSolver::keep(Information info, double last_s) noexcept {
-  last_s_ = last_s;
-  for (std::size_t i = 0; i < kTerms; ++i)
-    info.normal[i * kTerms + kDrift] -= last_s * info.normal[i * kTerms + kSurface];
-  for (std::size_t j = 0; j < kTerms; ++j)
-    info.normal[kDrift * kTerms + j] -= last_s * info.normal[kSurface * kTerms + j];
-  info.moment[kDrift] -= last_s * info.moment[kSurface];
+// Replaces d by D = d + r T + l V and integrates out the terms of this stride alone (Schur complement).
+void ProfileSolver::keep(Information info) noexcept {
   constexpr std::size_t kOwn = kTerms - kKept;
+  for (std::size_t a = 0; a < kOwn; ++a) {
+    const std::size_t own = kKept + a;
+    for (std::size_t i = 0; i < kTerms; ++i)
+      info.normal[i * kTerms + own] -= of_deepest_[a] * info.normal[i * kTerms + kSurface];
+    for (std::size_t j = 0; j < kTerms; ++j)
+      info.normal[own * kTerms + j] -= of_deepest_[a] * info.normal[kSurface * kTerms + j];
+    info.moment[own] -= of_deepest_[a] * info.moment[kSurface];
+  }
   Matrix<kOwn> own{};
   for (std::size_t i = 0; i < kOwn; ++i)
     for (std::size_t j = 0; j < kOwn; ++j) own[i * kOwn + j] = info.normal[(kKept + i) * kTerms + kKept + j];
@@ -84,7 +87,8 @@ void ProfileSolver::land(double landing_m) noexcept {
   Vector<kKept> row{};
   for (std::size_t i = 0; i < kKept; ++i) row[i] = kept_normal_[i * kKept + kSurface];
   for (Vector<kTerms>& response : response_) {
-    response[kDrift] -= last_s_ * response[kSurface];
+    for (std::size_t a = 0; a < kTerms - kKept; ++a)
+      response[kKept + a] -= of_deepest_[a] * response[kSurface];
     for (std::size_t i = 0; i < kKept; ++i)
       for (std::size_t a = 0; a < kTerms - kKept; ++a) response[i] -= own_gain_[i][a] * response[kKept + a];
     const double of_depth = response[kSurface];
@@ -98,59 +102,75 @@ void ProfileSolver::land(double landing_m) noexcept {
   }
 }
 
-// Distribution of d before the samples of a stride.
+// Distribution of d, r and l before the samples of a stride.
 void ProfileSolver::expect_depth(bool in_crater) noexcept {
-  const double sd_m = in_crater ? prior_.landing_depth_sd_m : config_.joint.surface_sd_m;
+  const double sd_m = in_crater ? prior_.landing_depth_sd_m : prior_.surface_sd_m;
   in_crater_ = in_crater;
   if (!in_crater) depth_m_ = depth_variance_m2_ = 0.0;
   depth_variance_m2_ += sd_m * sd_m;
+  held_mean_ = {depth_m_, 0.0, 0.0};
+  const double drift_sd = config_.joint.depth_drift_sd_mps, lag_sd = prior_.depth_lag_sd_s;
+  held_variance_ = {depth_variance_m2_, drift_sd * drift_sd, lag_sd * lag_sd};
 }
 
 // Distribution of D after them.
-void ProfileSolver::take_depth(double last_s) noexcept {
-  const auto& c = posterior_.covariance;
-  depth_m_ = posterior_.mean[kSurface] + last_s * posterior_.mean[kDrift];
-  depth_variance_m2_ = c[kSurface * kTerms + kSurface] + 2.0 * last_s * c[kSurface * kTerms + kDrift] +
-                       last_s * last_s * c[kDrift * kTerms + kDrift];
+void ProfileSolver::take_depth() noexcept {
+  Vector<kTerms> x{};
+  x[kSurface] = 1.0;
+  std::copy(of_deepest_.begin(), of_deepest_.end(), x.begin() + kKept);
+  depth_m_ = depth_variance_m2_ = 0.0;
+  for (std::size_t i = kSurface; i < kTerms; ++i) {
+    depth_m_ += x[i] * posterior_.mean[i];
+    for (std::size_t j = kSurface; j < kTerms; ++j)
+      depth_variance_m2_ += x[i] * x[j] * posterior_.covariance[i * kTerms + j];
+  }
 }
 
-// Change of every term for a unit change of d and of r: C_D C_DD^-1, C_D the columns of the covariance for d
-// and r, C_DD their own 2 x 2 block.
-ProfileSolver::DepthGains ProfileSolver::depth_gains(const Vector<kTerms>& of_depth,
-                                                     const Vector<kTerms>& of_drift) const noexcept {
-  const double a = of_depth[kSurface], b = of_depth[kDrift], c = of_drift[kDrift];
-  const double scale = 1.0 / (a * c - b * b);
+// Change of every term for a unit change of d, r and l: C_D C_DD^-1, C_D the columns of the covariance for
+// them, C_DD their own block.
+ProfileSolver::DepthGains ProfileSolver::depth_gains(const DepthGains& columns) const noexcept {
+  Matrix<kHeld> own;
+  for (std::size_t a = 0; a < kHeld; ++a)
+    for (std::size_t b = 0; b < kHeld; ++b) own[a * kHeld + b] = columns[b][kSurface + a];
+  const Cholesky<kHeld> root(own);
   DepthGains gains;
   for (std::size_t i = 0; i < kTerms; ++i) {
-    gains[0][i] = scale * (c * of_depth[i] - b * of_drift[i]);
-    gains[1][i] = scale * (a * of_drift[i] - b * of_depth[i]);
+    Vector<kHeld> row;
+    for (std::size_t a = 0; a < kHeld; ++a) row[a] = columns[a][i];
+    row = root.solve(row);
+    for (std::size_t a = 0; a < kHeld; ++a) gains[a][i] = row[a];
   }
   return gains;
 }
 
-// Moves d and r to their means before the stride, and every other term with them.
-void ProfileSolver::hold_depth(const DepthGains& gains, Vector<kTerms>& mean) const noexcept {
-  const double depth = mean[kSurface] - depth_m_, drift = mean[kDrift];
-  for (std::size_t i = 0; i < kTerms; ++i) mean[i] -= gains[0][i] * depth + gains[1][i] * drift;
+// Moves d, r and l to their means before the stride, and every other term with them.
+void ProfileSolver::hold_depth(const Cholesky<kTerms>& root, Vector<kTerms>& mean) const noexcept {
+  DepthGains columns{};
+  for (std::size_t a = 0; a < kHeld; ++a) {
+    columns[a][kSurface + a] = 1.0;
+    columns[a] = root.solve(columns[a]);
+  }
+  const DepthGains gains = depth_gains(columns);
+  Vector<kHeld> change;
+  for (std::size_t a = 0; a < kHeld; ++a) change[a] = mean[kSurface + a] - held_mean_[a];
+  for (std::size_t a = 0; a < kHeld; ++a)
+    for (std::size_t i = 0; i < kTerms; ++i) mean[i] -= gains[a][i] * change[a];
 }
 
-// Gives d and r the covariance that they had before the stride: C + G (P - C_DD) G^T.
+// Gives d, r and l the covariance P that they had before the stride: C + G (P - C_DD) G^T.
 void ProfileSolver::hold_depth(Matrix<kTerms>& covariance) const noexcept {
   if (!in_crater_) return;
-  Vector<kTerms> of_depth, of_drift;
+  DepthGains columns;
+  for (std::size_t a = 0; a < kHeld; ++a)
+    for (std::size_t i = 0; i < kTerms; ++i) columns[a][i] = covariance[i * kTerms + kSurface + a];
+  const DepthGains gains = depth_gains(columns);
   for (std::size_t i = 0; i < kTerms; ++i) {
-    of_depth[i] = covariance[i * kTerms + kSurface];
-    of_drift[i] = covariance[i * kTerms + kDrift];
-  }
-  const double drift_sd = config_.joint.depth_drift_sd_mps;
-  const double depth = depth_variance_m2_ - of_depth[kSurface], both = -of_depth[kDrift];
-  const double drift = drift_sd * drift_sd - of_drift[kDrift];
-  const auto gains = depth_gains(of_depth, of_drift);
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const double with_depth = depth * gains[0][i] + both * gains[1][i];
-    const double with_drift = both * gains[0][i] + drift * gains[1][i];
+    Vector<kHeld> with{};
+    for (std::size_t a = 0; a < kHeld; ++a)
+      for (std::size_t b = 0; b < kHeld; ++b)
+        with[b] += gains[a][i] * ((a == b ? held_variance_[a] : 0.0) - columns[b][kSurface + a]);
     for (std::size_t j = 0; j < kTerms; ++j)
-      covariance[i * kTerms + j] += with_depth * gains[0][j] + with_drift * gains[1][j];
+      for (std::size_t b = 0; b < kHeld; ++b) covariance[i * kTerms + j] += with[b] * gains[b][j];
   }
 }
 

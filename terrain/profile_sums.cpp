@@ -93,8 +93,15 @@ double ProfileRegression::inertia_N(const JointSample& s) const noexcept {
 }
 
 void ProfileRegression::reset() noexcept {
-  settled_s_ = 0.0;
+  settled_s_ = start_s_ = start_speed_mps_ = 0.0;
+  starts_ = false;
   if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
+}
+
+void ProfileRegression::on_contact(double speed_mps, bool in_crater) noexcept {
+  start_s_ = 0.0;
+  start_speed_mps_ = speed_mps;
+  starts_ = in_crater;
 }
 
 bool ProfileRegression::watch(const JointSample& s) noexcept {
@@ -126,6 +133,13 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
       share / (config_.joint.force_noise_N * config_.joint.force_noise_N + fluctuation * fluctuation);
   if (!std::isfinite(weight)) return;
 
+  if (starts_) {
+    start_s_ = s.since_contact_s;
+    start_speed_mps_ = s.speed_mps;
+    starts_ = false;
+  }
+  sums_.last_s = s.since_contact_s - start_s_;
+  sums_.last_change_mps = s.speed_mps - start_speed_mps_;
   const double place = s.depth_m / kProfileCell_m;
   const auto index = std::min(static_cast<std::size_t>(place), kProfileCells - 1);
   const double growth = intercept_growth(config_.joint, s.depth_m);
@@ -135,8 +149,8 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
       growth,
       cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
           cone_.added_mass_kg(s.depth_m) * s.accel_mps2,
-      s.since_contact_s,
-      s.speed_mps,
+      sums_.last_s,
+      sums_.last_change_mps,
       std::tanh(s.leg_rate_mps / config_.joint.friction_switch_speed_mps),
       motor_force_N,
       s.force_N - believed_N_per_m_ * (s.depth_m + config_.joint.intercept_depth_m * growth)};
@@ -153,7 +167,6 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
   cell.weighted_force += share * s.force_N;
   sums_.depth_min_m = sums_.samples == 0 ? s.depth_m : std::min(sums_.depth_min_m, s.depth_m);
   sums_.depth_max_m = std::max(sums_.depth_max_m, s.depth_m);
-  sums_.last_s = s.since_contact_s;
   ++sums_.samples;
 }
 

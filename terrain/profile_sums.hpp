@@ -18,8 +18,8 @@ inline constexpr double kProfileCell_m = 0.0025;
 inline constexpr double kProfileDepth_m = static_cast<double>(kProfileCells) * kProfileCell_m;
 
 // Features of a sample: 1, position in the cell (0 to 1), 1 - exp(-z/dz0), added-mass term (joint_fit.hpp)
-// [N], time since contact [s], speed [m/s], direction of joint friction, force from the motors' current [N],
-// and measured force minus the believed bed's force [N].
+// [N], time since contact [s], speed minus the speed at contact [m/s], direction of joint friction, force
+// from the motors' current [N], and measured force minus the believed bed's force [N].
 enum class ProfileFeature : std::size_t {
   one,
   place,
@@ -52,8 +52,8 @@ struct ProfileSums {
   // Sums over observations of added mass / reduced mass, and of its square. The measured acceleration depends
   // on the force that it helps to measure. So the density of such a sample has the factor 1 + c m_a / M_f.
   double response = 0.0, response_squared = 0.0;
-  double reduced_mass_kg = 0.0;  // M_f
-  double last_s = 0.0;           // time since contact of the last sample
+  double reduced_mass_kg = 0.0;                // M_f
+  double last_s = 0.0, last_change_mps = 0.0;  // time and speed of the last sample, relative to the contact
   std::int32_t samples = 0;
   std::int32_t saturated = 0;
   std::int32_t too_deep = 0;  // below the last cell
@@ -76,6 +76,10 @@ class ProfileRegression {
   // saturated, and shortly after that or after a change of the stance's phase; such a sample must not be
   // used.
   bool watch(const JointSample& sample) noexcept;
+  // Called at contact, from which the depth counts. A lag l acts on a depth by the change of speed since
+  // then: z(t - l) - z(-l) = z(t) - l (v(t) - v(0)). In a crater, drift and lag count from the first sample
+  // on new ground instead: the error of a landing is the depth error at that sample.
+  void on_contact(double speed_mps, bool in_crater = false) noexcept;
   // Called at the stance switch, between the samples before and after it. The torque steps, and the motors'
   // replies and the measured acceleration follow it with different delays. So the force is wrong by up to the
   // step.
@@ -93,7 +97,9 @@ class ProfileRegression {
   double reduced_mass_kg_;
   Bed cone_;  // added mass at factor 1
   ProfileSums sums_{};
-  double settled_s_ = 0.0;  // samples before this time since contact are not used
+  double start_speed_mps_ = 0.0, start_s_ = 0.0;  // from which lag and drift count
+  bool starts_ = false;                           // at the next sample
+  double settled_s_ = 0.0;                        // samples before this time since contact are not used
 };
 
 }  // namespace sandhopper

@@ -55,7 +55,7 @@ ProfileSolver::ProfileSolver(const StiffnessConfig& config)
 void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
-  kept_normal_.back() = 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
+  kept_normal_.back() = 1.0 / (prior_.surface_sd_m * prior_.surface_sd_m);
   shared_normal_ = {};
   shared_moment_ = {};
   posterior_ = {};
@@ -172,11 +172,7 @@ double ProfileSolver::solve_at(std::size_t point, const Information& data, Poste
   p.covariance = info.normal;
   double fit = 0.0;
   for (std::size_t i = 0; i < kTerms; ++i) fit += info.moment[i] * p.mean[i];
-  if (in_crater_) {
-    Vector<kTerms> depth{}, drift{};
-    depth[kSurface] = drift[kDrift] = 1.0;
-    hold_depth(depth_gains(root.solve(depth), root.solve(drift)), p.mean);
-  }
+  if (in_crater_) hold_depth(root, p.mean);
   return log_prior - root.half_log_determinant() + 0.5 * fit;
 }
 
@@ -319,7 +315,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   }
   if (stride == kFreshGround) {  // the surface's height is unknown
     land(kUnknown_m);
-    kept_normal_.back() += 1.0 / (config_.joint.surface_sd_m * config_.joint.surface_sd_m);
+    kept_normal_.back() += 1.0 / (prior_.surface_sd_m * prior_.surface_sd_m);
   }
   if (stride > 1) land(prior_.landing_depth_sd_m);
   expect_depth(stride > 1);
@@ -337,8 +333,9 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
   take_responses(sums);
-  take_depth(sums.last_s);
-  keep(info, sums.last_s);
+  of_deepest_ = {sums.last_s, sums.last_change_mps, 0.0};
+  take_depth();
+  keep(info);
   report(sums, stride);
 }
 

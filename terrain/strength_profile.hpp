@@ -4,6 +4,7 @@
 
 #include "config/fields.hpp"
 #include "terrain/profile_sums.hpp"
+#include "terrain/small_gaussian.hpp"
 
 // Quasi-static force of the ground over depth, F(z), from the strides of one trial, with a pointwise 95 %
 // band. The curve starts at zero. It is the believed bed's own curve m(z) plus a part that is linear in cells
@@ -11,9 +12,9 @@
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
-//   force = F(z) + (d + r t + l v) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
+//   force = F(z) + (d + r t + l (v - v_0)) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
 // with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
-// torque constant, and l a lag between force and depth.
+// torque constant, l a lag between force and depth, and v_0 the speed at contact, from which depths count.
 // The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
 // band includes their uncertainty (Rasmussen & Williams 2006, section 5.2). The depth has errors, too; F' is
 // taken from the previous posterior, in three passes.
@@ -21,16 +22,17 @@
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
 // distribution (variances by expectation maximisation), and a cell that the curve does not fit at a level of
-// 1 % gets less weight and a wider band. The band includes the bed's own fluctuation and the depth's noise.
+// 1 % gets less weight and a wider band. The band includes the bed's own fluctuation.
 // Between strides the information on kappa, c, e and b is kept, and r, l and f are integrated out: the
 // posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
 // the previous stride ended, so both depths share an error. Therefore the depth error D at the crater's
 // deepest point is also kept,
-//   D = d + r T, T the time from contact to the deepest point;  d of the next stride = D + N(0, landing^2)
+//   D = d + r T + l V, T the time from contact to the deepest point, V the change of speed
+//   d of the next stride = D + N(0, landing^2)
 // In a crater no sample shows the depth: a curve that is shifted is a curve, too, and only the prior of kappa
-// prefers one of them, a softer one. So d and r of such a stride keep the distribution that they had before
-// its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing 25,
-// 37). All memory is bounded and nothing is allocated.
+// prefers one of them, a softer one. So d, r and l of such a stride keep the distribution that they had
+// before its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing
+// 25, 37). All memory is bounded and nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: the middle and the end of every cell.
@@ -161,17 +163,18 @@ class ProfileSolver {
   void take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
                   const Vector<kTerms>& mean) noexcept;
   void integrate(const Information& information, bool last) noexcept;
-  using DepthGains = std::array<Vector<kTerms>, 2>;
-  DepthGains depth_gains(const Vector<kTerms>& of_depth, const Vector<kTerms>& of_drift) const noexcept;
-  void hold_depth(const DepthGains& gains, Vector<kTerms>& mean) const noexcept;
+  static constexpr std::size_t kHeld = 3;  // d, r and l
+  using DepthGains = std::array<Vector<kTerms>, kHeld>;
+  DepthGains depth_gains(const DepthGains& columns) const noexcept;
+  void hold_depth(const Cholesky<kTerms>& root, Vector<kTerms>& mean) const noexcept;
   void hold_depth(Matrix<kTerms>& covariance) const noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
-  void keep(Information information, double last_s) noexcept;
+  void keep(Information information) noexcept;
   void land(double landing_m) noexcept;
   void expect_depth(bool in_crater) noexcept;
-  void take_depth(double last_s) noexcept;
+  void take_depth() noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
   void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
@@ -196,11 +199,11 @@ class ProfileSolver {
   Matrix<kKept> kept_normal_{};  // includes the prior of D
   Vector<kKept> kept_moment_{};
   // Change of the kept moments for a unit change of the moments of r, l and f, which are integrated out.
-  // last_s_ is T.
   std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
-  double last_s_ = 0.0;
-  bool in_crater_ = false;                          // this stride landed in its own crater
+  Vector<kTerms - kKept> of_deepest_{};             // factors of r, l and f in D: T, V and 0
   double depth_m_ = 0.0, depth_variance_m2_ = 0.0;  // d before a stride, D after it
+  bool in_crater_ = false;                          // this stride landed in its own crater
+  Vector<kHeld> held_mean_{}, held_variance_{};     // of d, r and l before the stride's samples
   Matrix<kShared> shared_normal_{};
   Vector<kShared> shared_moment_{};
   std::size_t broken_cells_ = 0;

@@ -83,6 +83,22 @@ TEST(ProfileMemory, ACurveInACraterDoesNotShowTheDepth) {
   }
 }
 
+TEST(ProfileMemory, DriftAndLagInACraterCountFromTheFirstSampleOnNewGround) {
+  ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
+  regression.on_contact(0.8, true);
+  regression.add({0.0300, 0.5, 0.0, 60.0, 0.0, 0.100, 1e-3}, 20.0);
+  EXPECT_EQ(regression.sums().last_s, 0.0);
+  EXPECT_EQ(regression.sums().last_change_mps, 0.0);
+  regression.add({0.0305, 0.3, 0.0, 60.0, 0.0, 0.102, 1e-3}, 20.0);
+  EXPECT_NEAR(regression.sums().last_s, 0.002, 1e-12);
+  EXPECT_NEAR(regression.sums().last_change_mps, -0.2, 1e-12);
+  regression.reset();
+  regression.on_contact(0.8);
+  regression.add({0.0010, 0.7, 0.0, 6.0, 0.0, 0.001, 1e-3}, 20.0);
+  EXPECT_NEAR(regression.sums().last_s, 0.001, 1e-12);
+  EXPECT_NEAR(regression.sums().last_change_mps, -0.1, 1e-12);
+}
+
 TEST(ProfileMemory, BlowBeforeNewGroundSettlesToo) {
   ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
   const JointSample blow{0.010, 0.5, -147.0, 90.0, 0.0, 1e-3, 1e-3};

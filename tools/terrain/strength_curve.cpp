@@ -21,6 +21,7 @@ StiffnessConfig in_units(StiffnessConfig config, double unit) {
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
   profile.depth_noise_m /= unit;
+  profile.surface_sd_m /= unit;
   config.profile = profile;
   auto& joint = config.joint;
   for (double* length : {&joint.fluctuation_length_m, &joint.intercept_growth_depth_m,
@@ -42,7 +43,8 @@ double unit_for(double deepest_m) {
 
 StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFacts& facts) {
   StiffnessConfig config;
-  ProfileConfig profile;
+  // Errors of a press's depth; a hopper estimates its depth in another way.
+  ProfileConfig profile{.surface_sd_m = 0.0007, .depth_lag_sd_s = 0.0005, .depth_noise_m = 0.0003};
   const auto& last = loading.back();
   const double mean_slope = last.force_N / last.depth_m;
   profile.believed_stiffness_N_per_m =
