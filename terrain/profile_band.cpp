@@ -51,10 +51,10 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
     variance += row * x[j];
     gain += row * response_[cell][j];
   }
-  // The bed's fluctuation f is part of its curve. The estimate follows it by the factor `gain`, and
-  // `variance` already contains (gain f)^2 as an error. The correct error is f^2 (1 - gain)^2, so add f^2 (1
-  // - 2 gain).
-  const double fluctuation = config_.joint.fluctuation_relative * point.value;
+  // The fluctuation f of a single place is part of its curve. The estimate follows it by the factor `gain`,
+  // and `variance` already contains (gain f)^2 as an error. The correct error is f^2 (1 - gain)^2, so add
+  // f^2 (1 - 2 gain). The curve common to several places has no fluctuation, and `variance` is correct.
+  const double fluctuation = places_ > 1 ? 0.0 : config_.joint.fluctuation_relative * point.value;
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
   // Variance of the curve within a cell: the cell's unresolved scatter, and the change of slope between its
   // neighbours.

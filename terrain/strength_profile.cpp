@@ -64,6 +64,8 @@ void ProfileSolver::restart() noexcept {
   slope_N_per_m_ = believed_N_per_m_;
   reloading_.restart();
   unresolved_N2_.fill(0.0);
+  misfit_ = stride_misfit_ = {};
+  places_ = 0;
   line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
@@ -281,8 +283,14 @@ double chi_squared_quantile(double degrees, double normal_quantile) noexcept {
   return n * root * root * root;
 }
 
-// Depth errors become force errors through the slope. If the residuals exceed these errors at a level of 1 %,
-// the excess is attributed to the curve within the cell.
+ProfileSolver::Misfit ProfileSolver::misfit_with(const Misfit& stride, std::size_t s) const noexcept {
+  const Misfit& before = misfit_[s];
+  return {before.observations + stride.observations, before.found_N2 + stride.found_N2,
+          before.expected_N2 + stride.expected_N2};
+}
+
+// Depth errors become force errors through the slope. If the residuals of all strides exceed these errors at
+// a level of 1 %, the excess is attributed to the curve within the cell.
 void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
   constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles for 1 % and for 1 % / 28 (all
                                                         // cells together)
@@ -295,7 +303,11 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double depth = prior_.depth_noise_m * slope_N_per_m_[s];
     const double expected = own + depth * depth;
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
-    unresolved_N2_[s] = n * found > chi_squared_quantile(n, k99) * expected ? found - expected : 0.0;
+    stride_misfit_[s] = {n, n * found, n * expected};
+    const Misfit all = misfit_with(stride_misfit_[s], s);
+    const double excess_N2 = (all.found_N2 - all.expected_N2) / all.observations;
+    const double limit = chi_squared_quantile(all.observations, k99) / all.observations;
+    unresolved_N2_[s] = all.found_N2 > limit * all.expected_N2 ? std::max(excess_N2, 0.0) : 0.0;
     broken_cells_ += n * found > chi_squared_quantile(n, kAllCells99) * expected;
     // Product of the errors of depth and slope. It is beyond the linear model and common to all samples of a
     // cell.
@@ -319,7 +331,9 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   }
   if (stride > 1) land(prior_.landing_depth_sd_m);
   expect_depth(stride > 1);
+  if (stride <= 1) ++places_;
   noise_factor_.fill(1.0);
+  stride_misfit_ = {};
   // Restart expectation maximisation only below the depth of the previous strides. If it continued everywhere
   // from stride to stride, it would narrow the band without new measurements.
   first_cell_ = stride > 1 ? first_observed(sums) : 0;
@@ -332,6 +346,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     take_slopes();
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
+  for (std::size_t s = 0; s < kN; ++s) misfit_[s] = misfit_with(stride_misfit_[s], s);
   take_responses(sums);
   of_deepest_ = {sums.last_s, sums.last_change_mps, 0.0};
   take_depth();

@@ -22,7 +22,9 @@
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
 // distribution (variances by expectation maximisation), and a cell that the curve does not fit at a level of
-// 1 % gets less weight and a wider band. The band includes the bed's own fluctuation.
+// 1 % over all strides gets less weight and a wider band. The band of one place includes the bed's own
+// fluctuation, which is part of its curve. From the second place of a ground prepared alike on, the curve is
+// the one common to all places; their fluctuations and the noise of their depths are noise that averages out.
 // Between strides the information on kappa, c, e and b is kept, and r, l and f are integrated out: the
 // posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
 // the previous stride ended, so both depths share an error. Therefore the depth error D at the crater's
@@ -185,6 +187,12 @@ class ProfileSolver {
   double slope_change_squared(std::size_t cell) const noexcept;
   double residual_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
 
+  // Sums over the strides in a cell [observations, N^2]: squared residuals, and their expectation.
+  struct Misfit {
+    double observations = 0.0, found_N2 = 0.0, expected_N2 = 0.0;
+  };
+  Misfit misfit_with(const Misfit& stride, std::size_t cell) const noexcept;
+
   StiffnessConfig config_;
   ProfileConfig prior_;
   std::array<double, kProfileCells> believed_N_per_m_{};   // mean tangent stiffness of each cell
@@ -194,7 +202,9 @@ class ProfileSolver {
                                                            // their weights
   std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
                                                        // cell
-  std::array<double, kProfileCells> jump_{};           // variance of each innovation relative to its prior
+  std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one
+  int places_ = 0;                                                // number of places on ground prepared alike
+  std::array<double, kProfileCells> jump_{};  // variance of each innovation relative to its prior
   std::array<Vector<kTerms>, kProfileCells> response_{};
   Matrix<kKept> kept_normal_{};  // includes the prior of D
   Vector<kKept> kept_moment_{};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -25,14 +27,16 @@ struct Push {
   double speed_mps = 0.8;
   double to_m = 0.045;
   double noise_N = 0.3;
-  double depth_drift_mps = 0.0;
+  double too_deep_m = 0.0, depth_drift_mps = 0.0;
   unsigned seed = 1;
+  bool contact = false;  // the contact's speed is known
 };
 
 // A foot that slows down while it enters virgin ground with drag and added mass.
 ProfileSums sums_of(const Curve& curve, const Push& push) {
   const Bed cone(BedParameters{}, kRadius_m);
   ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
+  if (push.contact) regression.on_contact(push.speed_mps);
   std::mt19937 engine(push.seed);
   std::normal_distribution<double> noise(0.0, push.noise_N);
   const double rate = push.speed_mps / push.to_m;
@@ -40,7 +44,8 @@ ProfileSums sums_of(const Curve& curve, const Push& push) {
     const double z = push.to_m * (1.0 - std::exp(-rate * t));
     const double v = push.speed_mps * std::exp(-rate * t), a = -rate * v;
     const double force = curve(z) + cone.added_mass_gradient_kg_per_m(z) * v * v + cone.added_mass_kg(z) * a;
-    regression.add({z + push.depth_drift_mps * t, v, a, force + noise(engine), -0.1, t, 1e-3}, force);
+    regression.add(
+        {z + push.too_deep_m + push.depth_drift_mps * t, v, a, force + noise(engine), -0.1, t, 1e-3}, force);
   }
   return regression.sums();
 }
@@ -96,6 +101,53 @@ TEST(StrengthProfile, PosteriorOfAStrideIsThePriorOfTheNext) {
   EXPECT_LT(solver.force_N(0.015).sd, shallow_before);
   EXPECT_NEAR(solver.force_N(0.035).value, line_N(0.035), 3.0 * solver.force_N(0.035).sd);
   EXPECT_EQ(solver.profile().stride, 2u);
+}
+
+// Places of a ground prepared alike have a curve in common. Each has its own fluctuation of 2 % over 2 mm,
+// and its own depth errors.
+TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
+  constexpr unsigned kSessions = 30, kPlaces = 6;
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  double inside = 0.0, all = 0.0, width = 0.0, width_of_one = 0.0;
+  for (unsigned session = 0; session < kSessions; ++session) {
+    ProfileSolver solver{StiffnessConfig{}};
+    for (unsigned place = 0; place < kPlaces; ++place) {
+      std::array<double, 24> knots;
+      for (double& knot : knots) knot = normal(engine);
+      const auto curve = [&](double z) {
+        return power_N(z) *
+               (1.0 + 0.02 * knots[std::min<std::size_t>(static_cast<std::size_t>(z / 0.002), 23)]);
+      };
+      const Push push{.speed_mps = 0.6,
+                      .too_deep_m = 0.0004 * normal(engine),
+                      .depth_drift_mps = 0.005 * normal(engine),
+                      .seed = kPlaces * session + place,
+                      .contact = true};
+      solver.add(sums_of(curve, push), place == 0 ? 1 : ProfileSolver::kFreshGround);
+      if (place == 0) width_of_one += solver.force_N(0.030).sd;
+    }
+    width += solver.force_N(0.030).sd;
+    for (double z = 0.005; z < 0.042; z += 0.001) {
+      const auto force = solver.force_N(z);
+      inside += force.low() < power_N(z) && power_N(z) < force.high();
+      all += 1.0;
+    }
+  }
+  EXPECT_GE(inside / all, 0.93);
+  // 0.58; with the fluctuation of a single place in the band 0.66.
+  EXPECT_LT(width, 0.62 * width_of_one);
+}
+
+// A place whose curve fits a cell does not cancel the misfit of another.
+TEST(StrengthProfile, MisfitOfACellIsPooledOverPlaces) {
+  const auto jagged_N = [](double z) { return line_N(z) + (z > 0.0200 && z < 0.02125 ? 20.0 : 0.0); };
+  const auto sd_of = [&](const Curve& first) {
+    auto solver = solved(first, {});
+    solver.add(sums_of(line_N, {.seed = 2}), ProfileSolver::kFreshGround);
+    return solver.force_N(0.02125).sd;
+  };
+  EXPECT_GT(sd_of(jagged_N), 1.5 * sd_of(line_N));
 }
 
 TEST(StrengthProfile, StrideWithoutNewGroundLeavesItAsItIs) {
