@@ -15,6 +15,7 @@ struct FoundParameter {
   double value = 0.0;
   double low = 0.0, high = 0.0;  // 95 % interval
   bool derived = false;          // Says the same as another parameter in another way, or as a change.
+  bool is_change = false;        // Change of the parameter before it against the belief.
 };
 
 // One effect of the answer: listed, unknown ("unknown@PORT"), or a fault of the data.

@@ -34,8 +34,15 @@ Json where_json(const Where& w) {
 }
 
 Json effect_json(const FoundEffect& e) {
+  // Of a number that the belief contains, the change comes first: it is what the recordings show.
   Json parameters = Json::object();
-  for (const auto& p : e.parameters) parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
+  const auto put = [&](const FoundParameter& p) {
+    parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
+  };
+  for (std::size_t i = 0; i < e.parameters.size(); ++i) {
+    if (i + 1 < e.parameters.size() && e.parameters[i + 1].is_change) put(e.parameters[i + 1]);
+    if (!e.parameters[i].is_change) put(e.parameters[i]);
+  }
   Json effect{{"id", e.id},
               {"statement", e.statement},
               {"equation", e.equation},

@@ -109,7 +109,8 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
     found.push_back(out);
     // For a number that the belief already contains, also give its change.
     if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
-      found.push_back({change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true});
+      found.push_back(
+          {change_of(p.name), out.value - p.base, out.low - p.base, out.high - p.base, true, true});
   }
   return found;
 }

@@ -37,8 +37,7 @@ RecordedController::RecordedController(const Trial& trial, const Leg& leg, const
       measured_(measured_leg(trial)),
       commands_(commands_of(trial)),
       end_s_(end_s),
-      rate_time_constant_s_(1.0 /
-                            (2.0 * std::numbers::pi * believed.sensors.encoder_velocity_bandwidth_Hz)) {
+      rate_time_constant_s_(1.0 / (2.0 * std::numbers::pi * believed.sensors.encoder_velocity_bandwidth_Hz)) {
   take_smoothed(nullptr, nullptr);
 }
 
@@ -50,14 +49,15 @@ void RecordedController::take_smoothed(const Signal* angle_rad, const Signal* ra
   if (!measured()) return;
   Samples apart{measured_.time_s, measured_.angle_rad};
   if (angle_rad != nullptr)
-    for (std::size_t i = 0; i < apart.value.size(); ++i) apart.value[i] -= angle_rad->at(apart.time_s[i]);
+    for (std::size_t i = 0; i < apart.value.size(); ++i)
+      apart.value[i] -= angle_rad->at(apart.time_s[i] - age_s_);
   const Smoothed smoothed = smoothed_twice(apart);
   const auto count = static_cast<std::size_t>(end_s_ / kTick_s) + 2;
   const auto together = [&](const std::vector<double>& of_difference, const Signal* simulated) {
     Signal sum = on_grid({measured_.time_s, of_difference}, 0.0, kTick_s, count, false);
     if (simulated != nullptr)
       for (std::size_t i = 0; i < count; ++i)
-        sum.values[i] += simulated->at(kTick_s * static_cast<double>(i));
+        sum.values[i] += simulated->at(kTick_s * static_cast<double>(i) - age_s_);
     return sum;
   };
   smooth_angle_ = together(smoothed.value, angle_rad);
@@ -83,7 +83,8 @@ void RecordedController::find_age(const WorldConfig& world, double compression_s
       apart += std::abs(commands_.value[i] - world.robot.leg.motor_count * commands[i]);
     if (rows == 0 || apart < kNearer * nearest) nearest = apart, age = rows;
   }
-  for (std::size_t i = 0; i < as_read.size(); ++i) measured_.time_s[i] = as_read[i] + age * row_s;
+  age_s_ = age * row_s;
+  for (std::size_t i = 0; i < as_read.size(); ++i) measured_.time_s[i] = as_read[i] + age_s_;
 }
 
 Signal RecordedController::residual_Nm(const WorldConfig& world, double compression_stiffness_N_per_m,

@@ -55,7 +55,7 @@ class RecordedController {
   MeasuredLeg measured_;
   Samples commands_;
   Signal smooth_angle_{0.0, 1e-3, {}}, smooth_rate_{0.0, 1e-3, {}};
-  double end_s_ = 0.0, rate_time_constant_s_ = 0.0;
+  double end_s_ = 0.0, rate_time_constant_s_ = 0.0, age_s_ = 0.0;
 };
 
 // The same for a recorded trial.
