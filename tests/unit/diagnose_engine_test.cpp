@@ -311,11 +311,13 @@ TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
 
 // The recordings show how far a number of the belief is off; its new value follows from that.
 TEST(DiagnosisJson, GivesTheChangeOfANumberBeforeItsValue) {
+  FoundEffect found;
+  found.id = "foot.mass";
+  found.parameters = {{"foot_mass_kg", 0.49, 0.48, 0.5},
+                      {"foot_mass_change_kg", -0.04, -0.05, -0.03, true, true},
+                      {"other_m", 1.0, 0.9, 1.1}};
   Diagnosis d;
-  d.effects.push_back({.id = "foot.mass",
-                       .parameters = {{"foot_mass_kg", 0.49, 0.48, 0.5},
-                                      {"foot_mass_change_kg", -0.04, -0.05, -0.03, true, true},
-                                      {"other_m", 1.0, 0.9, 1.1}}});
+  d.effects.push_back(found);
   std::vector<std::string> names;
   for (const auto& [name, value] : to_json(d)["effects"][0]["parameters"].items()) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"foot_mass_change_kg", "foot_mass_kg", "other_m"}));

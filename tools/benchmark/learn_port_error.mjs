@@ -8,7 +8,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 
-const kSizes = [0, 0.0025, 0.005, 0.01, 0.02, 0.035, 0.06];
+const kSizes = [0, 0.0025, 0.005, 0.01, 0.02, 0.035];
 const file = new URL('port_error.csv', import.meta.url);
 
 function measure(hop, programs) {
