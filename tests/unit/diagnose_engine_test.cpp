@@ -319,7 +319,8 @@ TEST(DiagnosisJson, GivesTheChangeOfANumberBeforeItsValue) {
   Diagnosis d;
   d.effects.push_back(found);
   std::vector<std::string> names;
-  for (const auto& [name, value] : to_json(d)["effects"][0]["parameters"].items()) names.push_back(name);
+  const auto json = to_json(d);
+  for (const auto& [name, value] : json["effects"][0]["parameters"].items()) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"foot_mass_change_kg", "foot_mass_kg", "other_m"}));
 }
 

@@ -182,15 +182,16 @@ TEST(DiagnoseSignal, ALagFollowsAStepExponentially) {
 // from the middle of the step before. Values at the ends of the steps are exact.
 TEST(DiagnoseSignal, ALowPassFollowsAJumpOfMeansWhereItHappens) {
   constexpr double kStep_s = 5e-4, kJump_s = 0.01, kTime_s = 4e-4;
-  const auto after = [&](bool means) {
+  const auto at = [&](double time_s, bool means) {
     Signal signal{0.5 * kStep_s, kStep_s, {}, means};
     for (int i = 0; i < 100; ++i) signal.values.push_back(kStep_s * i < kJump_s - 1e-9 ? 0.0 : 1.0);
     signal.low_pass(kTime_s);
-    return signal.at(kJump_s + 2.0 * kStep_s);
+    return signal.at(time_s);
   };
-  const double exact = 1.0 - std::exp(-2.0 * kStep_s / kTime_s);
-  EXPECT_NEAR(after(true), exact, 1e-12);
-  EXPECT_GT(std::abs(after(false) - exact), 0.01);
+  EXPECT_NEAR(at(kJump_s, true), 0.0, 1e-12);
+  EXPECT_GT(at(kJump_s, false), 0.05);
+  for (int steps = 1; steps < 4; ++steps)
+    EXPECT_NEAR(at(kJump_s + steps * kStep_s, true), 1.0 - std::exp(-steps * kStep_s / kTime_s), 1e-12);
 }
 
 TEST(DiagnoseEffects, AreAllOffAtZeroAndHaveSoundParameters) {
