@@ -66,8 +66,8 @@ TEST(DiagnoseRecorder, LateStampsMoveNoCommandByACycle) {
   EXPECT_GT(misfit(next, current), misfit(exact, current) + 0.2);
 }
 
-// The leg's rate bends where the command jumps at liftoff. Smoothing the recorded leg must not round that off:
-// what follows from it would be a false current, and a leg that is off by a milliradian.
+// The leg's rate bends where the command jumps at liftoff. Smoothing the recorded leg must not round that
+// off: what follows from it would be a false current, and a leg that is off by a milliradian.
 TEST(DiagnoseRecorder, TheLegAfterLiftoffIsThatOfTheRecording) {
   const Trial trial = hop();
   EXPECT_LT(misfit(trial, "motor_left_current_A"), 0.02);

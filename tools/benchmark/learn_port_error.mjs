@@ -6,6 +6,7 @@
 // A campaign's log evidence is that of `hop diagnose --port-errors`; differences of it count, not its value.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 
 const kSizes = [0, 0.0025, 0.005, 0.01, 0.02, 0.035];
@@ -21,8 +22,9 @@ function measure(hop, programs) {
     if (campaigns.length === 0) throw new Error(`${folder}: no campaign (a folder with campaign.toml)`);
     campaigns.forEach((campaign, i) => {
       console.error(`${name}: campaign ${i + 1} of ${campaigns.length}`);
-      const text = execFileSync(hop, ['diagnose', campaign, '--output', fs.mkdtempSync('/tmp/port_error_'), '--json',
-        '--port-errors', kSizes.join(',')], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+      const output = fs.mkdtempSync(path.join(os.tmpdir(), 'port_error_'));
+      const words = ['diagnose', campaign, '--output', output, '--json', '--port-errors', kSizes.join(',')];
+      const text = execFileSync(hop, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
       const evidence = JSON.parse(text).port_error_evidence.map(({ log_evidence }) => log_evidence.toFixed(1));
       lines.push([name, i + 1, ...evidence].join(','));
       fs.writeFileSync(file, lines.join('\n') + '\n');

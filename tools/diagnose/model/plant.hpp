@@ -176,9 +176,9 @@ class PlantModel {
   // Standard deviation of a channel that is a condition which the simulation must meet, in the channel's
   // unit. 0: the channel is a sensor.
   virtual double least_sd(const std::string& /*channel*/) const { return 0.0; }
-  // Largest difference in the age of a row's sample between recorders that the belief describes alike: one row
-  // if the recorder low-passes the channel, perhaps with only one filter step per row; one period of a sensor
-  // that is faster than the rows, because the row may hold its newest sample or trigger it.
+  // Largest difference in the age of a row's sample between recorders that the belief describes alike: one
+  // row if the recorder low-passes the channel, perhaps with only one filter step per row; one period of a
+  // sensor that is faster than the rows, because the row may hold its newest sample or trigger it.
   virtual double unsure_age_s(const std::string& /*channel*/, const Belief& /*belief*/,
                               double /*row_s*/) const {
     return 0.0;

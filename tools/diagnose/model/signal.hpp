@@ -13,15 +13,15 @@ struct Signal {
   double start_s = 0.0;
   double step_s = 1e-3;
   std::vector<double> values;
-  // True if a value is the mean over the step around its grid point. Such a signal may jump between two steps,
-  // e.g. where a command changes.
+  // True if a value is the mean over the step around its grid point. Such a signal may jump between two
+  // steps, e.g. where a command changes.
   bool means = false;
 
   // Value at a time. Cubic (Catmull-Rom) between grid points, so that a delay of a fraction of a step is
   // represented. Outside the grid the end values hold.
   double at(double time_s) const;
-  // First-order, starts settled. Exact for an input that is linear between grid points, or, if `means`, constant
-  // over each step; the grid then moves to the ends of the steps.
+  // First-order, starts settled. Exact for an input that is linear between grid points, or, if `means`,
+  // constant over each step; the grid then moves to the ends of the steps.
   void low_pass(double time_constant_s);
 };
 

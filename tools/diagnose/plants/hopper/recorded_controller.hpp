@@ -23,9 +23,9 @@ class RecordedController {
   void find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
                 const std::vector<PhaseChange>& phases);
 
-  // Smooths the recorded leg again, as its difference from a simulated one. The leg's rate bends sharply where
-  // the command jumps; smoothing the recording itself would round that off, and the command that follows from
-  // it. `angle_rad`, `rate_radps`: of a simulation with the same phase changes.
+  // Smooths the recorded leg again, as its difference from a simulated one. The leg's rate bends sharply
+  // where the command jumps; smoothing the recording itself would round that off, and the command that
+  // follows from it. `angle_rad`, `rate_radps`: of a simulation with the same phase changes.
   void smooth_about(const Signal& angle_rad, const Signal& rate_radps);
 
   // Recorded command minus what this controller computes from the smoothed recorded leg; both motors, on a 1
