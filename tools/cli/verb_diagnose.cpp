@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"

@@ -34,7 +34,8 @@ Json where_json(const Where& w) {
 }
 
 Json effect_json(const FoundEffect& e) {
-  // Of a number that the belief contains, the change comes first: it is what the recordings show.
+  // A number's change against the belief is written before its new value, because the recordings show the
+  // change.
   Json parameters = Json::object();
   const auto put = [&](const FoundParameter& p) {
     parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};

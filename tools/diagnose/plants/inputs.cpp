@@ -265,7 +265,6 @@ Signal on_grid(const Samples& s, double start_s, double step_s, std::size_t coun
 }
 
 SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit) {
-  constexpr double kAsGoodAsNone_Hz = 4000.0;
   SensorBelief sensor;
   sensor.bandwidth_Hz = belief.value("sensors." + prefix + "_bandwidth_Hz");
   if (sensor.bandwidth_Hz > kAsGoodAsNone_Hz) sensor.bandwidth_Hz = 0.0;

@@ -69,6 +69,9 @@ Samples means(const Samples& samples, const std::vector<Group>& groups);
 // gap of 3.5 steps. Otherwise, linear interpolation. Outside the samples the end values hold.
 Signal on_grid(const Samples& samples, double start_s, double step_s, std::size_t count, bool hold);
 
+// A cut-off frequency or a sampling rate above this shows nothing in rows of 1 ms; it counts as not there.
+inline constexpr double kAsGoodAsNone_Hz = 4000.0;
+
 // Sensor model of the belief, from keys like `sensors.height_bandwidth_Hz` with the prefix "height". `unit`
 // is that of the range.
 SensorBelief sensor_belief(const Belief& belief, const std::string& prefix, const std::string& unit);

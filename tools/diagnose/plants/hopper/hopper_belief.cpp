@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "tools/diagnose/plants/inputs.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -34,7 +36,6 @@ WorldConfig world_of(const Belief& belief, const Edits& edits) {
 }
 
 bool imu_rate_is_stated(const Belief& belief) {
-  constexpr double kAsGoodAsNone_Hz = 4000.0;  // as for a bandwidth: nothing of it is seen in rows of 1 ms
   const double rate_Hz = belief.value("sensors.imu_rate_Hz");
   return rate_Hz > 0.0 && rate_Hz < kAsGoodAsNone_Hz;
 }
