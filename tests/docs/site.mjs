@@ -114,20 +114,22 @@ async function checkMenuOfAPhone(browser) {
   assert.ok(!(await seen(browser)).menu, 'the menu stayed open');
 }
 
+// Chromium saves the choice in the background and may lose it when the page is left at once, so the choice is made again until
+// the next page has it.
 async function checkTheme(browser) {
   await browser.resize(1366, 900);
-  await browser.open(join(site, 'index.html'));
-  const before = (await seen(browser)).paper;
-  await browser.run(() => document.getElementById('theme-button').click());
-  const after = (await seen(browser)).paper;
-  assert.ok(Math.abs(after - before) > 0.7, `the button did not switch: ${before} to ${after}`);
-  let next;
-  for (let i = 0; i < 20 && next !== after; ++i) {  // the browser saves the choice in the background
-    await sleep(500);
+  let chosen, next;
+  for (let i = 1; i <= 20 && (i === 1 || next !== chosen); ++i) {
+    await browser.open(join(site, 'index.html'));
+    const before = (await seen(browser)).paper;
+    await browser.run(() => document.getElementById('theme-button').click());
+    chosen = (await seen(browser)).paper;
+    assert.ok(Math.abs(chosen - before) > 0.7, `the button did not switch: ${before} to ${chosen}`);
+    await sleep(200 * i);
     await browser.open(join(site, 'guide/index.html'));
     next = (await seen(browser)).paper;
   }
-  assert.equal(next, after, 'the choice was forgotten on the next page');
+  assert.equal(next, chosen, 'the choice was forgotten on the next page');
   await browser.run(() => localStorage.clear());
 }
 
