@@ -95,5 +95,33 @@ TEST(DiagnoseAbsent, EveryBoundLeavesOutItsShareOfTheRisk) {
   EXPECT_GT(compared, 5u);
 }
 
+// Drops of a height sensor that hardly sees anything bound no effect by less than its range: no such bound is
+// printed.
+TEST(DiagnoseAbsent, ABoundBeyondTheRangeOfAnEffectIsNoBound) {
+  auto recordings = drops([](double, double, double) { return 0.0; }, 1, 6);
+  recordings.belief.numbers["sensors.height_noise_m"] = 0.3;
+  recordings.beliefs.assign(recordings.trials.size(), recordings.belief);
+  for (std::size_t i = 0; i < recordings.trials.size(); ++i) {
+    Random random(4, i);
+    auto& channels = recordings.trials[i].channels;
+    channels.erase("accel_mps2");
+    for (double& height : channels["height_m"]) height += 0.3 * random.normal();
+  }
+  Problem problem = prepare(recordings).problem;
+  const Point point = fit_from(problem, null_point(problem)).point;
+  keep_columns(problem, point);
+  Search search(problem, {});
+  search.run(point);
+  Diagnosis d;
+  report_absent(problem, search, d);
+  for (const auto& candidate : problem.candidates) {
+    const auto bound = std::ranges::find(d.absent, candidate.label(), &Bound::id);
+    if (bound == d.absent.end()) continue;
+    const auto& p = candidate.parameters.front();
+    EXPECT_LE(bound->typicals * p.typical, std::max(std::abs(p.low), std::abs(p.high))) << bound->id;
+  }
+  EXPECT_LT(d.absent.size(), problem.candidates.size() - search.best().set.size());
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

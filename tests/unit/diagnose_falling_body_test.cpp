@@ -1,9 +1,11 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 #include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
 
@@ -267,6 +269,41 @@ TEST(DiagnoseFallingBody, WhatIsOnEveryBodyIsAMassAsABalanceThatIsOffIs) {
                 in_proportion ? 1.05 * kMiddle_kg : kMiddle_kg + 0.01, 0.001);
     EXPECT_NEAR(d.effects.front().parameters.back().value, in_proportion ? 1.0 : 0.0, 0.2);
   }
+}
+
+// Beads that sink in oil at their terminal speed, which differs by 2 % from bead to bead. A bead without
+// weight whose trials each have their own speed fits better than one drag for all, but its weight and the
+// starts must be tuned for that.
+TEST(DiagnoseFallingBody, ATerminalSpeedIsADragAndNoMissingWeight) {
+  Recordings r = drops([](double, double, double) { return 0.0; }, 1, 6);
+  auto& belief = r.belief.numbers;
+  belief = {{"gravity_mps2", 9.81},
+            {"body.mass_kg", 1e-4},
+            {"body.frontal_area_m2", 2e-5},
+            {"body.volume_m3", 5e-8},
+            {"medium.density_kg_per_m3", 1000.0},
+            {"medium.buoyancy_factor", 1.0},
+            {"sensors.height_noise_m", 5e-4}};
+  r.beliefs.assign(r.trials.size(), r.belief);
+  for (std::size_t i = 0; i < r.trials.size(); ++i) {
+    Random random(11, i);
+    Trial trial;
+    trial.name = std::to_string(i + 1);
+    trial.kind = "drop";
+    const double speed_mps = 0.025 * (1.0 + 0.02 * random.normal());
+    for (int row = 0; row < 160; ++row) {
+      trial.time_s.push_back(0.05 * row);
+      trial.channels["height_m"].push_back(0.25 - speed_mps * trial.time_s.back() + 5e-4 * random.normal());
+    }
+    r.trials[i] = std::move(trial);
+  }
+  const auto d = diagnose(r);
+  ASSERT_FALSE(d.effects.empty());
+  const auto& found = d.effects.front();
+  EXPECT_TRUE(found.id == "air.linear_drag" || found.id == "air.quadratic_drag") << to_text(d);
+  EXPECT_THAT(found.indistinguishable_from, ::testing::Not(::testing::Contains("body.mass")));
+  if (found.id != "air.linear_drag") return;
+  EXPECT_NEAR(found.parameters.front().value, (1e-4 - 5e-5) * 9.81 / 0.025, 0.05 * 0.0196);
 }
 
 }  // namespace

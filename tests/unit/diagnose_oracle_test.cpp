@@ -103,7 +103,12 @@ TEST(DiagnoseOracle, NuisancesAreEliminatedAsTheDenseFormulaDoes) {
     whiten(problem, t, z);
     const MatrixXd held = z.transpose() * z + MatrixXd(information.asDiagonal());
     const MatrixXd dense = x.transpose() * x - x.transpose() * z * held.ldlt().solve(z.transpose() * x);
-    const MatrixXd gram = linearise(problem, t, {}, point.nuisances[t], directions).gram;
+    const TrialLinear linear = linearise(problem, t, {}, point.nuisances[t], directions);
+    const MatrixXd& gram = linear.gram;
+    const double determinant =
+        held.ldlt().vectorD().array().log().sum() - information.array().log().sum();  // ln |I + S Z'Z|
+    EXPECT_GT(determinant, 1.0);
+    EXPECT_NEAR(linear.log_determinant, determinant, 1e-6 * determinant);
     ASSERT_EQ(gram.rows(), dense.rows());
     for (Index i = 0; i < dense.rows(); ++i)
       for (Index j = 0; j < dense.cols(); ++j)

@@ -273,5 +273,31 @@ TEST(DiagnoseRotary, APendulumThatSwingsFreeHasFrictionOfItsOwnSize) {
   EXPECT_NEAR(viscous->parameters.front().value, kViscous_Nm_s, 0.1 * kViscous_Nm_s);
 }
 
+// A flywheel that coasts down; only its speed is recorded. Inertia times deceleration is the scale of its
+// friction.
+TEST(DiagnoseRotary, AWheelOfWhichOnlyTheSpeedIsRecordedHasFriction) {
+  constexpr double kInertia_kg_m2 = 0.1, kViscous_Nm_s = 0.05;
+  Recordings r = swings([](double, double, double) { return 0.0; }, 1, 6);
+  r.belief.numbers["axis.gravity_torque_Nm"] = 0.0;
+  r.beliefs.assign(r.trials.size(), r.belief);
+  for (std::size_t i = 0; i < r.trials.size(); ++i) {
+    Random random(5, i);
+    Trial& trial = r.trials[i];
+    trial.channels.erase("position_rad");
+    const double start_radps = 10.0 + 2.0 * static_cast<double>(i);
+    for (std::size_t row = 0; row < trial.time_s.size(); ++row) {
+      trial.channels["velocity_radps"][row] =
+          start_radps * std::exp(-kViscous_Nm_s / kInertia_kg_m2 * trial.time_s[row]) +
+          0.02 * random.normal();
+      trial.channels["torque_Nm"][row] = 0.0;
+    }
+  }
+  const auto d = diagnose(r);
+  const auto viscous = std::ranges::find(d.effects, "axis.viscous", &FoundEffect::id);
+  ASSERT_NE(viscous, d.effects.end()) << to_text(d);
+  EXPECT_GT(viscous->probability, 0.5);
+  EXPECT_NEAR(viscous->parameters.front().value, kViscous_Nm_s, 0.03 * kViscous_Nm_s);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

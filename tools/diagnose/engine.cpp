@@ -184,7 +184,10 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   }
   BalanceLaw balance(problem, clean);
   Search search = search_in_rounds(prepared, clean, options, balance, diagnosis);
-  if (search.stopped()) diagnosis.stopped_in = step;
+  if (search.stopped())
+    diagnosis.stopped_in = step;
+  else
+    name_likeliest(problem, search, diagnosis.log);
   drop_names_in_vain(problem, search, diagnosis);
   if (search.stopped() && search.best().set.empty()) {
     report_too_little_time(faults, diagnosis);

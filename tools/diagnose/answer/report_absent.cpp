@@ -163,6 +163,8 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
         may_be_there(problem, diagnosis, candidate))
       continue;
     const auto& p = candidate.parameters[0];
+    // A size beyond the effect's range is no bound.
+    if (typicals * p.typical > std::max(std::abs(p.low), std::abs(p.high))) continue;
     const double bound = typicals * p.typical * std::max(std::abs(p.scale), 1e-300);
     diagnosis.absent.push_back(
         {candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power), typicals});

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <utility>
 
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
@@ -22,10 +24,12 @@ struct WeighedAnswer {
   double log_mass = 0.0;
 };
 
-std::vector<const SetFit*> nearest(const Search& search) {
+// The complete fits of at most so many effects with the smallest criterion; always the null and the best set.
+std::vector<const SetFit*> nearest(const Search& search, std::size_t most_effects) {
   std::vector<const SetFit*> order;
   for (const auto& [set, fit] : search.sets())
-    if (!fit.rough && fit.fit.status != FitStatus::failed) order.push_back(&fit);
+    if (!fit.rough && fit.fit.status != FitStatus::failed && set.size() <= most_effects)
+      order.push_back(&fit);
   std::ranges::sort(order, {}, [&](const SetFit* fit) { return search.criterion(*fit); });
   if (order.size() > kWeighed) order.resize(kWeighed);
   for (const SetFit* always : {&search.null(), &search.best()})
@@ -33,14 +37,47 @@ std::vector<const SetFit*> nearest(const Search& search) {
   return order;
 }
 
+// -1e300 if the evidence cannot be computed, e.g. because a derivative is not finite.
+double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence& evidence) {
+  const double log_mass = evidence.value + log_prior(problem, fit.set.size());
+  return std::isfinite(log_mass) ? log_mass : -1e300;
+}
+
+void keep_repeatable_error(Problem& problem, const Search& search) {
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
+}
+
 }  // namespace
 
-void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
-  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
-  std::vector<WeighedAnswer> all;
-  for (const SetFit* fit : nearest(search)) {
+void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log) {
+  if (search.best().set.empty()) return;
+  keep_repeatable_error(problem, search);
+  std::vector<std::pair<double, const SetFit*>> order;
+  double of_best = 0.0;
+  for (const SetFit* fit : nearest(search, search.best().set.size())) {
+    if (fit->set.empty()) continue;
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
-    const double log_mass = evidence.value + log_prior(problem, fit->set.size());
+    order.emplace_back(log_mass_of(problem, *fit, evidence), fit);
+    if (fit == &search.best()) of_best = order.back().first;
+  }
+  std::ranges::sort(order, std::greater<>{}, [](const auto& one) { return one.first; });
+  const std::string before = set_text(problem, search.best().set);
+  const double apart = std::log(kLimits.exchangeable);
+  const auto named = std::ranges::find_if(
+      order, [&](const auto& one) { return !(one.first > of_best + apart) || search.name(one.second->set); });
+  if (named == order.end() || !(named->first > of_best + apart)) return;
+  for (const auto& [log_mass, fit] : order)
+    if (log_mass < named->first - apart) search.refuse(fit->set);
+  log.push_back(fmt::format("{} is more probable than {}: ln {:.1f}", set_text(problem, named->second->set),
+                            before, named->first - of_best));
+}
+
+void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
+  keep_repeatable_error(problem, search);
+  std::vector<WeighedAnswer> all;
+  for (const SetFit* fit : nearest(search, std::numeric_limits<std::size_t>::max())) {
+    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
+    const double log_mass = log_mass_of(problem, *fit, evidence);
     all.push_back({set_text(problem, fit->set), log_mass});
     if (fit != &search.best() && !fit->set.empty()) continue;
     const auto laws = unknown_laws(problem, fit->fit.point, evidence.times);

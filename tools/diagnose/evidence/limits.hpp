@@ -3,9 +3,11 @@
 
 namespace sandhopper::diagnose {
 
-// Priors of the evidence. The answer uses only the model error of effects, where it judges if one effect is
-// needed beside others (`form_error`). The rest serves the masses that --search prints.
+// Priors of the evidence. The answer uses them where it judges if one effect is needed beside others
+// (`form_error`) and where it chooses between fitted sets of the same size (`name_likeliest`).
 struct Limits {
+  // Ratio of probabilities up to which two sets can be exchanged: their names form a class.
+  double exchangeable = 20.0;
   double effects_expected = 1.0;  // Prior mean of the number of listed effects that are missing.
   double unknown_expected = 0.2;  // Prior mean of the number of missing effects that are not listed.
   double size_spread = 1.0;       // Standard deviation of ln(size / typical).

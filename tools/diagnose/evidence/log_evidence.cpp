@@ -49,8 +49,8 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
   directions.insert(directions.end(), more.begin(), more.end());
   const auto forms = forms_of(problem, point.hypothesis);
   const auto effects = static_cast<Index>(forms.size());
-  const auto linear =
-      linearise_all(problem, point, directions, {.forms = &forms, .with_repeatable_error = true});
+  const auto linear = linearise_all(problem, point, directions,
+                                    {.forms = &forms, .with_repeatable_error = true, .fresh_columns = true});
   // Columns: [residual, directions | forms | repeatable error]. The forms differ between trials, so they are
   // eliminated trial by trial.
   const auto before = static_cast<Index>(directions.size()) + 1;
@@ -63,7 +63,7 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
     out.plain.emplace_back(trial.gram(shared, shared));
     auto without = without_forms(trial.gram, shared, of_form, information);
     out.grams.push_back(std::move(without.gram));
-    out.log_determinant += without.log_determinant;
+    out.log_determinant += without.log_determinant + trial.log_determinant;
   }
   return out;
 }
@@ -188,7 +188,7 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
   out.times = likeliest_times(problem, fit.point, at.grams);
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
   const Quadratic plain =
-      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
+      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1e-6));
   // The fit has the least deviance that the simulation reaches. Take the deviance from the fit, and only its
   // change by form errors and larger repeatable errors from the linear approximation.
   double off = 0.0;

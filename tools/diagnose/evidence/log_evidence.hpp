@@ -9,10 +9,12 @@
 namespace sandhopper::diagnose {
 
 // Log evidence of one hypothesis (a fitted set of effects): the Laplace approximation at its fit,
-//   ln Z = -d/2 - 1/2 sum_t ln|I + C_t F_t| + sum_e ln int p(b_e) exp(-(b_e - b^_e)^2 / 2 s_e^2) db_e
+//   ln Z = -d/2 - 1/2 sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|) + sum_e ln int p(b_e) exp(-(b_e - b^_e)^2
+//   / 2 s_e^2) db_e
 //          - 1/2 ln|I + Lambda|        (shapes and tolerances, Lambda in units of their prior)
 // d: deviance at the fit, with the priors of shapes and tolerances. F_t: information of trial t on the form
-// of each effect, C_t: its prior covariance (Limits::form, size_of_trial).
+// of each effect, C_t: its prior covariance (Limits::form, size_of_trial). Z_t: whitened derivatives of trial
+// t by its nuisances at this fit, S_t: their prior variances.
 struct LogEvidence {
   double value = 0.0;
   std::vector<double> times{};  // Most probable ratio of each repeatable model error to its learnt scale.
@@ -23,7 +25,7 @@ struct LogEvidence {
 struct AtFit {
   std::vector<Eigen::MatrixXd> grams;
   std::vector<Eigen::MatrixXd> plain;  // The same without form errors.
-  double log_determinant = 0.0;        // sum_t ln|I + C_t F_t|
+  double log_determinant = 0.0;        // sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|)
 };
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {});
 

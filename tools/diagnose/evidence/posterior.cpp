@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/discrepancy/overlap.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
+#include "tools/diagnose/evidence/limits.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -15,14 +16,14 @@ constexpr double kRemainderScale = 10.0;  // Held-out gain of a free law that ad
 constexpr double kShareOfExplained = 2e-4;
 constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form error.
 // Weight relative to the best set below which an alternative does not join the class.
-constexpr double kLeastShare = 0.05;
+constexpr double kLeastShare = 1.0 / kLimits.exchangeable;
 
 // Weight of each fitted set, relative to the best one.
 std::map<std::vector<std::size_t>, double> weights(const Search& search, double temperature) {
   std::map<std::vector<std::size_t>, double> weight;
   for (const auto& [set, fit] : search.sets()) {
     // A rival may hold an effect it does not need, but it must not have more effects than the best set.
-    if (fit.fit.status == FitStatus::failed || set.size() > search.best().set.size()) continue;
+    if (fit.fit.status == FitStatus::failed || fit.refused || set.size() > search.best().set.size()) continue;
     const double difference = search.criterion(fit) - search.criterion(search.best());
     weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);
   }

@@ -40,6 +40,7 @@ struct SetFit {
   std::vector<double> beside;  // Deviances of the sets without one of the effects, at the time of judging.
   bool needed = false;    // Every effect is significant, large enough and noticeable; valid after `judge`.
   bool sound = false;     // Like `needed`, but small effects are allowed.
+  bool refused = false;   // Far less probable than the best set (`name_likeliest`).
   bool hopeless = false;  // An effect is so far from needed that a better fit is not worth its cost.
 };
 
@@ -85,6 +86,13 @@ class Search {
   // named otherwise. Returns false if there is no such set.
   bool name_small(double gain);
 
+  // Makes a fitted set the best one. False, and nothing is changed, if an effect of it stands at the end of its
+  // range.
+  bool name(const std::vector<std::size_t>& set);
+
+  // A refused set is no alternative to the best one.
+  void refuse(const std::vector<std::size_t>& set) { sets_.at(set).refused = true; }
+
   // Makes the empty set the best one.
   void name_nothing() { best_.clear(); }
 
@@ -108,7 +116,7 @@ class Search {
 
  private:
   bool over() { return stopped_ = stopped_ || is_over_(); }
-  void grow_sets();
+  void grow_sets(const std::vector<std::size_t>& from);
   void improve();
   double criterion(const SetFit& fit, double dispersion) const;
   double cost_of_an_effect() const;  // Penalty per effect, including its first parameter.

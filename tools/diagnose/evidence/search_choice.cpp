@@ -327,6 +327,15 @@ bool Search::name_small(double gain) {
   return false;
 }
 
+bool Search::name(const std::vector<std::size_t>& set) {
+  SetFit& fit = sets_.at(set);
+  if (!fit.judged) judge(fit);
+  if (std::ranges::any_of(fit.evidence, &EffectEvidence::at_bound)) return false;
+  best_ = set;
+  columns_ = columns_at(*problem_, best().fit.point);
+  return true;
+}
+
 std::vector<Point> Search::best_points(std::size_t count) const {
   std::vector<const SetFit*> order;
   const double limit = best().fit.deviance + kNearlyAsGood * (null().fit.deviance - best().fit.deviance);

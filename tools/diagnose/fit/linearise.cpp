@@ -98,11 +98,19 @@ MatrixXd gram_of(const MatrixXd& x, const std::vector<Index>& columns, const Kep
   return gram;
 }
 
+// ln |M| of a factored positive definite matrix M, plus ln of the prior variances of its nuisances.
+double log_determinant_of(const Eigen::LDLT<MatrixXd>& factored, const std::vector<Nuisance>& nuisances) {
+  double sum = factored.vectorD().array().log().sum();
+  for (const auto& nuisance : nuisances) sum += 2.0 * std::log(nuisance.sd);
+  return sum;
+}
+
 // Eliminates the nuisances of each block from `gram` (Schur complement). Returns their solution for each
-// block.
+// block; adds their part to `log_determinant`.
 std::vector<MatrixXd> eliminate_blocks(const TrialModel& trial, const std::vector<double>& zeta,
                                        const MatrixXd& x, const std::vector<Index>& columns,
-                                       const KeptColumns& kept, double damping, MatrixXd& gram) {
+                                       const KeptColumns& kept, double damping, MatrixXd& gram,
+                                       double& log_determinant) {
   const Index nb = kept.block.cols(), own = x.cols();
   const auto q = static_cast<Index>(trial.trial_nuisances.size());
   std::vector<MatrixXd> solution;
@@ -125,7 +133,9 @@ std::vector<MatrixXd> eliminate_blocks(const TrialModel& trial, const std::vecto
       cb(j, 0) -= weight * value;
       gram(0, 0) += weight * value * value;
     }
-    solution.push_back(hb.ldlt().solve(cb));
+    const Eigen::LDLT<MatrixXd> factored(hb);
+    log_determinant += log_determinant_of(factored, trial.block_nuisances);
+    solution.push_back(factored.solve(cb));
     gram.noalias() -= cb.transpose() * solution.back();
   }
   return solution;
@@ -151,10 +161,13 @@ void eliminate(const TrialModel& trial, const std::vector<double>& zeta, const M
     gram(0, width + i) -= weight * value;
     gram(0, 0) += weight * value * value;
   }
-  const auto block_solution = eliminate_blocks(trial, zeta, x, columns, kept, damping, gram);
+  const auto block_solution =
+      eliminate_blocks(trial, zeta, x, columns, kept, damping, gram, out.log_determinant);
   out.solution = MatrixXd::Zero(count, width);
   if (q > 0) {
-    const MatrixXd inner = gram.bottomRightCorner(q, q).ldlt().solve(gram.bottomLeftCorner(q, width));
+    const Eigen::LDLT<MatrixXd> factored(gram.bottomRightCorner(q, q));
+    out.log_determinant += log_determinant_of(factored, trial.trial_nuisances);
+    const MatrixXd inner = factored.solve(gram.bottomLeftCorner(q, width));
     out.gram = gram.topLeftCorner(width, width) - gram.topRightCorner(width, q) * inner;
     out.solution.topRows(q) = inner;
   } else {

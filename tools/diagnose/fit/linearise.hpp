@@ -40,6 +40,7 @@ struct TrialLinear {
   Eigen::MatrixXd solution;
   // Columns of X, not whitened, less what the nuisances take up; empty unless asked for.
   Eigen::MatrixXd plain;
+  double log_determinant = 0.0;  // ln |I + S^1/2 Z'Z S^1/2|, if nothing was damped
 };
 
 // A signature, sum_i weight_i direction_i, times hat functions of time that sum to one. These columns

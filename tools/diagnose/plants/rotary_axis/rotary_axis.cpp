@@ -35,11 +35,15 @@ double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belie
     for (const double v : torque.value) driven += v * v;
     rows += static_cast<double>(torque.value.size());
     const auto positions = averaged(samples_of(trial, "position_rad"), 0.01);
-    if (positions.value.size() < 20) continue;
-    moving += static_cast<double>(positions.value.size());
-    for (const double p : positions.value)
-      hanging += std::pow(f.gravity_torque_Nm * std::sin(p - f.bottom_rad), 2);
-    for (const double a : smooth(positions, 8).curvature) accelerating += std::pow(f.inertia_kg_m2 * a, 2);
+    const auto velocities = averaged(samples_of(trial, "velocity_radps"), 0.01);
+    const bool only_speed = positions.value.size() < 20;
+    if (only_speed && velocities.value.size() < 20) continue;
+    moving += static_cast<double>((only_speed ? velocities : positions).value.size());
+    if (!only_speed)
+      for (const double p : positions.value)
+        hanging += std::pow(f.gravity_torque_Nm * std::sin(p - f.bottom_rad), 2);
+    for (const double a : only_speed ? smooth(velocities, 8).rate : smooth(positions, 8).curvature)
+      accelerating += std::pow(f.inertia_kg_m2 * a, 2);
   }
   const auto rms = [](double squares, double n) { return n > 0.0 ? std::sqrt(squares / n) : 0.0; };
   for (const double torque : {rms(driven, rows), rms(hanging, moving), rms(accelerating, moving)})
