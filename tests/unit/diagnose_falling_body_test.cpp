@@ -306,5 +306,34 @@ TEST(DiagnoseFallingBody, ATerminalSpeedIsADragAndNoMissingWeight) {
   EXPECT_NEAR(found.parameters.front().value, (1e-4 - 5e-5) * 9.81 / 0.025, 0.05 * 0.0196);
 }
 
+// A bead whose speed settles within 0.3 ms, recorded every 50 ms: it falls at its terminal speed from the
+// first row on.
+TEST(DiagnoseFallingBody, ADragFarFasterThanTheRowsIsSimulated) {
+  constexpr double kDrag_N_s_per_m = 0.04, kMass_kg = 1.2e-5;
+  Recordings r = drops([](double, double, double) { return 0.0; }, 1, 1);
+  r.belief.numbers = {{"gravity_mps2", 9.81},
+                      {"body.mass_kg", kMass_kg},
+                      {"medium.linear_drag_N_s_per_m", kDrag_N_s_per_m},
+                      {"sensors.height_noise_m", 5e-4}};
+  r.beliefs = {r.belief};
+  Trial trial;
+  trial.name = "1";
+  trial.kind = "drop";
+  const double terminal_mps = kMass_kg * 9.81 / kDrag_N_s_per_m;
+  for (int row = 0; row < 100; ++row) {
+    trial.time_s.push_back(0.05 * row);
+    trial.channels["height_m"].push_back(0.25 - terminal_mps * trial.time_s.back());
+  }
+  r.trials = {trial};
+  const auto prepared = prepare(r);
+  ASSERT_EQ(prepared.problem.trials.size(), 1u);
+  const TrialModel& model = *prepared.problem.trials.front();
+  std::vector<double> out(model.rows.size());
+  model.predict({}, std::vector<double>(model.nuisance_count(), 0.0), out);
+  ASSERT_GT(out.size(), 90u);
+  EXPECT_NEAR(out[50] - out[90], terminal_mps * (model.rows[90].time_s - model.rows[50].time_s),
+              1e-4 * terminal_mps);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose
