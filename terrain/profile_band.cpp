@@ -46,10 +46,13 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   double variance = 0.0, gain = 0.0;
   for (std::size_t j = 0; j < kTerms; ++j) {
     point.value += x[j] * posterior_.mean[j];
-    double row = 0.0;
-    for (std::size_t i = 0; i < kShared; ++i) row += x[i] * posterior_.covariance[i * kTerms + j];
+    double row = 0.0, follows = 0.0;
+    for (std::size_t i = 0; i < kShared; ++i) {
+      row += x[i] * posterior_.covariance[i * kTerms + j];
+      follows += x[i] * posterior_.gain[i * kTerms + j];
+    }
     variance += row * x[j];
-    gain += row * response_[cell][j];
+    gain += follows * response_[cell][j];
   }
   // The fluctuation f of a single place is part of its curve. The estimate follows it by the factor `gain`,
   // and `variance` already contains (gain f)^2 as an error. The correct error is f^2 (1 - gain)^2, so add
@@ -132,9 +135,6 @@ void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexce
   p.added_mass_factor_sd = std::sqrt(std::max(posterior_.covariance[kAddedMass * kTerms + kAddedMass], 0.0));
   p.smoothness_m = posterior_.smoothness_m;
   p.spread_relative = posterior_.spread;
-  p.surface_m = m[kSurface];
-  p.depth_drift_mps = m[kDrift];
-  p.depth_lag_s = m[kLag];
   p.joint_friction_N = m[kFriction];
   p.chi_squared = observations > 0.0 ? residual / observations : 0.0;
 }

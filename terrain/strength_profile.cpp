@@ -17,7 +17,6 @@ constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
-constexpr double kUnknown_m = 1e3;
 constexpr double kDegrees = 1.0;  // degrees of freedom of Student's distribution; 1 is the Cauchy
                                   // distribution
 
@@ -55,7 +54,7 @@ ProfileSolver::ProfileSolver(const StiffnessConfig& config)
 void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
-  kept_normal_.back() = 1.0 / (prior_.surface_sd_m * prior_.surface_sd_m);
+  kept_errors_ = errors_ = {};
   shared_normal_ = {};
   shared_moment_ = {};
   posterior_ = {};
@@ -69,22 +68,19 @@ void ProfileSolver::restart() noexcept {
   line_weight_ = line_sum_ = line_degrees_ = 0.0;
 }
 
-// Normal equations of a stride, with the slopes of the previous posterior. A sample in cell s contains every
-// cell above s in full, and its own cell up to its position.
+// Normal equations of a stride. A sample in cell s contains every cell above s in full, and its own cell up
+// to its position. A depth error changes its force by the slope of the previous posterior.
 ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums) const noexcept {
   using F = ProfileFeature;
   Information info;
   for (std::size_t s = 0; s < kN; ++s) {
     const ProfileCell& cell = sums.cells[s];
-    const double slope = slope_N_per_m_[s];
-    const std::array<Column, 8> own{{{F::place, kProfileCell_m, s},
+    const std::array<Column, 5> own{{{F::place, kProfileCell_m, s},
                                      {F::added_mass, 1.0, kAddedMass},
                                      {F::motor, 1.0, kScale},
                                      {F::intercept, prior_.believed_stiffness_N_per_m, kIntercept},
-                                     {F::one, slope, kSurface},
-                                     {F::time, slope, kDrift},
-                                     {F::speed, slope, kLag},
                                      {F::friction, 1.0, kFriction}}};
+    constexpr std::array<F, kDepthErrors> kErrors{F::one, F::time, F::speed};
     if (cell.observations == 0.0) continue;
     const double weight = 1.0 / noise_factor_[s];
     const auto product = [&](F a, F b) { return weight * cell.product(a, b); };
@@ -92,9 +88,19 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
       info.moment[a.term] += a.scale * product(a.feature, F::force);
       for (const Column& b : own)
         info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
+      for (std::size_t e = 0; e < kDepthErrors; ++e)
+        info.of_depth[e][a.term] += a.scale * slope_N_per_m_[s] * product(a.feature, kErrors[e]);
+    }
+    for (std::size_t e = 0; e < kDepthErrors; ++e) {
+      info.depth_moment[e] += slope_N_per_m_[s] * product(kErrors[e], F::force);
+      for (std::size_t f = 0; f < kDepthErrors; ++f)
+        info.depth_normal[e * kDepthErrors + f] +=
+            slope_N_per_m_[s] * slope_N_per_m_[s] * product(kErrors[e], kErrors[f]);
     }
     for (std::size_t i = 0; i < s; ++i) {
       info.moment[i] += kProfileCell_m * product(F::one, F::force);
+      for (std::size_t e = 0; e < kDepthErrors; ++e)
+        info.of_depth[e][i] += kProfileCell_m * slope_N_per_m_[s] * product(F::one, kErrors[e]);
       for (const Column& b : own) {
         const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
         info.normal[i * kTerms + b.term] += value;
@@ -162,8 +168,7 @@ double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, d
   return log_root;
 }
 
-// Solves at one grid point. p.covariance receives the precision, not the covariance. Returns the log
-// evidence.
+// Solves at one grid point. p.gain receives the precision N, not its inverse. Returns the log evidence.
 double ProfileSolver::solve_at(std::size_t point, const Information& data, Posterior& p) const noexcept {
   Information info = data;
   p.smoothness_m = kSmoothness_m[point / kSpreadFactor.size()];
@@ -171,11 +176,25 @@ double ProfileSolver::solve_at(std::size_t point, const Information& data, Poste
   const double log_prior = add_shared_prior(info, p.smoothness_m, p.spread);
   const Cholesky<kTerms> root(info.normal);
   p.mean = root.solve(info.moment);
-  p.covariance = info.normal;
+  p.gain = info.normal;
   double fit = 0.0;
   for (std::size_t i = 0; i < kTerms; ++i) fit += info.moment[i] * p.mean[i];
-  if (in_crater_) hold_depth(root, p.mean);
   return log_prior - root.half_log_determinant() + 0.5 * fit;
+}
+
+// N^-1 + N^-1 S N^-1.
+ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::covariance_of(
+    const Matrix<kTerms>& gain) const noexcept {
+  Matrix<kTerms> product{}, covariance = gain;
+  for (std::size_t i = 0; i < kTerms; ++i)
+    for (std::size_t k = 0; k < kTerms; ++k)
+      for (std::size_t j = 0; j < kTerms; ++j)
+        product[i * kTerms + j] += gain[i * kTerms + k] * errors_.moment[k * kTerms + j];
+  for (std::size_t i = 0; i < kTerms; ++i)
+    for (std::size_t k = 0; k < kTerms; ++k)
+      for (std::size_t j = 0; j < kTerms; ++j)
+        covariance[i * kTerms + j] += product[i * kTerms + k] * gain[k * kTerms + j];
+  return covariance;
 }
 
 // Combines the posterior over the grid into one mean and, in the last pass, one covariance.
@@ -203,16 +222,17 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
   if (!last) {
     const auto g = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
     solve_at(g, data, p);
-    posterior_.covariance = Cholesky<kTerms>(p.covariance).inverse();
-    hold_depth(posterior_.covariance);
+    posterior_.gain = Cholesky<kTerms>(p.gain).inverse();
+    posterior_.covariance = covariance_of(posterior_.gain);
     take_jumps(p.smoothness_m, p.spread, posterior_.covariance, p.mean);
     return;
   }
   for (std::size_t g = 0; g < kGrid; ++g) {
     if (weight[g] == 0.0) continue;
     solve_at(g, data, p);
-    Matrix<kTerms> covariance = Cholesky<kTerms>(p.covariance).inverse();
-    hold_depth(covariance);
+    const Matrix<kTerms> gain = Cholesky<kTerms>(p.gain).inverse();
+    const Matrix<kTerms> covariance = covariance_of(gain);
+    for (std::size_t i = 0; i < gain.size(); ++i) posterior_.gain[i] += weight[g] * gain[i];
     posterior_.smoothness_m += weight[g] * p.smoothness_m;
     posterior_.spread += weight[g] * p.spread;
     for (std::size_t i = 0; i < kTerms; ++i)
@@ -232,15 +252,14 @@ void ProfileSolver::take_slopes() noexcept {
 // Coefficients of a cell's features whose combination is the residual of the posterior mean.
 std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_t s) const noexcept {
   const auto& m = posterior_.mean;
-  const double slope = slope_N_per_m_[s];
-  double above = slope * m[kSurface];
+  double above = 0.0;
   for (std::size_t j = 0; j < s; ++j) above += kProfileCell_m * m[j];
   return {-above,
           -kProfileCell_m * m[s],
           -prior_.believed_stiffness_N_per_m * m[kIntercept],
           -m[kAddedMass],
-          -slope * m[kDrift],
-          -slope * m[kLag],
+          0.0,
+          0.0,
           -m[kFriction],
           -m[kScale],
           1.0};
@@ -295,7 +314,7 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
   constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles for 1 % and for 1 % / 28 (all
                                                         // cells together)
   broken_cells_ = 0;
-  const double depth_variance = posterior_.covariance[kSurface * kTerms + kSurface];
+  const double depth_variance = kept_errors_.variance_m2;
   for (std::size_t s = 0; s < kN; ++s) {
     const double n = sums.cells[s].observations;
     if (n == 0.0) continue;
@@ -325,12 +344,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     report(sums, stride);
     return;
   }
-  if (stride == kFreshGround) {  // the surface's height is unknown
-    land(kUnknown_m);
-    kept_normal_.back() += 1.0 / (prior_.surface_sd_m * prior_.surface_sd_m);
-  }
-  if (stride > 1) land(prior_.landing_depth_sd_m);
-  expect_depth(stride > 1);
+  begin_depth_errors(stride > 1);
   if (stride <= 1) ++places_;
   noise_factor_.fill(1.0);
   stride_misfit_ = {};
@@ -341,6 +355,8 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
     info = information_of(sums);
+    take_depth_errors(info);
+    if (pass + 1 == kPasses) share(info);
     add_stride_prior(info);
     integrate(info, pass + 1 == kPasses);
     take_slopes();
@@ -348,8 +364,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   }
   for (std::size_t s = 0; s < kN; ++s) misfit_[s] = misfit_with(stride_misfit_[s], s);
   take_responses(sums);
-  of_deepest_ = {sums.last_s, sums.last_change_mps, 0.0};
-  take_depth();
+  end_depth_errors(info, sums);
   keep(info);
   report(sums, stride);
 }

@@ -12,12 +12,18 @@
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
-//   force = F(z) + (d + r t + l (v - v_0)) F'(z) + c A + e Q + f tanh(Ldot / v_s) + noise
+//   force = F(z + D) + c A + e Q + f tanh(Ldot / v_s) + noise,  D = d + r t + l (v - v_0)
 // with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
 // torque constant, l a lag between force and depth, and v_0 the speed at contact, from which depths count.
 // The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
-// band includes their uncertainty (Rasmussen & Williams 2006, section 5.2). The depth has errors, too; F' is
-// taken from the previous posterior, in three passes.
+// band includes their uncertainty (Rasmussen & Williams 2006, section 5.2).
+// No sample of a stride shows the depth error D: a curve that is shifted or stretched is a curve, too. Only
+// the prior of kappa prefers one of them, the one that is nearer to the believed bed, which on ground that
+// hardens is too soft. Therefore D is not fitted. The normal equations N x = m are those without D, and D
+// keeps the distribution that it had before the stride (cut model, Plummer 2015, Statistics and Computing 25,
+// 37). It changes m by B (d, r, l), so with S the covariance of this change the estimate has the covariance
+//   N^-1 + N^-1 S N^-1
+// F' in B is taken from the previous posterior, in three passes.
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
@@ -25,16 +31,11 @@
 // 1 % over all strides gets less weight and a wider band. The band of one place includes the bed's own
 // fluctuation, which is part of its curve. From the second place of a ground prepared alike on, the curve is
 // the one common to all places; their fluctuations and the noise of their depths are noise that averages out.
-// Between strides the information on kappa, c, e and b is kept, and r, l and f are integrated out: the
-// posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
-// the previous stride ended, so both depths share an error. Therefore the depth error D at the crater's
-// deepest point is also kept,
-//   D = d + r T + l V, T the time from contact to the deepest point, V the change of speed
-//   d of the next stride = D + N(0, landing^2)
-// In a crater no sample shows the depth: a curve that is shifted is a curve, too, and only the prior of kappa
-// prefers one of them, a softer one. So d, r and l of such a stride keep the distribution that they had
-// before its samples, and the curve is averaged over them (cut model, Plummer 2015, Statistics and Computing
-// 25, 37). All memory is bounded and nothing is allocated.
+// Between strides N, m and S are kept, and f is integrated out: the posterior of a stride is the prior of the
+// next. A foot that lands in its crater begins at the depth where the previous stride ended,
+//   d of the next stride = D at the crater's deepest point + N(0, landing^2)
+// so the variance of D there and its covariance with the change of m are kept, too. All memory is bounded and
+// nothing is allocated.
 namespace sandhopper {
 
 // Points of a reported curve: the middle and the end of every cell.
@@ -56,9 +57,6 @@ struct StrengthProfile {
   double added_mass_factor_sd = 0.0;
   double smoothness_m = 0.0;     // posterior mean of L
   double spread_relative = 0.0;  // posterior mean of s
-  double surface_m = 0.0;        // d
-  double depth_drift_mps = 0.0;  // r
-  double depth_lag_s = 0.0;
   double joint_friction_N = 0.0;
   double chi_squared = 0.0;  // chi-squared per independent observation
 
@@ -77,9 +75,6 @@ struct StrengthProfile {
     visit("added_mass_factor_sd", self.added_mass_factor_sd);
     visit("smoothness_m", self.smoothness_m);
     visit("spread_relative", self.spread_relative);
-    visit("surface_m", self.surface_m);
-    visit("depth_drift_mps", self.depth_drift_mps);
-    visit("depth_lag_s", self.depth_lag_s);
     visit("joint_friction_N", self.joint_friction_N);
     visit("chi_squared", self.chi_squared);
   }
@@ -105,14 +100,10 @@ ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept
 class ProfileSolver {
  public:
   static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
-  static constexpr std::size_t kTerms = kShared + 4;         // and d, r, l, f
-  static constexpr std::size_t kKept = kShared + 1;          // kappa, c, e, z0 and D, which takes the place
-                                                             // of d
+  static constexpr std::size_t kTerms = kShared + 1;         // and f
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
-                               kIntercept = kProfileCells + 2, kSurface = kProfileCells + 3,
-                               kDrift = kProfileCells + 4, kLag = kProfileCells + 5,
-                               kFriction = kProfileCells + 6;
+                               kIntercept = kProfileCells + 2, kFriction = kProfileCells + 3;
 
   template <std::size_t N>
   using Matrix = std::array<double, N * N>;
@@ -128,7 +119,8 @@ class ProfileSolver {
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
-  // Information of the strides on kappa, c, e and b, without its prior.
+  // Information of the strides on kappa, c, e and b, without its prior. The depth errors are integrated out,
+  // for each stride by itself.
   const Matrix<kShared>& normal() const noexcept { return shared_normal_; }
   const Vector<kShared>& moment() const noexcept { return shared_moment_; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
@@ -146,14 +138,25 @@ class ProfileSolver {
   ProfilePoint force_N(double depth_m) const noexcept;
 
  private:
+  static constexpr std::size_t kDepthErrors = 3;  // d, r and l
   struct Information {
     Matrix<kTerms> normal{};
     Vector<kTerms> moment{};
+    std::array<Vector<kTerms>, kDepthErrors> of_depth{};  // B: change of the moment for a unit of each error
+    Matrix<kDepthErrors> depth_normal{};                  // of the errors themselves
+    Vector<kDepthErrors> depth_moment{};
   };
   struct Posterior {
     Vector<kTerms> mean{};
     Matrix<kTerms> covariance{};
+    Matrix<kTerms> gain{};  // N^-1: change of the mean for a unit change of the moment
     double smoothness_m = 0.0, spread = 0.0;
+  };
+  // Errors of the depth, which are not fitted.
+  struct DepthErrors {
+    Matrix<kTerms> moment{};      // S
+    Vector<kTerms> with_depth{};  // covariance of the moment's change and D
+    double variance_m2 = 0.0;     // of D
   };
   Information information_of(const ProfileSums& sums) const noexcept;
   void add_stride_prior(Information& information) const noexcept;
@@ -165,18 +168,15 @@ class ProfileSolver {
   void take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
                   const Vector<kTerms>& mean) noexcept;
   void integrate(const Information& information, bool last) noexcept;
-  static constexpr std::size_t kHeld = 3;  // d, r and l
-  using DepthGains = std::array<Vector<kTerms>, kHeld>;
-  DepthGains depth_gains(const DepthGains& columns) const noexcept;
-  void hold_depth(const Cholesky<kTerms>& root, Vector<kTerms>& mean) const noexcept;
-  void hold_depth(Matrix<kTerms>& covariance) const noexcept;
+  Matrix<kTerms> covariance_of(const Matrix<kTerms>& gain) const noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
-  void keep(Information information) noexcept;
-  void land(double landing_m) noexcept;
-  void expect_depth(bool in_crater) noexcept;
-  void take_depth() noexcept;
+  void begin_depth_errors(bool in_crater) noexcept;
+  void take_depth_errors(const Information& information) noexcept;
+  void end_depth_errors(const Information& information, const ProfileSums& sums) noexcept;
+  void keep(const Information& information) noexcept;
+  void share(const Information& own) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
   void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
@@ -206,14 +206,9 @@ class ProfileSolver {
   int places_ = 0;                                                // number of places on ground prepared alike
   std::array<double, kProfileCells> jump_{};  // variance of each innovation relative to its prior
   std::array<Vector<kTerms>, kProfileCells> response_{};
-  Matrix<kKept> kept_normal_{};  // includes the prior of D
-  Vector<kKept> kept_moment_{};
-  // Change of the kept moments for a unit change of the moments of r, l and f, which are integrated out.
-  std::array<Vector<kTerms - kKept>, kKept> own_gain_{};
-  Vector<kTerms - kKept> of_deepest_{};             // factors of r, l and f in D: T, V and 0
-  double depth_m_ = 0.0, depth_variance_m2_ = 0.0;  // d before a stride, D after it
-  bool in_crater_ = false;                          // this stride landed in its own crater
-  Vector<kHeld> held_mean_{}, held_variance_{};     // of d, r and l before the stride's samples
+  Matrix<kTerms> kept_normal_{};
+  Vector<kTerms> kept_moment_{};
+  DepthErrors kept_errors_{}, errors_{};  // before and after the moments of this stride
   Matrix<kShared> shared_normal_{};
   Vector<kShared> shared_moment_{};
   std::size_t broken_cells_ = 0;
