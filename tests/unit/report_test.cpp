@@ -5,6 +5,7 @@
 
 #include "tools/report/base64.hpp"
 #include "tools/report/envelope.hpp"
+#include "tools/report/ground_text.hpp"
 #include "tools/report/report_json.hpp"
 #include "tools/report/trial_page.hpp"
 
@@ -88,6 +89,13 @@ TEST(Report, WhatAStanceFoundInTheGroundIsAnEventOfThePage) {
   ASSERT_EQ(events.size(), 3u);
   EXPECT_EQ(events[1].at("name"), "ground");
   EXPECT_EQ(events[1].at("values"), "a crust broke at 12.3 mm: 14.2 N at 0.45 m/s, size 3.1 +- 0.4 N");
+}
+
+TEST(Report, SizeOfAnEventHasNoMoreDigitsThanItsError) {
+  const GroundEvent layer{GroundEventKind::layer_boundary, 0.0195, 41.4, 0.55, 2217.4, 298.2, 20.0, 13.7};
+  EXPECT_THAT(in_words(layer), HasSubstr("size 2217 +- 298 N/m"));
+  const GroundEvent pull{GroundEventKind::suction, 0.0195, 41.4, 0.55, 2.174, 0.042, 20.0, 13.7};
+  EXPECT_THAT(in_words(pull), HasSubstr("size 2.17 +- 0.04 N"));
 }
 
 TEST(Report, UnwritablePlaceIsNamed) {

@@ -58,13 +58,20 @@ std::string_view unit_of_size(GroundEventKind kind) {
   return kind == GroundEventKind::layer_boundary || kind == GroundEventKind::box_floor ? "N/m" : "N";
 }
 
+// Decimal places that show one or two digits of a standard deviation below 10; none above.
+int decimals_for(double sd) {
+  if (!(sd < 10.0)) return 0;
+  return sd < 0.1 ? 2 : 1;
+}
+
 std::string in_words(const GroundEvent& e) {
   static constexpr std::array<std::string_view, 5> kWords{"nothing", "a crust broke", "another layer begins",
                                                           "the floor of the box",
                                                           "suction while the foot leaves"};
-  return fmt::format("{} at {:.1f} mm: {:.1f} N at {:.2f} m/s, size {:.3g} +- {:.1g} {}",
+  return fmt::format("{} at {:.1f} mm: {:.1f} N at {:.2f} m/s, size {:.{}f} +- {:.{}f} {}",
                      kWords[static_cast<std::size_t>(e.kind)], 1e3 * e.depth_m, e.force_N, e.speed_mps,
-                     e.size, e.size_sd, unit_of_size(e.kind));
+                     e.size, decimals_for(e.size_sd), e.size_sd, decimals_for(e.size_sd),
+                     unit_of_size(e.kind));
 }
 
 std::string trial_line(const ReportData& data) {
