@@ -27,10 +27,11 @@ struct Hop {
 
 }  // namespace
 
-double widest_band_N(const ProfileSolver& solver, const DepthRange& range) noexcept {
+double widest_band_N(const ProfileSolver& solver, const DepthRange& range,
+                     ProfileSolver::Band band) noexcept {
   double widest = 0.0;
   for (double z = range.from_m; z <= range.to_m + 1e-9; z += kPitch_m) {
-    const auto force = solver.force_N(z);
+    const auto force = solver.force_N(z, band);
     widest = std::max(widest, force.high() - force.low());
   }
   return widest;
@@ -85,9 +86,10 @@ NextStride next_stride(const ProfileSolver& solver, const HopModel& robot,
   for (const auto& setup : candidates)
     deepest_m = std::max(deepest_m, predicted_stride(solver, robot, setup).depth_max_m);
   const DepthRange range{interest.from_m, std::clamp(deepest_m, interest.from_m, interest.to_m)};
+  constexpr auto kBand = ProfileSolver::Band::narrowable;
   NextStride best;
   best.range = range;
-  best.widest_now_N = widest_band_N(solver, range);
+  best.widest_now_N = widest_band_N(solver, range, kBand);
   best.widest_expected_N = std::numeric_limits<double>::infinity();
   for (const auto& setup : candidates) {
     double expected = 0.0, reach_m = 0.0;
@@ -95,7 +97,7 @@ NextStride next_stride(const ProfileSolver& solver, const HopModel& robot,
       const auto sums = predicted_stride(solver, robot, setup, kDeviations[i]);
       ProfileSolver after = solver;
       after.add(sums, ProfileSolver::kFreshGround);
-      expected += kWeights[i] * widest_band_N(after, range);
+      expected += kWeights[i] * widest_band_N(after, range, kBand);
       reach_m += kWeights[i] * sums.depth_max_m;
     }
     if (!(expected < best.widest_expected_N)) continue;

@@ -5,7 +5,9 @@
 #include "terrain/strength_profile.hpp"
 
 // Set-up of the next stride that is expected to give most information about the ground: the drop height and
-// leg stiffness that minimise the largest width [N] of the profile's band. A stride is predicted on the
+// leg stiffness that minimise the largest width [N] of the profile's band, without the part that no stride
+// narrows (ProfileSolver::Band). A predicted stride fits the curve in every cell, so in a forecast that part
+// would become smaller, although in a real stride it does not. A stride is predicted on the
 // profile's mean by two masses and a leg spring: the foot penetrates, accelerates grains and stays where it
 // comes to rest. Its predicted samples are added to a copy of the solver; the width of the band hardly
 // depends on their values. The ground below the present depth, and so the depth reached, is uncertain.
@@ -43,12 +45,13 @@ struct NextStride {
   double reach_m = 0.0;            // expected depth of the stride
   DepthRange range{};              // depths of interest, limited to the largest depth that a candidate is
                                    // expected to reach
-  double widest_now_N = 0.0;       // present largest width of the 95 % band of the force in `range`
+  double widest_now_N = 0.0;       // present largest width of the narrowable 95 % band in `range`
   double widest_expected_N = 0.0;  // expected width after the stride
 };
 
 // Largest width of the band of the force in this range [N].
-double widest_band_N(const ProfileSolver& solver, const DepthRange& range) noexcept;
+double widest_band_N(const ProfileSolver& solver, const DepthRange& range,
+                     ProfileSolver::Band band = ProfileSolver::Band::whole) noexcept;
 
 // Sums that a stride with this set-up would give on the profile's mean plus `deviations` of its band.
 ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot, const StrideSetup& setup,

@@ -34,7 +34,7 @@ double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
   return scale * scale * (change * change + std::max(variance, 0.0));
 }
 
-ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
+ProfilePoint ProfileSolver::force_N(double depth_m, Band band) const noexcept {
   ProfilePoint point;
   if (!within(depth_m)) return kNowhere;
   const auto cell = std::min(static_cast<std::size_t>(depth_m / kProfileCell_m), kProfileCells - 1);
@@ -59,14 +59,18 @@ ProfilePoint ProfileSolver::force_N(double depth_m) const noexcept {
   // f^2 (1 - 2 gain). The curve common to several places has no fluctuation, and `variance` is correct.
   const double fluctuation = places_ > 1 ? 0.0 : config_.joint.fluctuation_relative * point.value;
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
+  const double variance_N2 = std::max(variance + fluctuation_N2, 0.0);
+  if (band == Band::narrowable) {
+    point.sd = std::sqrt(variance_N2);
+    return point;
+  }
   // Variance of the curve within a cell: the cell's unresolved scatter, and the change of slope between its
   // neighbours.
   const auto neighbour = share < 0.5 ? (cell > 0 ? cell - 1 : cell) : std::min(cell + 1, kProfileCells - 1);
   const double nearer = std::abs(share - 0.5);
   const double unresolved = std::max(unresolved_N2_[cell], 2.0 * nearer * unresolved_N2_[neighbour]);
   const double bend = 0.5 * kProfileCell_m * share * (1.0 - share);
-  point.sd = std::sqrt(std::max(variance + fluctuation_N2, 0.0) + unresolved +
-                       bend * bend * slope_change_squared(cell));
+  point.sd = std::sqrt(variance_N2 + unresolved + bend * bend * slope_change_squared(cell));
   return point;
 }
 

@@ -134,8 +134,10 @@ class ProfileSolver {
   // Number of cells of the last stride that no curve fits, at a level of 1 % for all cells together.
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
-  // Force at a depth; NaN beyond the last cell.
-  ProfilePoint force_N(double depth_m) const noexcept;
+  // Force at a depth; NaN beyond the last cell. `narrowable` leaves out of the band the curve's variation
+  // within a cell, such as that of a crust or a sharp boundary: no stride narrows it.
+  enum class Band { whole, narrowable };
+  ProfilePoint force_N(double depth_m, Band band = Band::whole) const noexcept;
 
  private:
   static constexpr std::size_t kDepthErrors = 3;  // d, r and l

@@ -45,6 +45,24 @@ TEST(NextStride, GoesWhereTheBandIsWidest) {
   EXPECT_GT(widest_band_N(shallower, next.range), 0.7 * next.widest_now_N);
 }
 
+// A step of 20 N over 1.25 mm is no curve on cells of 2.5 mm. A predicted stride fits it, a real one does
+// not.
+TEST(NextStride, DoesNotHopForAStepWithinACell) {
+  ProfileRegression regression({}, 0.040, 0.68);
+  double t = 0.0;
+  for (double z = 1e-4; z < 0.045; z += 2e-4) {
+    const double force = believed_force_N({}, z) + (z > 0.0200 && z < 0.02125 ? 20.0 : 0.0);
+    regression.add({z, 0.2, 0.0, force, -0.1, t += 1e-3, 1e-3}, force);
+  }
+  ProfileSolver solver{StiffnessConfig{}};
+  solver.add(regression.sums(), 1);
+  const DepthRange range{0.005, 0.040};
+  const double whole_N = widest_band_N(solver, range);
+  EXPECT_GT(whole_N, 1.5 * widest_band_N(solver, range, ProfileSolver::Band::narrowable));
+  const auto next = next_stride(solver, hop_model_of({}), stride_setups(), range);
+  EXPECT_LT(next.widest_now_N, 0.7 * whole_N);
+}
+
 // Fresh ground has another surface height each time, so the error of the surface averages out. On the same
 // ground it does not.
 TEST(NextStride, FreshGroundAddsToWhatIsKnown) {

@@ -14,17 +14,20 @@ struct Options : BedOptions {
 
 void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
   session.say("strides after the first until the widest part of the band is half of what it was,");
-  session.say("(sessions in which it is not after {}); rms error of the planned strides' depth",
+  session.say("(sessions in which it is not after {}); the same of the part that strides can narrow, without",
               kMostStrides);
-  session.say("  {:<17} {:>8} {:>12} {:>12} {:>12} {:>9}", "bed", "sessions", "by chance", "planned",
-              "oracle", "depth mm");
+  session.say("the curve's variation within a cell; rms error of the planned strides' depth");
+  session.say("  {:<17} {:>8} {:>12} {:>12} {:>12} {:>17} {:>9}", "bed", "sessions", "by chance", "planned",
+              "oracle", "narrowable", "depth mm");
   SessionScore all{.bed = "all"};
   const auto line = [&](const SessionScore& s) {
     const auto cell = [&](NextBy by) {
       return fmt::format("{:.2f} ({:.0f})", s.mean(by), s.unfinished[static_cast<std::size_t>(by)]);
     };
-    session.say("  {:<17} {:>8.0f} {:>12} {:>12} {:>12} {:>9.1f}", s.bed, s.sessions, cell(NextBy::chance),
-                cell(NextBy::plan), cell(NextBy::oracle),
+    const auto narrowable = fmt::format("{:.2f} {:.2f} {:.2f}", s.mean_narrowable(NextBy::chance),
+                                        s.mean_narrowable(NextBy::plan), s.mean_narrowable(NextBy::oracle));
+    session.say("  {:<17} {:>8.0f} {:>12} {:>12} {:>12} {:>17} {:>9.1f}", s.bed, s.sessions,
+                cell(NextBy::chance), cell(NextBy::plan), cell(NextBy::oracle), narrowable,
                 1e3 * std::sqrt(s.reach_squared_m2 / std::max(1.0, s.planned)));
   };
   for (const auto& s : scores) {
@@ -36,6 +39,9 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
   session.say(
       "planned against by chance: {:.2f} [{:.2f}, {:.2f}] times fewer; the oracle: {:.2f} [{:.2f}, {:.2f}]",
       plan.value, plan.ci95_low, plan.ci95_high, oracle.value, oracle.ci95_low, oracle.ci95_high);
+  session.say("the narrowable part: {:.2f} times fewer; the oracle: {:.2f}",
+              all.mean_narrowable(NextBy::chance) / all.mean_narrowable(NextBy::plan),
+              all.mean_narrowable(NextBy::chance) / all.mean_narrowable(NextBy::oracle));
 }
 
 ExitCode run(Session& session, const Options& options) {

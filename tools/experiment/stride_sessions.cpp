@@ -48,11 +48,17 @@ class Session {
   void run(NextBy by, SessionScore& score) const {
     ProfileSolver solver(setup_.cycle.stiffness);
     solver.add(first_.sums, 1);
-    const double enough_N = 0.5 * widest_band_N(solver, range_);
+    constexpr std::array kBands{ProfileSolver::Band::whole, ProfileSolver::Band::narrowable};
+    std::array<double, kBands.size()> enough_N{}, needed{};
+    for (std::size_t i = 0; i < kBands.size(); ++i)
+      enough_N[i] = 0.5 * widest_band_N(solver, range_, kBands[i]);
+    const auto halved = [&](std::size_t i) {
+      return widest_band_N(solver, range_, kBands[i]) <= enough_N[i];
+    };
     const auto arm = static_cast<std::size_t>(by);
     std::mt19937_64 engine(seed_);
-    int strides = 0;
-    for (; strides < kMostStrides && widest_band_N(solver, range_) > enough_N; ++strides) {
+    std::array<bool, kBands.size()> done{};
+    for (int strides = 0; strides < kMostStrides && !(done[0] && done[1]); ++strides) {
       const StrideSetup next = choose(by, solver, engine);
       const auto stride =
           hop(next, seed_ + kStrides + kSeedsOfAnArm * arm + static_cast<std::uint64_t>(strides));
@@ -62,10 +68,15 @@ class Session {
         score.planned += 1.0;
       }
       solver.add(stride.sums, ProfileSolver::kFreshGround);
+      for (std::size_t i = 0; i < kBands.size(); ++i) {
+        needed[i] += !done[i];
+        done[i] = done[i] || halved(i);
+      }
     }
-    score.strides[arm] += strides;
-    score.squares[arm] += static_cast<double>(strides) * strides;
-    score.unfinished[arm] += widest_band_N(solver, range_) > enough_N;
+    score.strides[arm] += needed[0];
+    score.squares[arm] += needed[0] * needed[0];
+    score.unfinished[arm] += !done[0];
+    score.narrowable[arm] += needed[1];
   }
 
  private:
@@ -125,6 +136,7 @@ SessionScore& SessionScore::operator+=(const SessionScore& other) {
     squares[arm] += other.squares[arm];
     with_chance[arm] += other.with_chance[arm];
     unfinished[arm] += other.unfinished[arm];
+    narrowable[arm] += other.narrowable[arm];
   }
   return *this;
 }
@@ -175,6 +187,9 @@ void to_json(nlohmann::ordered_json& json, const SessionScore& s) {
           {"strides_planned", s.mean(NextBy::plan)},
           {"strides_of_oracle", s.mean(NextBy::oracle)},
           {"unfinished", s.unfinished},
+          {"narrowable_by_chance", s.mean_narrowable(NextBy::chance)},
+          {"narrowable_planned", s.mean_narrowable(NextBy::plan)},
+          {"narrowable_of_oracle", s.mean_narrowable(NextBy::oracle)},
           {"reach_rms_m", std::sqrt(s.reach_squared_m2 / std::max(1.0, s.planned))}};
 }
 

@@ -28,10 +28,13 @@ struct SessionScore {
   std::array<double, kNextBy> squares{};         // sum of their squares
   std::array<double, kNextBy> with_chance{};     // sum of their products with the strides by chance
   std::array<double, kNextBy> unfinished{};      // number of sessions whose band was never halved
+  std::array<double, kNextBy> narrowable{};      // sum of strides until the narrowable part was halved
+                                                 // (ProfileSolver::Band)
   double reach_squared_m2 = 0.0, planned = 0.0;  // for planned strides: predicted depth minus true depth
 
   SessionScore& operator+=(const SessionScore& other);  // adds the sessions of another part or another bed
   double mean(NextBy by) const { return strides[static_cast<std::size_t>(by)] / sessions; }
+  double mean_narrowable(NextBy by) const { return narrowable[static_cast<std::size_t>(by)] / sessions; }
   struct Ratio {
     double value, ci95_low, ci95_high;
   };
