@@ -243,7 +243,18 @@ void split_csv_cells(std::string_view line, char separator, std::vector<TableCel
   }
 }
 
+// In "1.007,59" the first sign can only divide thousands, also where the rows looked at to find the style
+// hold no number above 1000.
+NumberStyle with_clear_thousands(std::string_view text, NumberStyle style) {
+  const char other = style.decimal == ',' ? '.' : ',';
+  const auto at = text.find(style.decimal);
+  const bool is_clear = at != std::string_view::npos && text.find(other) < at &&
+                        text.find(style.decimal, at + 1) == std::string_view::npos;
+  return style.thousands == '\0' && is_clear ? NumberStyle{style.decimal, other} : style;
+}
+
 std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
+  style = with_clear_thousands(text, style);
   if (style == NumberStyle{})
     if (const auto value = plain_number(text)) return value;
   std::string rewritten, plain;

@@ -123,6 +123,24 @@ TEST(BenchmarkJudge, AHiddenSizeAboveItsUpperBoundBreaksTheBound) {
   EXPECT_FALSE(score({j}).figures.back().met());
 }
 
+// A sensor's effect is bounded by its channel, a change by the number it changes, a stiffness from below.
+TEST(BenchmarkScore, BoundsAreOfTheHiddenChannelAndOfAChangeAndFromBelow) {
+  auto truth = hidden("single", {"clock.skew"}, 0.5);
+  truth.effects[0].channel = "force_N";
+  truth.effects[0].parameters = {{"skew_s", 0.003}};
+  EXPECT_FALSE((UpperBound{"clock.skew[foot_z_m]", "skew_s", 0.001}).size_of(truth.effects[0]));
+  EXPECT_EQ((UpperBound{"clock.skew[force_N]", "skew_s", 0.001}).size_of(truth.effects[0]), 0.003);
+  truth = hidden("single", {"axis.coulomb"}, 0.5);
+  truth.effects[0].parameters = {{"coulomb_friction_change_Nm", -0.02}};
+  EXPECT_EQ((UpperBound{"axis.coulomb", "coulomb_friction_Nm", 0.03}).size_of(truth.effects[0]), 0.02);
+  // A new number is no change: the answer does not hold what was believed.
+  truth.effects[0].parameters = {{"coulomb_friction_Nm", 0.05}};
+  EXPECT_FALSE((UpperBound{"axis.coulomb", "coulomb_friction_change_Nm", 0.03}).size_of(truth.effects[0]));
+  const UpperBound stiffness{"rig.compliance", "stiffness_N_per_m", 5e4, true};
+  EXPECT_TRUE(stiffness.holds(6e4));
+  EXPECT_FALSE(stiffness.holds(4e4));
+}
+
 TEST(BenchmarkScore, CountsFiguresCalibrationAndLadder) {
   const auto nothing = hidden("null", {}), one = hidden("single", {"rail.coulomb"}, 1.0),
              small = hidden("single", {"rail.coulomb"}, 0.2);

@@ -123,5 +123,19 @@ TEST(DiagnoseAbsent, ABoundBeyondTheRangeOfAnEffectIsNoBound) {
   EXPECT_LT(d.absent.size(), problem.candidates.size() - search.best().set.size());
 }
 
+// A stiffness or a limit falls as its effect grows, a number of the belief is bounded by its change.
+TEST(DiagnoseAbsent, BoundsSayWhatTheyBound) {
+  const auto d = diagnose(drops_with_known_drag());
+  ASSERT_EQ(d.verdict, Verdict::consistent);
+  const auto drag = std::ranges::find(d.absent, "air.quadratic_drag", &Bound::id);
+  ASSERT_NE(drag, d.absent.end());
+  EXPECT_EQ(drag->parameter, "drag_coefficient_change");
+  EXPECT_FALSE(drag->is_lower);
+  for (const auto& bound : d.absent) {
+    EXPECT_EQ(bound.is_lower, bound.id.starts_with("sensor.saturation")) << bound.id;
+    EXPECT_GT(bound.value, 1e-12) << bound.id;
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

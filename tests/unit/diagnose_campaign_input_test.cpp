@@ -15,6 +15,24 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// A number that the plant needs and nobody states is a placeholder, which is said before any verdict.
+TEST(DiagnoseCampaignInput, TellsPlaceholdersThatItComputesWith) {
+  CampaignFolder folder;
+  const std::string head = "plant = \"rotary_axis\"\n[[trial]]\nfile = \"1.csv\"\n";
+  folder.write("1.csv", "t_s,position_rad\n0.0,0.1\n0.1,0.2\n0.2,0.3\n0.3,0.4\n");
+  const auto told = [&] {
+    const auto input = read_campaign(load_campaign(folder.path()));
+    EXPECT_EQ(input.recordings.trials.size(), 1u);
+    const auto found = std::ranges::find(input.findings, "axis.inertia_kg_m2", &Finding::channel);
+    return found == input.findings.end() ? "" : found->what;
+  };
+  folder.write("campaign.toml", head);
+  EXPECT_NE(told().find("is stated nowhere, and 1 kg m^2 is no more than a placeholder"), std::string::npos);
+  folder.write("campaign.toml", "model = \"nominal.toml\"\n" + head);
+  folder.write("nominal.toml", "[axis]\ninertia_kg_m2 = 1.0\n");
+  EXPECT_EQ(told(), "");
+}
+
 // A problem of a file that two trials share is reported once; the same problem of another file is reported as
 // well.
 TEST(DiagnoseCampaignInput, TellsWhatAilsASharedFileOnce) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -72,5 +73,6 @@ std::vector<ForeignCondition> conditions_of_times();
 std::vector<ForeignCondition> conditions_of_cells();
 std::vector<ForeignCondition> conditions_of_tables();
 std::vector<ForeignCondition> conditions_of_units();
+std::vector<ForeignCondition> conditions_of_samples();
 
 }  // namespace sandhopper

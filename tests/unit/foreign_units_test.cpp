@@ -370,6 +370,9 @@ TEST(HeldSamples, HeldAndFilledValuesAreFound) {
     const auto recording = read(text, {});
     ASSERT_NE(find(recording, held_samples), nullptr) << hold;
     EXPECT_THAT(find(recording, held_samples)->what, HasSubstr(fmt::format("held over {} rows", hold)));
+    // The repeats are no samples, the first row of each run is one.
+    for (int i = 0; i < 400; ++i)
+      ASSERT_EQ(std::isnan(recording.channel("foot_z_m")[static_cast<std::size_t>(i)]), i % hold != 0) << i;
   }
   std::string filled = "t_s,foot_z_m,force_N\n";
   for (int i = 0; i < 200; ++i)

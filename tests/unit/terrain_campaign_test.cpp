@@ -161,6 +161,25 @@ TEST_F(TerrainCampaign, MissingChannelsRuleOutConclusionsAndNothingElse) {
       0.15);
 }
 
+// Pressure needs the plate's area. The default radius is no one's plate; the bed's numbers are not used here.
+TEST(TerrainPlaceholders, APlateThatNobodyStatesIsSaid) {
+  for (const bool stated : {false, true}) {
+    CampaignFolder folder;
+    folder.write("campaign.toml", std::string("plant = \"intruder\"\n[every_trial]\nkind = \"press\"\n") +
+                                      (stated ? "plate_diameter_m = 0.04\n" : "") +
+                                      "[[trial]]\nfile = \"1.csv\"\n");
+    std::string rows = "force_N,foot_z_m\n";
+    for (int i = 0; i < 60; ++i)
+      rows += std::to_string(0.02 * i * i) + "," + std::to_string(-4e-4 * i) + "\n";
+    folder.write("1.csv", rows);
+    std::string told;
+    for (const auto& finding : analyse_campaign(load_campaign(folder.path()), {}).findings)
+      told += to_string(finding) + "\n";
+    EXPECT_EQ(told.find("foot.radius_m: is stated nowhere, and 0.04 m") == std::string::npos, stated) << told;
+    EXPECT_EQ(told.find("terrain.stiffness"), std::string::npos) << told;
+  }
+}
+
 TEST(TerrainResults, SurviveJsonToTheLastBit) {
   TrialResult result;
   result.trial = "a.csv";

@@ -70,10 +70,10 @@ void check_intervals(Judged& j, const Truth::Effect& effect, const Claim& claim)
 
 void check_bounds(Judged& j, const Truth::Effect& effect, const std::vector<UpperBound>& absent) {
   for (const auto& bound : absent) {
-    const auto hidden = effect.parameters.find(bound.parameter);
-    if (bound.id != effect.id || hidden == effect.parameters.end()) continue;
+    const auto size = bound.size_of(effect);
+    if (!size) continue;
     ++j.bounded;
-    j.bounds_hold += std::abs(hidden->second) <= bound.value;
+    j.bounds_hold += bound.holds(*size);
   }
 }
 

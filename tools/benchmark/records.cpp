@@ -1,10 +1,12 @@
 #include "tools/benchmark/records.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace sandhopper::benchmark {
 namespace {
@@ -53,7 +55,10 @@ Truth truth_of(const nlohmann::json& json, std::string name) {
   for (const auto& effect : json.at("effects")) {
     Truth::Effect e{effect.at("id"), effect.at("size_relative"), {}};
     for (const auto& [key, value] : effect.at("parameters").items())
-      if (value.is_number()) e.parameters[key] = value.get<double>();
+      if (value.is_number())
+        e.parameters[key] = value.get<double>();
+      else if (key == "channel" && value.is_string())
+        e.channel = value;
     if (effect.contains("cells") && effect["cells"].is_array()) e.cells = cells_of(effect["cells"]);
     t.effects.push_back(std::move(e));
   }
@@ -135,8 +140,10 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
                    [](const Claim& a, const Claim& b) { return a.probability > b.probability; });
   if (json.contains("absent") && json["absent"].is_array())
     for (const auto& bound : json["absent"])
-      if (const auto value = bound.is_object() ? number(bound, "upper_bound") : std::nullopt)
-        d.absent.push_back({bound.value("id", ""), bound.value("parameter", ""), *value});
+      for (const char* key : {"upper_bound", "lower_bound"})
+        if (const auto value = bound.is_object() ? number(bound, key) : std::nullopt)
+          d.absent.push_back({bound.value("id", ""), bound.value("parameter", ""), *value,
+                              key == std::string_view("lower_bound")});
   if (json.contains("where") && json["where"].is_array()) d.where = cells_of(json["where"]);
   if (json.contains("baselines") && json["baselines"].is_object())
     for (const auto& [name, one] : json["baselines"].items())
@@ -153,6 +160,24 @@ std::optional<Diagnosis> read_diagnosis(const std::filesystem::path& file) {
     d.asks_for_a_split = is_trial && next.value("purpose", nlohmann::json("split")) == "split";
   }
   return d;
+}
+
+std::optional<double> UpperBound::size_of(const Truth::Effect& effect) const {
+  if (id != effect.id && (effect.channel.empty() || id != effect.id + "[" + effect.channel + "]"))
+    return std::nullopt;
+  // A change is compared with the number itself where the belief holds none: both start at 0.
+  const auto without_change = [](std::string name) {
+    if (const auto at = name.find("_change"); at != std::string::npos) name.erase(at, 7);
+    return name;
+  };
+  for (const auto& [name, value] : effect.parameters)
+    if (without_change(name) == without_change(parameter)) {
+      const bool is_new =
+          name != parameter && name == without_change(parameter);  // not a change of the belief
+      return is_new ? std::nullopt : std::optional(std::abs(value));
+    }
+  if (effect.parameters.size() == 1) return std::abs(effect.parameters.begin()->second);
+  return std::nullopt;
 }
 
 }  // namespace sandhopper::benchmark

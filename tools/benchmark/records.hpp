@@ -25,6 +25,7 @@ struct Truth {
     std::map<std::string, double> parameters;
     // Cells in which it exceeds the noise; nullopt if the answer does not state them.
     std::optional<std::set<Cell>> cells{};
+    std::string channel{};  // of a sensor's effect
   };
   std::vector<Effect> effects;
   std::optional<std::string> unknown_port;
@@ -54,8 +55,13 @@ struct Claim {
 
 // An effect that was not found, and the 95 % bound of its size (`absent`).
 struct UpperBound {
-  std::string id, parameter;
+  std::string id, parameter;  // id with the channel of a sensor's effect: "clock.skew[force_N]"
   double value = 0.0;
+  bool is_lower = false;  // of a stiffness or a limit, which falls as the effect grows
+
+  // The hidden size that it bounds; nullopt if it is of another effect or channel, or has no counterpart.
+  std::optional<double> size_of(const Truth::Effect& effect) const;
+  bool holds(double size) const { return is_lower ? size >= value : size <= value; }
 };
 
 // A diagnosis.json as read; claims sorted by probability, most probable first.

@@ -150,6 +150,23 @@ std::vector<Finding> missing_numbers(const Campaign& campaign) {
   return missing;
 }
 
+std::vector<Finding> placeholder_notes(const Campaign& campaign,
+                                       const std::function<bool(std::string_view key)>& is_used) {
+  if (campaign.plant == CampaignPlant::hopper) return missing_numbers(campaign);
+  const auto numbers = numbers_of(campaign.belief);
+  std::vector<Finding> notes;
+  for (auto& finding : missing_numbers(campaign)) {
+    if (!is_used(finding.channel)) continue;
+    finding.severity = FindingSeverity::note;
+    finding.what = fmt::format(
+        "is stated nowhere, and {:.6g} {} is no more than a placeholder: what is "
+        "computed with it is wrong by as much as your rig differs",
+        numbers.at(finding.channel), unit_of_key(finding.channel));
+    notes.push_back(std::move(finding));
+  }
+  return notes;
+}
+
 double usual_error(const UsedNumber& n) {
   constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
   const double size = std::max(std::abs(n.low), std::abs(n.high));

@@ -1,6 +1,8 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/campaign/campaign.hpp"
@@ -39,5 +41,9 @@ std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 k
 // One finding for each number that the plant needs (belief_notes.hpp) and that neither the model file nor
 // every trial states. None for a hopper, because its belief is this project's robot.
 std::vector<Finding> missing_numbers(const Campaign& campaign);
+
+// The same as notes of a verb that computes with the placeholders, for the keys that it uses.
+std::vector<Finding> placeholder_notes(const Campaign& campaign,
+                                       const std::function<bool(std::string_view key)>& is_used);
 
 }  // namespace sandhopper

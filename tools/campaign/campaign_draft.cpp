@@ -91,7 +91,7 @@ class Drafter {
 
   void guess_columns() {
     time_ = time_like_column(table_, out_.plant);
-    for (std::size_t i = 0; i < table_.names.size(); ++i) {
+    for (const auto i : in_order_of_choice(table_.names)) {
       if (time_ == i || table_.names[i] == "t_s") continue;
       if (auto guess = guess_column(table_.names[i], unit_of(i), out_.plant, guesses_)) {
         guess->column = i;
@@ -156,7 +156,9 @@ class Drafter {
                                  guess.unit ? guess.unit->text : "an unknown unit: state it",
                                  guess.is_downward      ? ", counted downward"
                                  : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
-                                                        : ""));
+                                 : is_setpoint_by_name(table_.names[guess.column])
+                                     ? ", a set-point by its name and no measurement"
+                                     : ""));
     for (const auto& guess : guesses_)
       if (const auto words = choice_words(guess.channel); !words.empty())
         said.push_back(fmt::format("{}: {}", guess.channel, words));

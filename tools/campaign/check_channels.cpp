@@ -226,15 +226,18 @@ class Checker {
     return samples;
   }
 
-  // True at the start or end of the recording, or while the motion itself pauses.
+  // True while the motion itself pauses; at the start or end of the recording also if it only settles.
   bool rests(std::size_t self, const Run& run) const {
+    constexpr double kSettles = 0.1;  // of the range of the position
     const auto& shape = shapes_[self];
-    if (run.first_row == shape.runs.front().first_row || run.last_row == shape.runs.back().last_row)
-      return true;
-    return !others_move_at_all(self, run);
+    const bool at_end =
+        run.first_row == shape.runs.front().first_row || run.last_row == shape.runs.back().last_row;
+    return !position_covers(at_end ? kSettles : 0.0, self, run);
   }
 
-  bool others_move_at_all(std::size_t self, const Run& run) const {
+  // True if the first position channel covers more than `share` of its range during the run. Without one the
+  // run counts as motion, but not at the start or end of the recording (share > 0).
+  bool position_covers(double share, std::size_t self, const Run& run) const {
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
       if (i == self) continue;
       const auto* traits = find_channel(plant_, recording_.channels[i].name);
@@ -246,9 +249,9 @@ class Checker {
         low = std::min(low, values[row]);
         high = std::max(high, values[row]);
       }
-      return high > low;  // the first position channel decides
+      return high - low > share * spreads_[i];  // the first position channel decides
     }
-    return true;
+    return share == 0.0;
   }
 
   std::uint64_t line_of(std::size_t row) const {

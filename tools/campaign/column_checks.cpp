@@ -94,6 +94,60 @@ std::size_t put_turns_back(std::vector<double>& angle_rad) {
   return steps;
 }
 
+CounterSteps put_counter_back(std::vector<double>& values) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (!std::isnan(values[row])) rows.push_back(row);
+  if (rows.size() < 4) return {};
+  const auto value = [&](std::size_t k) { return values[rows[k]]; };
+  double low = value(0), high = low, largest_step = 0.0;
+  for (const auto row : rows) low = std::min(low, values[row]), high = std::max(high, values[row]);
+  std::vector<std::size_t> jumps;
+  std::vector<double> widths;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const double step = value(k) - value(k - 1);
+    if (std::abs(step) <= 0.8 * (high - low)) {
+      largest_step = std::max(largest_step, std::abs(step));
+      continue;
+    }
+    if (k < 2 || k + 1 == rows.size()) return {};
+    const double before = value(k - 1) - value(k - 2), after = value(k + 1) - value(k);
+    if (!(before * step < 0.0 && after * step < 0.0)) return {};
+    jumps.push_back(k);
+    widths.push_back(std::abs(step) + 0.5 * (std::abs(before) + std::abs(after)));
+  }
+  if (jumps.size() < 2) return {};
+  const auto [least, most] = std::ranges::minmax(widths);
+  if (most - least > largest_step || largest_step > 0.25 * least) return {};
+  CounterSteps counter{jumps.size(), 0.0};
+  for (const double width : widths) counter.width += width / static_cast<double>(widths.size());
+  double added = 0.0;
+  std::size_t next = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    if (next < jumps.size() && jumps[next] == k) {
+      const double step = value(k) + added - value(k - 1);
+      added -= std::copysign(counter.width, step);
+      ++next;
+    }
+    values[rows[k]] += added;
+  }
+  return counter;
+}
+
+std::string put_angle_back(std::vector<double>& angle_rad) {
+  if (const auto turns = put_turns_back(angle_rad); turns > 0)
+    return fmt::format(
+        "jumps by a whole turn {} times, as an angle does that is counted within one turn; the "
+        "turns are put back",
+        turns);
+  if (const auto counter = put_counter_back(angle_rad); counter.count > 0)
+    return fmt::format(
+        "jumps by {:.4g} {} times while it moves on, as a counter does that is full and begins "
+        "again; it is taken as going on",
+        counter.width, counter.count);
+  return "";
+}
+
 bool equals_time(const std::vector<double>& values, const std::vector<double>& times) {
   constexpr std::size_t kFewest = 10;
   return values.size() >= kFewest && values.size() == times.size() && values == times;

@@ -33,6 +33,18 @@ std::optional<TimeDoubt> doubt_time(const std::vector<double>& times, const std:
 // than half a turn from sample to sample is read wrongly. Returns the number of such steps.
 std::size_t put_turns_back(std::vector<double>& angle_rad);
 
+// The same for a counter of any other width, 16 bits for example. A jump must be alike each time, at least
+// twice, and span 0.8 of all values, while the steps on both sides of it go the other way: so a motion from
+// stop to stop does not count. `width`: mean of the jumps without the motion between the samples.
+struct CounterSteps {
+  std::size_t count = 0;
+  double width = 0.0;
+};
+CounterSteps put_counter_back(std::vector<double>& values);
+
+// Both. Returns what was done, in words; empty if nothing was.
+std::string put_angle_back(std::vector<double>& angle_rad);
+
 // True if every value equals the time of its row: then the names stand above the wrong columns.
 bool equals_time(const std::vector<double>& values, const std::vector<double>& times);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
 
 namespace sandhopper {
 namespace {
@@ -55,7 +57,34 @@ ColumnGuess made(std::string_view channel, const std::optional<WrittenUnit>& uni
           factor.value_or(1.0) * (downward ? -1.0 : 1.0), downward};
 }
 
+bool has_any(std::string_view name, std::span<const std::string_view> words) {
+  const auto lower = in_lower_case(name);
+  return std::ranges::any_of(words,
+                             [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
 }  // namespace
+
+bool is_setpoint_by_name(std::string_view name) {
+  constexpr std::array<std::string_view, 11> kWords{"setpoint", "set_point", "set point", "cmd",
+                                                    "command",  "target",    "desired",   "demand",
+                                                    "sollwert", "_soll",     "reference"};
+  return has_any(name, kWords);
+}
+
+bool is_filtered_by_name(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kWords{"filt", "smooth", "averag", "_avg", "lowpass"};
+  return has_any(name, kWords);
+}
+
+std::vector<std::size_t> in_order_of_choice(const std::vector<std::string>& names) {
+  std::vector<std::size_t> columns(names.size());
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  std::ranges::stable_sort(columns, {}, [&](std::size_t i) {
+    return is_setpoint_by_name(names[i]) ? 2 : is_filtered_by_name(names[i]) ? 1 : 0;
+  });
+  return columns;
+}
 
 std::string in_lower_case(std::string_view text) {
   std::string out(text);

@@ -24,6 +24,15 @@ struct ColumnGuess {
 std::optional<ColumnGuess> guess_column(const std::string& name, const std::optional<WrittenUnit>& unit,
                                         CampaignPlant plant, const std::vector<ColumnGuess>& taken);
 
+// True if the name is that of a set-point, which is asked for and not measured; true if it is that of a value
+// that was filtered or averaged, which is late.
+bool is_setpoint_by_name(std::string_view name);
+bool is_filtered_by_name(std::string_view name);
+
+// Indices of the columns in the order in which a channel takes the first that fits: measured, filtered,
+// set-points.
+std::vector<std::size_t> in_order_of_choice(const std::vector<std::string>& names);
+
 // Only the letters A to Z are changed.
 std::string in_lower_case(std::string_view text);
 // True if `lower` (lower-case text) contains the word. A single letter must be the whole quantity: "z (mm)",

@@ -27,7 +27,7 @@ class HopperChecker {
       : recording_(recording), leg_(leg), places_(places) {}
 
   void run() {
-    if (check_heights()) return;
+    if (check_heights() || check_sides()) return;
     for (const auto side : kSides) {
       check_angle(fmt::format("motor_{}_position_rad", side));
       check_current(fmt::format("motor_{}_current_A", side));
@@ -61,6 +61,33 @@ class HopperChecker {
             "are exchanged, or one has the other sign",
             -above / rows),
         std::move(cure), places_.is_stated("mocap_body_z_m") && places_.is_stated("mocap_foot_z_m"));
+    return true;
+  }
+
+  // Both motors' columns exchanged alike: the difference of the currents follows that of the commands with
+  // the other sign. Motors that are asked for the same show nothing, and then nothing depends on it.
+  bool check_sides() {
+    double rows = 0, sc = 0, si = 0, scc = 0, sci = 0, sii = 0;
+    const std::array<const std::vector<double>*, 4> columns{
+        recording_.find("command_left_torque_Nm"), recording_.find("command_right_torque_Nm"),
+        recording_.find("motor_left_current_A"), recording_.find("motor_right_current_A")};
+    if (std::ranges::find(columns, nullptr) != columns.end()) return false;
+    for (std::size_t i = 0; i < recording_.t_s.size(); ++i) {
+      const double asked = (*columns[0])[i] - (*columns[1])[i], flows = (*columns[2])[i] - (*columns[3])[i];
+      if (std::isnan(asked) || std::isnan(flows)) continue;
+      rows += 1, sc += asked, si += flows, scc += asked * asked, sci += asked * flows, sii += flows * flows;
+    }
+    const double cc = scc - sc * sc / rows, ii = sii - si * si / rows, ci = sci - sc * si / rows;
+    constexpr double kLeast = 0.5;  // correlation; that of motors which follow their own command is positive
+    if (rows < static_cast<double>(kFewestStanceRows) || !(cc > 0.0) || !(ii > 0.0)) return false;
+    if (ci > -kLeast * std::sqrt(cc * ii)) return false;
+    add("motor_left_current_A",
+        fmt::format("minus motor_right_current_A goes against command_left_torque_Nm minus "
+                    "command_right_torque_Nm (correlation {:.2f}): left and right are exchanged in the "
+                    "motors' columns or in the commands",
+                    ci / std::sqrt(cc * ii)),
+        "exchange left and right in [columns], in the motors' columns or in the commands",
+        places_.is_stated("motor_left_current_A") && places_.is_stated("motor_right_current_A"));
     return true;
   }
 

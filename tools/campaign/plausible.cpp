@@ -181,6 +181,7 @@ std::string text_of_gravity(double g) {
 
 void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, const std::string& file) {
   constexpr double kDensest_kg_per_m3 = 22600.0;  // osmium
+  constexpr double kDropped_kg = 25.0;            // Most that a person may lift, ISO 11228-1 (2021).
   constexpr double kLongest = 30.0;               // Length / diameter of the most slender penetrometers.
   const double area_m2 = belief.body.frontal_area_m2;
   const double length_m = kLongest * std::sqrt(4.0 * area_m2 / std::numbers::pi);
@@ -192,9 +193,8 @@ void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, c
   };
   if (volume_m3 > 0.0 && mass_kg > kDensest_kg_per_m3 * volume_m3)
     add(fmt::format("{:.4g} kg in {:.3g} m3 at most is denser than any metal", mass_kg, volume_m3));
-  else if (mass_kg > 1000.0)
-    add(fmt::format("a body of {:.4g} kg ({:.3g} t) is not dropped in a laboratory", mass_kg,
-                    mass_kg / 1000.0));
+  else if (mass_kg > kDropped_kg)
+    add(fmt::format("a body of {:.4g} kg is not dropped by hand", mass_kg));
 }
 
 }  // namespace

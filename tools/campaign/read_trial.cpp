@@ -12,6 +12,7 @@
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/exchanged_columns.hpp"
 #include "tools/campaign/fall_check.hpp"
+#include "tools/campaign/frozen_rows.hpp"
 #include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/plausible.hpp"
@@ -21,9 +22,11 @@
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/sensor_signs.hpp"
+#include "tools/campaign/surface_check.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
 #include "tools/campaign/unit_check.hpp"
+#include "tools/campaign/value_steps.hpp"
 
 namespace sandhopper {
 namespace {
@@ -53,6 +56,7 @@ class Reader {
 
  private:
   void judge_samples() {
+    if (!out_.own_log) drop_untrue_rows(out_, places_);
     if (!out_.own_log) check_times(out_, places_, trial_.format.spread_times);
     if (any_unusable(out_.findings)) return;
     join_equal_times(out_, places_);
@@ -65,6 +69,8 @@ class Reader {
       check_axis_torque(out_, campaign_, trial_, places_);
       check_hopper(out_, campaign_, trial_, places_);
       check_signs(out_, campaign_, trial_, places_);
+      check_surface(out_, campaign_, trial_, places_);
+      check_value_steps(out_, places_);
     }
     if (out_.has_time) note_gaps(out_, places_);
     check_channels(out_, campaign_.plant, places_);
@@ -270,14 +276,10 @@ class Reader {
   }
 
   void unwrap(std::size_t i, const ColumnMapping& mapping, std::vector<double>& values) {
-    const auto steps = put_turns_back(values);
-    if (steps == 0) return;
-    add(FindingKind::file_format, note, table_.layout.header_line, header_character(i), table_.names[i],
-        fmt::format(
-            "for {}: jumps by a whole turn {} times, as an angle does that is counted within one turn; the "
-            "turns are put back",
-            mapping.channel, steps),
-        "");
+    const auto done = put_angle_back(values);
+    if (!done.empty())
+      add(FindingKind::file_format, note, table_.layout.header_line, header_character(i), table_.names[i],
+          fmt::format("for {}: {}", mapping.channel, done), "");
   }
 
   void leave(std::size_t i) {

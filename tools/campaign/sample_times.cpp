@@ -92,6 +92,7 @@ double coarse_resolution(const std::vector<double>& t_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) {
     const double step = t_s[i] - t_s[i - 1];
+    if (step == 0.0) continue;  // The same row twice: rows that differ are told as shared times.
     const auto same = [&](double other) { return std::abs(step - other) < 1e-6 * std::abs(other) + 1e-9; };
     if (std::none_of(steps.begin(), steps.end(), same)) steps.push_back(step);
     if (steps.size() > 4) return 0.0;
@@ -167,6 +168,31 @@ bool drop_filled_zeros(std::vector<double>& values) {
   return true;
 }
 
+// A command and the torque that it asks for hold between their samples; what is measured does not.
+bool holds_in_truth(const std::string& channel) {
+  return channel.starts_with("command_") || channel.ends_with("_torque_Nm") || channel == "torque_Nm" ||
+         channel.ends_with("_current_A") || channel == "phase";
+}
+
+// Replaces the repeats of held values by NaN. Nobody knows how old a run of another length is that comes
+// first, so it goes as a whole.
+void drop_repeats(std::vector<double>& values, std::size_t usual) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double held = kNone;
+  std::size_t first_run = 0;
+  bool in_first = true;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row])) continue;
+    const bool repeats = values[row] == held;
+    in_first = in_first && (repeats || std::isnan(held));
+    first_run += in_first;
+    held = values[row];
+    if (repeats) values[row] = kNone;
+  }
+  if (first_run != usual)
+    *std::ranges::find_if(values, [](double value) { return !std::isnan(value); }) = kNone;
+}
+
 }  // namespace
 
 void check_times(TrialRecording& recording, const RecordingPlaces& places, bool spread_times) {
@@ -222,15 +248,20 @@ void check_held_samples(TrialRecording& recording, const RecordingPlaces& places
   const bool any_changes = std::find(length.begin(), length.end(), 1U) != length.end();
   for (std::size_t i = 0; i < length.size() && any_changes; ++i) {
     if (length[i] < 2) continue;
-    const auto& channel = recording.channels[i];
+    auto& channel = recording.channels[i];
     const auto runs = inner_runs(channel.values);
     const double held_s = static_cast<double>(length[i]) * step_s;
+    const bool is_kept = holds_in_truth(channel.name);
     add(recording, FindingKind::held_samples, note, places, runs.first_row, channel.name,
         fmt::format(
-            "is held over {} rows at a time ({}) while other channels change with every row; between its "
-            "true samples it is up to {:.3g} off, and what changes faster than {:.3g} Hz does not show",
-            length[i], duration(held_s), runs.largest_step, 0.5 / held_s),
+            "is held over {} rows at a time ({}) while other channels change with every row; {}, and "
+            "what changes faster than {:.3g} Hz does not show",
+            length[i], duration(held_s),
+            is_kept ? fmt::format("between its true samples it may be up to {:.3g} off", runs.largest_step)
+                    : "the repeats are taken for no samples",
+            0.5 / held_s),
         "leave the cell empty where there is no new sample");
+    if (!is_kept) drop_repeats(channel.values, length[i]);
   }
 }
 

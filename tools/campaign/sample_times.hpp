@@ -11,7 +11,8 @@ namespace sandhopper {
 void check_times(TrialRecording& recording, const RecordingPlaces& places, bool spread_times);
 
 // Finds values that are not samples. A value repeated over a fixed number of rows, while another channel
-// changes in every row, gets a note with the true rate. Zeros between single true samples are removed.
+// changes in every row, gets a note with the true rate. The repeats are removed, but those of commands,
+// torques and currents, which hold in truth. Zeros between single true samples are removed.
 void check_held_samples(TrialRecording& recording, const RecordingPlaces& places);
 
 }  // namespace sandhopper

@@ -14,6 +14,8 @@ namespace {
 
 using enum FindingSeverity;
 
+constexpr double kShortHold_s = 0.5;  // before a body is let go, and after it lies
+
 struct Range {
   double low = INFINITY, high = -INFINITY;
   void take(double value) {
@@ -95,7 +97,35 @@ class SignChecker {
                                sign < 0 ? ", and its axis points downward" : ""),
                    sign * kOneG_mps2);
     if (any_at(-kGravity_mps2, true))
-      add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward", -1.0);
+      return add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward",
+                 -1.0);
+    if (campaign_.plant == CampaignPlant::falling_body) check_weightless(channel);
+  }
+
+  // An axis across the fall reads little at rest, too. No throw of a laboratory is weightless for longer than
+  // t = 2 v / g with 15 m/s, or than a fall from the stated height.
+  void check_weightless(std::string_view channel) {
+    constexpr double kThrow_s = 2.0 * 15.0 / 9.81, kLittle_mps2 = 0.5 * 9.81;
+    const double height_m = trial_.number("release_height_m").value_or(0.0);
+    const double most_s = height_m > 0.0 ? 2.0 * std::sqrt(2.0 * height_m / 9.81) + kShortHold_s : kThrow_s;
+    const auto values = recording_.channel(channel);
+    double from_s = NAN, longest_s = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i])) continue;
+      if (std::abs(values[i]) > kLittle_mps2) {
+        from_s = NAN;
+        continue;
+      }
+      if (std::isnan(from_s)) from_s = recording_.t_s[i];
+      longest_s = std::max(longest_s, recording_.t_s[i] - from_s);
+    }
+    if (longest_s <= most_s) return;
+    doubt_column(recording_, places_, places_.is_stated(channel), channel,
+                 fmt::format("reads less than half of gravity for {:.3g} s on end, and no body falls so long "
+                             "here: its axis lies across the fall, or it is without gravity",
+                             longest_s),
+                 "name the column of the axis along the fall (9.8 m/s2 at rest), or add offset = 9.81 if "
+                 "gravity was taken out");
   }
 
   // Reports a column that is an acceleration without gravity by its name (phones write it); a specific force

@@ -2,205 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "config/hint.hpp"
+#include "tools/campaign/unit_spellings.hpp"
 
 namespace sandhopper {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-struct Spelling {
-  std::string_view written;  // without blanks, case-sensitive
-  std::string_view dimension;
-  double to_si;
-};
-
-// In addition to the suffixes of config/hint.hpp. Factors: BIPM, The International System of Units, 9th ed.
-// (2019), table 8; pound, foot, inch: NIST SP 811 (2008), appendix B; kgf = 9.80665 N (CGPM 1901).
-constexpr std::array kSpellings{
-    Spelling{"\xC2\xB5m", "length", 1e-6},
-    Spelling{"\xCE\xBCm", "length", 1e-6},
-    Spelling{"micron", "length", 1e-6},
-    Spelling{"millimeter", "length", 1e-3},
-    Spelling{"millimeters", "length", 1e-3},
-    Spelling{"millimetre", "length", 1e-3},
-    Spelling{"millimetres", "length", 1e-3},
-    Spelling{"centimeter", "length", 1e-2},
-    Spelling{"centimeters", "length", 1e-2},
-    Spelling{"meter", "length", 1.0},
-    Spelling{"meters", "length", 1.0},
-    Spelling{"metre", "length", 1.0},
-    Spelling{"metres", "length", 1.0},
-    Spelling{"inch", "length", 0.0254},
-    Spelling{"inches", "length", 0.0254},
-    Spelling{"\"", "length", 0.0254},
-    Spelling{"feet", "length", 0.3048},
-    Spelling{"mil", "length", 2.54e-5},
-    Spelling{"mils", "length", 2.54e-5},
-    Spelling{"thou", "length", 2.54e-5},
-    Spelling{"km", "length", 1e3},
-    Spelling{"nm", "length", 1e-9},
-    Spelling{"sec", "time", 1.0},
-    Spelling{"secs", "time", 1.0},
-    Spelling{"second", "time", 1.0},
-    Spelling{"seconds", "time", 1.0},
-    Spelling{"Sekunden", "time", 1.0},
-    Spelling{"msec", "time", 1e-3},
-    Spelling{"millis", "time", 1e-3},
-    Spelling{"milliseconds", "time", 1e-3},
-    Spelling{"usec", "time", 1e-6},
-    Spelling{"micros", "time", 1e-6},
-    Spelling{"microseconds", "time", 1e-6},
-    Spelling{"\xC2\xB5s", "time", 1e-6},
-    Spelling{"\xCE\xBCs", "time", 1e-6},
-    Spelling{"nsec", "time", 1e-9},
-    Spelling{"nanos", "time", 1e-9},
-    Spelling{"nanoseconds", "time", 1e-9},
-    Spelling{"min", "time", 60.0},
-    Spelling{"h", "time", 3600.0},
-    Spelling{"hr", "time", 3600.0},
-    Spelling{"\xC2\xB0", "angle", kPi / 180},
-    Spelling{"degree", "angle", kPi / 180},
-    Spelling{"degrees", "angle", kPi / 180},
-    Spelling{"Grad", "angle", kPi / 180},
-    Spelling{"DEG", "angle", kPi / 180},
-    Spelling{"Deg", "angle", kPi / 180},
-    Spelling{"radian", "angle", 1.0},
-    Spelling{"radians", "angle", 1.0},
-    Spelling{"rev", "angle", 2 * kPi},
-    Spelling{"revs", "angle", 2 * kPi},
-    Spelling{"turn", "angle", 2 * kPi},
-    Spelling{"turns", "angle", 2 * kPi},
-    Spelling{"gon", "angle", kPi / 200},
-    Spelling{"rad/s", "angular rate", 1.0},
-    Spelling{"rads", "angular rate", 1.0},
-    Spelling{"rad/sec", "angular rate", 1.0},
-    Spelling{"rads-1", "angular rate", 1.0},
-    Spelling{"rad*s^-1", "angular rate", 1.0},
-    Spelling{"rads^-1", "angular rate", 1.0},
-    Spelling{"deg/s", "angular rate", kPi / 180},
-    Spelling{"deg/sec", "angular rate", kPi / 180},
-    Spelling{"dps", "angular rate", kPi / 180},
-    Spelling{"\xC2\xB0/s", "angular rate", kPi / 180},
-    Spelling{"mrad/s", "angular rate", 1e-3},
-    Spelling{"RPM", "angular rate", kPi / 30},
-    Spelling{"1/min", "angular rate", kPi / 30},
-    Spelling{"U/min", "angular rate", kPi / 30},
-    Spelling{"rev/min", "angular rate", kPi / 30},
-    Spelling{"r/min", "angular rate", kPi / 30},
-    Spelling{"tr/min", "angular rate", kPi / 30},
-    Spelling{"min-1", "angular rate", kPi / 30},
-    Spelling{"min^-1", "angular rate", kPi / 30},
-    Spelling{"rev/s", "angular rate", 2 * kPi},
-    Spelling{"rps", "angular rate", 2 * kPi},
-    Spelling{"turns/s", "angular rate", 2 * kPi},
-    Spelling{"m/s", "speed", 1.0},
-    Spelling{"m/sec", "speed", 1.0},
-    Spelling{"ms-1", "speed", 1.0},
-    Spelling{"ms^-1", "speed", 1.0},
-    Spelling{"mm/s", "speed", 1e-3},
-    Spelling{"mm/sec", "speed", 1e-3},
-    Spelling{"cm/s", "speed", 1e-2},
-    Spelling{"mm/min", "speed", 1e-3 / 60},
-    Spelling{"km/h", "speed", 1 / 3.6},
-    Spelling{"kmh", "speed", 1 / 3.6},
-    Spelling{"in/s", "speed", 0.0254},
-    Spelling{"ft/s", "speed", 0.3048},
-    Spelling{"m/s^2", "acceleration", 1.0},
-    Spelling{"m/s2", "acceleration", 1.0},
-    Spelling{"m/s\xC2\xB2", "acceleration", 1.0},
-    Spelling{"m/s/s", "acceleration", 1.0},
-    Spelling{"ms-2", "acceleration", 1.0},
-    Spelling{"m*s^-2", "acceleration", 1.0},
-    Spelling{"mm/s^2", "acceleration", 1e-3},
-    Spelling{"mm/s2", "acceleration", 1e-3},
-    Spelling{"cm/s^2", "acceleration", 1e-2},
-    Spelling{"Gal", "acceleration", 1e-2},
-    Spelling{"G", "acceleration", 9.80665},
-    Spelling{"g0", "acceleration", 9.80665},
-    Spelling{"mG", "acceleration", 9.80665e-3},
-    Spelling{"ft/s^2", "acceleration", 0.3048},
-    Spelling{"newton", "force", 1.0},
-    Spelling{"newtons", "force", 1.0},
-    Spelling{"Newton", "force", 1.0},
-    Spelling{"Newtons", "force", 1.0},
-    Spelling{"MN", "force", 1e6},
-    Spelling{"uN", "force", 1e-6},
-    Spelling{"lb", "force", 4.4482216152605},
-    Spelling{"lbs", "force", 4.4482216152605},
-    Spelling{"kp", "force", 9.80665},
-    Spelling{"daN", "force", 10.0},
-    Spelling{"dyn", "force", 1e-5},
-    Spelling{"ozf", "force", 0.27801385},
-    Spelling{"kN/m2", "pressure", 1e3},
-    Spelling{"kN/m\xC2\xB2", "pressure", 1e3},
-    Spelling{"N/m2", "pressure", 1.0},
-    Spelling{"N/m\xC2\xB2", "pressure", 1.0},
-    Spelling{"N/mm2", "pressure", 1e6},
-    Spelling{"N/mm\xC2\xB2", "pressure", 1e6},
-    Spelling{"N/cm2", "pressure", 1e4},
-    Spelling{"N/cm\xC2\xB2", "pressure", 1e4},
-    Spelling{"atm", "pressure", 101325.0},
-    Spelling{"N*m", "torque", 1.0},
-    Spelling{"N.m", "torque", 1.0},
-    Spelling{"N-m", "torque", 1.0},
-    Spelling{"N\xC2\xB7m", "torque", 1.0},
-    Spelling{"N\xE2\x8B\x85m", "torque", 1.0},
-    Spelling{"mN*m", "torque", 1e-3},
-    Spelling{"mN.m", "torque", 1e-3},
-    Spelling{"mN\xC2\xB7m", "torque", 1e-3},
-    Spelling{"Nmm", "torque", 1e-3},
-    Spelling{"N.mm", "torque", 1e-3},
-    Spelling{"N*mm", "torque", 1e-3},
-    Spelling{"kNm", "torque", 1e3},
-    Spelling{"N\xC2\xB7"
-             "cm",
-             "torque", 1e-2},
-    Spelling{"kgf.cm", "torque", 0.0980665},
-    Spelling{"kgf*cm", "torque", 0.0980665},
-    Spelling{"kgcm", "torque", 0.0980665},
-    Spelling{"kg.cm", "torque", 0.0980665},
-    Spelling{"kg*cm", "torque", 0.0980665},
-    Spelling{"lbf*in", "torque", 0.1129848},
-    Spelling{"in-lb", "torque", 0.1129848},
-    Spelling{"lb-in", "torque", 0.1129848},
-    Spelling{"ft-lb", "torque", 1.3558179},
-    Spelling{"lb-ft", "torque", 1.3558179},
-    Spelling{"ozin", "torque", 0.00706155},
-    Spelling{"oz-in", "torque", 0.00706155},
-    Spelling{"amps", "current", 1.0},
-    Spelling{"Amps", "current", 1.0},
-    Spelling{"Ampere", "current", 1.0},
-    Spelling{"volt", "voltage", 1.0},
-    Spelling{"volts", "voltage", 1.0},
-    Spelling{"Volts", "voltage", 1.0},
-    Spelling{"uV", "voltage", 1e-6},
-    Spelling{"mV/V", "voltage ratio", 1e-3},
-    Spelling{"\xC2\xB0\x43", "temperature", 1.0},
-    Spelling{"degC", "temperature", 1.0},
-    Spelling{"Celsius", "temperature", 1.0},
-    Spelling{"degF", "temperature", 0.0},
-    Spelling{"%", "share", 1e-2},
-    Spelling{"oz", "mass", 0.0283495},
-    Spelling{"t", "mass", 1e3},
-    Spelling{"kilogram", "mass", 1.0},
-    Spelling{"grams", "mass", 1e-3},
-    Spelling{"erpm", "electrical speed: that of the axis times its pole pairs", 0.0},
-    Spelling{"ERPM", "electrical speed: that of the axis times its pole pairs", 0.0},
-    Spelling{"counts", "counts", 0.0},
-    Spelling{"count", "counts", 0.0},
-    Spelling{"cnt", "counts", 0.0},
-    Spelling{"ticks", "counts", 0.0},
-    Spelling{"raw", "counts", 0.0},
-    Spelling{"LSB", "counts", 0.0},
-    Spelling{"adc", "counts", 0.0},
-    Spelling{"ADC", "counts", 0.0},
-    Spelling{"bits", "counts", 0.0},
-    Spelling{"digits", "counts", 0.0}};
 
 // True for units that may be the whole name of a column. Shorter ones are ambiguous: "h" for height, "t" for
 // time, "m" for mass.
@@ -248,6 +58,35 @@ std::optional<WrittenUnit> known_unit(std::string_view text) {
   if (listed && listed->quantity == "x")
     return WrittenUnit{std::string(text), std::string(listed->dimension), listed->to_si};
   return std::nullopt;
+}
+
+// A unit with a factor: "x10 N", "0.01 mm", "10^-3 m", "1e3 N". A plain number from 1 on is none: "(500 N)"
+// is the range of a load cell.
+std::optional<WrittenUnit> scaled_unit(std::string_view text) {
+  const std::string name = without_blanks(text);
+  std::string_view rest = name;
+  bool is_factor = false;
+  for (const std::string_view mark : {"x", "X", "*", "\xC3\x97"})
+    if (!is_factor && rest.starts_with(mark)) rest.remove_prefix(mark.size()), is_factor = true;
+  double factor = 0.0;
+  const auto number = std::from_chars(rest.data(), rest.data() + rest.size(), factor);
+  if (number.ec != std::errc() || !(factor > 0.0)) return std::nullopt;
+  const auto digits = rest.substr(0, static_cast<std::size_t>(number.ptr - rest.data()));
+  is_factor = is_factor || factor < 1.0 || digits.find_first_of("eE") != std::string_view::npos;
+  rest.remove_prefix(digits.size());
+  if (factor == 10.0 && rest.starts_with("^")) {
+    int power = 0;
+    rest.remove_prefix(rest.starts_with("^+") ? 2 : 1);
+    const auto exponent = std::from_chars(rest.data(), rest.data() + rest.size(), power);
+    if (exponent.ec != std::errc()) return std::nullopt;
+    rest.remove_prefix(static_cast<std::size_t>(exponent.ptr - rest.data()));
+    factor = std::pow(10.0, power);
+    is_factor = true;
+  }
+  if (rest.starts_with("*")) rest.remove_prefix(1);
+  const auto unit = is_factor ? known_unit(rest) : std::nullopt;
+  if (!unit || !(unit->to_si > 0.0)) return std::nullopt;
+  return WrittenUnit{std::string(text), unit->dimension, factor * unit->to_si};
 }
 
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
@@ -308,8 +147,8 @@ std::optional<std::string_view> bracketed(std::string_view name) {
 }
 
 WrittenUnit as_acceleration(const WrittenUnit& unit, std::string_view wanted) {
-  if (unit.text != "g" || wanted != "acceleration") return unit;
-  return {unit.text, "acceleration", 9.80665};
+  if ((unit.text != "g" && unit.text != "mg") || wanted != "acceleration") return unit;
+  return {unit.text, "acceleration", unit.text == "g" ? 9.80665 : 9.80665e-3};
 }
 
 // Scales write kg and g for a force.
@@ -327,6 +166,7 @@ std::optional<WrittenUnit> read_unit(std::string_view text, bool in_brackets) {
   if (const auto inner = bracketed(text); inner && (text.front() == '[' || text.front() == '('))
     return read_unit(*inner, true);
   if (const auto unit = known_unit(text)) return unit;
+  if (const auto unit = scaled_unit(text)) return unit;
   // One short word in brackets is taken as an unknown unit; "(left)", "(raw data)" and "(1)" are not units.
   const bool worded =
       text.find(' ') != std::string_view::npos || text.size() > 6 || text.empty() || text == "-";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper {
@@ -47,6 +48,8 @@ CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions
                           .part = options.part,
                           .parts = options.parts,
                           .findings = campaign.findings};
+  for (auto& note : placeholder_notes(campaign, [](std::string_view key) { return !is_found_here(key); }))
+    results.findings.push_back(std::move(note));
   std::vector<const CampaignTrial*> mine;
   for (const auto& trial : campaign.trials)
     if (trial.index % options.parts == options.part - 1) mine.push_back(&trial);

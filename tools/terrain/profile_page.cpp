@@ -84,7 +84,8 @@ StudyFigure group_figure(const CurveGroup& group) {
     figure.marks.push_back({1e3 * all_m, "all trials to here"});
   figure.note =
       "Inner band: 95 % interval of the mean of the ground that the trials were drawn from. Outer band: 95 % "
-      "interval of one new trial's curve. Each is pointwise and drawn where three trials or more were.";
+      "interval of one new trial's curve. Each is pointwise and drawn where three trials or more were, with "
+      "two trials where both were.";
   if (!figure.marks.empty())
     figure.note +=
         " Deeper than the dotted line only the trials that went so deep count, which may be those on weaker "

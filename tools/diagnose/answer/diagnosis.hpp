@@ -107,6 +107,8 @@ struct Bound {  // Upper bound of an effect that was not found; all of an answer
   std::string parameter;
   double value = 0.0;     // of its magnitude
   double typicals = 0.0;  // the same, in typical sizes
+  // True: `value` is a lower bound. An effect whose parameter is a stiffness or a limit grows as that falls.
+  bool is_lower = false;
 };
 
 // One number of the belief that the answer depends on.

@@ -96,7 +96,10 @@ Json unknown_json(const UnknownForce& u) {
 }
 
 Json bound_json(const Bound& b) {
-  return {{"id", b.id}, {"parameter", b.parameter}, {"upper_bound", b.value}, {"typicals", b.typicals}};
+  return {{"id", b.id},
+          {"parameter", b.parameter},
+          {b.is_lower ? "lower_bound" : "upper_bound", b.value},
+          {"typicals", b.typicals}};
 }
 
 Json belief_json(const BelievedNumber& n) {

@@ -63,8 +63,8 @@ std::string absent_text(const std::vector<Bound>& absent) {
   if (absent.empty()) return "";
   std::string text = "absent ";
   for (std::size_t i = 0; i < absent.size() && i < kMostBounds; ++i)
-    text += fmt::format("{}{}: {} < {:.2g}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
-                        absent[i].value);
+    text += fmt::format("{}{}: {} {} {:.2g}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
+                        absent[i].is_lower ? ">" : "<", absent[i].value);
   if (absent.size() > kMostBounds)
     text += fmt::format("; {} more bounded closer", absent.size() - kMostBounds);
   return text + "\n";

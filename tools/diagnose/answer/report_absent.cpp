@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
@@ -151,6 +152,20 @@ bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Cand
   });
 }
 
+// The bound as reported: |base + scale value| <= |base| + |scale| x. A number that the belief holds is
+// bounded by its change, a stiffness or a limit (power -1) from below. None for a limit that is read off the
+// data, because no size of it was fitted, and none for a size beyond the effect's range.
+std::optional<Bound> bound_of(const Candidate& candidate, double typicals) {
+  const auto& p = candidate.parameters[0];
+  if (p.scale == 0.0 || typicals * p.typical > std::max(std::abs(p.low), std::abs(p.high)))
+    return std::nullopt;
+  const double size = typicals * p.typical * std::abs(p.scale);
+  if (p.power == 1.0)
+    return Bound{candidate.label(), p.base == 0.0 ? p.name : change_of(p.name), size, typicals};
+  return Bound{candidate.label(), p.name, std::pow(std::abs(p.base) + size, p.power), typicals,
+               p.power < 0.0};
+}
+
 }  // namespace
 
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis) {
@@ -162,12 +177,7 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
     if (search.best().fit.point.hypothesis.contains(index) || !(typicals < kUnbounded) ||
         may_be_there(problem, diagnosis, candidate))
       continue;
-    const auto& p = candidate.parameters[0];
-    // A size beyond the effect's range is no bound.
-    if (typicals * p.typical > std::max(std::abs(p.low), std::abs(p.high))) continue;
-    const double bound = typicals * p.typical * std::max(std::abs(p.scale), 1e-300);
-    diagnosis.absent.push_back(
-        {candidate.label(), p.name, p.power == 1.0 ? bound : std::pow(bound, p.power), typicals});
+    if (const auto bound = bound_of(candidate, typicals)) diagnosis.absent.push_back(*bound);
   }
   std::sort(diagnosis.absent.begin(), diagnosis.absent.end(),
             [](const Bound& a, const Bound& b) { return a.typicals > b.typicals; });

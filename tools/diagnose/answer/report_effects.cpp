@@ -42,16 +42,6 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   return covariance.topLeftCorner(own, own);
 }
 
-// "mass_kg" -> "mass_change_kg"
-std::string change_of(const std::string& name) {
-  for (const char* unit :
-       {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
-        "_radps", "_mps2", "_mps", "_rad", "_Nm", "_kg", "_N", "_m", "_s"})
-    if (name.ends_with(unit))
-      return name.substr(0, name.size() - std::string(unit).size()) + "_change" + unit;
-  return name + "_change";
-}
-
 // Loss of deviance on held-out trials without this effect, limited to the rise of the deviance in the fit
 // without it. If two effects nearly cancel, each seems to explain much, but without it the other one shrinks,
 // too.
@@ -144,6 +134,15 @@ void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
 }
 
 }  // namespace
+
+std::string change_of(const std::string& name) {
+  for (const char* unit :
+       {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
+        "_radps", "_mps2", "_mps", "_rad", "_Nm", "_kg", "_N", "_m", "_s"})
+    if (name.ends_with(unit))
+      return name.substr(0, name.size() - std::string(unit).size()) + "_change" + unit;
+  return name + "_change";
+}
 
 double form_deviance(const Problem& problem, double explained) {
   constexpr double kAlong = 1.0 / 6.0;  // RMS share of a residual along a parameter

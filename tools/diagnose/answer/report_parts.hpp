@@ -44,7 +44,9 @@ void report_trial_to_trial(const Problem& problem, const Search& search, Diagnos
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);
-// Upper bounds of the effects that were not found.
+// Name of the change of a number of the belief: "mass_kg" -> "mass_change_kg".
+std::string change_of(const std::string& name);
+// Bounds of the effects that were not found.
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
 // Sets `error_that_shows` of each number of `diagnosis.belief`.
 void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagnosis);

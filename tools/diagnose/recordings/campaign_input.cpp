@@ -144,6 +144,8 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.recordings.belief = flattened(campaign.belief);
   input.recordings.available = campaign.available;
   input.findings = campaign.findings;
+  for (auto& note : placeholder_notes(campaign, [](std::string_view) { return true; }))
+    input.findings.push_back(std::move(note));
   std::vector<std::vector<TrialRecording::Channel>> at_one_value;
   std::vector<std::optional<bool>> motor_on;
   for (const auto& described : campaign.trials) {

@@ -94,8 +94,9 @@ StudyAnswer what(const Diagnosis& d) {
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
-      bounds += fmt::format("{}{}: {} below {}{}", bounds.empty() ? "" : ";  ", d.absent[i].id, q.words,
-                            number(d.absent[i].value), q.unit.empty() ? "" : " " + q.unit);
+      bounds += fmt::format("{}{}: {} {} {}{}", bounds.empty() ? "" : ";  ", d.absent[i].id, q.words,
+                            d.absent[i].is_lower ? "above" : "below", number(d.absent[i].value),
+                            q.unit.empty() ? "" : " " + q.unit);
     }
     if (!bounds.empty())
       box.lines.emplace_back(Style::text, "Hardest to exclude: " + bounds + ". All bounds below.");

@@ -178,13 +178,16 @@ StudySection trial_to_trial_section(const Diagnosis& d) {
 
 StudySection absent_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"effect", "parameter", "magnitude below", "that bound, times the typical size"};
+  table.columns = {"effect", "parameter", "magnitude", "largest size, times the typical one"};
   table.text_columns = 2;
   for (const auto& b : d.absent)
-    table.rows.push_back(
-        {b.id, quantity_of(b.parameter).label(), number(b.value), fmt::format("{:.2g}", b.typicals)});
+    table.rows.push_back({b.id, quantity_of(b.parameter).label(),
+                          (b.is_lower ? "above " : "below ") + number(b.value),
+                          fmt::format("{:.2g}", b.typicals)});
   table.note =
-      "Upper bounds of what was looked for and not found, each alone beside what was found. All of them hold "
+      "Bounds of what was looked for and not found, each alone beside what was found; a stiffness or a limit "
+      "is "
+      "bounded from below. All of them hold "
       "together with 95 % confidence. A bound above 1 typical size is wide: an effect of the usual size "
       "could hide below it.";
   return {"What is absent", {table}};

@@ -12,6 +12,13 @@ namespace {
 constexpr std::size_t kFewSamples = 10;  // a channel with no more samples counts as not recorded
 constexpr double kAccelError = 0.01;     // relative error of an acceleration: the sensor's scale
 
+// Points of a grid from the first to the last time, also if the rounding of times makes the last step a
+// little short.
+std::size_t points_of_grid(const std::vector<double>& time_s, double step_s) {
+  constexpr double kRounding = 1e-6;  // of a step
+  return static_cast<std::size_t>((time_s.back() - time_s.front()) / step_s + kRounding) + 1;
+}
+
 double largest(const std::vector<double>& values) {
   double most = 0.0;
   for (const double value : values) most = std::max(most, std::abs(value));
@@ -202,7 +209,7 @@ constexpr double kLeastLate_s = 1e-4, kLeastDrift = 1e-4;  // a smaller error ch
 std::vector<double> at_times(const std::vector<double>& time_s, const std::vector<double>& values,
                              const std::vector<double>& wanted_s) {
   const double step_s = median_step_s(time_s);
-  const auto count = static_cast<std::size_t>((time_s.back() - time_s.front()) / step_s) + 1;
+  const std::size_t count = points_of_grid(time_s, step_s);
   const Signal signal = on_grid({time_s, values}, time_s.front(), step_s, count, false);
   std::vector<double> out;
   for (const double t : wanted_s) out.push_back(signal.at(t));
@@ -270,7 +277,7 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
   m.step_s =
       std::clamp(joined ? std::min(depth_step_s, median_step_s(a.time_s)) : depth_step_s, 2.5e-4, 0.02);
   const auto half = static_cast<std::size_t>(std::clamp(kSmoothing_s / m.step_s, 2.0, 8.0));
-  const auto count = static_cast<std::size_t>((z.time_s.back() - z.time_s.front()) / m.step_s) + 1;
+  const std::size_t count = points_of_grid(z.time_s, m.step_s);
   const auto put = [&](std::vector<double>& into, const Samples& samples) {
     into = on_grid(samples, m.start_s, m.step_s, count, false).values;
     for (double& value : into) value = -value;

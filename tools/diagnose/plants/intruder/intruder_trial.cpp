@@ -31,6 +31,24 @@ constexpr std::size_t kMostKnots = 16;        // most knots of the bed's fluctua
 constexpr double kHoldSpeed_mps = 1e-3;       // a slower foot holds
 // In standard deviations: within it depth or speed count as standing still.
 constexpr double kNoiseBand = 4.0;
+
+// Samples from the first to the last of the position, with the ages of the kept ones: outside, the motion is
+// not known.
+Samples where_position_is_known(const Samples& all, const Samples& position, double row_s,
+                                std::vector<double>& ages) {
+  Samples kept;
+  std::vector<double> kept_ages;
+  for (std::size_t i = 0; i < all.value.size(); ++i) {
+    const double t = all.time_s[i];
+    if (t < position.time_s.front() - row_s || t > position.time_s.back() + row_s) continue;
+    kept.time_s.push_back(t);
+    kept.value.push_back(all.value[i]);
+    if (!ages.empty()) kept_ages.push_back(ages[i]);
+  }
+  ages = std::move(kept_ages);
+  return kept;
+}
+
 enum TrialNuisance : std::size_t { kSurface, kForceZero, kStiffness, kTurning, kFirstKnot };
 
 // Prescribed motion: the bed's force at the recorded depth, speed and acceleration, through the force
@@ -45,12 +63,14 @@ class IntruderTrial final : public TrialModel {
     history_ = {trial.setup_or("pushes_since_preparation", 0.0), trial.setup_or("wait_s", 0.0),
                 trial.setup_or("bed_depth_m", 0.0)};
     const auto recorded = samples_of(trial, "force_N");
-    const auto force = without_repeats(recorded);
+    auto force = without_repeats(recorded);
     auto ages = ages_s(trial, "force_N", belief.value("sensors.load_cell_rate_Hz"));
     if (ages.size() != force.value.size()) ages.clear();
     row_s_ = std::max(median_step_s(trial.time_s), 1e-6);
-    const auto z = averaged(samples_of(trial, "foot_z_m"), least_s);
+    const auto position = samples_of(trial, "foot_z_m");
+    const auto z = averaged(position, least_s);
     if (force.empty() || z.value.size() < 10) return;
+    force = where_position_is_known(force, position, row_s_, ages);
     radius_m_ = belief.value("foot.radius_m", 0.04);
     motion_ = intruder_motion(z, averaged(samples_of(trial, "foot_velocity_mps"), least_s),
                               averaged(samples_of(trial, "foot_accel_mps2"), least_s));

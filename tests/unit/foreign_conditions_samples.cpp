@@ -1,0 +1,45 @@
+#include "foreign_conditions.hpp"
+
+namespace sandhopper {
+namespace {
+using enum CampaignPlant;
+
+std::string row_at(double t_s, PlateRow r) {
+  return fmt::format("{:.2f},{:.3f},{:.5f}", t_s, r.force_N, -r.depth_mm / 1000);
+}
+}  // namespace
+
+std::vector<ForeignCondition> conditions_of_samples() {
+  return {
+      {"a set-point beside the measured value",
+       axis("time (s),pos_setpoint (rad),pos_estimate (rad),torque (Nm)",
+            [](auto r) {
+              return fmt::format("{:.2f},{:.6f},{:.6f},{:.6f}", r.t_s, 1.1 * r.angle_rad, r.angle_rad,
+                                 r.torque_Nm);
+            }),
+       rotary_axis, true},
+      {"a filtered value beside the raw one",
+       plate("time (s),depth (mm),Force_filt (N),Force_raw (N)",
+             [](auto r) {
+               return fmt::format("{:.1f},{:.3f},{:.3f},{:.3f}", r.t_s, r.depth_mm, 0.9 * r.force_N,
+                                  r.force_N);
+             }),
+       intruder, true},
+      {"a factor in front of the unit",
+       plate("time [s],Force [x10 N],Depth [0.01 mm]",
+             [](auto r) {
+               return fmt::format("{:.1f},{:.4f},{:.1f}", r.t_s, 0.1 * r.force_N, 100 * r.depth_mm);
+             }),
+       intruder, true},
+      {"a clock that was not set in the first rows",
+       kNamesInSi + "\n0.00,10.02,0.00001\n0.00,10.01,0.00002\n0.00,10.03,0.00001\n" +
+           plate("", [](auto r) { return row_at(1716389000 + r.t_s, r); }),
+       intruder, true},
+      {"rows that a logger filled at the end",
+       plate(
+           kNamesInSi, [](auto r) { return row_at(r.t_s, plate_row(std::min(r.i, 79))); }, 100),
+       intruder, true},
+  };
+}
+
+}  // namespace sandhopper

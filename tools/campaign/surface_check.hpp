@@ -1,0 +1,12 @@
+#pragma once
+#include "tools/campaign/check_channels.hpp"
+
+namespace sandhopper {
+
+// Compares force and depth of a press. Notes: a force above the surface, where nothing touches the foot, and
+// no force over more than the first half of the depth (the depth is counted from elsewhere). A foot that
+// moves by less than a tenth of a millimetre in all is in doubt: millimetres were read as metres.
+void check_surface(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                   const RecordingPlaces& places);
+
+}  // namespace sandhopper
