@@ -11,7 +11,7 @@ struct ProfileConfig {
   double stiffness_spread_relative = 0.7;
   // Errors of the estimated depth in a first stride: the offset at contact, the lag, and the rest. Maximum
   // likelihood in simulated strides on nine families of beds (`hop experiment beds`, errors of the depth):
-  // 0.42 mm, 0.77 ms (0.5 to 1.0 ms by family), 0.25 mm.
+  // 0.40 mm, 0.86 ms (0.5 to 1.1 ms by family), 0.25 mm.
   double surface_sd_m = 0.0004;
   double depth_lag_sd_s = 0.00085;
   double depth_noise_m = 0.00025;

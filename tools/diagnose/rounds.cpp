@@ -27,8 +27,7 @@ constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // The noise is only a guess at this stage.
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
-constexpr std::size_t kMostEffects = 6;  // in a set of a cheap plant, if fewer leave a noticeable part
-constexpr double kNoiseHidesAll = 4.0;   // Ratio to the sensors' own noise.
+constexpr double kNoiseHidesAll = 4.0;  // Ratio to the sensors' own noise.
 
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   // The screen at the null, and beside the best set with each of its effects left out.
@@ -214,12 +213,9 @@ Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& 
   auto second = searched_again(problem, search, search_options, options, diagnosis);
   if (!second && singles_first && !search.stopped()) search.widen(options.most_effects);
   Search& best = second ? *second : search;
-  // A belief may lack two frictions, gravity, the angle at rest and a late channel at once.
-  for (std::size_t most = options.most_effects;
-       !costly && most < kMostEffects && best.best().set.size() == most &&
-       misfit_of(problem, best).noticeable;
-       ++most)
-    best.widen(most + 1);
+  // A rig may lack two frictions, a wrong inertia and an encoder's zero at once.
+  if (!costly && best.best().set.size() == options.most_effects && misfit_of(problem, best).noticeable)
+    best.widen(options.most_effects + 1);
   if (!singles_first || best.best().set.size() < 2 || best.stopped()) return best;
   search_options.fits_per_screen = 3;
   auto third = searched_again(problem, best, search_options, options, diagnosis);

@@ -43,18 +43,14 @@ double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence&
   return std::isfinite(log_mass) ? log_mass : -1e300;
 }
 
-void keep_repeatable_error(Problem& problem, const Search& search) {
-  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
-}
-
 }  // namespace
 
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log) {
-  if (search.best().set.empty()) return;
-  keep_repeatable_error(problem, search);
+  if (search.best().set.size() != 1) return;
+  problem.repeatable_error = {};
   std::vector<std::pair<double, const SetFit*>> order;
   double of_best = 0.0;
-  for (const SetFit* fit : nearest(search, search.best().set.size())) {
+  for (const SetFit* fit : nearest(search, 1)) {
     if (fit->set.empty()) continue;
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     order.emplace_back(log_mass_of(problem, *fit, evidence), fit);
@@ -73,7 +69,7 @@ void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& 
 }
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
-  keep_repeatable_error(problem, search);
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<WeighedAnswer> all;
   for (const SetFit* fit : nearest(search, std::numeric_limits<std::size_t>::max())) {
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));

@@ -25,6 +25,16 @@ std::vector<FormOf> forms_of(const Problem& problem, const Hypothesis& hypothesi
   return forms;
 }
 
+std::vector<FormOf> laws_of(const Problem& problem, const Hypothesis& hypothesis) {
+  std::vector<FormOf> laws;
+  const auto forms = forms_of(problem, hypothesis);
+  for (std::size_t e = 0; e < forms.size(); ++e) {
+    const Port port = problem.candidates[hypothesis.candidates[e]].effect->port;
+    if (port != Port::sensor && port != Port::clock) laws.push_back(forms[e]);
+  }
+  return laws;
+}
+
 MatrixXd form_information(Index effects) {
   const MatrixXd covariance = (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
                               kLimits.size_of_trial * kLimits.size_of_trial;

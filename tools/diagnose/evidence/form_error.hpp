@@ -15,6 +15,10 @@ namespace sandhopper::diagnose {
 // Signatures of the effects of a hypothesis at its values, in the order of its candidates.
 std::vector<FormOf> forms_of(const Problem& problem, const Hypothesis& hypothesis);
 
+// The same without effects on readings and time stamps: a bias, a scale or a delay is a number, and an
+// encoder off its centre is geometry; only a law can have another form.
+std::vector<FormOf> laws_of(const Problem& problem, const Hypothesis& hypothesis);
+
 // Inverse of C for so many effects.
 Eigen::MatrixXd form_information(Eigen::Index effects);
 

@@ -4,7 +4,7 @@
 namespace sandhopper::diagnose {
 
 // Priors of the evidence. The answer uses them where it judges if one effect is needed beside others
-// (`form_error`) and where it chooses between fitted sets of the same size (`name_likeliest`).
+// (`form_error`) and where it chooses which effect to name alone (`name_likeliest`).
 struct Limits {
   // Ratio of probabilities up to which two sets can be exchanged: their names form a class.
   double exchangeable = 20.0;

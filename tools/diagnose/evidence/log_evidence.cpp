@@ -47,10 +47,11 @@ double log_prior(const Problem& problem, std::size_t effects) {
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {
   auto directions = parameter_directions(problem, point);
   directions.insert(directions.end(), more.begin(), more.end());
-  const auto forms = forms_of(problem, point.hypothesis);
+  const auto forms = laws_of(problem, point.hypothesis);
   const auto effects = static_cast<Index>(forms.size());
-  const auto linear = linearise_all(problem, point, directions,
-                                    {.forms = &forms, .with_repeatable_error = true, .fresh_columns = true});
+  const auto linear = linearise_all(
+      problem, point, directions,
+      {.forms = &forms, .with_repeatable_error = problem.repeatable_error.size() > 0, .fresh_columns = true});
   // Columns: [residual, directions | forms | repeatable error]. The forms differ between trials, so they are
   // eliminated trial by trial.
   const auto before = static_cast<Index>(directions.size()) + 1;
@@ -188,7 +189,7 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
   out.times = likeliest_times(problem, fit.point, at.grams);
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
   const Quadratic plain =
-      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1e-6));
+      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
   // The fit has the least deviance that the simulation reaches. Take the deviance from the fit, and only its
   // change by form errors and larger repeatable errors from the linear approximation.
   double off = 0.0;

@@ -13,14 +13,14 @@ namespace sandhopper::diagnose {
 //   / 2 s_e^2) db_e
 //          - 1/2 ln|I + Lambda|        (shapes and tolerances, Lambda in units of their prior)
 // d: deviance at the fit, with the priors of shapes and tolerances. F_t: information of trial t on the form
-// of each effect, C_t: its prior covariance (Limits::form, size_of_trial). Z_t: whitened derivatives of trial
-// t by its nuisances at this fit, S_t: their prior variances.
+// of each law, C_t: its prior covariance (Limits::form, size_of_trial). Z_t: whitened derivatives of
+// trial t by its nuisances at this fit, S_t: their prior variances.
 struct LogEvidence {
   double value = 0.0;
   std::vector<double> times{};  // Most probable ratio of each repeatable model error to its learnt scale.
 };
 
-// Gram matrices of the trials linearised at a fit, with the form error of every effect eliminated. Columns:
+// Gram matrices of the trials linearised at a fit, with the form error of every law eliminated. Columns:
 // residual, effects' parameters, tolerances, `more`, repeatable error.
 struct AtFit {
   std::vector<Eigen::MatrixXd> grams;

@@ -308,7 +308,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     fit.fit = fit_at(seed, kRough);
     sets_[fit.set] = std::move(fit);
   }
-  grow_sets({});
+  grow_sets();
   if (!over()) improve();
   return best();
 }
@@ -316,15 +316,15 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
 void Search::widen(std::size_t most_effects) {
   options_.most_effects = most_effects;
   if (over()) return;
-  grow_sets(best_);
+  grow_sets();
   if (!over()) improve();
 }
 
-// `from` with one effect more, then each of the nearest of these with one more, and so on.
-void Search::grow_sets(const std::vector<std::size_t>& from) {
-  std::vector<std::vector<std::size_t>> front{from};
+// Sets of one effect, then each of the nearest ones with one more, and so on.
+void Search::grow_sets() {
+  std::vector<std::vector<std::size_t>> front{{}};
   const double sizes = static_cast<double>(options_.most_effects + 1);
-  for (std::size_t size = from.size() + 1; size <= options_.most_effects && !over(); ++size) {
+  for (std::size_t size = 1; size <= options_.most_effects && !over(); ++size) {
     // Only for the nearest set: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
     if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);

@@ -86,8 +86,8 @@ class Search {
   // named otherwise. Returns false if there is no such set.
   bool name_small(double gain);
 
-  // Makes a fitted set the best one. False, and nothing is changed, if an effect of it stands at the end of its
-  // range.
+  // Makes a fitted set the best one. False, and nothing is changed, if an effect of it stands at the end of
+  // its range.
   bool name(const std::vector<std::size_t>& set);
 
   // A refused set is no alternative to the best one.
@@ -116,7 +116,7 @@ class Search {
 
  private:
   bool over() { return stopped_ = stopped_ || is_over_(); }
-  void grow_sets(const std::vector<std::size_t>& from);
+  void grow_sets();
   void improve();
   double criterion(const SetFit& fit, double dispersion) const;
   double cost_of_an_effect() const;  // Penalty per effect, including its first parameter.
