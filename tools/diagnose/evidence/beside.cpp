@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "tools/diagnose/evidence/form_error.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/evidence/unknown_law.hpp"
@@ -46,12 +47,12 @@ double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence&
 }  // namespace
 
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log) {
-  if (search.best().set.size() != 1) return;
+  if (search.best().set.size() != 1 || laws_of(problem, search.best().fit.point.hypothesis).empty()) return;
   problem.repeatable_error = {};
   std::vector<std::pair<double, const SetFit*>> order;
   double of_best = 0.0;
   for (const SetFit* fit : nearest(search, 1)) {
-    if (fit->set.empty()) continue;
+    if (laws_of(problem, fit->fit.point.hypothesis).empty()) continue;
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     order.emplace_back(log_mass_of(problem, *fit, evidence), fit);
     if (fit == &search.best()) of_best = order.back().first;

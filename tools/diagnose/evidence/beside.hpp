@@ -6,12 +6,12 @@
 
 namespace sandhopper::diagnose {
 
-// If one effect is named alone, names the most probable single effect in its place, if the present one is
-// less probable by more than Limits::exchangeable. The criterion of the search counts neither the form of a
-// law nor how finely the parameters and nuisances of a set must be tuned: a weightless body whose trials each
-// have their own speed fits a terminal speed better than a drag does. Not for sets of several effects: there
-// the form error of one law can stand for another effect. Repeatable model errors are left out for the same
-// reason.
+// If one law is named alone, names the most probable single law in its place, if the present one is less
+// probable by more than Limits::exchangeable. The criterion of the search counts neither the form of a law
+// nor how finely the parameters and nuisances of a set must be tuned: a weightless body whose trials each
+// have their own speed fits a terminal speed better than a drag does. Only laws are compared, because the
+// form error of an effect on readings is 0. Not for sets of several effects: there the form error of one law
+// can stand for another effect. Repeatable model errors are left out for the same reason.
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log);
 
 // Appends to `log` the posterior mass of the sets with the smallest criterion, and of unknown laws added to
