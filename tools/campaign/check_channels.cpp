@@ -150,7 +150,7 @@ class Checker {
             ? fmt::format("is stuck: all {} samples are {:.6g} while other channels move", shape.samples,
                           longest->value)
             : fmt::format("is stuck at {:.6g} from here to line {} ({} samples) while other channels move",
-                          longest->value, line_of(longest->last_row), longest->samples),
+                          longest->value, places_.line_of(longest->last_row), longest->samples),
         "check the sensor and its cable; remove the column if it was not connected");
     return unusable;
   }
@@ -254,15 +254,11 @@ class Checker {
     return share == 0.0;
   }
 
-  std::uint64_t line_of(std::size_t row) const {
-    return row < places_.lines.size() ? places_.lines[row] : row + 2;
-  }
-
   void add(std::size_t i, FindingKind kind, bool unusable, std::size_t row, std::string what,
            std::string cure) {
     recording_.findings.push_back({kind, unusable ? FindingSeverity::channel_unusable : FindingSeverity::note,
-                                   places_.file, line_of(row),
-                                   places_.character(line_of(row), places_.numbers[i]),
+                                   places_.file, places_.line_of(row),
+                                   places_.character(places_.line_of(row), places_.numbers[i]),
                                    recording_.channels[i].name, std::move(what), std::move(cure)});
   }
 

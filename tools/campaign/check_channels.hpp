@@ -16,6 +16,8 @@ struct RecordingPlaces {
   std::vector<UsedColumn> columns{};     // of the channels and of the time
 
   const UsedColumn* column_of(std::string_view channel) const;
+  // Line of a row of the recording; that of a table with one header line if the lines are not known.
+  std::uint64_t line_of(std::size_t row) const { return row < lines.size() ? lines[row] : row + 2; }
   bool is_stated(std::string_view channel) const;  // True if its mapping states unit and scale.
 
   // Character at which the cell of a column begins in a line; 1 for a log, which has no characters.

@@ -11,13 +11,6 @@
 namespace sandhopper {
 namespace {
 
-void add_row_note(TrialRecording& recording, const RecordingPlaces& places, FindingKind kind, std::size_t row,
-                  std::string what, std::string cure) {
-  const std::uint64_t line = row < places.lines.size() ? places.lines[row] : row + 2;
-  recording.findings.push_back(
-      {kind, FindingSeverity::note, places.file, line, 1, "t_s", std::move(what), std::move(cure)});
-}
-
 bool repeats(const std::vector<double>& values, std::size_t row) {
   return values[row] == values[row - 1] || (std::isnan(values[row]) && std::isnan(values[row - 1]));
 }
@@ -49,11 +42,11 @@ void drop_filled_end(TrialRecording& recording, RecordingPlaces& places) {
     --end;
   // At rest one channel may repeat its value, several that show noise do not.
   if (rows - end < kFewest || end < kFewest || lively_channels(recording, end) < 2) return;
-  add_row_note(recording, places, FindingKind::held_samples, end,
-               fmt::format("the last {} rows repeat the row before in every channel, as a logger or a "
-                           "spreadsheet fills rows; they are left out",
-                           rows - end),
-               "cut them off the file");
+  note_at_row(recording, places, FindingKind::held_samples, end,
+              fmt::format("the last {} rows repeat the row before in every channel, as a logger or a "
+                          "spreadsheet fills rows; they are left out",
+                          rows - end),
+              "cut them off the file");
   keep_from_to(recording, places, 0, end);
 }
 
@@ -64,7 +57,7 @@ void drop_unset_clock(TrialRecording& recording, RecordingPlaces& places) {
   for (std::size_t row = 1; row < t.size() / 2; ++row)
     if (t[row] - t[row - 1] > kThreeYears_s) first = row;
   if (first == 0) return;
-  add_row_note(
+  note_at_row(
       recording, places, FindingKind::gap, 0,
       fmt::format("the clock of the first {} rows was not set yet: the next one is {:.3g} years later; "
                   "they are left out",

@@ -22,9 +22,8 @@ std::string duration(double s) {
 
 void add(TrialRecording& recording, FindingKind kind, FindingSeverity severity, const RecordingPlaces& places,
          std::size_t row, const std::string& channel, std::string what, std::string cure) {
-  const std::uint64_t line = row < places.lines.size() ? places.lines[row] : row + 2;
   recording.findings.push_back(
-      {kind, severity, places.file, line, 1, channel, std::move(what), std::move(cure)});
+      {kind, severity, places.file, places.line_of(row), 1, channel, std::move(what), std::move(cure)});
 }
 
 // True if some channel has different values in the two rows: then they are two samples, not one row in two

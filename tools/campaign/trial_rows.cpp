@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kGapSteps = 5.0;
 
-void add_note(TrialRecording& recording, FindingKind kind, const RecordingPlaces& places, std::size_t row,
-              std::string what, std::string cure) {
-  recording.findings.push_back({kind, FindingSeverity::note, places.file, places.lines[row], 1, "t_s",
+}  // namespace
+
+void note_at_row(TrialRecording& recording, const RecordingPlaces& places, FindingKind kind, std::size_t row,
+                 std::string what, std::string cure) {
+  recording.findings.push_back({kind, FindingSeverity::note, places.file, places.line_of(row), 1, "t_s",
                                 std::move(what), std::move(cure)});
 }
-
-}  // namespace
 
 std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,
                                        const std::vector<double>* column) {
@@ -65,10 +65,10 @@ void join_equal_times(TrialRecording& recording, RecordingPlaces& places) {
         if (std::isnan(channel.values[keep.back()])) channel.values[keep.back()] = channel.values[row];
     } else if (!stepped_back) {
       stepped_back = true;
-      add_note(recording, FindingKind::time_backwards, places, row,
-               fmt::format("time goes backwards, from {:.9g} to {:.9g} s; row left out", last_s,
-                           recording.t_s[row]),
-               "sort the rows, or record with a clock that is not set back");
+      note_at_row(recording, places, FindingKind::time_backwards, row,
+                  fmt::format("time goes backwards, from {:.9g} to {:.9g} s; row left out", last_s,
+                              recording.t_s[row]),
+                  "sort the rows, or record with a clock that is not set back");
     }
   }
   if (keep.size() != recording.t_s.size()) keep_rows(recording, places, keep);
@@ -89,11 +89,11 @@ void note_gaps(TrialRecording& recording, const RecordingPlaces& places) {
   }
   if (count == 0) return;
   const double lost_share = steps_s[largest] / (recording.t_s.back() - recording.t_s.front());
-  add_note(recording, FindingKind::gap, places, largest + 1,
-           fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", steps_s[largest],
-                       *middle, count > 1 ? fmt::format(", the largest of {}", count) : ""),
-           lost_share > 0.2 ? "much of the trial is missing: record it again if it matters"
-                            : "the rows on both sides are used as they are");
+  note_at_row(recording, places, FindingKind::gap, largest + 1,
+              fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", steps_s[largest],
+                          *middle, count > 1 ? fmt::format(", the largest of {}", count) : ""),
+              lost_share > 0.2 ? "much of the trial is missing: record it again if it matters"
+                               : "the rows on both sides are used as they are");
 }
 
 }  // namespace sandhopper

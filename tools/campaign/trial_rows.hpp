@@ -23,6 +23,10 @@ std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vect
 std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
                            const std::vector<std::size_t>& keep, std::string_view file);
 
+// Adds a note about the time of a row.
+void note_at_row(TrialRecording& recording, const RecordingPlaces& places, FindingKind kind, std::size_t row,
+                 std::string what, std::string cure);
+
 // Keeps only the given rows, in `recording` and in `places`.
 void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::vector<std::size_t>& keep);
 

@@ -53,10 +53,7 @@ void check_jump(TrialRecording& recording, const RecordingPlaces& places, std::s
   if (samples.size() < kFewestRows) return;
   const auto at = only_jump(samples);
   if (at == 0) return;
-  const auto line_of = [&](std::size_t row) {
-    return row < places.lines.size() ? places.lines[row] : row + 2;
-  };
-  const auto line = line_of(samples[at].row);
+  const auto line = places.line_of(samples[at].row);
   doubt_column(
       recording, places, places.is_stated(channel), channel,
       fmt::format("jumps by {:.4g} in line {} and goes on from there, ten times farther than in any "
@@ -64,7 +61,7 @@ void check_jump(TrialRecording& recording, const RecordingPlaces& places, std::s
                   samples[at].value - samples[at - 1].value, line),
       fmt::format("give each part a [[trial]], select = {{ to_line = {} }} and select = {{ from_line = "
                   "{} }}",
-                  line_of(samples[at - 1].row), line));
+                  places.line_of(samples[at - 1].row), line));
 }
 
 void check_resolution(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {

@@ -60,13 +60,15 @@ void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& 
   std::ranges::sort(order, std::greater<>{}, [](const auto& one) { return one.first; });
   const std::string before = set_text(problem, search.best().set);
   const double apart = std::log(kLimits.exchangeable);
-  const auto named = std::ranges::find_if(
-      order, [&](const auto& one) { return !(one.first > of_best + apart) || search.name(one.second->set); });
-  if (named == order.end() || !(named->first > of_best + apart)) return;
-  for (const auto& [log_mass, fit] : order)
-    if (log_mass < named->first - apart) search.refuse(fit->set);
-  log.push_back(fmt::format("{} is more probable than {}: ln {:.1f}", set_text(problem, named->second->set),
-                            before, named->first - of_best));
+  for (const auto& [log_mass, fit] : order) {
+    if (!(log_mass > of_best + apart)) return;
+    if (!search.name(fit->set)) continue;
+    for (const auto& [other_mass, other] : order)
+      if (other_mass < log_mass - apart) search.refuse(other->set);
+    log.push_back(fmt::format("{} is more probable than {}: ln {:.1f}", set_text(problem, fit->set), before,
+                              log_mass - of_best));
+    return;
+  }
 }
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
