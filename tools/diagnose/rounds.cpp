@@ -22,6 +22,7 @@ constexpr std::size_t kManyTrialsInAll = 30, kSearchedTrials = 20;
 // Rows of all trials; an axis campaign of a dozen trials has about as many.
 constexpr double kManyRows = 20'000.0;
 constexpr std::size_t kSetsTold = 20;
+constexpr std::size_t kMostEffects = 6;  // of a cheap plant whose best set leaves more than the noise
 constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // The noise is only a guess at this stage.
@@ -72,6 +73,13 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
                                         f.fit.status == FitStatus::failed ? "unsettled " : "",
                                         f.needed ? "needed" : "-", set_text(problem, f.set), evidence));
   }
+}
+
+// True if the best set leaves so much that something unknown would be reported beside it.
+bool leaves_much(const Problem& problem, const Search& search) {
+  return misfit_of(problem, search).noticeable ||
+         left_over_noise(problem, search.null().fit, search.best().fit).after > kMoreThanNoise ||
+         loudest_channel(problem);
 }
 
 bool has_many_trials(const Problem& problem) { return problem.trials.size() > kManyTrialsInAll; }
@@ -214,8 +222,8 @@ Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& 
   if (!second && singles_first && !search.stopped()) search.widen(options.most_effects);
   Search& best = second ? *second : search;
   // A rig may lack two frictions, a wrong inertia and an encoder's zero at once.
-  if (!costly && best.best().set.size() == options.most_effects && misfit_of(problem, best).noticeable)
-    best.widen(options.most_effects + 1);
+  for (std::size_t most = options.most_effects; !costly && !best.stopped() && most < kMostEffects; ++most)
+    if (best.best().set.size() == most && leaves_much(problem, best)) best.widen(most + 1);
   if (!singles_first || best.best().set.size() < 2 || best.stopped()) return best;
   search_options.fits_per_screen = 3;
   auto third = searched_again(problem, best, search_options, options, diagnosis);

@@ -26,6 +26,7 @@ struct LeftOver {
   // Part of the excess over the noise that the effects leave: (after^2 - 1) / (before^2 - 1), from 0 to 1.
   double share() const;
 };
+inline constexpr double kMoreThanNoise = 1.35;  // Of `after`; at most 1.13 with nothing missing.
 LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& with);
 
 // A channel whose fitted noise far exceeds the stated noise of its sensor. A disturbance that does not repeat

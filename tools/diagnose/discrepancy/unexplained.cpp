@@ -35,7 +35,6 @@ constexpr double kBalanceSignificance = 0.01;
 // Limits of |z| of a common nuisance offset: beside named effects (at most 3.3 with the right ones), and
 // without any (at most 2.9 with nothing missing).
 constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
-constexpr double kMoreThanNoise = 1.35;  // Residual RMS / noise RMS; at most 1.13 with nothing missing.
 // Fitted noise / sensors' own noise with the best set; smaller if nothing is missing.
 constexpr double kNoiseHidesMuch = 1.3;
 constexpr std::size_t kLawsTold = 4;

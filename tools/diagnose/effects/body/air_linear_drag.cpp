@@ -13,6 +13,14 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .base = believed}};
 }
 
+// If the belief has such a drag, every trial's own changes by the same share, as with another viscosity.
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const std::string key = "medium.linear_drag_N_s_per_m";
+  if (const double believed = c.belief.value(key); believed > 0.0)
+    return edits.scale(key, 1.0 + v[0] / believed);
+  edits.add(key, v[0]);
+}
+
 const EffectRegistration kEffect(
     {.id = "air.linear_drag",
      .port = Port::body,
@@ -24,8 +32,7 @@ const EffectRegistration kEffect(
                "linear drag doubles, quadratic drag grows fourfold, and mass and added mass add nothing."}},
      .plants = {PlantKind::falling_body},
      .parameters = parameters,
-     .apply = [](const Context&, const std::string&, std::span<const double> v,
-                 Edits& edits) { edits.add("medium.linear_drag_N_s_per_m", v[0]); },
+     .apply = apply,
      .belief_key = "medium.linear_drag_N_s_per_m"});
 
 }  // namespace

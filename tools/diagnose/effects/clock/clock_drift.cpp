@@ -6,6 +6,10 @@ namespace {
 // Each sensor may have its own clock, or all share one ("all").
 const char* const kAll = "all";
 
+// Geometric mean of the usual errors of a quartz (1e-5) and of a ceramic resonator (5e-3), by which loggers
+// count time.
+constexpr double kTypical = 2e-4;
+
 std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::hopper)
     return present(c, {"load_cell_force_N", "imu_body_accel_z_mps2", "imu_foot_accel_z_mps2", "tof_height_m",
@@ -13,7 +17,7 @@ std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::intruder) return {intruder_out_of_time(c)};
   std::vector<std::string> found;
   for (const auto& [channel, scale] : c.channels) found.push_back(channel);
-  if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
+  if (c.plant == PlantKind::rotary_axis && c.facts.is_driven) found.emplace_back("torque_Nm");
   if (c.plant == PlantKind::falling_body && found.size() > 1) found.emplace_back(kAll);
   return found;
 }
@@ -39,7 +43,7 @@ const EffectRegistration kEffect(
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
-               {.name = "drift", .typical = 2e-3, .low = -0.05, .high = 0.05, .either_sign = true}};
+               {.name = "drift", .typical = kTypical, .low = -0.05, .high = 0.05, .either_sign = true}};
          },
      .apply = apply});
 

@@ -10,7 +10,7 @@ std::vector<std::string> channels(const Context& c) {
   if (c.plant == PlantKind::rotary_axis) {
     auto found = present(c, {"velocity_radps"});
     if (c.has("position_rad") && c.has("velocity_radps")) found.emplace_back("position_rad");
-    found.emplace_back("torque_Nm");
+    if (c.facts.is_driven) found.emplace_back("torque_Nm");
     return found;
   }
   if (c.plant == PlantKind::intruder) return {intruder_out_of_time(c)};

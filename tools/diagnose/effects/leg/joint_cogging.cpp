@@ -3,8 +3,6 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kFewestPeriods = 3.0;  // Slower ripple is gravity or the encoder's eccentricity.
-
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.angle_rad < 0.3) return {};
   const double typical = 0.1 * c.facts.torque_Nm;
@@ -26,7 +24,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
           of_sine("cogging_cos_Nm", true),
           {.name = "cogging_periods_per_rev",
            .typical = likeliest,
-           .low = kFewestPeriods,
+           .low = kFewestRipples,
            .high = 500.0,
            .shapes = orders},
           // The second harmonic.

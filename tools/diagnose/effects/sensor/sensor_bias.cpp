@@ -46,7 +46,8 @@ const EffectRegistration kEffect(
      .channels =
          [](const Context& c) {
            auto found = present(c, {"height_m", "velocity_radps"});
-           if (c.plant == PlantKind::rotary_axis) found.emplace_back("torque_Nm");
+           // Where no drive acts there is no reading of its torque that could be off.
+           if (c.plant == PlantKind::rotary_axis && c.facts.is_driven) found.emplace_back("torque_Nm");
            if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
            return found;
          },

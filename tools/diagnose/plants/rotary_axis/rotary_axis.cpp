@@ -53,7 +53,7 @@ double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belie
 
 // Orders of the torque ripple over the angle in the axis' balance, after a regression on friction and drive.
 std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
-  constexpr int kFirst = 3, kLast = 250;
+  constexpr int kLast = 250;
   constexpr std::size_t kLeastRows = 30;  // per trial
   std::vector<double> angles, torques;
   for (const auto& trial : trials)
@@ -64,7 +64,7 @@ std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const B
       for (const auto& state : balance.states) angles.push_back(std::get<AxisState>(state).angle_rad);
     }
   if (torques.size() < 100) return {};
-  return strongest_orders(angles, torques, kFirst, kLast);
+  return strongest_orders(angles, torques, kFewestRipples, kLast);
 }
 
 class RotaryAxis final : public PlantModel {
