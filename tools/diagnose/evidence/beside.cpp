@@ -47,18 +47,12 @@ double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence&
 }  // namespace
 
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log) {
-  const std::size_t effects = search.best().set.size();
-  const auto compares = [&](const SetFit& fit) {
-    if (fit.set.size() != effects) return false;
-    const Port port = problem.candidates[fit.set.front()].effect->port;
-    return effects > 1 || (port != Port::sensor && port != Port::clock);
-  };
-  if (effects == 0 || (effects > 1 && problem.plant->is_costly()) || !compares(search.best())) return;
+  if (search.best().set.size() != 1 || laws_of(problem, search.best().fit.point.hypothesis).empty()) return;
   problem.repeatable_error = {};
   std::vector<std::pair<double, const SetFit*>> order;
   double of_best = 0.0;
-  for (const SetFit* fit : nearest(search, effects)) {
-    if (!compares(*fit)) continue;
+  for (const SetFit* fit : nearest(search, 1)) {
+    if (laws_of(problem, fit->fit.point.hypothesis).empty()) continue;
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     order.emplace_back(log_mass_of(problem, *fit, evidence), fit);
     if (fit == &search.best()) of_best = order.back().first;
