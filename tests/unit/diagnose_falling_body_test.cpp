@@ -157,8 +157,8 @@ TEST(DiagnoseFallingBody, WhatSinksIsNeverAsFastAsAFall) {
   EXPECT_NEAR(speed_mps(1.0), 0.2 * 9.81, 0.1);
 }
 
-// The drag begins when the body opens, which is on no list. The heights alone fit a drag that is always there;
-// the accelerometer shows the moment.
+// The drag begins when the body opens, which is on no list. The heights alone fit a drag that is always
+// there; the accelerometer shows the moment.
 TEST(DiagnoseFallingBody, ABodyThatOpensHasADragAndNoFaultOfItsCamera) {
   auto recordings =
       drops([](double t_s, double, double v) { return t_s > 0.3 ? -0.006 * std::abs(v) * v : 0.0; }, 4);
@@ -335,6 +335,33 @@ TEST(DiagnoseFallingBody, ADragFarFasterThanTheRowsIsSimulated) {
   ASSERT_GT(out.size(), 90u);
   EXPECT_NEAR(out[50] - out[90], terminal_mps * (model.rows[90].time_s - model.rows[50].time_s),
               1e-4 * terminal_mps);
+}
+
+// Bodies of several sizes, each with its own believed drag, in a liquid that is less viscous than believed.
+TEST(DiagnoseFallingBody, AnotherViscosityChangesTheDragOfEveryBodyByTheSameShare) {
+  constexpr double kShare = 0.6;
+  Recordings r = drops([](double, double, double) { return 0.0; });
+  std::vector<double> believed;
+  for (std::size_t i = 0; i < r.trials.size(); ++i) {
+    believed.push_back(0.02 * std::pow(1.4, static_cast<double>(i)));
+    r.trials[i] = drops([=](double, double, double v) { return -kShare * believed[i] * v; }).trials[i];
+    r.beliefs[i].numbers["medium.linear_drag_N_s_per_m"] = believed[i];
+  }
+  const auto prepared = prepare(r);
+  const auto drag = std::ranges::find(prepared.problem.candidates, "air.linear_drag", &Candidate::label);
+  ASSERT_NE(drag, prepared.problem.candidates.end());
+  Edits edits;
+  const std::vector<double> change{(kShare - 1.0) * drag->parameters.front().base};
+  drag->effect->apply(prepared.problem.context, "", change, edits);
+  for (const double b : believed)
+    EXPECT_NEAR(edits.edited("medium.linear_drag_N_s_per_m", b), kShare * b, 1e-12);
+  // The same share of every mass fits as well.
+  const auto d = diagnose(r);
+  ASSERT_EQ(d.effects.size(), 1u) << to_text(d);
+  const auto& found = d.effects.front();
+  auto names = found.indistinguishable_from;
+  names.push_back(found.id);
+  EXPECT_THAT(names, ::testing::Contains("air.linear_drag")) << to_text(d);
 }
 
 }  // namespace

@@ -299,5 +299,71 @@ TEST(DiagnoseRotary, AWheelOfWhichOnlyTheSpeedIsRecordedHasFriction) {
   EXPECT_NEAR(viscous->parameters.front().value, kViscous_Nm_s, 0.03 * kViscous_Nm_s);
 }
 
+bool has_reading_of_torque(const Recordings& recordings) {
+  const auto prepared = prepare(recordings);
+  return std::ranges::any_of(prepared.problem.candidates,
+                             [](const Candidate& c) { return c.channel == "torque_Nm"; });
+}
+
+TEST(DiagnoseRotary, ADriveThatIsOffHasNoTorqueThatReadsWrong) {
+  Recordings r = swings([](double, double, double) { return 0.0; });
+  EXPECT_TRUE(has_reading_of_torque(r));
+  for (auto& trial : r.trials) std::ranges::fill(trial.channels["torque_Nm"], 0.0);
+  EXPECT_FALSE(has_reading_of_torque(r));
+}
+
+// A motor with three slots and two poles has six periods of cogging in a turn; no motor has fewer.
+TEST(DiagnoseRotary, FewerThanSixRipplesInATurnAreNoCogging) {
+  const auto names_cogging = [](double periods) {
+    const auto d =
+        diagnose(swings([=](double angle, double, double) { return 0.2 * std::sin(periods * angle + 0.3); }));
+    return std::ranges::any_of(d.effects, [](const FoundEffect& effect) {
+      return effect.id == "joint.cogging" && effect.probability > 0.5;
+    });
+  };
+  EXPECT_FALSE(names_cogging(4.0));
+  EXPECT_TRUE(names_cogging(7.0));
+}
+
+// A pendulum that swings free, 0.5 m long, of which five things are not as believed.
+Recordings with_five_things_wrong(double viscous_Nm_s, double coulomb_Nm) {
+  constexpr double kInertia_kg_m2 = 0.1, kGravityTorque_Nm = 2.3, kStep_s = 2e-5;
+  constexpr double kZero_rad = 0.05;
+  constexpr std::size_t kLateRows = 4;
+  Recordings r = swings([](double, double, double) { return 0.0; }, 1, 6);
+  for (std::size_t i = 0; i < r.trials.size(); ++i) {
+    Random random(3, i);
+    Trial& trial = r.trials[i];
+    auto& velocity = trial.channels["velocity_radps"];
+    double angle = 0.5 + 0.2 * static_cast<double>(i), speed = 0.0;
+    std::vector<double> speeds;
+    for (long step = 0; speeds.size() < trial.time_s.size(); ++step) {
+      if (step % 200 == 0) {
+        const std::size_t row = speeds.size();
+        speeds.push_back(speed);
+        trial.channels["position_rad"][row] = angle + kZero_rad + 5e-4 * random.normal();
+        velocity[row] = speeds[row < kLateRows ? 0 : row - kLateRows] + 0.02 * random.normal();
+        trial.channels["torque_Nm"][row] = 0.0;
+      }
+      const double friction_Nm = viscous_Nm_s * speed + coulomb_Nm * std::tanh(speed / 0.02);
+      speed -= kStep_s / kInertia_kg_m2 * (kGravityTorque_Nm * std::sin(angle) + friction_Nm);
+      angle += kStep_s * speed;
+    }
+  }
+  return r;
+}
+
+TEST(DiagnoseRotary, WhatIsLeftIsOfferedToMoreEffectsBeforeItIsUnknown) {
+  const auto d = diagnose(with_five_things_wrong(0.03, 0.02));
+  const auto value_of = [&](const char* id) {
+    const auto it = std::ranges::find(d.effects, id, &FoundEffect::id);
+    return it == d.effects.end() ? 0.0 : it->parameters.front().value;
+  };
+  // No torque is recorded, so only ratios to the inertia can be known.
+  EXPECT_NEAR(value_of("axis.viscous") / value_of("axis.coulomb"), 1.5, 0.15) << to_text(d);
+  EXPECT_EQ(d.effects.size(), 5u);
+  EXPECT_TRUE(std::ranges::none_of(d.effects, &FoundEffect::is_unknown));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -35,10 +35,11 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
   // The prior counts like an observation, because sampling limits how well a channel's delay is known.
+  // Another form of the laws adds to what the recordings show, not to what the prior says.
   const MatrixXd middle =
       (kModelTrials * information + trials * between) / degrees_of_freedom(linear.size()) +
-      (held - information);
-  const MatrixXd covariance = inverse * middle * inverse + form_deviance(problem, explained) * inverse;
+      (held - information) + form_deviance(problem, explained) * information;
+  const MatrixXd covariance = inverse * middle * inverse;
   return covariance.topLeftCorner(own, own);
 }
 

@@ -35,10 +35,10 @@ std::vector<FormOf> laws_of(const Problem& problem, const Hypothesis& hypothesis
   return laws;
 }
 
-MatrixXd form_information(Index effects) {
+MatrixXd form_information(Index effects, double share) {
   const MatrixXd covariance = (kLimits.form * kLimits.form * knot_correlation(kFormKnots)).array() +
                               kLimits.size_of_trial * kLimits.size_of_trial;
-  const MatrixXd of_one = covariance.inverse();
+  const MatrixXd of_one = (share * share * covariance).inverse();
   MatrixXd out = MatrixXd::Zero(effects * kFormKnots, effects * kFormKnots);
   for (Index f = 0; f < effects; ++f)
     out.block(f * kFormKnots, f * kFormKnots, kFormKnots, kFormKnots) = of_one;

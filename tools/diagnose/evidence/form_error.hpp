@@ -19,8 +19,8 @@ std::vector<FormOf> forms_of(const Problem& problem, const Hypothesis& hypothesi
 // encoder off its centre is geometry; only a law can have another form.
 std::vector<FormOf> laws_of(const Problem& problem, const Hypothesis& hypothesis);
 
-// Inverse of C for so many effects.
-Eigen::MatrixXd form_information(Eigen::Index effects);
+// Inverse of C for so many effects, with both standard deviations times `share`.
+Eigen::MatrixXd form_information(Eigen::Index effects, double share = 1.0);
 
 // Gram matrix of one trial without the form errors of some effects: they are integrated out with their prior.
 struct WithoutForms {

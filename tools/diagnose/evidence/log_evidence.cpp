@@ -58,13 +58,16 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
   std::vector<Index> shared, of_form;
   for (Index i = 0; i < linear.front().gram.rows(); ++i)
     (i >= before && i < before + effects * kFormKnots ? of_form : shared).push_back(i);
-  const MatrixXd information = form_information(effects);
   AtFit out;
-  for (const auto& trial : linear) {
-    out.plain.emplace_back(trial.gram(shared, shared));
-    auto without = without_forms(trial.gram, shared, of_form, information);
-    out.grams.push_back(std::move(without.gram));
-    out.log_determinant += without.log_determinant + trial.log_determinant;
+  for (const auto& trial : linear) out.plain.emplace_back(trial.gram(shared, shared));
+  for (std::size_t i = 0; i < (forms.empty() ? 1 : kLimits.form_shares.size()); ++i) {
+    const MatrixXd information = form_information(effects, kLimits.form_shares[i]);
+    AtFit::Formed& formed = out.formed.emplace_back();
+    for (const auto& trial : linear) {
+      auto without = without_forms(trial.gram, shared, of_form, information);
+      formed.grams.push_back(std::move(without.gram));
+      formed.log_determinant += without.log_determinant + trial.log_determinant;
+    }
   }
   return out;
 }
@@ -181,19 +184,20 @@ std::vector<double> likeliest_times(const Problem& problem, const Point& point,
   return times;
 }
 
-}  // namespace
-
-LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
+// The evidence with one share of the form errors.
+LogEvidence log_evidence_of(const Problem& problem, const Fit& fit,
+                            const std::vector<MatrixXd>& without_forms, const AtFit::Formed& at) {
   const Hypothesis& h = fit.point.hypothesis;
   LogEvidence out;
   out.times = likeliest_times(problem, fit.point, at.grams);
   const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
   const Quadratic plain =
-      quadratic_at(problem, fit.point, at.plain, std::vector<double>(out.times.size(), 1.0));
+      quadratic_at(problem, fit.point, without_forms, std::vector<double>(out.times.size(), 1.0));
   // The fit has the least deviance that the simulation reaches. Take the deviance from the fit, and only its
   // change by form errors and larger repeatable errors from the linear approximation.
   double off = 0.0;
-  for (std::size_t t = 0; t < at.plain.size(); ++t) off += fit.trial_deviance[t] - at.plain[t](0, 0);
+  for (std::size_t t = 0; t < without_forms.size(); ++t)
+    off += fit.trial_deviance[t] - without_forms[t](0, 0);
   off += plain.deviance - plain.least();
   out.value = value_of(q) - 0.5 * off + log_hyperprior(out.times) - 0.5 * at.log_determinant;
   const Index k = q.score.size();
@@ -205,10 +209,22 @@ LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at
     const double sd = std::sqrt(std::max(covariance(first, first), 1e-300));
     // The determinant stands for a flat prior: its integral is sqrt(2 pi) sd. Replace that by the integral
     // over the prior of the size.
-    out.value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].either_sign) -
+    out.value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].low < 0.0) -
                  std::log(sd);
     first += static_cast<Index>(p.size());
   }
+  return out;
+}
+
+}  // namespace
+
+LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
+  std::vector<LogEvidence> all;
+  for (const auto& formed : at.formed) all.push_back(log_evidence_of(problem, fit, at.plain, formed));
+  LogEvidence out = *std::ranges::max_element(all, {}, &LogEvidence::value);
+  double mean = 0.0;
+  for (const auto& one : all) mean += std::exp(one.value - out.value) / static_cast<double>(all.size());
+  out.value += std::log(mean);
   return out;
 }
 

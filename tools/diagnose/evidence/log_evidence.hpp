@@ -14,18 +14,22 @@ namespace sandhopper::diagnose {
 //          - 1/2 ln|I + Lambda|        (shapes and tolerances, Lambda in units of their prior)
 // d: deviance at the fit, with the priors of shapes and tolerances. F_t: information of trial t on the form
 // of each law, C_t: its prior covariance (Limits::form, size_of_trial). Z_t: whitened derivatives of
-// trial t by its nuisances at this fit, S_t: their prior variances.
+// trial t by its nuisances at this fit, S_t: their prior variances. Mean over Limits::form_shares of C_t.
 struct LogEvidence {
   double value = 0.0;
   std::vector<double> times{};  // Most probable ratio of each repeatable model error to its learnt scale.
 };
 
-// Gram matrices of the trials linearised at a fit, with the form error of every law eliminated. Columns:
-// residual, effects' parameters, tolerances, `more`, repeatable error.
+// Gram matrices of the trials linearised at a fit. Columns: residual, effects' parameters, tolerances,
+// `more`, repeatable error.
 struct AtFit {
-  std::vector<Eigen::MatrixXd> grams;
-  std::vector<Eigen::MatrixXd> plain;  // The same without form errors.
-  double log_determinant = 0.0;        // sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|)
+  // With the form error of every law eliminated.
+  struct Formed {
+    std::vector<Eigen::MatrixXd> grams;
+    double log_determinant = 0.0;  // sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|)
+  };
+  std::vector<Formed> formed;          // One for each of Limits::form_shares; only one if there is no law.
+  std::vector<Eigen::MatrixXd> plain;  // Without form errors.
 };
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {});
 

@@ -49,12 +49,13 @@ std::vector<UnknownLaw> unknown_laws(const Problem& problem, const Point& point,
     }
   }
   const AtFit at = linearised_at(problem, point, terms);
-  std::vector<TrialLinear> linear(at.grams.size());
-  for (std::size_t t = 0; t < linear.size(); ++t) linear[t].gram = at.grams[t];
+  const auto& formed = at.formed.back().grams;  // with the largest errors of form
+  std::vector<TrialLinear> linear(formed.size());
+  for (std::size_t t = 0; t < linear.size(); ++t) linear[t].gram = formed[t];
   // Eliminate the repeatable errors before the laws, also that of the law's own port and variable: an unknown
   // law must explain more than the model error does.
   const auto errors = static_cast<Index>(problem.repeatable_error.size());
-  const auto all = at.grams.front().rows();
+  const auto all = formed.front().rows();
   std::vector<Index> order;
   for (Index i = 0; i <= own; ++i) order.push_back(i);
   for (Index i = all - errors; i < all; ++i) order.push_back(i);
