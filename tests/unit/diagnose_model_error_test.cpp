@@ -146,6 +146,32 @@ TEST(DiagnoseModelError, SetValuedFrictionIsNoMisfit) {
   EXPECT_GT(more.with_model_error, 1.3 * same.with_model_error);
 }
 
+// Largest difference that the sharper friction makes, if the belief's rail changes its sign within `speed`.
+double effect_of_sharper_friction(double rail_switch_speed_mps) {
+  auto recordings = hops_with_friction(1.0, 0.0);
+  for (auto* belief : {&recordings.belief, &recordings.beliefs.front()}) {
+    belief->numbers["robot.rail_friction_switch_speed_mps"] = rail_switch_speed_mps;
+    belief->numbers["robot.joint_coulomb_Nm"] = 0.0;
+  }
+  Prepared prepared = prepare(recordings);
+  const Point point = null_point(prepared.problem);
+  const Edits base = edits_for(prepared.problem, {}, point.tolerances);
+  const TrialModel& trial = *prepared.problem.trials.front();
+  const VectorXd plain = predicted(prepared.problem, trial, base, point.nuisances.front());
+  VectorXd other = plain;
+  trial.predict_variant(trial.variants().back().later, base, point.nuisances.front(),
+                        {other.data(), static_cast<std::size_t>(other.size())});
+  return (other - plain).cwiseAbs().maxCoeff();
+}
+
+// The steps do not resolve speeds below the sharpest that a belief may state, so these have no sharper
+// variant.
+TEST(DiagnoseModelError, FrictionThatIsSharpInTheBeliefHasNoSharperVariant) {
+  constexpr double kSharpest = WorldRobotConfig::kSharpestRail_mps;
+  EXPECT_GT(effect_of_sharper_friction(10.0 * kSharpest), 1e-3);
+  EXPECT_EQ(effect_of_sharper_friction(kSharpest), 0.0);
+}
+
 // A recorded phase change is known only to one row. A liftoff that is half a row off must not count as a
 // misfit.
 TEST(DiagnoseModelError, ALiftoffHalfARowOffTheRecordedOneIsNoMisfit) {

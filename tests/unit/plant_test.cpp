@@ -195,6 +195,28 @@ TEST(Plant, RigidGroundHoldsTheFootAndCarriesTheWeight) {
   EXPECT_EQ(plant.motion(0.0).contact_force_N, 0.0);
 }
 
+// Dry friction c tanh(v / v_s): most of it above v_s, little below; v_s is a key.
+TEST(Plant, DryFrictionChangesItsSignWithinTheStatedSpeeds) {
+  WorldConfig config = frictionless();
+  config.robot.rail_coulomb_N = 4.0;
+  config.robot.joint_coulomb_Nm = 0.1;
+  const auto at = [&](double speed_mps, double rate_radps) {
+    Plant plant(config, Bed(config.terrain, config.robot.leg.foot_radius_m));
+    const double lift = plant.leg().kinematics(1.0).dlength_m_per_rad * rate_radps;
+    plant.place({.foot_z_m = 0.1,
+                 .foot_velocity_mps = speed_mps - lift,
+                 .angle_rad = 1.0,
+                 .angular_velocity_radps = rate_radps});
+    return plant.motion(0.0);
+  };
+  EXPECT_NEAR(at(0.01, 0.0).rail_force_N, -4.0 * std::tanh(1.0), 1e-9);
+  EXPECT_NEAR(at(0.0, 0.2).joint_torque_Nm, -2.0 * 0.1 * std::tanh(1.0), 1e-9);
+  config.robot.rail_friction_switch_speed_mps = 0.1;
+  config.robot.joint_friction_switch_speed_radps = 2.0;
+  EXPECT_NEAR(at(0.01, 0.0).rail_force_N, -4.0 * std::tanh(0.1), 1e-9);
+  EXPECT_NEAR(at(0.0, 0.2).joint_torque_Nm, -2.0 * 0.1 * std::tanh(0.1), 1e-9);
+}
+
 TEST(WorldConfig, EveryKeyOfTheFormatIsReadAndAnUnknownOneIsNot) {
   const auto config = load_text<WorldConfig>("nominal.toml", R"(
 gravity_mps2 = 9.81
@@ -204,6 +226,8 @@ hip_offset_m = 0.01
 rail_coulomb_N = 3.0
 rail_viscous_N_s_per_m = 0.1
 joint_coulomb_Nm = 0.01
+rail_friction_switch_speed_mps = 0.02
+joint_friction_switch_speed_radps = 0.1
 cogging_amplitude_Nm = 0.03
 cogging_periods_per_rev = 252
 [motor]
@@ -224,6 +248,8 @@ bed_stiffness_relative = 0.05
                                              MissingKeys::use_default);
   EXPECT_EQ(config.robot.leg.body_mass_kg, 1.7);
   EXPECT_EQ(config.robot.rail_coulomb_N, 3.0);
+  EXPECT_EQ(config.robot.rail_friction_switch_speed_mps, 0.02);
+  EXPECT_EQ(config.robot.joint_friction_switch_speed_radps, 0.1);
   EXPECT_EQ(config.motor.torque_constant_Nm_per_A, 0.0752);
   EXPECT_EQ(config.terrain.stiffness_N_per_m, 1200.0);
   EXPECT_TRUE(config.terrain.rigid);

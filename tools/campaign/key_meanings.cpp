@@ -28,6 +28,10 @@ constexpr std::array kModel{
     KeyMeaning{"robot.rail_coulomb_N", "dry friction of the vertical rail"},
     KeyMeaning{"robot.rail_viscous_N_s_per_m", "friction of the rail in proportion to speed"},
     KeyMeaning{"robot.joint_coulomb_Nm", "dry friction of one motor's joint, on the link's side"},
+    KeyMeaning{
+        "robot.rail_friction_switch_speed_mps",
+        "v_s of c tanh(speed / v_s): below it the rail's dry friction fades out as the body turns round"},
+    KeyMeaning{"robot.joint_friction_switch_speed_radps", "the same for the joints' dry friction"},
     KeyMeaning{"robot.cogging_amplitude_Nm", "amplitude of one motor's cogging torque; 0: none"},
     KeyMeaning{"robot.cogging_periods_per_rev", "periods of the cogging torque in one turn of the link"},
     KeyMeaning{"robot.series_compliance_m_per_N",

@@ -6,8 +6,6 @@
 namespace sandhopper {
 namespace {
 
-constexpr double kRailSwitchSpeed_mps = 0.01;
-constexpr double kJointSwitchSpeed_radps = 0.2;
 constexpr double kEndStopStiffness_Nm_per_rad = 200.0;
 constexpr double kNever_s = 1e9;
 constexpr double kTeethDampingRatio = 0.5;
@@ -52,9 +50,9 @@ void Plant::place_in_crater(const PlantState& state, double max_depth_m) noexcep
 double Plant::joint_torque_Nm(const PlantState& s) const noexcept {
   double friction = 0.0, cogging = 0.0;
   if (robot_.joint_coulomb_Nm != 0.0)
-    friction =
-        -motors_ * robot_.joint_coulomb_Nm *
-        std::tanh(s.angular_velocity_radps / (options_.friction_switch_factor * kJointSwitchSpeed_radps));
+    friction = -motors_ * robot_.joint_coulomb_Nm *
+               std::tanh(s.angular_velocity_radps /
+                         (options_.friction_switch_factor * robot_.joint_friction_switch_speed_radps));
   if (robot_.cogging_amplitude_Nm != 0.0)
     cogging = motors_ * robot_.cogging_amplitude_Nm * std::sin(robot_.cogging_periods_per_rev * s.angle_rad);
   const double stops = kEndStopStiffness_Nm_per_rad * (std::max(0.0, kEndStopLow_rad - s.angle_rad) -
@@ -94,8 +92,9 @@ Plant::Rates Plant::rates(const PlantState& s, double motors_Nm) const noexcept 
   const double body_velocity = toe_velocity + d.leg.dlength_m_per_rad * s.angular_velocity_radps;
   r.rail_force_N = -robot_.rail_viscous_N_s_per_m * body_velocity - options_.cable_force_N;
   if (robot_.rail_coulomb_N != 0.0)
-    r.rail_force_N -= robot_.rail_coulomb_N *
-                      std::tanh(body_velocity / (options_.friction_switch_factor * kRailSwitchSpeed_mps));
+    r.rail_force_N -=
+        robot_.rail_coulomb_N *
+        std::tanh(body_velocity / (options_.friction_switch_factor * robot_.rail_friction_switch_speed_mps));
   r.joint_torque_Nm = joint_torque_Nm(s);
   if (options_.extension != nullptr) {
     const double body_z = s.foot_z_m - s.series_m + leg_.parameters().foot_height_m + d.leg.length_m;

@@ -47,11 +47,11 @@ class PlantExtension {
 // Body, foot, leg and bed, coupled, on a 0.1 ms grid (RK4):
 //   M_f a_f = Q1 - beta (tau + Q2) - C phid^2 - M_f g + F_c
 //   phidd from the second row of estimation/leg.hpp
-//   Q1 = -rail_coulomb tanh(v_b / 0.01 m/s) - rail_viscous v_b - cable
-//   Q2 = Q1 L' - n joint_coulomb tanh(phid / 0.2 rad/s) + n cogging sin(periods phi) + end stops
-// for n motors. With a series spring F_s = k s + c ds/dt between toe and foot (c = 2 zeta sqrt(k m_foot)),
-// the first row holds for the toe without the foot's mass and with F_s instead of F_c. The foot has its own
-// equation:
+//   Q1 = -rail_coulomb tanh(v_b / v_rail) - rail_viscous v_b - cable
+//   Q2 = Q1 L' - n joint_coulomb tanh(phid / v_joint) + n cogging sin(periods phi) + end stops
+// for n motors; v_rail, v_joint: rail_friction_switch_speed_mps, joint_friction_switch_speed_radps. With a
+// series spring F_s = k s + c ds/dt between toe and foot (c = 2 zeta sqrt(k m_foot)), the first row holds for
+// the toe without the foot's mass and with F_s instead of F_c. The foot has its own equation:
 //   m_foot a_f = F_c - F_s - m_foot g
 // With play in the joint the rotors (inertia J) move separately, and the links get the torque that the teeth
 // transmit while they touch:

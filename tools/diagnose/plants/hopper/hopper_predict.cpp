@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kAtRest = 0.01;  // start of a release at rest: share of the uncertainty of a later hop
 
+// `wanted`, or the smallest factor on the believed switch speeds of dry friction that the steps resolve.
+double sharper(const WorldRobotConfig& robot, double wanted) {
+  const double rail = WorldRobotConfig::kSharpestRail_mps / robot.rail_friction_switch_speed_mps,
+               joint = WorldRobotConfig::kSharpestJoint_radps / robot.joint_friction_switch_speed_radps;
+  return std::min(1.0, std::max({wanted, rail, joint}));
+}
+
 }  // namespace
 
 const WorldConfig& HopperTrial::edited_world(const Edits& edits) const {
@@ -39,7 +46,6 @@ void HopperTrial::predict(const Edits& edits, std::span<const double> n, std::sp
 }
 
 std::vector<VariantPair> HopperTrial::variants() const {
-  // Nearly set-valued friction; sharper still, the steps would not resolve it.
   constexpr double kFiner = 0.5, kHalfARow = 0.5, kSharper = 0.1;
   std::vector<VariantPair> pairs{{{}, {Variant::Kind::step, 0, kFiner}}};
   for (std::size_t i = 1; i < course_.phases.size(); ++i)
@@ -57,7 +63,8 @@ void HopperTrial::predict_variant(const Variant& variant, const Edits& edits, st
   for (std::uint32_t b = 0; b < blocks; ++b) {
     HopperRun run = run_of(world, b, n);
     if (variant.kind == Variant::Kind::step) run.step_s *= variant.amount;
-    if (variant.kind == Variant::Kind::friction) run.friction_switch_factor = variant.amount;
+    if (variant.kind == Variant::Kind::friction)
+      run.friction_switch_factor = sharper(world.robot, variant.amount);
     if (run.phases != nullptr) run.phases = &phases;
     run.switch_between_cycles = variant.kind == Variant::Kind::event;
     const auto traces = simulate_hopper(run, edits);
