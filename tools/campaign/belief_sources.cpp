@@ -14,18 +14,40 @@
 namespace sandhopper {
 namespace {
 
+using Numbers = std::vector<std::pair<std::string, double>>;
+
 template <class T>
-void flatten(const T& table, const std::string& prefix, std::map<std::string, double>& out) {
+void flatten(const T& table, const std::string& prefix, Numbers& out) {
   T::fields(table, [&]<class Member>(std::string_view key, const Member& member, Range = {}) {
     const std::string name = prefix + std::string(key);
     if constexpr (HasFields<const Member>) {
       flatten(member, name + ".", out);
     } else if constexpr (std::is_arithmetic_v<Member>) {
-      out[name] = static_cast<double>(member);
+      out.emplace_back(name, static_cast<double>(member));
     } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
-      if (member) out[name] = *member;
+      if (member) out.emplace_back(name, *member);
     }
   });
+}
+
+// In the order of the fields.
+Numbers numbers_in_order(const Belief& belief) {
+  Numbers numbers;
+  std::visit(
+      [&](const auto& plant) {
+        flatten(plant, "", numbers);
+        for (const auto& spread : plant.key_spreads) numbers.emplace_back("spread." + spread.name, spread.sd);
+      },
+      belief);
+  return numbers;
+}
+
+// A set-up names no table. It states the first number of its name (override_belief).
+bool is_first_of_its_name(const Numbers& numbers, const std::string& path) {
+  const auto name = "." + path.substr(path.rfind('.') + 1);
+  const auto first =
+      std::ranges::find_if(numbers, [&](const auto& n) { return ("." + n.first).ends_with(name); });
+  return first != numbers.end() && first->first == path;
 }
 
 // Line numbers in the model file. Key: "table.key".
@@ -59,14 +81,8 @@ bool is_without_effect(CampaignPlant plant, const std::string& key) {
 }  // namespace
 
 std::map<std::string, double> numbers_of(const Belief& belief) {
-  std::map<std::string, double> numbers;
-  std::visit(
-      [&](const auto& plant) {
-        flatten(plant, "", numbers);
-        for (const auto& spread : plant.key_spreads) numbers["spread." + spread.name] = spread.sd;
-      },
-      belief);
-  return numbers;
+  const auto numbers = numbers_in_order(belief);
+  return {numbers.begin(), numbers.end()};
 }
 
 UsedNumbers used_numbers(const Campaign& campaign) {
@@ -74,7 +90,9 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   const auto lines = lines_of(campaign.model);
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
+  const auto in_order = numbers_in_order(campaign.belief);
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
+    const bool may_be_set_up = is_first_of_its_name(in_order, key);
     UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
     // Left at "?", a number is that of the trials which state it; a default is nobody's.
     const bool is_unstated =
@@ -83,7 +101,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     for (std::size_t i = 0; i < of_trials.size(); ++i) {
       const auto it = of_trials[i].find(key);
       if (it == of_trials[i].end() || campaign.trials[i].is_unstated(key)) continue;
-      own += is_unstated || it->second != value;
+      own += is_unstated || it->second != value || (may_be_set_up && campaign.trials[i].states(key));
       number.low = seen == 0 ? it->second : std::min(number.low, it->second);
       number.high = seen == 0 ? it->second : std::max(number.high, it->second);
       ++seen;

@@ -335,7 +335,7 @@ bool CampaignTrial::states_diameter() const {
 bool CampaignTrial::states(std::string_view path) const {
   const auto key = last_key(path);
   if (number(key)) return true;
-  if (key == "radius_m") return states_diameter();
+  if (key == "radius_m" || key == "foot_radius_m") return states_diameter();
   return key == "stiffness_N_per_m" && number("stiffness_per_area_N_per_m");
 }
 
