@@ -29,6 +29,7 @@ std::string order(const std::string& kind, const std::string& profile,
 TEST(DiagnoseQuantity, TellsALabWhatToDo) {
   EXPECT_EQ(order("drop", "", {{"release_height_m", 1.9}, {"release_speed_mps", 0.0}}),
             "Drop the body from 1.9 m");
+  EXPECT_EQ(order("drop", "", {{"release_speed_mps", 0.0}}), "Drop the body once more");
   EXPECT_EQ(
       order("drop", "", {{"release_height_m", 3.741657}, {"release_speed_mps", 3.0}, {"payload_kg", 0.1}}),
       "Throw the body down from 3.74 m at 3 m/s, payload 0.1 kg");

@@ -24,7 +24,7 @@ std::string toml_real(double value) {
 class NominalWriter {
  public:
   NominalWriter(CampaignPlant plant, bool commands_recorded)
-      : plant_(plant), commands_recorded_(commands_recorded) {}
+      : plant_(plant), commands_recorded_(commands_recorded), keys_(belief_keys(plant)) {}
 
   template <class Table>
   void write(const Table& table, const std::string& name) {
@@ -54,6 +54,9 @@ class NominalWriter {
     else
       return;
     const std::string path = table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+    // Every plant accepts the sensors of all plants. A draft holds those of its own.
+    const auto entry = std::ranges::find(keys_, path, &BeliefKey::path);
+    if (entry != keys_.end() && !entry->used) return;
     const bool of_controller =
         std::ranges::find(hopper_controller_keys(), path) != hopper_controller_keys().end();
     const bool needed = decides_answer(plant_, path) && !(of_controller && commands_recorded_);
@@ -67,6 +70,7 @@ class NominalWriter {
 
   const CampaignPlant plant_;
   const bool commands_recorded_;
+  const std::vector<BeliefKey> keys_;
   std::string text_;
 };
 

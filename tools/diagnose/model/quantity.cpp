@@ -82,8 +82,9 @@ class Order {
     const auto speed = setup_.find("release_speed_mps");
     const bool is_thrown = speed != setup_.end() && speed->second > 0.0;
     if (speed != setup_.end() && !is_thrown) setup_.erase(speed);
-    return (is_thrown ? "Throw the body down" : "Drop the body") + taken(" from {}", "release_height_m") +
-           taken(" at {}", "release_speed_mps");
+    const auto height = taken(" from {}", "release_height_m");
+    if (!is_thrown) return "Drop the body" + (height.empty() ? " once more" : height);
+    return "Throw the body down" + height + taken(" at {}", "release_speed_mps");
   }
 
   std::string intrusion() {

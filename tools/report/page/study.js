@@ -45,7 +45,7 @@ function shadeOf(share) {
 
 function tableOf(table) {
   const cell = (tag, text, i, shade) => {
-    const made = element(tag, { className: i < table.text_columns ? 'text' : '' }, ...(tag === 'td' && table.columns[i] === 'equation' ? mathOf(text) : [text]));
+    const made = element(tag, { className: i < table.text_columns ? 'text' : String(text).includes(' ') ? '' : 'one' }, ...(tag === 'td' && table.columns[i] === 'equation' ? mathOf(text) : [text]));
     if (shade) made.style.background = `linear-gradient(90deg, ${shadeOf(shade[0])} 50%, ${shadeOf(shade[1])} 50%)`;
     return made;
   };
