@@ -74,5 +74,6 @@ std::vector<ForeignCondition> conditions_of_cells();
 std::vector<ForeignCondition> conditions_of_tables();
 std::vector<ForeignCondition> conditions_of_units();
 std::vector<ForeignCondition> conditions_of_samples();
+std::vector<ForeignCondition> conditions_of_clocks();
 
 }  // namespace sandhopper

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "campaign_folder.hpp"
 #include "firmware/log/csv_cells.hpp"
+#include "read_campaign.hpp"
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/written_unit.hpp"
@@ -19,19 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using enum FindingKind;
 
-struct Told {
-  TrialRecording recording;
-  std::string text;
-};
-
-Told read(const std::string& head, const std::string& csv) {
-  CampaignFolder folder;
-  folder.write("campaign.toml", head + "\n[[trial]]\nfile = \"a.csv\"\n").write("a.csv", csv);
-  const auto campaign = load_campaign(folder.path());
-  Told told{read_trial(campaign, campaign.trials.at(0)), ""};
-  for (const auto& finding : told.recording.findings) told.text += to_string(finding) + "\n";
-  return told;
-}
+constexpr auto read = read_campaign;
 
 // A plate that comes from 5 mm above the bed; 1500 N/m.
 struct Press {

@@ -5,28 +5,21 @@
 #include <limits>
 
 #include "config/hint.hpp"
-#include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/check_channels.hpp"
+#include "tools/campaign/clock_checks.hpp"
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/exchanged_columns.hpp"
-#include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/frozen_rows.hpp"
-#include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/plant_doubt.hpp"
-#include "tools/campaign/plausible.hpp"
 #include "tools/campaign/position_loop.hpp"
-#include "tools/campaign/press_speed_check.hpp"
-#include "tools/campaign/rate_check.hpp"
 #include "tools/campaign/read_table.hpp"
+#include "tools/campaign/sample_checks.hpp"
 #include "tools/campaign/sample_times.hpp"
-#include "tools/campaign/sensor_signs.hpp"
-#include "tools/campaign/surface_check.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
 #include "tools/campaign/unit_check.hpp"
-#include "tools/campaign/value_steps.hpp"
 
 namespace sandhopper {
 namespace {
@@ -60,18 +53,7 @@ class Reader {
     if (!out_.own_log) check_times(out_, places_, trial_.format.spread_times);
     if (any_unusable(out_.findings)) return;
     join_equal_times(out_, places_);
-    if (!out_.own_log) {
-      check_held_samples(out_, places_);
-      check_plausible(out_, campaign_, trial_, places_);
-      check_rates(out_, places_);
-      check_falls(out_, campaign_, trial_, places_);
-      check_press_speed(out_, campaign_, trial_, places_);
-      check_axis_torque(out_, campaign_, trial_, places_);
-      check_hopper(out_, campaign_, trial_, places_);
-      check_signs(out_, campaign_, trial_, places_);
-      check_surface(out_, campaign_, trial_, places_);
-      check_value_steps(out_, places_);
-    }
+    if (!out_.own_log) check_samples(out_, campaign_, trial_, places_);
     if (out_.has_time) note_gaps(out_, places_);
     check_channels(out_, campaign_.plant, places_);
   }
@@ -130,6 +112,7 @@ class Reader {
     }
     if (second != nullptr) used_[index_of(*second)] = true;
     if (!out_.own_log && !has_unit_of_time(i, mapped ? mapping : nullptr)) doubt(i);
+    if (!out_.own_log && second == nullptr) check_other_clocks(out_, table_, i, places_);
   }
 
   // [format] row_every_s: times from line numbers, so that a row that was left out leaves a gap.

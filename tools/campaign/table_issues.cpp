@@ -144,8 +144,14 @@ void translate_issues(const Campaign& campaign, const CampaignTrial& trial, Tria
       table.unusable_columns.push_back(issue.name);
     if (drops_rows(issue.fault)) dropped += count;
     if (drops_rows(issue.fault) && line == 0) line = issue.line;
+    // A time that falls in every third row is no clock that was set back.
+    const bool are_steps = issue.fault == CsvFault::time_backwards && 3 * count > table.table.rows() + count;
     findings.push_back({meaning_of(issue.fault).kind, severity, table.file, issue.line, issue.column,
-                        issue.name, issue.text + repeats(issue), cure_of(issue)});
+                        issue.name, issue.text + repeats(issue),
+                        are_steps
+                            ? "if the column holds the time since the row before, export the time itself, "
+                              "or leave the column away and write [format] row_every_s = its mean in s"
+                            : cure_of(issue)});
   }
   if (dropped * 5 > table.table.rows())
     findings.push_back({FindingKind::unreadable_file, trial_unusable, table.file, line, 1, "",

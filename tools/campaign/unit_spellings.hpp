@@ -166,6 +166,8 @@ inline constexpr std::array kSpellings{
     Spelling{"lb-ft", "torque", 1.3558179},
     Spelling{"ozin", "torque", 0.00706155},
     Spelling{"oz-in", "torque", 0.00706155},
+    Spelling{"ozf-in", "torque", 0.00706155},
+    Spelling{"ozf*in", "torque", 0.00706155},
     Spelling{"amps", "current", 1.0},
     Spelling{"Amps", "current", 1.0},
     Spelling{"Ampere", "current", 1.0},

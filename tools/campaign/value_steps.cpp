@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
+#include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
@@ -83,6 +85,20 @@ void check_resolution(TrialRecording& recording, const RecordingPlaces& places, 
       "export it with more digits");
 }
 
+// A speed whose counter is full jumps by all that it can count.
+void check_full_speed(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
+  const auto measured = recording.channel(channel);
+  std::vector<double> values(measured.begin(), measured.end());
+  const auto counter = put_counter_back(values);
+  if (counter.count == 0) return;
+  doubt_column(
+      recording, places, places.is_stated(channel), channel,
+      fmt::format("jumps by {:.4g} {} times while it goes on, as a counter does that is full and begins "
+                  "again",
+                  counter.width, counter.count),
+      "record it with more bits, or rename the column: a speed is not needed beside a position");
+}
+
 }  // namespace
 
 void check_value_steps(TrialRecording& recording, const RecordingPlaces& places) {
@@ -93,6 +109,10 @@ void check_value_steps(TrialRecording& recording, const RecordingPlaces& places)
   if (recording.has_time)
     for (const auto channel : kPositions)
       if (recording.has(channel)) check_jump(recording, places, channel);
+  constexpr std::array<std::string_view, 4> kSpeeds{
+      "velocity_radps", "foot_velocity_mps", "motor_left_velocity_radps", "motor_right_velocity_radps"};
+  for (const auto channel : kSpeeds)
+    if (recording.has(channel)) check_full_speed(recording, places, channel);
   for (const auto channel : kMeasured)
     if (recording.has(channel)) check_resolution(recording, places, channel);
 }

@@ -1,0 +1,131 @@
+#include "tools/campaign/clock_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/campaign/column_rivals.hpp"
+#include "tools/campaign/implausible.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr std::size_t kSide = 4;   // rows on each side of a gap that give a speed
+constexpr double kLongGap = 10.0;  // rows; at half the usual step a shorter one is doubtful
+constexpr double kDrift = 0.01;    // of the time; see the header
+constexpr double kGrowing = 0.9;   // share of rows in which a column of times grows
+
+double median_step_s(const std::vector<double>& t_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+// Steps of a channel around row `at`: the mean of a row before and after it, and the one across.
+struct Crossing {
+  double before, across, after;
+};
+
+std::optional<Crossing> crossing(std::span<const double> values, std::size_t at) {
+  for (std::size_t row = at - kSide - 1; row < at + kSide + 1; ++row)
+    if (std::isnan(values[row])) return std::nullopt;
+  constexpr auto kRows = static_cast<double>(kSide);
+  return Crossing{(values[at - 1] - values[at - 1 - kSide]) / kRows, values[at] - values[at - 1],
+                  (values[at + kSide] - values[at]) / kRows};
+}
+
+// The channel moves evenly, and across the gap by half to one and a half times one row's step.
+bool goes_on(const Crossing& c) {
+  const double step = 0.5 * (c.before + c.after);
+  const bool even = c.before * c.after > 0.0 && std::abs(c.before - c.after) < 0.3 * std::abs(step);
+  return even && std::abs(c.across - step) < 0.5 * std::abs(step);
+}
+
+// True if the other channels make no step across the gap that is large beside their usual ones.
+bool others_go_on(const TrialRecording& recording, std::string_view position, std::size_t at) {
+  constexpr double kTimes = 3.0;
+  return std::ranges::all_of(recording.channels, [&](const auto& channel) {
+    if (channel.name == position) return true;
+    double largest = 0.0;
+    const auto& v = channel.values;
+    for (std::size_t row = at - kSide; row < at + kSide; ++row)
+      if (row != at) largest = std::fmax(largest, std::abs(v[row] - v[row - 1]));
+    const double across = std::abs(v[at] - v[at - 1]);
+    return std::isnan(across) || across <= kTimes * largest;
+  });
+}
+
+}  // namespace
+
+void check_clock_steps(TrialRecording& recording, const RecordingPlaces& places) {
+  constexpr std::array<std::string_view, 5> kPositions{"position_rad", "foot_z_m", "height_m",
+                                                       "motor_left_position_rad", "motor_right_position_rad"};
+  const auto& t = recording.t_s;
+  if (!recording.has_time || t.size() < 2 * (kSide + 1)) return;
+  const double usual_s = median_step_s(t);
+  for (std::size_t at = kSide + 1; at + kSide < t.size(); ++at) {
+    const double gap_s = t[at] - t[at - 1];
+    if (gap_s < kLongGap * usual_s) continue;
+    for (const auto channel : kPositions) {
+      if (!recording.has(channel)) continue;
+      const auto c = crossing(recording.channel(channel), at);
+      if (!c || !goes_on(*c) || !others_go_on(recording, channel, at)) continue;
+      return doubt_column(
+          recording, places, places.is_stated("t_s"), "t_s",
+          fmt::format("grows by {:.6g} s in line {}, but {} goes on by {:.3g} as from row to row, and not by "
+                      "{:.3g}: the clock stepped forward",
+                      gap_s, places.line_of(at), channel, c->across, c->before * gap_s / usual_s),
+          fmt::format(
+              "give each part a [[trial]], select = {{ to_line = {} }} and select = {{ from_line = {} "
+              "}}; if rows are missing there, state unit and scale of t_s",
+              places.line_of(at - 1), places.line_of(at)));
+    }
+  }
+}
+
+void check_other_clocks(TrialRecording& recording, const CsvTable& table, std::size_t time_column,
+                        const RecordingPlaces& places) {
+  const auto& t = recording.t_s;
+  constexpr std::size_t kFewest = 10;
+  if (t.size() < kFewest || !(t.back() > t.front())) return;
+  const double usual_s = median_step_s(t), span_s = t.back() - t.front();
+  for (const auto rival : rivals_of_time(table, time_column)) {
+    const auto& other = table.columns[rival];
+    if (std::ranges::any_of(other, [](double value) { return std::isnan(value); })) continue;
+    std::size_t grows = 0;
+    for (std::size_t i = 1; i < other.size(); ++i) grows += other[i] > other[i - 1];
+    if (static_cast<double>(grows) < kGrowing * static_cast<double>(other.size() - 1)) continue;
+    const auto written = unit_of_column(table, rival);
+    const double power = std::round(std::log10(span_s / (other.back() - other.front())));
+    const double scale = written && written->is_certain ? written->to_si : std::pow(10.0, power);
+    double apart_s = 0.0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      apart_s = std::max(apart_s, std::abs(scale * (other[i] - other.front()) - (t[i] - t.front())));
+    if (apart_s <= usual_s || apart_s <= kDrift * span_s) continue;
+    const auto* own = places.column_of("t_s");
+    const UsedColumn second{.channel = "t_s",
+                            .column = table.names[rival],
+                            .unit = written ? written->text : "s",
+                            .scale = scale};
+    return doubt_column(
+        recording, places, places.is_stated("t_s"), table.names[rival],
+        fmt::format("holds other times than the column of t_s, {:.3g} s apart: a row holds samples of "
+                    "different instants",
+                    apart_s),
+        fmt::format(
+            "leave in [columns] the channels of one clock, with {}; read the others by also = {{ file "
+            "= {}, columns = {{ {}, CHANNEL = \"COLUMN\" }} }}",
+            own == nullptr ? "t_s" : mapping_line(*own),
+            toml_text(std::filesystem::path(places.file).filename().string()), mapping_line(second)));
+  }
+}
+
+}  // namespace sandhopper

@@ -1,0 +1,32 @@
+#include "tools/campaign/sample_checks.hpp"
+
+#include "tools/campaign/axis_torque_check.hpp"
+#include "tools/campaign/clock_checks.hpp"
+#include "tools/campaign/fall_check.hpp"
+#include "tools/campaign/hopper_check.hpp"
+#include "tools/campaign/plausible.hpp"
+#include "tools/campaign/press_speed_check.hpp"
+#include "tools/campaign/rate_check.hpp"
+#include "tools/campaign/sample_times.hpp"
+#include "tools/campaign/sensor_signs.hpp"
+#include "tools/campaign/surface_check.hpp"
+#include "tools/campaign/value_steps.hpp"
+
+namespace sandhopper {
+
+void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                   const RecordingPlaces& places) {
+  check_held_samples(recording, places);
+  check_plausible(recording, campaign, trial, places);
+  check_rates(recording, places);
+  check_falls(recording, campaign, trial, places);
+  check_press_speed(recording, campaign, trial, places);
+  check_axis_torque(recording, campaign, trial, places);
+  check_hopper(recording, campaign, trial, places);
+  check_signs(recording, campaign, trial, places);
+  check_surface(recording, campaign, trial, places);
+  check_value_steps(recording, places);
+  check_clock_steps(recording, places);
+}
+
+}  // namespace sandhopper

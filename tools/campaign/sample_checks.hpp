@@ -1,0 +1,12 @@
+#pragma once
+#include "tools/campaign/campaign.hpp"
+#include "tools/campaign/check_channels.hpp"
+
+namespace sandhopper {
+
+// Everything that the samples of another program's recording tell against units, signs, columns and clocks.
+// Rows of equal time must have been joined.
+void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                   const RecordingPlaces& places);
+
+}  // namespace sandhopper
