@@ -199,13 +199,13 @@ TEST(SampleLimits, EachSensorIsReadWithItsOwnTimes) {
   EXPECT_GT(samples, 60U);
 }
 
-// A speed of 600 cos(6 t) degrees per second whose counter holds `width`.
-bool has_full_speed(double width) {
+// A speed of 10 sin(6 t) rad/s whose counter holds `width`. Only its first `rows` rows are so large.
+bool has_full_speed(double width, int rows = 200) {
   std::string text = "t_s,velocity_radps,position_rad\n";
   for (int i = 0; i < 200; ++i) {
-    const double t = 0.01 * i, v = 10.0 * std::cos(6.0 * t);
+    const double t = 0.01 * i, v = 10.0 * std::sin(6.0 * t) * (i < rows ? 1.0 : 0.8);
     text += fmt::format("{:.2f},{:.5f},{:.6f}\n", t, v - width * std::round(v / width),
-                        10.0 / 6.0 * std::sin(6.0 * t));
+                        -10.0 / 6.0 * std::cos(6.0 * t));
   }
   return says(read_campaign("plant = \"rotary_axis\"", text), "as a counter does that is full");
 }
@@ -213,6 +213,8 @@ bool has_full_speed(double width) {
 TEST(SampleLimits, ASpeedWhoseCounterIsFullIsInDoubt) {
   EXPECT_TRUE(has_full_speed(18.0));
   EXPECT_FALSE(has_full_speed(21.0));
+  EXPECT_TRUE(has_full_speed(18.0, 100)) << "four jumps";
+  EXPECT_FALSE(has_full_speed(18.0, 50)) << "two";
 }
 
 }  // namespace
