@@ -42,6 +42,21 @@ TEST(BeliefSources, ASetUpStatesOneNumberOfItsName) {
               HasSubstr("rig.stiffness_N_per_m = 100000 N/m (nominal.toml, line 2)"));
 }
 
+// release_height_m of a trial is no spread.
+TEST(BeliefSources, ASetUpStatesNoSpread) {
+  EXPECT_THAT(sources("hopper", "release_height_m = 0.05"), Not(HasSubstr("spread.release_height_m")));
+}
+
+TEST(BeliefSources, ListsDefaultsOfSensorsThatThePlantUsesOnly) {
+  CampaignFolder folder;
+  folder.write("campaign.toml", "plant = \"intruder\"\n[[trial]]\nfile = \"a.csv\"\n");
+  const auto used = used_numbers(load_campaign(folder.path()));
+  EXPECT_THAT(defaults_of_sensors(used), HasSubstr("spread.bed_stiffness_relative = 0.03"));
+  EXPECT_THAT(defaults_of_sensors(used), HasSubstr("sensors.load_cell_noise_N = 0.3 N"));
+  EXPECT_THAT(defaults_of_sensors(used), Not(HasSubstr("imu_")));
+  EXPECT_EQ(defaults_of_sensors({}), "");
+}
+
 TEST(BeliefSources, SpeedsWithinWhichDryFrictionChangesItsSignAreListed) {
   const auto silent = sources("hopper", "");
   EXPECT_THAT(silent, HasSubstr("robot.rail_friction_switch_speed_mps = 0.01 m/s (default: smooths the sign; "

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <type_traits>
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
 #include "tools/campaign/belief_notes.hpp"
+#include "tools/campaign/key_reference.hpp"
 
 namespace sandhopper {
 namespace {
@@ -42,8 +44,9 @@ Numbers numbers_in_order(const Belief& belief) {
   return numbers;
 }
 
-// A set-up names no table. It states the first number of its name (override_belief).
+// A set-up names no table. It states the first number of its name outside [spread] (override_belief).
 bool is_first_of_its_name(const Numbers& numbers, const std::string& path) {
+  if (path.starts_with("spread.")) return false;
   const auto name = "." + path.substr(path.rfind('.') + 1);
   const auto first =
       std::ranges::find_if(numbers, [&](const auto& n) { return ("." + n.first).ends_with(name); });
@@ -70,6 +73,18 @@ std::string table_of(const std::string& key) {
   return dot == std::string::npos ? "" : key.substr(0, dot);
 }
 
+// Every plant accepts the sensors of all plants; a key that it does not use is no number of the answer.
+std::set<std::string> unused_keys(CampaignPlant plant) {
+  std::set<std::string> unused;
+  for (const auto& key : belief_keys(plant))
+    if (!key.used) unused.insert(key.path());
+  return unused;
+}
+
+bool is_of_sensors(const std::string& key) {
+  return key.starts_with("sensors.") || key.starts_with("spread.");
+}
+
 // By default the sensors of the simple plants have no limits and no disturbances, so the defaults of
 // [sensors] and [spread] have no effect.
 bool is_without_effect(CampaignPlant plant, const std::string& key) {
@@ -91,6 +106,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   const auto in_order = numbers_in_order(campaign.belief);
+  const auto unused = unused_keys(campaign.plant);
   for (const auto& [key, value] : numbers_of(campaign.belief)) {
     const bool may_be_set_up = is_first_of_its_name(in_order, key);
     UsedNumber number{.key = key, .value = value, .low = value, .high = value, .unit = unit_of_key(key)};
@@ -115,6 +131,7 @@ UsedNumbers used_numbers(const Campaign& campaign) {
       number.source = UsedNumber::Source::model_file;
       number.said_by = fmt::format("{}, line {}", campaign.model.filename().string(), line->second);
     } else {
+      if (unused.contains(key)) continue;
       if (value == 0.0) ++used.off;
       if (value == 0.0 || is_without_effect(campaign.plant, key)) continue;
       number.said_by = fmt::format("default: {}", reason_of_default(key));
@@ -198,6 +215,20 @@ double usual_error(const UsedNumber& n) {
   const int decimals = point == std::string::npos ? 0 : static_cast<int>(digits.size() - point) - 1;
   const bool is_whole = point == std::string::npos || digits.substr(point) == ".0";
   return 0.5 * std::pow(10.0, exponent - (is_whole ? 0 : decimals));
+}
+
+bool is_listed(const UsedNumber& n) {
+  return n.source != UsedNumber::Source::plant_default || !is_of_sensors(n.key);
+}
+
+std::string defaults_of_sensors(const UsedNumbers& used) {
+  std::vector<std::string> told;
+  for (const auto& n : used.numbers)
+    if (!is_listed(n))
+      told.push_back(fmt::format("{} = {:.6g}{}{}", n.key, n.value, n.unit.empty() ? "" : " ", n.unit));
+  return told.empty() ? ""
+                      : fmt::format("of this project's sensors and trials, because you state none: {}",
+                                    fmt::join(told, ", "));
 }
 
 std::string to_string(const UsedNumber& n) {

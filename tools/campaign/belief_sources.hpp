@@ -23,9 +23,9 @@ struct UsedNumber {
   std::string said_by{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
 };
 
-// Numbers of the belief that the model file or a set-up states, and defaults that are not 0. `off` counts the
-// defaults that are 0 (effect switched off). Defaults of [sensors] and [spread] of the simple plants have no
-// effect and are not listed.
+// Numbers of the belief that the model file or a set-up states, and defaults that are not 0 of keys that the
+// plant uses. `off` counts the defaults that are 0 (effect switched off). Defaults of [sensors] and [spread]
+// of the simple plants have no effect and are left out.
 struct UsedNumbers {
   std::vector<UsedNumber> numbers;
   std::size_t off = 0;
@@ -35,6 +35,10 @@ UsedNumbers used_numbers(const Campaign& campaign);
 // Largest error to be expected from how a number is written: half a unit of its last digit (1.20 counts as
 // 1.2). For a default that nobody stated: its full size; for gravity: its variation over the Earth.
 double usual_error(const UsedNumber& number);
+
+// False for a default of [sensors] and [spread]. These stand together in one line, `defaults_of_sensors`.
+bool is_listed(const UsedNumber& number);
+std::string defaults_of_sensors(const UsedNumbers& used);  // empty if there are none
 
 std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 kg m^2 (nominal.toml, line 3)"
 

@@ -24,27 +24,62 @@ struct Idle {
   std::size_t rows = 0;
 };
 
-class SurfaceChecker {
- public:
-  SurfaceChecker(TrialRecording& recording, const CampaignTrial& trial, const RecordingPlaces& places)
-      : recording_(recording), trial_(trial), places_(places) {
+// Depth and force in the rows that have both.
+struct Push {
+  explicit Push(const TrialRecording& recording) {
     const auto force = recording.channel("force_N"), z = recording.channel("foot_z_m");
     for (std::size_t i = 0; i < z.size(); ++i) {
       if (std::isnan(z[i]) || std::isnan(force[i])) continue;
-      depth_m_.push_back(-z[i]);
-      force_N_.push_back(force[i]);
+      depth_m.push_back(-z[i]);
+      force_N.push_back(force[i]);
     }
   }
 
+  Idle idle(double above_m) const {
+    Idle idle;
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < depth_m.size() && depth_m[i] < above_m; ++i)
+      sum += force_N[i], squares += force_N[i] * force_N[i], ++idle.rows;
+    if (idle.rows == 0) return idle;
+    const auto n = static_cast<double>(idle.rows);
+    idle.mean_N = sum / n;
+    idle.sd_N = std::sqrt(std::max(0.0, squares / n - idle.mean_N * idle.mean_N));
+    return idle;
+  }
+
+  double peak_N(double zero_N) const {
+    double peak = 0.0;
+    for (const double force : force_N) peak = std::max(peak, std::abs(force - zero_N));
+    return peak;
+  }
+
+  // Mean force above the surface if it is clearly not zero.
+  double untared_N() const {
+    const Idle air = idle(0.0);
+    if (air.rows < kFewestAbove) return 0.0;
+    const double error_N = air.sd_N / std::sqrt(static_cast<double>(air.rows));
+    const bool is_clear =
+        std::abs(air.mean_N) >= std::max(kClear * error_N, kShareOfPeak * peak_N(air.mean_N));
+    return is_clear ? air.mean_N : 0.0;
+  }
+
+  std::vector<double> depth_m, force_N;
+};
+
+class SurfaceChecker {
+ public:
+  SurfaceChecker(TrialRecording& recording, const CampaignTrial& trial, const RecordingPlaces& places)
+      : recording_(recording), trial_(trial), places_(places), push_(recording) {}
+
   void run() {
-    if (depth_m_.size() < kFewest || check_travel()) return;
+    if (push_.depth_m.size() < kFewest || check_travel()) return;
     check_zero_of_force();
     check_zero_of_depth();
   }
 
  private:
   bool check_travel() {
-    const auto [least, most] = std::ranges::minmax(depth_m_);
+    const auto [least, most] = std::ranges::minmax(push_.depth_m);
     const double travel_m = most - least;
     if (!(travel_m > 0.0) || travel_m >= kLeastTravel_m) return false;
     const auto* column = places_.column_of("foot_z_m");
@@ -55,40 +90,20 @@ class SurfaceChecker {
     return true;
   }
 
-  Idle idle(double above_m) const {
-    Idle idle;
-    double sum = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < depth_m_.size() && depth_m_[i] < above_m; ++i)
-      sum += force_N_[i], squares += force_N_[i] * force_N_[i], ++idle.rows;
-    if (idle.rows == 0) return idle;
-    const auto n = static_cast<double>(idle.rows);
-    idle.mean_N = sum / n;
-    idle.sd_N = std::sqrt(std::max(0.0, squares / n - idle.mean_N * idle.mean_N));
-    return idle;
-  }
-
-  double peak_N(double zero_N) const {
-    double peak = 0.0;
-    for (const double force : force_N_) peak = std::max(peak, std::abs(force - zero_N));
-    return peak;
-  }
-
   void check_zero_of_force() {
-    const Idle air = idle(0.0);
-    if (air.rows < kFewestAbove) return;
-    const double error_N = air.sd_N / std::sqrt(static_cast<double>(air.rows));
-    if (std::abs(air.mean_N) < std::max(kClear * error_N, kShareOfPeak * peak_N(air.mean_N))) return;
+    const double untared_N = push_.untared_N();
+    if (untared_N == 0.0) return;
     std::string cure = "tare it";
     if (const auto* column = places_.column_of("force_N")) {
       auto tared = *column;
-      tared.offset -= air.mean_N;
+      tared.offset -= untared_N;
       cure = fmt::format("write {} into [columns] if it was not tared", mapping_line(tared));
     }
     add_implausible(
         recording_, places_, note, "force_N",
         fmt::format("reads {:.3g} N on average above the surface, where nothing touches the foot: "
                     "that is in every force at depth, too",
-                    air.mean_N),
+                    untared_N),
         std::move(cure));
   }
 
@@ -96,17 +111,19 @@ class SurfaceChecker {
   // there.
   void check_zero_of_depth() {
     if (trial_.number("pushes_since_preparation").value_or(0.0) > 0.0) return;
-    const auto deepest = std::ranges::max_element(depth_m_);
-    const Idle air = idle(std::max(depth_m_.front() + 0.1 * (*deepest - depth_m_.front()), 0.0));
+    const auto deepest = std::ranges::max_element(push_.depth_m);
+    const Idle air =
+        push_.idle(std::max(push_.depth_m.front() + 0.1 * (*deepest - push_.depth_m.front()), 0.0));
     if (air.rows < kFewestAbove) return;
-    const double bears_N = std::max(kClear * air.sd_N, kShareOfPeak * peak_N(air.mean_N));
+    const double bears_N = std::max(kClear * air.sd_N, kShareOfPeak * push_.peak_N(air.mean_N));
     std::size_t first = 0;
-    while (first < depth_m_.size() && force_N_[first] - air.mean_N < bears_N) ++first;
-    if (first == depth_m_.size() || depth_m_[first] < std::max(0.5 * *deepest, kLeastHole_m)) return;
+    while (first < push_.depth_m.size() && push_.force_N[first] - air.mean_N < bears_N) ++first;
+    if (first == push_.depth_m.size() || push_.depth_m[first] < std::max(0.5 * *deepest, kLeastHole_m))
+      return;
     std::string cure = "count the depth from the surface";
     if (const auto* column = places_.column_of("foot_z_m")) {
       auto moved = *column;
-      moved.offset += depth_m_[first];
+      moved.offset += push_.depth_m[first];
       cure = fmt::format("write {} into [columns]", mapping_line(moved));
     }
     add_implausible(
@@ -114,17 +131,19 @@ class SurfaceChecker {
         fmt::format("is {:.3g} m below the surface before the bed bears anything: the depth seems to be "
                     "counted from elsewhere, and no law of depth holds; in the hole of an earlier push, "
                     "write pushes_since_preparation = 1",
-                    depth_m_[first]),
+                    push_.depth_m[first]),
         cure + " if it is counted from elsewhere");
   }
 
   TrialRecording& recording_;
   const CampaignTrial& trial_;
   const RecordingPlaces& places_;
-  std::vector<double> depth_m_, force_N_;
+  const Push push_;
 };
 
 }  // namespace
+
+double untared_force_N(const TrialRecording& recording) { return Push(recording).untared_N(); }
 
 void check_surface(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {

@@ -9,4 +9,7 @@ namespace sandhopper {
 void check_surface(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places);
 
+// Mean force above the surface if it is clearly not zero; else 0. Needs `force_N` and `foot_z_m`.
+double untared_force_N(const TrialRecording& recording);
+
 }  // namespace sandhopper

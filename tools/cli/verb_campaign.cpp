@@ -70,11 +70,10 @@ ExitCode check(Session& session, const Options& options) {
   const auto used = used_numbers(campaign);
   auto numbers = nlohmann::ordered_json::array();
   for (const auto& number : used.numbers) {
-    const bool listed = number.source != UsedNumber::Source::plant_default ||
-                        !(number.key.starts_with("sensors.") || number.key.starts_with("spread."));
-    if (listed) session.say("  {}", to_string(number));
+    if (is_listed(number)) session.say("  {}", to_string(number));
     numbers.push_back(to_json(number));
   }
+  if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("  {}", defaults);
   session.say("  {} more numbers are 0 by default: what they stand for is not assumed", used.off);
   session.say("{}: plant {}, {} trials, {} usable", campaign.name, name_of(campaign.plant),
               campaign.trials.size(), usable);

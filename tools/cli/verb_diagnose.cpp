@@ -58,17 +58,11 @@ std::vector<sandhopper::diagnose::BelievedNumber> believed(const UsedNumbers& us
 }
 
 // Lists the model's numbers that the diagnosis relies on, their sources, and those whose usual error matters.
-// Defaults of [sensors] and [spread] are only counted.
+// Defaults of [sensors] and [spread] stand in one line.
 void tell_belief(Session& session, const UsedNumbers& used,
                  const std::vector<sandhopper::diagnose::BelievedNumber>& numbers) {
-  std::size_t counted = 0;
   for (const auto& number : used.numbers) {
-    const bool is_default = number.source == UsedNumber::Source::plant_default;
-    const bool of_sensors = number.key.starts_with("sensors.") || number.key.starts_with("spread.");
-    if (is_default && of_sensors) {
-      ++counted;
-      continue;
-    }
+    if (!is_listed(number)) continue;
     const auto found = std::ranges::find(numbers, number.key, &sandhopper::diagnose::BelievedNumber::key);
     std::string shows;
     if (found != numbers.end() && std::isfinite(found->error_that_shows) && found->error_that_shows > 0.0)
@@ -77,9 +71,8 @@ void tell_belief(Session& session, const UsedNumbers& used,
           found->matters() ? fmt::format(", and {:.2g} is usual: it matters", found->usual_error) : "");
     session.say("belief {}{}", to_string(number), shows);
   }
-  session.say(
-      "belief {} numbers of sensors and spread are defaults (in diagnosis.json), {} more are 0: not assumed",
-      counted, used.off);
+  if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("belief {}", defaults);
+  session.say("belief {} more numbers are 0 by default: not assumed", used.off);
 }
 
 // No trial could be read, so there is no diagnosis; the findings give the reasons.

@@ -1,8 +1,12 @@
 #include "tools/terrain/press_trials.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "tools/campaign/read_table.hpp"
+#include "tools/campaign/surface_check.hpp"
 #include "tools/terrain/strength_curve.hpp"
 
 namespace sandhopper {
@@ -26,6 +30,14 @@ bool slow(const TrialRecording& recording) {
   return !(last_t > first_t) || (high - low) / (last_t - first_t) < kSlow_mps;
 }
 
+// A force above the surface that nobody confirmed; 0: none.
+double untared_force_of(const CampaignTrial& trial, const TrialRecording& recording) {
+  const auto* mapping = mapping_of(trial, "force_N");
+  const bool is_stated = mapping != nullptr && mapping->is_stated();
+  if (is_stated || !recording.has("force_N") || !recording.has("foot_z_m")) return 0.0;
+  return trial.kind == TrialKind::clamped ? 0.0 : untared_force_N(recording);
+}
+
 }  // namespace
 
 bool PressTrials::takes(CampaignPlant plant, TrialKind kind) const {
@@ -36,6 +48,13 @@ bool PressTrials::takes(CampaignPlant plant, TrialKind kind) const {
 void PressTrials::analyse(const CampaignTrial& trial, const TrialRecording& recording,
                           TrialResult& result) const {
   if (!slow(recording)) return;
+  if (const double force_N = untared_force_of(trial, recording); force_N != 0.0) {
+    result.ruled_out.push_back(fmt::format(
+        "force against depth: force_N reads {:.3g} N above the surface, and every law would hold it; "
+        "tare it, or state unit and scale of force_N if it is so",
+        force_N));
+    return;
+  }
   keep_press(trial, recording, result);
   if (!holds_press(result) || trial.kind == TrialKind::clamped) return;
   const auto depth = result.series.find("press_loading_depth_m");
