@@ -310,9 +310,15 @@ std::string clocked(const std::string& format, double step_s, double start_s, bo
 
 TEST(SampleTimes, TooFewDigitsAreSaidAsSuch) {
   const Rig axis{.plant = "rotary_axis"};
-  const auto all = read(clocked("{:.6g}", 0.01, 1.73234e9), axis);
-  EXPECT_FALSE(all.usable());
-  EXPECT_THAT(find(all, coarse_time)->what, HasSubstr("all 60 rows have the same time (1.73234e+09)"));
+  for (const auto& [format, step, start, time] :
+       {std::tuple{"{:.6g}", 0.01, 1.73234e9, "1.73234e+09"}, std::tuple{"{:.0f}", 5e-4, 5.0, "5"},
+        std::tuple{"{:.3e}", 0.002, 731.2, "731.2"}}) {
+    const auto all = read(clocked(format, step, start), axis);
+    EXPECT_FALSE(all.usable());
+    ASSERT_NE(find(all, coarse_time), nullptr) << time;
+    EXPECT_THAT(find(all, coarse_time)->what,
+                HasSubstr(fmt::format("all 60 rows have the same time ({})", time)));
+  }
   for (const auto& [format, step, said] :
        {std::tuple{"{:.2f}", 0.001, "resolution of 10 ms, rows come every 1"},
         std::tuple{"{:.0f}", 0.1, "resolution of 1 s, rows come every"},

@@ -110,13 +110,19 @@ std::string Where::phase_in_words() const {
   return phase == "late" ? "the last third" : in_words(phase);
 }
 
+// Two digits: "1.0", "12", "0.74".
+std::string two_digits(double value) {
+  auto text = fmt::format("{:.2g}", value);
+  return text.size() == 1 && text != "0" ? text + ".0" : text;
+}
+
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {
-  return fmt::format("{:.2g} times the noise floor before, {:.2g} after", error.before / floor,
-                     error.after / floor);
+  return fmt::format("{} times the noise floor before, {} after", two_digits(error.before / floor),
+                     two_digits(error.after / floor));
 }
 
 std::string times_the_floor(double error, double floor) {
-  return fmt::format("{:.2g} times the noise floor", error / floor);
+  return fmt::format("{} times the noise floor", two_digits(error / floor));
 }
 
 std::string headline(const Diagnosis& d) {
