@@ -1,7 +1,8 @@
 // Hides one effect at a time and compares its size with the upper bound that the answer prints in `absent`.
-//   node tools/benchmark/absent_bounds.mjs HOP SEED COUNT [PLANT…]
+//   node tools/benchmark/absent_bounds.mjs HOP SEED COUNT [--keep FILE] [PLANT…]
 // HOP is bin/hop. Effects of the plants take turns; size .3 to 3 times typical and 3 to 6 trials are drawn
-// from SEED. Prints a line for each campaign and the counts. Exit status 1 if a bound lies below the size.
+// from SEED. Prints a line for each campaign and the counts. With --keep the lines are added to FILE, and a
+// campaign that has its line there is not run again. Exit status 1 if a bound lies below the size.
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -81,27 +82,36 @@ function run(hop, folder, { plant, effect, seed, size, trials }) {
   return { answer, cases: compared(JSON.parse(fs.readFileSync(file)), answer.absent ?? [], folder) };
 }
 
-const [hop, seed, count, ...named] = process.argv.slice(2);
-const plants = named.length > 0 ? named : ['rotary_axis', 'intruder', 'falling_body'];
-let answered = 0, bounded = 0, below = 0;
-for (const wanted of drawn(hop, plants, Number(count), Number(seed))) {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'absent_bounds_'));
-  const { problem, answer, cases } = run(hop, folder, wanted);
-  const head = `${wanted.plant} ${wanted.effect} size ${wanted.size} trials ${wanted.trials} seed ${wanted.seed}`;
-  if (problem) {
-    console.log(`${head}: ${problem}`);
-  } else {
-    ++answered;
-    bounded += cases.length > 0;
-    const low = cases.filter(fails);
-    below += low.length > 0;
-    const names = answer.effects.map(({ id, probability }) => `${id} ${probability.toFixed(2)}`).join(', ');
-    const bounds = cases.map(({ bound, hidden }) => `${bound.id} ${bound.parameter}: hidden ` +
-      `${hidden.toPrecision(4)}, bound ${(bound.upper_bound ?? bound.lower_bound).toPrecision(4)}`).join(', ');
-    console.log(`${head}: ${answer.verdict} [${names}] ${answer.seconds.toFixed(1)} s; ${bounds || 'no bound'}` +
-      (low.length > 0 ? ' BELOW' : ''));
-  }
-  fs.rmSync(folder, { recursive: true });
+// What came out for one campaign, in words.
+function told({ problem, answer, cases }) {
+  if (problem) return problem;
+  const names = answer.effects.map(({ id, probability }) => `${id} ${probability.toFixed(2)}`).join(', ');
+  const bounds = cases.map(({ bound, hidden }) => `${bound.id} ${bound.parameter}: hidden ` +
+    `${hidden.toPrecision(4)}, bound ${(bound.upper_bound ?? bound.lower_bound).toPrecision(4)}`).join(', ');
+  return `${answer.verdict} [${names}] ${answer.seconds.toFixed(1)} s; ${bounds || 'no bound'}` +
+    (cases.some(fails) ? ' BELOW' : '');
 }
-console.log(`${answered} hidden effects answered, ${bounded} of them bounded as absent, ${below} bounds below the hidden size`);
-process.exit(below > 0 || answered === 0 ? 1 : 0);
+
+const words = process.argv.slice(2), at = words.indexOf('--keep');
+const keep = at >= 0 ? words.splice(at, 2)[1] : '';
+const [hop, seed, count, ...named] = words;
+const plants = named.length > 0 ? named : ['rotary_axis', 'intruder', 'falling_body'];
+const kept = keep && fs.existsSync(keep) ? fs.readFileSync(keep, 'utf8').split('\n') : [];
+const lines = [];
+for (const wanted of drawn(hop, plants, Number(count), Number(seed))) {
+  const head = `${wanted.plant} ${wanted.effect} size ${wanted.size} trials ${wanted.trials} seed ${wanted.seed}: `;
+  let line = kept.find((one) => one.startsWith(head));
+  if (!line) {
+    const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'absent_bounds_'));
+    line = head + told(run(hop, folder, wanted));
+    fs.rmSync(folder, { recursive: true });
+    if (keep) fs.appendFileSync(keep, `${line}\n`);
+  }
+  console.log(line);
+  lines.push(line);
+}
+const answered = lines.filter((line) => / s; /.test(line));
+const bounded = answered.filter((line) => !/no bound$/.test(line)), below = answered.filter((line) => / BELOW$/.test(line));
+console.log(`${answered.length} hidden effects answered, ${bounded.length} of them bounded as absent, ` +
+  `${below.length} bounds below the hidden size`);
+process.exit(below.length > 0 || answered.length === 0 ? 1 : 0);
