@@ -312,7 +312,7 @@ TEST(SampleTimes, TooFewDigitsAreSaidAsSuch) {
   const Rig axis{.plant = "rotary_axis"};
   for (const auto& [format, step, start, time] :
        {std::tuple{"{:.6g}", 0.01, 1.73234e9, "1.73234e+09"}, std::tuple{"{:.0f}", 5e-4, 5.0, "5"},
-        std::tuple{"{:.3e}", 0.002, 731.2, "731.2"}}) {
+        std::tuple{"{:.3e}", 0.002, 73120.0, "73120"}}) {
     const auto all = read(clocked(format, step, start), axis);
     EXPECT_FALSE(all.usable());
     ASSERT_NE(find(all, coarse_time), nullptr) << time;
