@@ -127,26 +127,37 @@ TEST(SampleLimits, AForceAtItsLargestValueIsCutOffIfTheFootGoesOnByATenth) {
   EXPECT_TRUE(is_cut_off(0.11, 5));
 }
 
-// A plate that sinks evenly. Before row 60 the clock jumps by `jump_s`, and the plate goes on by `on` rows.
-bool is_set_forward(double jump_s, double on, const std::string& columns = "") {
+// A plate that sinks evenly. Before row 60 the clock jumps by `jump_s`, the plate goes on by `on` rows, and
+// the force by `step_N` more; then the plate is `faster` times as fast.
+struct Forward {
+  double jump_s = 2.0, on = 1.0, step_N = 0.0, faster = 1.0;
+  std::string columns{};
+};
+bool is_set_forward(const Forward& f) {
   std::string text = "t_s,foot_z_m,force_N\n";
   for (int i = 0; i < 120; ++i) {
-    const double at = i < 60 ? i : i + on - 1.0;
-    text += fmt::format("{:.3f},{:.6f},{:.4f}\n", 0.01 * i + (i < 60 ? 0.0 : jump_s - 0.01), -2e-4 * at,
-                        0.3 * at + 0.02 * std::sin(7.0 * i * i));
+    const bool after = i >= 60;
+    const double at = after ? 59.0 + f.on + f.faster * (i - 60) : i;
+    text += fmt::format("{:.3f},{:.6f},{:.4f}\n", 0.01 * i + (after ? f.jump_s - 0.01 : 0.0), -2e-4 * at,
+                        0.3 * at + (after ? f.step_N : 0.0) + 0.02 * std::sin(7.0 * i * i));
   }
-  const auto told = read_campaign("plant = \"intruder\"\n" + columns, text);
+  const auto told = read_campaign("plant = \"intruder\"\n" + f.columns, text);
   return says(told, "the clock stepped forward") && !told.recording.usable();
 }
 
 TEST(SampleLimits, AClockIsSetForwardIfThePositionGoesOnByOneRow) {
-  EXPECT_TRUE(is_set_forward(2.0, 1.0));
-  EXPECT_FALSE(is_set_forward(2.0, 200.0)) << "rows are missing";
-  EXPECT_TRUE(is_set_forward(2.0, 1.4));
-  EXPECT_FALSE(is_set_forward(2.0, 1.6));
-  EXPECT_TRUE(is_set_forward(0.105, 1.0));
-  EXPECT_FALSE(is_set_forward(0.095, 1.0)) << "shorter than ten rows";
-  EXPECT_FALSE(is_set_forward(2.0, 1.0, "[columns]\nt_s = { column = \"t_s\", unit = \"s\", scale = 1.0 }"));
+  EXPECT_TRUE(is_set_forward({}));
+  EXPECT_FALSE(is_set_forward({.on = 200.0})) << "rows are missing";
+  EXPECT_TRUE(is_set_forward({.on = 1.4}));
+  EXPECT_FALSE(is_set_forward({.on = 1.6}));
+  EXPECT_TRUE(is_set_forward({.jump_s = 0.105}));
+  EXPECT_FALSE(is_set_forward({.jump_s = 0.095})) << "shorter than ten rows";
+  EXPECT_TRUE(is_set_forward({.faster = 1.3}));
+  EXPECT_FALSE(is_set_forward({.faster = 1.4})) << "the speed is another one";
+  EXPECT_TRUE(is_set_forward({.step_N = 0.5}));
+  EXPECT_FALSE(is_set_forward({.step_N = 1.0})) << "the force went on meanwhile";
+  EXPECT_FALSE(
+      is_set_forward({.columns = "[columns]\nt_s = { column = \"t_s\", unit = \"s\", scale = 1.0 }"}));
 }
 
 // Two columns of times; the second is `rate` times as fast and rests in each `rests`-th row.

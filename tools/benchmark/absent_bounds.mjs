@@ -82,7 +82,7 @@ function run(hop, folder, { plant, effect, seed, size, trials }) {
   return { answer, cases: compared(JSON.parse(fs.readFileSync(file)), answer.absent ?? [], folder) };
 }
 
-// What came out for one campaign, in words.
+// The result of one campaign in words.
 function told({ problem, answer, cases }) {
   if (problem) return problem;
   const names = answer.effects.map(({ id, probability }) => `${id} ${probability.toFixed(2)}`).join(', ');

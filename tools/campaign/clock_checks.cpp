@@ -16,10 +16,11 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kSide = 4;   // rows on each side of a gap that give a speed
-constexpr double kLongGap = 10.0;  // rows; at half the usual step a shorter one is doubtful
-constexpr double kDrift = 0.01;    // of the time; see the header
-constexpr double kGrowing = 0.9;   // share of rows in which a column of times grows
+constexpr std::size_t kSide = 4;  // rows on each side of a gap that give a speed
+// In rows. In a shorter gap one row's motion and that of the lost rows differ too little beside noise.
+constexpr double kLongGap = 10.0;
+constexpr double kDrift = 0.01;   // share of the time; see the header
+constexpr double kGrowing = 0.9;  // share of rows; a column that rests more often is too coarse to be a time
 
 double median_step_s(const std::vector<double>& t_s) {
   std::vector<double> steps;
@@ -42,7 +43,8 @@ std::optional<Crossing> crossing(std::span<const double> values, std::size_t at)
                   (values[at + kSide] - values[at]) / kRows};
 }
 
-// The channel moves evenly, and across the gap by half to one and a half times one row's step.
+// The channel moves evenly, its speeds on both sides within 30 %, and across the gap by half to one and a
+// half times one row's step. A motion that turns round in between may come back to the same place.
 bool goes_on(const Crossing& c) {
   const double step = 0.5 * (c.before + c.after);
   const bool even = c.before * c.after > 0.0 && std::abs(c.before - c.after) < 0.3 * std::abs(step);
