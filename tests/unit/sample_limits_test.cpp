@@ -161,6 +161,17 @@ TEST(SampleLimits, AClockIsSetForwardIfThePositionGoesOnByOneRow) {
 }
 
 // Two columns of times; the second is `rate` times as fast and rests in each `rests`-th row.
+// A wheel that gives a pulse every 0.075 rad and comes to rest: 60 times as slow at the end as at first.
+TEST(SampleLimits, ASlowPulseIsNoStepOfTheClock) {
+  std::string text = "t_s,position_rad\n";
+  double t_s = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    text += fmt::format("{:.5f},{:.4f}\n", t_s, 0.075 * i);
+    t_s += i < 300 ? 0.0036 : 0.0036 * std::exp(0.041 * (i - 300));
+  }
+  EXPECT_FALSE(says(read_campaign("plant = \"rotary_axis\"", text), "the clock stepped forward"));
+}
+
 Told two_clocks(double rate, int rests = 1000, const std::string& columns = "") {
   std::string text = "t_s,force_N,laser_time_s,foot_z_m\n";
   double second_s = 0.0;

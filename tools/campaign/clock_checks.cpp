@@ -43,6 +43,15 @@ std::optional<Crossing> crossing(std::span<const double> values, std::size_t at)
                   (values[at + kSide] - values[at]) / kRows};
 }
 
+// Longest step of the time in the rows on both sides of row `at`. The rows of a pulse counter come more slowly
+// as the wheel does.
+double longest_step_beside_s(const std::vector<double>& t_s, std::size_t at) {
+  double longest_s = 0.0;
+  for (std::size_t row = at - kSide; row <= at + kSide; ++row)
+    if (row != at) longest_s = std::max(longest_s, t_s[row] - t_s[row - 1]);
+  return longest_s;
+}
+
 // The channel moves evenly, its speeds on both sides within 30 %, and across the gap by half to one and a
 // half times one row's step. A motion that turns round in between may come back to the same place.
 bool goes_on(const Crossing& c) {
@@ -75,7 +84,7 @@ void check_clock_steps(TrialRecording& recording, const RecordingPlaces& places)
   const double usual_s = median_step_s(t);
   for (std::size_t at = kSide + 1; at + kSide < t.size(); ++at) {
     const double gap_s = t[at] - t[at - 1];
-    if (gap_s < kLongGap * usual_s) continue;
+    if (gap_s < kLongGap * std::max(usual_s, longest_step_beside_s(t, at))) continue;
     for (const auto channel : kPositions) {
       if (!recording.has(channel)) continue;
       const auto c = crossing(recording.channel(channel), at);

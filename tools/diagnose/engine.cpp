@@ -26,7 +26,8 @@ constexpr double kLikelierThanNot = 0.5;
 // verdict is unknown physics.
 constexpr double kMostOfTheGap = 0.5;
 // Largest probabilities if names close most of the gap and something is left: the rest may be an error in the
-// form of a named law.
+// form of a named law. Names have no more, either, if the rest was not looked at: with too few trials to leave
+// one out, or after a limit of time.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 // Share of the work at the start of each step, as a rule.
@@ -59,6 +60,9 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   if (rest.unknown || rest.law)
     for (auto& effect : diagnosis.effects)
       if (!effect.is_unknown()) effect.probability *= rest.gap_closed;
+  if (too_few || search.stopped())
+    for (auto& effect : diagnosis.effects)
+      effect.probability = std::min(effect.probability, kNameBesideUnknown);
   const bool by_names = rest.gap_closed > kMostOfTheGap &&
                         std::ranges::any_of(diagnosis.effects, [](const FoundEffect& effect) {
                           return !effect.is_unknown() && effect.probability > kLikelierThanNot;

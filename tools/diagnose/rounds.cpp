@@ -76,8 +76,8 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
 }
 
 // True if the best set leaves so much that something unknown would be reported beside it.
-bool leaves_much(const Problem& problem, const Search& search) {
-  return misfit_of(problem, search).noticeable ||
+bool leaves_more_than_noise(const Problem& problem, const Search& search) {
+  return misfit_of(problem, search).large ||
          left_over_noise(problem, search.null().fit, search.best().fit).after > kMoreThanNoise ||
          loudest_channel(problem);
 }
@@ -223,7 +223,9 @@ Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& 
   Search& best = second ? *second : search;
   // A rig may lack two frictions, a wrong inertia and an encoder's zero at once.
   for (std::size_t most = options.most_effects; !costly && !best.stopped() && most < kMostEffects; ++most)
-    if (best.best().set.size() == most && leaves_much(problem, best)) best.widen(most + 1);
+    if (best.best().set.size() == most &&
+        (misfit_of(problem, best).noticeable || leaves_more_than_noise(problem, best)))
+      best.widen(most + 1);
   if (!singles_first || best.best().set.size() < 2 || best.stopped()) return best;
   search_options.fits_per_screen = 3;
   auto third = searched_again(problem, best, search_options, options, diagnosis);
@@ -244,22 +246,34 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
 Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptions& options,
                         BalanceLaw& balance, Diagnosis& diagnosis) {
   Problem& problem = prepared.problem;
-  Settled settled = settled_null(problem, options);
-  diagnosis.simple = simple_answers(problem, settled.null);
-  Search search = searched(problem, clean, settled, options, balance, diagnosis);
+  const auto search_from_start = [&] {
+    const Settled settled = settled_null(problem, options);
+    diagnosis.simple = simple_answers(problem, settled.null);
+    return searched(problem, clean, settled, options, balance, diagnosis);
+  };
+  const auto prepare_again = [&](std::size_t stretch) {
+    const auto simulations = problem.simulations;
+    prepared = prepare(clean, stretch);
+    problem.simulations += simulations;
+    balance = BalanceLaw(problem, clean);
+  };
+  const auto stretches = problem.plant->stretches(clean.trials);
+  std::size_t stretch = 0;
+  Search search = search_from_start();
+  while (stretch + 1 < stretches.size() && !search.stopped() && leaves_more_than_noise(problem, search)) {
+    prepare_again(++stretch);
+    diagnosis.log.push_back(
+        fmt::format("again in shorter stretches: {} times the shortest", stretches[stretch]));
+    search = search_from_start();
+  }
   if (search.stopped()) return search;
   const auto events = find_events(problem, search.best().fit.point);
   if (events.empty()) return search;
   report_events(problem, events, diagnosis);
   diagnosis.log.emplace_back("without what happened once");
   leave_out(events, problem, clean);
-  const auto simulations = problem.simulations;
-  prepared = prepare(clean);
-  problem.simulations += simulations;
-  settled = settled_null(problem, options);
-  diagnosis.simple = simple_answers(problem, settled.null);
-  balance = BalanceLaw(problem, clean);
-  return searched(problem, clean, settled, options, balance, diagnosis);
+  prepare_again(stretch);
+  return search_from_start();
 }
 
 }  // namespace sandhopper::diagnose

@@ -310,6 +310,7 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
   }
   grow_sets();
   if (!over()) improve();
+  if (stopped_) choose_best();
   return best();
 }
 
@@ -318,6 +319,7 @@ void Search::widen(std::size_t most_effects) {
   if (over()) return;
   grow_sets();
   if (!over()) improve();
+  if (stopped_) choose_best();
 }
 
 // Sets of one effect, then each of the nearest ones with one more, and so on.

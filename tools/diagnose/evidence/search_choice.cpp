@@ -160,8 +160,8 @@ void Search::choose_best() {
             [](const SetFit* a, const SetFit* b) { return a->fit.deviance < b->fit.deviance; });
   const auto needed = [&](SetFit& fit) {
     if (is_to_be_judged(fit)) judge(fit);
-    // Complete a rough fit only if its effects may be needed.
-    if (fit.rough && !fit.hopeless) {
+    // Complete a rough fit only if its effects may be needed and there is time.
+    if (fit.rough && !fit.hopeless && !stopped_) {
       finish(fit);
       judge(fit);
     }

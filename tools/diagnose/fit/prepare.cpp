@@ -261,10 +261,11 @@ void update_noise(Problem& problem, const Point& point) {
   mark_outliers(problem, residuals);
 }
 
-Prepared prepare(const Recordings& recordings) {
+Prepared prepare(const Recordings& recordings, std::size_t stretch) {
   Prepared prepared;
   Problem& problem = prepared.problem;
   problem.plant = make_plant(recordings.plant);
+  problem.plant->simulate_in_stretches(problem.plant->stretches(recordings.trials).at(stretch));
   problem.port_error = problem.plant->port_error();
   problem.channels = problem.plant->channels();
   problem.phases = problem.plant->phases();

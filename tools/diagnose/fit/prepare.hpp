@@ -26,8 +26,8 @@ struct Prepared {
 };
 
 // Builds the problem: simulations of all trials, candidates, tolerances, and a first white noise model from
-// the fast fluctuation of the recordings and the believed noise.
-Prepared prepare(const Recordings& recordings);
+// the fast fluctuation of the recordings and the believed noise. `stretch`: index of PlantModel::stretches.
+Prepared prepare(const Recordings& recordings, std::size_t stretch = 0);
 
 // Estimates the model error and the noise again at a better point. The noise is what a joint regression on
 // all candidates and many laws of free form leaves, so that missing physics does not count as noise.

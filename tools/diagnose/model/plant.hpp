@@ -185,6 +185,11 @@ class PlantModel {
   }
   // Phase in which no force acts on the recorded channel, if there is one.
   virtual std::optional<std::size_t> quiet_phase() const { return std::nullopt; }
+  // Lengths of the stretches in which a trial is simulated, longest first, relative to the shortest. Each
+  // stretch starts anew, and what the model lacks adds up along it. The longest counts in which the answer
+  // leaves no more than the noise; the shortest if there is none.
+  virtual std::vector<double> stretches(const std::vector<Trial>& /*trials*/) const { return {1.0}; }
+  void simulate_in_stretches(double length) { stretch_ = length; }
   // Model of one trial. Null if nothing in the trial can be predicted; `why` then says what is missing.
   virtual std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                             std::string& why) const = 0;
@@ -225,6 +230,9 @@ class PlantModel {
     (void)recorded, (void)belief, (void)edits, (void)reach;
     return {};
   }
+
+ protected:
+  double stretch_ = 1.0;  // one of `stretches`
 };
 
 std::unique_ptr<PlantModel> make_plant(PlantKind kind);

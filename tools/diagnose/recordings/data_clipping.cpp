@@ -80,8 +80,12 @@ DataFault always_at_its_end(const std::vector<SampledChannel>& samples, const st
   return always;
 }
 
+bool shows_one_value(const SampledChannel& s) {
+  return std::ranges::all_of(s.value, [&](double v) { return v == s.value.front(); });
+}
+
 // The largest or smallest value of the channel, if samples pile up there; the one of larger magnitude if they
-// do at both. 0: no limit.
+// do at both. 0: no limit. A trial of one value shows no limit: its torque may be that of a weight.
 double limit_of(const std::vector<SampledChannel>& samples, double low, double high, double total,
                 double grid) {
   double limit = 0.0;
@@ -89,7 +93,7 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
     double at_end = 0.0, next = 0.0;
     std::size_t in_a_row = 0;
     for (const auto& s : samples)
-      for (std::size_t i = 0; i < s.value.size(); ++i) {
+      for (std::size_t i = 0; i < s.value.size() && !shows_one_value(s); ++i) {
         const double v = s.value[i];
         at_end += v == end ? 1.0 : 0.0;
         in_a_row += i > 0 && v == end && s.value[i - 1] == end;

@@ -77,13 +77,17 @@ class RotaryAxis final : public PlantModel {
     return channel == "velocity_radps" && speed_of_encoder(belief) ? row_s : 0.0;
   }
 
+  // Only of an axis that runs free: the noise of a recorded torque adds up along a stretch, too.
+  std::vector<double> stretches(const std::vector<Trial>& trials) const override {
+    return is_driven(trials) ? std::vector<double>{1.0} : std::vector<double>{16.0, 4.0, 1.0};
+  }
   std::unique_ptr<TrialModel> trial(const Trial& trial, const Belief& belief,
                                     std::string& why) const override {
     if (trial.kind == "clamped") {
       why = "the axis is clamped: what only its torque would show is not predicted";
       return nullptr;
     }
-    auto model = make_rotary_trial(trial, belief);
+    auto model = make_rotary_trial(trial, belief, stretch_);
     if (model->rows.size() >= 20) return model;
     why = "needs position_rad or velocity_radps, and torque_Nm where the axis is driven";
     return nullptr;

@@ -51,7 +51,7 @@ enum BlockNuisance : std::size_t { kPosition, kVelocity, kTorque, kTorqueRise };
 
 class RotaryTrial final : public TrialModel {
  public:
-  RotaryTrial(const Trial& trial, const Belief& belief) : belief_(belief) {
+  RotaryTrial(const Trial& trial, const Belief& belief, double stretch) : belief_(belief) {
     name = trial.name;
     // Fast rows are averaged, and more so in a long recording.
     const double least_step_s =
@@ -64,7 +64,7 @@ class RotaryTrial final : public TrialModel {
     const auto& lead = positions.empty() ? velocities : positions;
     const double row_s = median_step_s(lead.time_s);
     take_torque();
-    cut(trial.time_s.back(), std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
+    cut(trial.time_s.back(), stretch * std::max(kBlock_s, row_s * static_cast<double>(kBlockRows)));
     // Default prior of the torque offset: the noise of one reading, unless [spread] states it.
     const double unsaid_Nm = belief.value("sensors.torque_noise_Nm");
     const double torque_sd = belief.value("spread.torque_offset_Nm", unsaid_Nm);
@@ -365,8 +365,8 @@ class RotaryTrial final : public TrialModel {
 
 }  // namespace
 
-std::unique_ptr<TrialModel> make_rotary_trial(const Trial& trial, const Belief& belief) {
-  return std::make_unique<RotaryTrial>(trial, belief);
+std::unique_ptr<TrialModel> make_rotary_trial(const Trial& trial, const Belief& belief, double stretch) {
+  return std::make_unique<RotaryTrial>(trial, belief, stretch);
 }
 
 }  // namespace sandhopper::diagnose

@@ -16,6 +16,6 @@ bool speed_of_encoder(const Belief& belief);
 
 // Model of one motion of an axis, cut into stretches that start at the encoder's reading:
 //   J th'' = torque - G sin(th - bottom) - c tanh(th'/v_s) - b th' + laws
-std::unique_ptr<TrialModel> make_rotary_trial(const Trial& trial, const Belief& belief);
+std::unique_ptr<TrialModel> make_rotary_trial(const Trial& trial, const Belief& belief, double stretch);
 
 }  // namespace sandhopper::diagnose
