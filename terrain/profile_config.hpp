@@ -9,12 +9,16 @@ struct ProfileConfig {
   // credible range of loose to compacted glass beads is 1000 to 3600 N/m.
   double believed_stiffness_N_per_m = 1500.0;
   double stiffness_spread_relative = 0.7;
-  // Errors of the estimated depth in a first stride: the offset at contact, the lag, and the rest. Maximum
-  // likelihood in simulated strides on nine families of beds (`hop experiment beds`, errors of the depth):
-  // 0.40 mm, 0.86 ms (0.5 to 1.1 ms by family), 0.25 mm.
-  double surface_sd_m = 0.0004;
-  double depth_lag_sd_s = 0.00085;
-  double depth_noise_m = 0.00025;
+  // Errors of the estimated depth in a first stride (strength_profile.hpp): the depth at contact, the Kalman
+  // filter's error s_x and its decay a, the lag, and the rest. a is that of the filter with the noise of
+  // config/robot.toml. The others are the maximum likelihood in simulated strides on nine families of beds
+  // (`hop experiment beds`, errors of the depth): 0.33 mm (0.30 to 0.48 mm by family), 0.80 mm (the filter
+  // states 0.86 mm), a root mean square of 0.25 ms (0.1 to 0.34 ms), and 0.02 mm.
+  double surface_sd_m = 0.00033;
+  double filter_sd_m = 0.0008;
+  double filter_decay_per_s = 5.1;
+  double depth_lag_sd_s = 0.00025;
+  double depth_noise_m = 0.00002;
   // Error of the depth when a foot lands in its crater, in addition to the error of the crater's depth. It is
   // the root mean square of simulated landings on nine families of beds, 0.8 to 1.0 mm (`hop experiment
   // beds`, column `landing`).
@@ -30,6 +34,8 @@ struct ProfileConfig {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
     visit("surface_sd_m", self.surface_sd_m, Range{1e-6, 0.1});
+    visit("filter_sd_m", self.filter_sd_m, Range{1e-9, 0.1});
+    visit("filter_decay_per_s", self.filter_decay_per_s, Range{0.01, 1000.0});
     visit("depth_lag_sd_s", self.depth_lag_sd_s, Range{1e-6, 0.01});
     visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
     visit("landing_depth_sd_m", self.landing_depth_sd_m, Range{0.0, 0.1});

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "terrain/small_gaussian.hpp"
 #include "terrain/strength_profile.hpp"
@@ -41,33 +42,74 @@ void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   kept_errors_.variance_m2 += sd_m * sd_m;
 }
 
-// Adds the covariance of this stride's part of the moments. Its d has a covariance with those of the strides
-// before; r and l are independent of everything.
-void ProfileSolver::take_depth_errors(const Information& info) noexcept {
-  const double drift_sd = config_.joint.depth_drift_sd_mps, lag_sd = prior_.depth_lag_sd_s;
-  const std::array<double, kDepthErrors> variance{kept_errors_.variance_m2, drift_sd * drift_sd,
-                                                  lag_sd * lag_sd};
-  errors_ = kept_errors_;
-  const auto& d = info.of_depth[0];
-  const auto& with = kept_errors_.with_depth;
-  for (std::size_t i = 0; i < kTerms; ++i)
-    for (std::size_t j = 0; j < kTerms; ++j) {
-      double& sum = errors_.moment[i * kTerms + j];
-      sum += with[i] * d[j] + d[i] * with[j];
-      for (std::size_t e = 0; e < kDepthErrors; ++e)
-        sum += variance[e] * info.of_depth[e][i] * info.of_depth[e][j];
-    }
+// Covariance of D at two times, each with the change of speed since contact.
+double ProfileSolver::depth_covariance_m2(double time_s, double change_mps, double other_s,
+                                          double other_mps) const noexcept {
+  const auto correlation = [&](double from_s, double to_s) {
+    const double phase = prior_.filter_decay_per_s * std::abs(to_s - from_s);
+    return std::exp(-phase) * std::cos(phase);
+  };
+  const double filter_m2 = prior_.filter_sd_m * prior_.filter_sd_m;
+  const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
+  return kept_errors_.variance_m2 + lag_s2 * change_mps * other_mps +
+         filter_m2 * (1.0 + correlation(time_s, other_s) - correlation(0.0, time_s) -
+                      correlation(0.0, other_s));
 }
 
-// D at the deepest point is d + r T + l V, T the time from contact and V the change of speed.
-void ProfileSolver::end_depth_errors(const Information& info, const ProfileSums& sums) noexcept {
-  const double drift_sd = config_.joint.depth_drift_sd_mps, lag_sd = prior_.depth_lag_sd_s;
-  const double drift_m2_per_s = sums.last_s * drift_sd * drift_sd;
-  const double lag_m_s = sums.last_change_mps * lag_sd * lag_sd;
+ProfileSolver::Matrix<kProfileCells> ProfileSolver::depth_covariance(const Information& info) const noexcept {
+  Matrix<kProfileCells> covariance{};
+  for (std::size_t s = 0; s < kProfileCells; ++s)
+    for (std::size_t t = 0; t <= s; ++t)
+      if (info.depth_normal[s] > 0.0 && info.depth_normal[t] > 0.0)
+        covariance[s * kProfileCells + t] = covariance[t * kProfileCells + s] = depth_covariance_m2(
+            info.time_s[s], info.change_mps[s], info.time_s[t], info.change_mps[t]);
+  return covariance;
+}
+
+// Mean square of D about its mean over a cell. For a random walk of this growth during the time T it is
+// growth * T / 6. Times that are uniform over T have the standard deviation T / root 12.
+double ProfileSolver::wander_m2(const ProfileCell& cell) const noexcept {
+  using F = ProfileFeature;
+  const double sum = cell.product(F::one, F::one), mean_s = cell.product(F::one, F::time) / sum;
+  const double variance_s2 = std::max(cell.product(F::time, F::time) / sum - mean_s * mean_s, 0.0);
+  const double growth_m2_per_s =
+      2.0 * prior_.filter_decay_per_s * prior_.filter_sd_m * prior_.filter_sd_m;
+  return growth_m2_per_s * std::sqrt(12.0 * variance_s2) / 6.0;
+}
+
+// Adds the covariance of this stride's part of the moments. Its d has a covariance with those of the strides
+// before; x and l are independent of everything.
+void ProfileSolver::take_depth_errors(const Information& info) noexcept {
+  errors_ = kept_errors_;
+  const auto& with = kept_errors_.with_depth;
+  const auto covariance = depth_covariance(info);
+  Vector<kTerms> all{};  // change of the moment for a unit of d
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    if (info.depth_normal[s] == 0.0) continue;
+    Vector<kTerms> row{};  // covariance of the moment's change and D of this cell
+    for (std::size_t t = 0; t < kProfileCells; ++t)
+      for (std::size_t i = 0; i < kTerms; ++i)
+        row[i] += covariance[s * kProfileCells + t] * info.of_depth[t][i];
+    for (std::size_t i = 0; i < kTerms; ++i) {
+      all[i] += info.of_depth[s][i];
+      for (std::size_t j = 0; j < kTerms; ++j) errors_.moment[i * kTerms + j] += info.of_depth[s][i] * row[j];
+    }
+  }
   for (std::size_t i = 0; i < kTerms; ++i)
-    errors_.with_depth[i] += kept_errors_.variance_m2 * info.of_depth[0][i] +
-                             drift_m2_per_s * info.of_depth[1][i] + lag_m_s * info.of_depth[2][i];
-  errors_.variance_m2 += drift_m2_per_s * sums.last_s + lag_m_s * sums.last_change_mps;
+    for (std::size_t j = 0; j < kTerms; ++j)
+      errors_.moment[i * kTerms + j] += with[i] * all[j] + all[i] * with[j];
+}
+
+// Covariance with D at the deepest point, where the next stride begins.
+void ProfileSolver::end_depth_errors(const Information& info, const ProfileSums& sums) noexcept {
+  const double t = sums.last_s, v = sums.last_change_mps;
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    if (info.depth_normal[s] == 0.0) continue;
+    const double covariance_m2 = depth_covariance_m2(info.time_s[s], info.change_mps[s], t, v);
+    for (std::size_t i = 0; i < kTerms; ++i)
+      errors_.with_depth[i] += covariance_m2 * info.of_depth[s][i];
+  }
+  errors_.variance_m2 = depth_covariance_m2(t, v, t, v);
 }
 
 // Keeps the information and integrates out the friction, which belongs to this stride alone (Schur
@@ -104,41 +146,40 @@ void ProfileSolver::keep(const Information& info) noexcept {
   kept_errors_ = errors_;
 }
 
-// Information of a stride on kappa, c, e and b, without their prior, with d, r, l and f integrated out. That
-// a stride begins with the depth error of its crater is left out.
+// Information of a stride on kappa, c, e and b, without their prior, with D of each cell and f integrated out.
+// That a stride begins with the depth error of its crater is left out.
 void ProfileSolver::share(const Information& own) noexcept {
-  constexpr std::size_t kOwn = kDepthErrors + 1;
-  const double drift_sd = config_.joint.depth_drift_sd_mps, lag_sd = prior_.depth_lag_sd_s;
+  constexpr std::size_t kOwn = kProfileCells + 1;
+  constexpr double kRounding_m2 = 1e-10;  // keeps the covariance of D positive definite
   const double friction_sd = config_.joint.joint_friction_sd_N;
-  const std::array<double, kOwn> variance{kept_errors_.variance_m2, drift_sd * drift_sd, lag_sd * lag_sd,
-                                          friction_sd * friction_sd};
-  const auto row = [&](std::size_t term) {
-    Vector<kOwn> values;
-    for (std::size_t e = 0; e < kDepthErrors; ++e) values[e] = own.of_depth[e][term];
-    values[kDepthErrors] = own.normal[term * kTerms + kFriction];
-    return values;
-  };
+  auto covariance = depth_covariance(own);
+  for (std::size_t s = 0; s < kProfileCells; ++s) covariance[s * kProfileCells + s] += kRounding_m2;
+  const auto precision = Cholesky<kProfileCells>(covariance).inverse();
   Matrix<kOwn> normal{};
   Vector<kOwn> moment{};
-  const auto friction = row(kFriction);
-  for (std::size_t a = 0; a < kOwn; ++a) {
-    for (std::size_t b = 0; b < kOwn; ++b)
-      normal[a * kOwn + b] = a == kDepthErrors   ? friction[b]
-                             : b == kDepthErrors ? friction[a]
-                                                 : own.depth_normal[a * kDepthErrors + b];
-    normal[a * kOwn + a] += 1.0 / variance[a];
-    moment[a] = a == kDepthErrors ? own.moment[kFriction] : own.depth_moment[a];
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    for (std::size_t t = 0; t < kProfileCells; ++t) normal[s * kOwn + t] = precision[s * kProfileCells + t];
+    normal[s * kOwn + s] += own.depth_normal[s];
+    normal[s * kOwn + kProfileCells] = normal[kProfileCells * kOwn + s] = own.of_depth[s][kFriction];
+    moment[s] = own.depth_moment[s];
   }
+  normal[kOwn * kOwn - 1] = own.normal[kFriction * kTerms + kFriction] + 1.0 / (friction_sd * friction_sd);
+  moment[kProfileCells] = own.moment[kFriction];
   const Cholesky<kOwn> root(normal);
+  const auto row = [&](std::size_t term) {
+    Vector<kOwn> values;
+    for (std::size_t s = 0; s < kProfileCells; ++s) values[s] = own.of_depth[s][term];
+    values[kProfileCells] = own.normal[term * kTerms + kFriction];
+    return values;
+  };
   for (std::size_t i = 0; i < kShared; ++i) {
     const auto gain = root.solve(row(i));
     shared_moment_[i] += own.moment[i];
     for (std::size_t a = 0; a < kOwn; ++a) shared_moment_[i] -= gain[a] * moment[a];
     for (std::size_t j = 0; j < kShared; ++j) {
       double& value = shared_normal_[i * kShared + j];
-      value += own.normal[i * kTerms + j];
-      const auto other = row(j);
-      for (std::size_t a = 0; a < kOwn; ++a) value -= gain[a] * other[a];
+      value += own.normal[i * kTerms + j] - gain[kProfileCells] * own.normal[j * kTerms + kFriction];
+      for (std::size_t s = 0; s < kProfileCells; ++s) value -= gain[s] * own.of_depth[s][j];
     }
   }
 }

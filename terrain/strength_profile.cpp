@@ -80,34 +80,30 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
                                      {F::motor, 1.0, kScale},
                                      {F::intercept, prior_.believed_stiffness_N_per_m, kIntercept},
                                      {F::friction, 1.0, kFriction}}};
-    constexpr std::array<F, kDepthErrors> kErrors{F::one, F::time, F::speed};
     if (cell.observations == 0.0) continue;
-    const double weight = 1.0 / noise_factor_[s];
+    const double weight = 1.0 / noise_factor_[s], slope = slope_N_per_m_[s];
     const auto product = [&](F a, F b) { return weight * cell.product(a, b); };
+    const double sum = product(F::one, F::one);
+    info.time_s[s] = product(F::one, F::time) / sum;
+    info.change_mps[s] = product(F::one, F::speed) / sum;
+    info.depth_moment[s] = slope * product(F::one, F::force);
+    info.depth_normal[s] = slope * slope * sum;
     for (const Column& a : own) {
       info.moment[a.term] += a.scale * product(a.feature, F::force);
       for (const Column& b : own)
         info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
-      for (std::size_t e = 0; e < kDepthErrors; ++e)
-        info.of_depth[e][a.term] += a.scale * slope_N_per_m_[s] * product(a.feature, kErrors[e]);
-    }
-    for (std::size_t e = 0; e < kDepthErrors; ++e) {
-      info.depth_moment[e] += slope_N_per_m_[s] * product(kErrors[e], F::force);
-      for (std::size_t f = 0; f < kDepthErrors; ++f)
-        info.depth_normal[e * kDepthErrors + f] +=
-            slope_N_per_m_[s] * slope_N_per_m_[s] * product(kErrors[e], kErrors[f]);
+      info.of_depth[s][a.term] = a.scale * slope * product(a.feature, F::one);
     }
     for (std::size_t i = 0; i < s; ++i) {
       info.moment[i] += kProfileCell_m * product(F::one, F::force);
-      for (std::size_t e = 0; e < kDepthErrors; ++e)
-        info.of_depth[e][i] += kProfileCell_m * slope_N_per_m_[s] * product(F::one, kErrors[e]);
+      info.of_depth[s][i] = kProfileCell_m * slope * sum;
       for (const Column& b : own) {
         const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
         info.normal[i * kTerms + b.term] += value;
         info.normal[b.term * kTerms + i] += value;
       }
       for (std::size_t j = 0; j < s; ++j)
-        info.normal[i * kTerms + j] += kProfileCell_m * kProfileCell_m * product(F::one, F::one);
+        info.normal[i * kTerms + j] += kProfileCell_m * kProfileCell_m * sum;
     }
   }
   info.moment[kAddedMass] += sums.response;
@@ -319,8 +315,8 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double n = sums.cells[s].observations;
     if (n == 0.0) continue;
     const double own = cell_variance_N2(sums, s);
-    const double depth = prior_.depth_noise_m * slope_N_per_m_[s];
-    const double expected = own + depth * depth;
+    const double depth_m2 = prior_.depth_noise_m * prior_.depth_noise_m + wander_m2(sums.cells[s]);
+    const double expected = own + depth_m2 * slope_N_per_m_[s] * slope_N_per_m_[s];
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
     stride_misfit_[s] = {n, n * found, n * expected};
     const Misfit all = misfit_with(stride_misfit_[s], s);

@@ -12,16 +12,23 @@
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
-//   force = F(z + D) + c A + e Q + f tanh(Ldot / v_s) + noise,  D = d + r t + l (v - v_0)
-// with A, d, r and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the
-// torque constant, l a lag between force and depth, and v_0 the speed at contact, from which depths count.
+//   force = F(z + D) + c A + e Q + f tanh(Ldot / v_s) + noise,  D = d + x(t) - x(0) + l (v - v_0)
+// with A and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the torque
+// constant, d the depth at which the contact is detected, x the error of the Kalman filter's height, t the
+// time since contact, l a lag between force and depth, and v_0 the speed at contact. The filter fuses an
+// accelerometer whose noise is white with a white height, so its error is stationary, and from the filter's
+// Riccati equation follows
+//   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
+// q and r are the spectral densities of the noise of acceleration and height (Gelb 1974, Applied Optimal
+// Estimation, example 4.3). So D grows like a random walk at first and is bounded later. A cell has one D,
+// that at the mean time of its samples.
 // The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
 // band includes their uncertainty (Rasmussen & Williams 2006, section 5.2).
 // No sample of a stride shows the depth error D: a curve that is shifted or stretched is a curve, too. Only
 // the prior of kappa prefers one of them, the one that is nearer to the believed bed, which on ground that
 // hardens is too soft. Therefore D is not fitted. The normal equations N x = m are those without D, and D
 // keeps the distribution that it had before the stride (cut model, Plummer 2015, Statistics and Computing 25,
-// 37). It changes m by B (d, r, l), so with S the covariance of this change the estimate has the covariance
+// 37). It changes m by B D, D of each cell, so with S = B cov(D) B^T the estimate has the covariance
 //   N^-1 + N^-1 S N^-1
 // F' in B is taken from the previous posterior, in three passes.
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
@@ -140,13 +147,13 @@ class ProfileSolver {
   ProfilePoint force_N(double depth_m, Band band = Band::whole) const noexcept;
 
  private:
-  static constexpr std::size_t kDepthErrors = 3;  // d, r and l
   struct Information {
     Matrix<kTerms> normal{};
     Vector<kTerms> moment{};
-    std::array<Vector<kTerms>, kDepthErrors> of_depth{};  // B: change of the moment for a unit of each error
-    Matrix<kDepthErrors> depth_normal{};                  // of the errors themselves
-    Vector<kDepthErrors> depth_moment{};
+    std::array<Vector<kTerms>, kProfileCells> of_depth{};  // B: change of the moment for a unit of each D
+    Vector<kProfileCells> depth_normal{};                  // of each D itself; zero: no sample
+    Vector<kProfileCells> depth_moment{};
+    Vector<kProfileCells> time_s{}, change_mps{};  // mean time and change of speed since contact
   };
   struct Posterior {
     Vector<kTerms> mean{};
@@ -175,6 +182,10 @@ class ProfileSolver {
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
   void begin_depth_errors(bool in_crater) noexcept;
+  double depth_covariance_m2(double time_s, double change_mps, double other_s,
+                             double other_mps) const noexcept;
+  Matrix<kProfileCells> depth_covariance(const Information& information) const noexcept;
+  double wander_m2(const ProfileCell& cell) const noexcept;
   void take_depth_errors(const Information& information) noexcept;
   void end_depth_errors(const Information& information, const ProfileSums& sums) noexcept;
   void keep(const Information& information) noexcept;

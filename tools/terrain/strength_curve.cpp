@@ -20,8 +20,7 @@ constexpr std::size_t kFewestLoadingSamples = 10;
 StiffnessConfig in_units(StiffnessConfig config, double unit) {
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
-  profile.depth_noise_m /= unit;
-  profile.surface_sd_m /= unit;
+  for (double* length : {&profile.depth_noise_m, &profile.surface_sd_m, &profile.filter_sd_m}) *length /= unit;
   config.profile = profile;
   auto& joint = config.joint;
   for (double* length : {&joint.fluctuation_length_m, &joint.intercept_growth_depth_m,
@@ -43,8 +42,9 @@ double unit_for(double deepest_m) {
 
 StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFacts& facts) {
   StiffnessConfig config;
-  // Errors of a press's depth; a hopper estimates its depth in another way.
-  ProfileConfig profile{.surface_sd_m = 0.0007, .depth_lag_sd_s = 0.0005, .depth_noise_m = 0.0003};
+  // Errors of a press's depth. It is measured, so it has no error of a filter that integrates accelerations.
+  ProfileConfig profile{
+      .surface_sd_m = 0.0007, .filter_sd_m = 1e-9, .depth_lag_sd_s = 0.0005, .depth_noise_m = 0.0003};
   const auto& last = loading.back();
   const double mean_slope = last.force_N / last.depth_m;
   profile.believed_stiffness_N_per_m =
@@ -53,7 +53,7 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
   config.max_depth_m = std::numeric_limits<double>::infinity();             // the foot is carried by a rod
   config.joint.accel_range_mps2 = std::numeric_limits<double>::infinity();  // the caller removed saturated
                                                                             // samples
-  config.joint.depth_drift_sd_mps = 1e-6;  // a measured depth does not drift like an integrated one
+  config.joint.depth_drift_sd_mps = 1e-6;
   if (facts.quasi_static) {
     config.joint.added_mass_factor = 0.0;
     config.joint.added_mass_factor_sd = 1e-6;
