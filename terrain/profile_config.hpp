@@ -12,8 +12,9 @@ struct ProfileConfig {
   // Errors of the estimated depth in a first stride (strength_profile.hpp): the depth at contact, the Kalman
   // filter's error s_x and its decay a, the lag, and the rest. a is that of the filter with the noise of
   // config/robot.toml. The others are the maximum likelihood in simulated strides on nine families of beds
-  // (`hop experiment beds`, errors of the depth): 0.33 mm (0.30 to 0.48 mm by family), 0.80 mm (the filter
-  // states 0.86 mm), a root mean square of 0.25 ms (0.1 to 0.34 ms), and 0.02 mm.
+  // with a lag of nonzero mean: 0.33 mm, 0.80 mm (the filter states 0.86 mm), a mean of 0.25 ms, 0.02 mm.
+  // With mean zero (`hop experiment beds`, errors of the depth) they are 0.38 mm, 0.79 mm, 0.17 ms and 0.02
+  // mm.
   double surface_sd_m = 0.00033;
   double filter_sd_m = 0.0008;
   double filter_decay_per_s = 5.1;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "estimation/kalman_filter.hpp"
 #include "firmware/stride_recorder.hpp"
 #include "terrain/strength_profile.hpp"
 
@@ -43,6 +44,30 @@ TEST(ProfileMemory, BandStaysWhereAStrideAddsNothing) {
   }
 }
 
+// Spread of the height filter's error at this time since contact.
+double filter_error_m(double time_s) {
+  const ProfileConfig prior;
+  const double phase = prior.filter_decay_per_s * time_s;
+  return prior.filter_sd_m * std::sqrt(2.0 - 2.0 * std::exp(-phase) * std::cos(phase));
+}
+
+// The variance of a stationary error with the correlation exp(-a t) cos(a t) falls at the rate of its
+// covariance with the speed's error.
+TEST(ProfileConfig, DepthErrorIsThatOfTheKalmanFilter) {
+  KalmanFilter filter{KalmanConfig{}};
+  filter.reset({0.5, 0.0, 0.1, 0.0});
+  for (int cycle = 0; cycle < 3000; ++cycle) {
+    filter.predict({0.0, 0.0}, 1e-3);
+    if (cycle % 2 == 0) filter.update_body_height(0.5, 2e-3);
+    filter.update_leg_length(0.4, 1e-3);
+    filter.update_leg_rate(0.0, 1e-3);
+  }
+  const double variance_m2 = filter.covariance()(2, 2);
+  const ProfileConfig prior;
+  EXPECT_NEAR(prior.filter_decay_per_s, filter.covariance()(2, 3) / variance_m2, 0.3);
+  EXPECT_NEAR(prior.filter_sd_m, std::sqrt(variance_m2), 0.1e-3);
+}
+
 double hardening_N_per_m(double z) { return (hardening_N(z + 1e-3) - hardening_N(z - 1e-3)) / 2e-3; }
 
 // A bed that becomes stiffer than believed looks like a foot that is less deep than estimated.
@@ -54,8 +79,7 @@ TEST(ProfileMemory, ACurveDoesNotShowTheDepthInAFirstStride) {
   for (double z = 0.010; z < 0.033; z += 0.0025) {
     const auto force = solver.force_N(z);
     EXPECT_NEAR(force.value, hardening_N(z), 2e-4 * hardening_N_per_m(z)) << z;
-    const double depth_sd_m =
-        std::hypot(prior.surface_sd_m, JointConfig{}.depth_drift_sd_mps * z / kSpeed_mps);
+    const double depth_sd_m = std::hypot(prior.surface_sd_m, filter_error_m(z / kSpeed_mps));
     EXPECT_GT(force.sd, 0.95 * depth_sd_m * hardening_N_per_m(z)) << z;
   }
 }
@@ -66,7 +90,7 @@ TEST(ProfileMemory, ACurveInACraterDoesNotShowTheDepth) {
   solver.add(first, 1);
   const ProfileConfig prior;
   const double landing_m = prior.landing_depth_sd_m;
-  const double crater_sd_m = std::hypot(prior.surface_sd_m, JointConfig{}.depth_drift_sd_mps * first.last_s);
+  const double crater_sd_m = std::hypot(prior.surface_sd_m, filter_error_m(first.last_s));
   for (const double too_deep_m : {-landing_m, 0.0, landing_m}) {
     ProfileSolver later = solver;
     later.add(slow_push(0.020, 0.035, 1e-3, too_deep_m, hardening_N), 2);

@@ -120,7 +120,7 @@ TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
                (1.0 + 0.02 * knots[std::min<std::size_t>(static_cast<std::size_t>(z / 0.002), 23)]);
       };
       const Push push{.speed_mps = 0.6,
-                      .too_deep_m = 0.0004 * normal(engine),
+                      .too_deep_m = ProfileConfig{}.surface_sd_m * normal(engine),
                       .depth_drift_mps = 0.005 * normal(engine),
                       .seed = kPlaces * session + place,
                       .contact = true};

@@ -65,13 +65,13 @@ void say_later(Session& session, const std::vector<BedScore>& scores) {
 void say_depth_errors(Session& session, const std::vector<BedScore>& scores) {
   session.say(
       "\nerrors of the estimated depth in first strides, standard deviations: surface at contact [mm],");
-  session.say("drift [mm/s], lag [ms], rest [mm]");
-  session.say("  {:<17} {:>8} {:>8} {:>8} {:>8}", "bed", "surface", "drift", "lag", "rest");
+  session.say("height filter [mm], lag [ms], rest [mm]");
+  session.say("  {:<17} {:>8} {:>8} {:>8} {:>8}", "bed", "surface", "filter", "lag", "rest");
   std::vector<StrideDepthErrors> all;
   const auto line = [&](const std::string& name, const std::vector<StrideDepthErrors>& errors) {
     const auto s = depth_error_spread(errors);
-    session.say("  {:<17} {:>8.2f} {:>8.1f} {:>8.2f} {:>8.2f}", name, 1e3 * s.surface_sd_m,
-                1e3 * s.drift_sd_mps, 1e3 * s.lag_sd_s, 1e3 * s.rest_sd_m);
+    session.say("  {:<17} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}", name, 1e3 * s.surface_sd_m,
+                1e3 * s.filter_sd_m, 1e3 * s.lag_sd_s, 1e3 * s.rest_sd_m);
   };
   for (const auto& s : scores) {
     line(s.bed, s.depth_errors);

@@ -255,7 +255,7 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
           {"mean_contact_error_m", s.contact_error_m / std::max(1.0, s.trials - s.incomplete)},
           {"depth_errors",
            {{"surface_sd_m", depth.surface_sd_m},
-            {"drift_sd_mps", depth.drift_sd_mps},
+            {"filter_sd_m", depth.filter_sd_m},
             {"lag_sd_s", depth.lag_sd_s},
             {"rest_sd_m", depth.rest_sd_m}}},
           {"first_strides",

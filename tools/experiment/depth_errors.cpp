@@ -1,77 +1,68 @@
 #include "tools/experiment/depth_errors.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
-
-#include "terrain/small_gaussian.hpp"
+#include <limits>
 
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kEffects = 3;  // d, r, l
-constexpr int kRounds = 150;         // the spreads change by less than 1 % after 100
+constexpr std::size_t kEffects = 4;  // d, x, l and the rest
+constexpr int kRounds = 60;          // the spreads change by less than 2 % after these
 
-// Products of a stride's errors e and their regressors x.
-struct DepthProducts {
-  std::array<double, kEffects * kEffects> xx{};
-  std::array<double, kEffects> xe{};
-  double ee = 0.0, count = 0.0;
+// Errors of a stride, and their covariance for a unit variance of each effect.
+struct StrideCovariances {
+  Eigen::VectorXd error;
+  std::array<Eigen::MatrixXd, kEffects> unit;
 };
 
-DepthProducts products_of(const StrideDepthErrors& stride) {
-  DepthProducts p;
-  for (const DepthError& s : stride) {
-    const std::array<double, kEffects> x{1.0, s.since_contact_s, s.change_mps};
-    for (std::size_t i = 0; i < kEffects; ++i) {
-      p.xe[i] += x[i] * s.error_m;
-      for (std::size_t j = 0; j < kEffects; ++j) p.xx[i * kEffects + j] += x[i] * x[j];
+StrideCovariances covariances_of(const StrideDepthErrors& stride, double decay_per_s) {
+  const auto correlation = [&](double time_s) {
+    const double phase = decay_per_s * std::abs(time_s);
+    return std::exp(-phase) * std::cos(phase);
+  };
+  const auto n = static_cast<Eigen::Index>(stride.size());
+  StrideCovariances out{.error = Eigen::VectorXd(n), .unit = {}};
+  out.unit.fill(Eigen::MatrixXd::Zero(n, n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& a = stride[static_cast<std::size_t>(i)];
+    out.error(i) = a.error_m;
+    out.unit[3](i, i) = 1.0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto& b = stride[static_cast<std::size_t>(j)];
+      out.unit[0](i, j) = 1.0;
+      out.unit[1](i, j) = 1.0 + correlation(a.since_contact_s - b.since_contact_s) -
+                          correlation(a.since_contact_s) - correlation(b.since_contact_s);
+      out.unit[2](i, j) = a.change_mps * b.change_mps;
     }
-    p.ee += s.error_m * s.error_m;
-    p.count += 1.0;
   }
-  return p;
-}
-
-// Adds the expected squares of the effects and of the rest in one stride.
-void expect_squares(const DepthProducts& p, const std::array<double, kEffects>& variance, double rest,
-                    std::array<double, kEffects>& squares, double& rest_squares) {
-  auto precision = p.xx;
-  auto moment = p.xe;
-  for (double& value : precision) value /= rest;
-  for (double& value : moment) value /= rest;
-  for (std::size_t i = 0; i < kEffects; ++i) precision[i * kEffects + i] += 1.0 / variance[i];
-  const Cholesky<kEffects> root(precision);
-  const auto mean = root.solve(moment);
-  const auto covariance = root.inverse();
-  rest_squares += p.ee;
-  for (std::size_t i = 0; i < kEffects; ++i) {
-    squares[i] += mean[i] * mean[i] + covariance[i * kEffects + i];
-    rest_squares -= 2.0 * mean[i] * p.xe[i];
-    for (std::size_t j = 0; j < kEffects; ++j)
-      rest_squares += p.xx[i * kEffects + j] * (mean[i] * mean[j] + covariance[i * kEffects + j]);
-  }
+  return out;
 }
 
 }  // namespace
 
-DepthErrorSpread depth_error_spread(std::span<const StrideDepthErrors> strides) {
-  std::vector<DepthProducts> products;
-  double count = 0.0;
-  for (const auto& stride : strides) {
-    if (stride.size() < 2) continue;
-    products.push_back(products_of(stride));
-    count += products.back().count;
-  }
-  std::array<double, kEffects> variance{1e-6, 1e-4, 1e-6};
-  double rest = 1e-7;
+DepthErrorSpread depth_error_spread(std::span<const StrideDepthErrors> strides, double decay_per_s) {
+  std::vector<StrideCovariances> all;
+  for (const auto& stride : strides)
+    if (stride.size() >= 2) all.push_back(covariances_of(stride, decay_per_s));
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (all.empty()) return {kNan, kNan, kNan, kNan};
+  std::array<double, kEffects> variance{1e-7, 1e-6, 1e-7, 1e-8};
   for (int round = 0; round < kRounds; ++round) {
-    std::array<double, kEffects> squares{};
-    double rest_squares = 0.0;
-    for (const auto& p : products) expect_squares(p, variance, rest, squares, rest_squares);
-    for (std::size_t i = 0; i < kEffects; ++i)
-      variance[i] = squares[i] / static_cast<double>(products.size());
-    rest = rest_squares / count;
+    std::array<double, kEffects> found{}, expected{};
+    for (const auto& s : all) {
+      Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(s.error.size(), s.error.size());
+      for (std::size_t i = 0; i < kEffects; ++i) sum += variance[i] * s.unit[i];
+      const Eigen::MatrixXd inverse = sum.llt().solve(Eigen::MatrixXd::Identity(sum.rows(), sum.cols()));
+      const Eigen::VectorXd solved = inverse * s.error;
+      for (std::size_t i = 0; i < kEffects; ++i) {
+        found[i] += solved.dot(s.unit[i] * solved);
+        expected[i] += inverse.cwiseProduct(s.unit[i]).sum();
+      }
+    }
+    for (std::size_t i = 0; i < kEffects; ++i) variance[i] *= std::sqrt(found[i] / expected[i]);
   }
-  return {std::sqrt(variance[0]), std::sqrt(variance[1]), std::sqrt(variance[2]), std::sqrt(rest)};
+  return {std::sqrt(variance[0]), std::sqrt(variance[1]), std::sqrt(variance[2]), std::sqrt(variance[3])};
 }
 
 }  // namespace sandhopper
