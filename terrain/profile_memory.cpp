@@ -52,8 +52,8 @@ double ProfileSolver::depth_covariance_m2(double time_s, double change_mps, doub
   const double filter_m2 = prior_.filter_sd_m * prior_.filter_sd_m;
   const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
   return kept_errors_.variance_m2 + lag_s2 * change_mps * other_mps +
-         filter_m2 * (1.0 + correlation(time_s, other_s) - correlation(0.0, time_s) -
-                      correlation(0.0, other_s));
+         filter_m2 *
+             (1.0 + correlation(time_s, other_s) - correlation(0.0, time_s) - correlation(0.0, other_s));
 }
 
 ProfileSolver::Matrix<kProfileCells> ProfileSolver::depth_covariance(const Information& info) const noexcept {
@@ -61,8 +61,8 @@ ProfileSolver::Matrix<kProfileCells> ProfileSolver::depth_covariance(const Infor
   for (std::size_t s = 0; s < kProfileCells; ++s)
     for (std::size_t t = 0; t <= s; ++t)
       if (info.depth_normal[s] > 0.0 && info.depth_normal[t] > 0.0)
-        covariance[s * kProfileCells + t] = covariance[t * kProfileCells + s] = depth_covariance_m2(
-            info.time_s[s], info.change_mps[s], info.time_s[t], info.change_mps[t]);
+        covariance[s * kProfileCells + t] = covariance[t * kProfileCells + s] =
+            depth_covariance_m2(info.time_s[s], info.change_mps[s], info.time_s[t], info.change_mps[t]);
   return covariance;
 }
 
@@ -72,8 +72,7 @@ double ProfileSolver::wander_m2(const ProfileCell& cell) const noexcept {
   using F = ProfileFeature;
   const double sum = cell.product(F::one, F::one), mean_s = cell.product(F::one, F::time) / sum;
   const double variance_s2 = std::max(cell.product(F::time, F::time) / sum - mean_s * mean_s, 0.0);
-  const double growth_m2_per_s =
-      2.0 * prior_.filter_decay_per_s * prior_.filter_sd_m * prior_.filter_sd_m;
+  const double growth_m2_per_s = 2.0 * prior_.filter_decay_per_s * prior_.filter_sd_m * prior_.filter_sd_m;
   return growth_m2_per_s * std::sqrt(12.0 * variance_s2) / 6.0;
 }
 
@@ -106,8 +105,7 @@ void ProfileSolver::end_depth_errors(const Information& info, const ProfileSums&
   for (std::size_t s = 0; s < kProfileCells; ++s) {
     if (info.depth_normal[s] == 0.0) continue;
     const double covariance_m2 = depth_covariance_m2(info.time_s[s], info.change_mps[s], t, v);
-    for (std::size_t i = 0; i < kTerms; ++i)
-      errors_.with_depth[i] += covariance_m2 * info.of_depth[s][i];
+    for (std::size_t i = 0; i < kTerms; ++i) errors_.with_depth[i] += covariance_m2 * info.of_depth[s][i];
   }
   errors_.variance_m2 = depth_covariance_m2(t, v, t, v);
 }
@@ -146,8 +144,8 @@ void ProfileSolver::keep(const Information& info) noexcept {
   kept_errors_ = errors_;
 }
 
-// Information of a stride on kappa, c, e and b, without their prior, with D of each cell and f integrated out.
-// That a stride begins with the depth error of its crater is left out.
+// Information of a stride on kappa, c, e and b, without their prior, with D of each cell and f integrated
+// out. That a stride begins with the depth error of its crater is left out.
 void ProfileSolver::share(const Information& own) noexcept {
   constexpr std::size_t kOwn = kProfileCells + 1;
   constexpr double kRounding_m2 = 1e-10;  // keeps the covariance of D positive definite

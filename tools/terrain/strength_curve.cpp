@@ -20,7 +20,8 @@ constexpr std::size_t kFewestLoadingSamples = 10;
 StiffnessConfig in_units(StiffnessConfig config, double unit) {
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
-  for (double* length : {&profile.depth_noise_m, &profile.surface_sd_m, &profile.filter_sd_m}) *length /= unit;
+  for (double* length : {&profile.depth_noise_m, &profile.surface_sd_m, &profile.filter_sd_m})
+    *length /= unit;
   config.profile = profile;
   auto& joint = config.joint;
   for (double* length : {&joint.fluctuation_length_m, &joint.intercept_growth_depth_m,
