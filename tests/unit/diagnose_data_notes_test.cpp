@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 
 namespace sandhopper::diagnose {
@@ -37,6 +39,14 @@ TEST(DiagnoseDataNotes, AStretchThatStoodStillOnceIsAnEvent) {
   EXPECT_EQ(faults.front().stretches, 2u);
   faults = {once};
   EXPECT_TRUE(take_single_events(faults, 2).empty());
+}
+
+// A weight on a string holds the torque of each trial at one value; in other trials it is another one.
+TEST(DiagnoseDataNotes, ATorqueThatIsConstantInEachTrialIsNoLimit) {
+  auto r = swings([](double, double, double) { return 0.0; });
+  for (std::size_t i = 0; i < r.trials.size(); ++i)
+    std::ranges::fill(r.trials[i].channels["torque_Nm"], 0.5 * static_cast<double>(i + 1));
+  for (const auto& fault : remove_data_faults(r.trials)) EXPECT_NE(fault.channel, "torque_Nm") << fault.id;
 }
 
 }  // namespace

@@ -48,12 +48,27 @@ TEST(DiagnoseLimit, NamesWhatIsFoundSoFarAndWhatWasNotLookedAt) {
   EXPECT_EQ(d.verdict, Verdict::missing_physics);
   ASSERT_EQ(d.effects.size(), 1U);
   EXPECT_EQ(d.effects.front().id, "air.quadratic_drag");
+  EXPECT_LE(d.effects.front().probability, 0.7) << "what is left was not looked at";
+  EXPECT_GT(whole.effects.front().probability, 0.9);
   EXPECT_FALSE(d.stopped_in.empty());
   EXPECT_TRUE(d.absent.empty());
   EXPECT_TRUE(d.next.kind.empty());
   EXPECT_FALSE(d.corrected_model_toml.empty());
   EXPECT_THAT(to_text(d), HasSubstr("another set of effects may explain"));
   EXPECT_EQ(asked, all) << "nothing is asked once the limit has passed";
+}
+
+TEST(DiagnoseLimit, WithTooFewTrialsToLeaveOneOutNoNameIsSure) {
+  const auto surest_of = [](std::size_t trials) {
+    auto r = with_drag();
+    r.trials.resize(trials);
+    r.beliefs.resize(trials);
+    double surest = 0.0;
+    for (const auto& effect : diagnose(r).effects) surest = std::max(surest, effect.probability);
+    return surest;
+  };
+  EXPECT_LE(surest_of(2), 0.7);
+  EXPECT_GT(surest_of(3), 0.7);
 }
 
 TEST(DiagnoseLimit, ProgressNamesTheStepAndNeverFalls) {

@@ -330,12 +330,12 @@ Recordings with_five_things_wrong(double viscous_Nm_s, double coulomb_Nm) {
   constexpr double kInertia_kg_m2 = 0.1, kGravityTorque_Nm = 2.3, kStep_s = 2e-5;
   constexpr double kZero_rad = 0.05;
   constexpr std::size_t kLateRows = 4;
-  Recordings r = swings([](double, double, double) { return 0.0; }, 1, 6);
+  Recordings r = swings([](double, double, double) { return 0.0; }, 1, 4);
   for (std::size_t i = 0; i < r.trials.size(); ++i) {
     Random random(3, i);
     Trial& trial = r.trials[i];
     auto& velocity = trial.channels["velocity_radps"];
-    double angle = 0.5 + 0.2 * static_cast<double>(i), speed = 0.0;
+    double angle = 0.5 + 0.3 * static_cast<double>(i), speed = 0.0;
     std::vector<double> speeds;
     for (long step = 0; speeds.size() < trial.time_s.size(); ++step) {
       if (step % 200 == 0) {

@@ -23,7 +23,10 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   MatrixXd information = MatrixXd::Zero(k, k), between = MatrixXd::Zero(k, k);
   for (const auto& trial : linear) {
     information += trial.gram.bottomRightCorner(k, k);
-    const VectorXd score = trial.gram.col(0).tail(k);
+    VectorXd score = trial.gram.col(0).tail(k);
+    // A tolerance that is held at its limit keeps a score in every trial, which is no scatter between them.
+    for (std::size_t i = 0; i < point.tolerances.size(); ++i)
+      if (std::abs(point.tolerances[i]) >= kMostTolerance) score[own + static_cast<Index>(i)] = 0.0;
     between += score * score.transpose();
   }
   MatrixXd held = information;
