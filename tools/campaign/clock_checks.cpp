@@ -43,8 +43,8 @@ std::optional<Crossing> crossing(std::span<const double> values, std::size_t at)
                   (values[at + kSide] - values[at]) / kRows};
 }
 
-// Longest step of the time in the rows on both sides of row `at`. The rows of a pulse counter come more slowly
-// as the wheel does.
+// Longest step of the time in the rows on both sides of row `at`. The rows of a pulse counter come more
+// slowly as the wheel does.
 double longest_step_beside_s(const std::vector<double>& t_s, std::size_t at) {
   double longest_s = 0.0;
   for (std::size_t row = at - kSide; row <= at + kSide; ++row)

@@ -26,8 +26,8 @@ constexpr double kLikelierThanNot = 0.5;
 // verdict is unknown physics.
 constexpr double kMostOfTheGap = 0.5;
 // Largest probabilities if names close most of the gap and something is left: the rest may be an error in the
-// form of a named law. Names have no more, either, if the rest was not looked at: with too few trials to leave
-// one out, or after a limit of time.
+// form of a named law. Names have no more, either, if the rest was not looked at: with too few trials to
+// leave one out, or after a limit of time.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 // Share of the work at the start of each step, as a rule.

@@ -64,8 +64,8 @@ struct PlantFacts {
   std::vector<double> ripple_orders{};       // candidates for periods per revolution of a torque ripple
 };
 
-// Least periods of cogging per revolution: the least common multiple of slots and poles, of a motor with three
-// slots and two poles.
+// Least periods of cogging per revolution: the least common multiple of slots and poles, of a motor with
+// three slots and two poles.
 inline constexpr int kFewestRipples = 6;
 
 // Input of an effect: from it the effect derives its parameters and their typical sizes.

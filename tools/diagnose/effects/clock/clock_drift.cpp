@@ -6,8 +6,8 @@ namespace {
 // Each sensor may have its own clock, or all share one ("all").
 const char* const kAll = "all";
 
-// Geometric mean of the usual tolerances of a quartz (5e-5) and of a ceramic resonator (5e-3), by which loggers
-// count time.
+// Geometric mean of the usual tolerances of a quartz (5e-5) and of a ceramic resonator (5e-3), by which
+// loggers count time.
 constexpr double kTypical = 5e-4;
 
 std::vector<std::string> channels(const Context& c) {
