@@ -19,9 +19,9 @@
 // accelerometer whose noise is white with a white height, so its error is stationary, and from the filter's
 // Riccati equation follows
 //   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
-// q and r are the spectral densities of the noise of acceleration and height (Gelb 1974, Applied Optimal
-// Estimation, example 4.3). So D grows like a random walk at first and is bounded later. A cell has one D,
-// that at the mean time of its samples.
+// q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
+// error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
+// random walk at first and is bounded later. A cell has one D, that at the mean time of its samples.
 // The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
 // band includes their uncertainty (Rasmussen & Williams 2006, section 5.2).
 // No sample of a stride shows the depth error D: a curve that is shifted or stretched is a curve, too. Only
