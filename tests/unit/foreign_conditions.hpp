@@ -53,9 +53,10 @@ inline std::string with_commas(std::string text) {
     if (c == '.') c = ',';
   return text;
 }
-inline std::string si(PlateRow r) {
-  return fmt::format("{:.2f},{:.3f},{:.5f}", r.t_s, r.force_N, -r.depth_mm / 1000);
+inline std::string si_at(double t_s, PlateRow r) {
+  return fmt::format("{:.2f},{:.3f},{:.5f}", t_s, r.force_N, -r.depth_mm / 1000);
 }
+inline std::string si(PlateRow r) { return si_at(r.t_s, r); }
 inline std::string in_mm(PlateRow r) {
   return fmt::format("{:.1f},{:.3f},{:.3f}", r.t_s, r.force_N, r.depth_mm);
 }

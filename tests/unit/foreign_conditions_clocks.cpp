@@ -4,9 +4,6 @@ namespace sandhopper {
 namespace {
 using enum CampaignPlant;
 
-std::string si_at(double t_s, PlateRow r) {
-  return fmt::format("{:.2f},{:.3f},{:.5f}", t_s, r.force_N, -r.depth_mm / 1000);
-}
 std::string in_deg(AxisRow r, const std::string& torque) {
   return fmt::format("{:.2f},{:.5f},{}", r.t_s, 57.29577951 * r.angle_rad, torque);
 }

@@ -4,9 +4,6 @@ namespace sandhopper {
 namespace {
 using enum CampaignPlant;
 
-std::string row_at(double t_s, PlateRow r) {
-  return fmt::format("{:.2f},{:.3f},{:.5f}", t_s, r.force_N, -r.depth_mm / 1000);
-}
 }  // namespace
 
 std::vector<ForeignCondition> conditions_of_samples() {
@@ -33,11 +30,11 @@ std::vector<ForeignCondition> conditions_of_samples() {
        intruder, true},
       {"a clock that was not set in the first rows",
        kNamesInSi + "\n0.00,10.02,0.00001\n0.00,10.01,0.00002\n0.00,10.03,0.00001\n" +
-           plate("", [](auto r) { return row_at(1716389000 + r.t_s, r); }),
+           plate("", [](auto r) { return si_at(1716389000 + r.t_s, r); }),
        intruder, true},
       {"rows that a logger filled at the end",
        plate(
-           kNamesInSi, [](auto r) { return row_at(r.t_s, plate_row(std::min(r.i, 79))); }, 100),
+           kNamesInSi, [](auto r) { return si_at(r.t_s, plate_row(std::min(r.i, 79))); }, 100),
        intruder, true},
   };
 }

@@ -83,12 +83,7 @@ std::vector<ForeignCondition> conditions_of_times() {
               return fmt::format("{:.10f},{:.6f},{:.6f}", 738910.5 + r.t_s / 86400, r.angle_rad, r.torque_Nm);
             }),
        rotary_axis, false},
-      {"time that falls",
-       plate(kNamesInSi,
-             [](auto r) {
-               return fmt::format("{:.2f},{:.3f},{:.5f}", 8 - r.t_s, r.force_N, -r.depth_mm / 1000);
-             }),
-       intruder, false},
+      {"time that falls", plate(kNamesInSi, [](auto r) { return si_at(8 - r.t_s, r); }), intruder, false},
       {"several recordings in one file",
        plate(kNamesInSi, si, 40) + plate(kNamesInSi, si, 40) + plate(kNamesInSi, si, 40), intruder, false},
       {"runs side by side",

@@ -12,6 +12,7 @@
 
 #include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
 namespace {
@@ -21,14 +22,6 @@ constexpr std::size_t kSide = 4;  // rows on each side of a gap that give a spee
 constexpr double kLongGap = 10.0;
 constexpr double kDrift = 0.01;   // share of the time; see the header
 constexpr double kGrowing = 0.9;  // share of rows; a column that rests more often is too coarse to be a time
-
-double median_step_s(const std::vector<double>& t_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
 
 // Steps of a channel around row `at`: the mean of a row before and after it, and the one across.
 struct Crossing {

@@ -74,24 +74,33 @@ void join_equal_times(TrialRecording& recording, RecordingPlaces& places) {
   if (keep.size() != recording.t_s.size()) keep_rows(recording, places, keep);
 }
 
+double median_step_s(const std::vector<double>& t_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return *middle;
+}
+
 void note_gaps(TrialRecording& recording, const RecordingPlaces& places) {
-  if (recording.t_s.size() < 3) return;
-  std::vector<double> steps_s(recording.t_s.size() - 1);
-  for (std::size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = recording.t_s[i + 1] - recording.t_s[i];
-  auto sorted = steps_s;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const auto& t_s = recording.t_s;
+  if (t_s.size() < 3) return;
+  const double usual_s = median_step_s(t_s);
   std::size_t count = 0, largest = 0;
-  for (std::size_t i = 0; i < steps_s.size(); ++i) {
-    if (steps_s[i] <= kGapSteps * *middle) continue;
+  double largest_s = 0.0;
+  for (std::size_t i = 0; i + 1 < t_s.size(); ++i) {
+    const double step_s = t_s[i + 1] - t_s[i];
+    if (step_s <= kGapSteps * usual_s) continue;
     ++count;
-    if (count == 1 || steps_s[i] > steps_s[largest]) largest = i;
+    if (count > 1 && step_s <= largest_s) continue;
+    largest = i;
+    largest_s = step_s;
   }
   if (count == 0) return;
-  const double lost_share = steps_s[largest] / (recording.t_s.back() - recording.t_s.front());
+  const double lost_share = largest_s / (t_s.back() - t_s.front());
   note_at_row(recording, places, FindingKind::gap, largest + 1,
-              fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", steps_s[largest],
-                          *middle, count > 1 ? fmt::format(", the largest of {}", count) : ""),
+              fmt::format("a gap of {:.6g} s before this row (median step {:.3g} s){}", largest_s, usual_s,
+                          count > 1 ? fmt::format(", the largest of {}", count) : ""),
               lost_share > 0.2 ? "much of the trial is missing: record it again if it matters"
                                : "the rows on both sides are used as they are");
 }

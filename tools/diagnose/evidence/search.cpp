@@ -308,18 +308,21 @@ const SetFit& Search::run(const Point& start, const std::vector<Point>& seeds) {
     fit.fit = fit_at(seed, kRough);
     sets_[fit.set] = std::move(fit);
   }
+  grow_and_improve();
+  return best();
+}
+
+// After a limit of time the best of the fitted sets counts.
+void Search::grow_and_improve() {
   grow_sets();
   if (!over()) improve();
   if (stopped_) choose_best();
-  return best();
 }
 
 void Search::widen(std::size_t most_effects) {
   options_.most_effects = most_effects;
   if (over()) return;
-  grow_sets();
-  if (!over()) improve();
-  if (stopped_) choose_best();
+  grow_and_improve();
 }
 
 // Sets of one effect, then each of the nearest ones with one more, and so on.

@@ -116,6 +116,7 @@ class Search {
 
  private:
   bool over() { return stopped_ = stopped_ || is_over_(); }
+  void grow_and_improve();
   void grow_sets();
   void improve();
   double criterion(const SetFit& fit, double dispersion) const;

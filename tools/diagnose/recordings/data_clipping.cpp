@@ -92,13 +92,15 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;
     std::size_t in_a_row = 0;
-    for (const auto& s : samples)
-      for (std::size_t i = 0; i < s.value.size() && !shows_one_value(s); ++i) {
+    for (const auto& s : samples) {
+      if (shows_one_value(s)) continue;
+      for (std::size_t i = 0; i < s.value.size(); ++i) {
         const double v = s.value[i];
         at_end += v == end ? 1.0 : 0.0;
         in_a_row += i > 0 && v == end && s.value[i - 1] == end;
         next += v != end && std::abs(v - end) < 4.5 * grid ? 1.0 : 0.0;
       }
+    }
     // Without a limit the end value is not more frequent than the four grid steps next to it.
     if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;

@@ -46,7 +46,7 @@ const EffectRegistration kEffect(
      .channels =
          [](const Context& c) {
            auto found = present(c, {"height_m", "velocity_radps"});
-           // Where no drive acts there is no reading of its torque that could be off.
+           // A drive that is off has no reading of its torque.
            if (c.plant == PlantKind::rotary_axis && c.facts.is_driven) found.emplace_back("torque_Nm");
            if (c.plant == PlantKind::intruder) found.emplace_back("foot_z_m");
            return found;
