@@ -326,18 +326,15 @@ class Reading {
   void note_gaps() {
     if (!time_ || table_.rows() < 3) return;
     const auto& times_s = table_.columns[*time_];
-    std::vector<double> steps_s(times_s.size() - 1);
-    for (std::size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = times_s[i + 1] - times_s[i];
-    auto sorted = steps_s;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    if (*middle <= 0.0) return;
-    for (std::size_t i = 0; i < steps_s.size(); ++i) {
-      if (steps_s[i] <= options_.gap_steps * *middle) continue;
+    const double usual_s = median_step_s(times_s);
+    if (usual_s <= 0.0) return;
+    for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
+      const double step_s = times_s[i + 1] - times_s[i];
+      if (step_s <= options_.gap_steps * usual_s) continue;
       line_number_ = table_.lines[i + 1];
       report({Severity::note, 1, CsvFault::gap, options_.time_column},
-             "a gap of " + shown_number(steps_s[i]) + " s before this row (median step " +
-                 shown_number(*middle) + " s)");
+             "a gap of " + shown_number(step_s) + " s before this row (median step " + shown_number(usual_s) +
+                 " s)");
     }
   }
 
@@ -383,6 +380,14 @@ class Reading {
 };
 
 }  // namespace
+
+double median_step_s(const std::vector<double>& t_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return *middle;
+}
 
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
 

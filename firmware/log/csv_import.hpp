@@ -108,4 +108,7 @@ std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_
 // Throws std::system_error if the file cannot be opened.
 CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options = {});
 
+// Median step of the time from row to row; needs two rows.
+double median_step_s(const std::vector<double>& t_s);
+
 }  // namespace sandhopper

@@ -3,7 +3,6 @@
 namespace sandhopper {
 namespace {
 using enum CampaignPlant;
-
 }  // namespace
 
 std::vector<ForeignCondition> conditions_of_samples() {

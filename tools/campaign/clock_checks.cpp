@@ -12,7 +12,6 @@
 
 #include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/implausible.hpp"
-#include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
 namespace {

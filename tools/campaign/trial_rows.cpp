@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/log/csv_import.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -72,14 +74,6 @@ void join_equal_times(TrialRecording& recording, RecordingPlaces& places) {
     }
   }
   if (keep.size() != recording.t_s.size()) keep_rows(recording, places, keep);
-}
-
-double median_step_s(const std::vector<double>& t_s) {
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
 }
 
 void note_gaps(TrialRecording& recording, const RecordingPlaces& places) {

@@ -34,9 +34,6 @@ void keep_rows(TrialRecording& recording, RecordingPlaces& places, const std::ve
 // the order was not checked before, so a row that goes back in time is left out here.
 void join_equal_times(TrialRecording& recording, RecordingPlaces& places);
 
-// Median step of the time from row to row; needs two rows.
-double median_step_s(const std::vector<double>& t_s);
-
 // Adds one note for all steps of more than five times the median step, at the largest.
 void note_gaps(TrialRecording& recording, const RecordingPlaces& places);
 
