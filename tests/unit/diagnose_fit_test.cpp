@@ -101,10 +101,17 @@ TEST(DiagnoseFit, SignaturesAreTheSimulationWithALittleOfEachEffect) {
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i) {
       Hypothesis hypothesis{{alternative.candidate}, {alternative.values}, {}, {}};
       const auto& parameter = problem.candidates[alternative.candidate].parameters[alternative.amplitudes[i]];
-      hypothesis.values[0][alternative.amplitudes[i]] = alternative.steps[i] * parameter.typical;
-      const auto moved =
-          predicted(problem, trial, edits_for(problem, hypothesis, point.tolerances), point.nuisances[0]);
-      const Eigen::VectorXd expected = (moved - centre) / alternative.steps[i];
+      double& value = hypothesis.values[0][alternative.amplitudes[i]];
+      const double step = alternative.steps[i];
+      const bool central = parameter.central_step > 0.0 && value == 0.0;
+      const auto moved_by = [&](double by) {
+        value = by * parameter.typical;
+        return predicted(problem, trial, edits_for(problem, hypothesis, point.tolerances),
+                         point.nuisances[0]);
+      };
+      const Eigen::VectorXd moved = moved_by(step);
+      const Eigen::VectorXd expected =
+          central ? Eigen::VectorXd((moved - moved_by(-step)) / (2.0 * step)) : (moved - centre) / step;
       EXPECT_LT(
           (signatures.columns[0].col(alternative.first + static_cast<Eigen::Index>(i)) - expected).norm(),
           1e-9 * (1.0 + expected.norm()))

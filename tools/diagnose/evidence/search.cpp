@@ -83,8 +83,8 @@ const std::vector<Screened>& Search::screened(const std::vector<std::size_t>& se
   const auto it = screens_.find(set);
   if (it != screens_.end()) return it->second;
   const Point& at = sets_.at(set).fit.point;
-  return screens_[set] =
-             screen(*problem_, at, columns_for(set), signatures_at(*problem_, at, {.laws = false}));
+  return screens_[set] = screen(*problem_, at, columns_for(set),
+                                signatures_at(*problem_, at, {.laws = false, .columns = columns_for(set)}));
 }
 
 void Search::evaluate(const SetFit& from, const Screened& added) {
@@ -154,8 +154,8 @@ void Search::evaluate_straight(const SetFit& from) {
     if (known == nearest.end() || one.deviance < known->second.deviance)
       nearest.insert_or_assign(candidate, std::move(one));
   };
-  for (const auto& added :
-       screen(*problem_, straight, &columns, signatures_at(*problem_, straight, {.laws = false})))
+  for (const auto& added : screen(*problem_, straight, &columns,
+                                  signatures_at(*problem_, straight, {.laws = false, .columns = &columns})))
     hold(added.candidate, added.values);
   for (std::size_t c = 0; c < problem_->candidates.size(); ++c) {
     if (over()) return;

@@ -83,6 +83,10 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
       double step = kDerivativeStep;
       if (point.hypothesis.values[i][j] + step * parameters[j].typical > parameters[j].high) step = -step;
       directions.push_back({moved_by(step), step});
+      if (j == 0) {
+        directions.back().like = problem.candidates[point.hypothesis.candidates[i]].label();
+        directions.back().like_step = parameters[j].typical;
+      }
     }
   }
   for (std::size_t k = 0; k < point.hypothesis.law.size(); ++k) {

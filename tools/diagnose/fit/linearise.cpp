@@ -256,10 +256,10 @@ struct Gathered {
   }
 };
 
-// `simulate(edits)` predicts the trial with these edits.
-template <class Simulate>
-Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::vector<Direction>& directions,
-                  const Simulate& simulate) {
+// `derivative_by(direction)` is the derivative of one that is no tolerance.
+template <class DerivativeBy>
+Gathered gathered(const VectorXd& residual, const std::vector<Direction>& directions,
+                  const DerivativeBy& derivative_by) {
   Gathered columns;
   std::vector<const Direction*> simulated;
   for (const auto& direction : directions)
@@ -273,7 +273,7 @@ Gathered gathered(const VectorXd& residual, const VectorXd& centre, const std::v
   columns.x.resize(residual.size(), 1 + static_cast<Index>(simulated.size()));
   columns.x.col(0) = residual;
   for (std::size_t i = 0; i < simulated.size(); ++i)
-    columns.x.col(static_cast<Index>(i) + 1) = derivative(*simulated[i], centre, simulate);
+    columns.x.col(static_cast<Index>(i) + 1) = derivative_by(*simulated[i]);
   return columns;
 }
 
@@ -290,6 +290,15 @@ void let_nuisances_follow(const TrialModel& trial, const KeptColumns& kept, Tria
 
 }  // namespace
 
+std::optional<VectorXd> derivative_of_alike(const Problem& problem, std::size_t trial,
+                                            const Direction& direction, const KeptColumns& kept) {
+  if (direction.like.empty()) return std::nullopt;
+  const auto alike = problem.trials[trial]->like(direction.like);
+  if (!alike) return std::nullopt;
+  const auto column = static_cast<Index>(problem.tolerances.size() + alike->nuisance);
+  return kept.shared.col(column) * (alike->per_unit * direction.like_step);
+}
+
 TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& base,
                       const std::vector<double>& nuisances, const std::vector<Direction>& directions,
                       const LineariseOptions& options) {
@@ -304,8 +313,10 @@ TrialLinear linearise(const Problem& problem, std::size_t index, const Edits& ba
 
   TrialLinear out;
   out.residual = residual_of(trial, centre);
-  Gathered columns = gathered(out.residual, centre, directions, [&](const Edits& edits) {
-    return predicted(problem, trial, edits, nuisances);
+  Gathered columns = gathered(out.residual, directions, [&](const Direction& direction) {
+    if (auto alike = derivative_of_alike(problem, index, direction, kept)) return *std::move(alike);
+    return derivative(direction, centre,
+                      [&](const Edits& edits) { return predicted(problem, trial, edits, nuisances); });
   });
   MatrixXd& x = columns.x;
   if (options.forms != nullptr) {

@@ -17,7 +17,16 @@ struct Direction {
   double step = 1.0;
   int tolerance = -1;  // >= 0: index of a tolerance; its derivative is a kept column
   std::optional<Edits> opposite{};
+  // Label of an effect whose first parameter changes by `like_step`: in a trial with a nuisance that acts
+  // alike
+  // (`TrialModel::like`) the derivative is the nuisance's, times `like_step` and its change per unit.
+  std::string like{};
+  double like_step = 0.0;
 };
+
+// The derivative that stands for a direction's in a trial, out of the nuisances' columns; none: simulate it.
+std::optional<Eigen::VectorXd> derivative_of_alike(const Problem& problem, std::size_t trial,
+                                                   const Direction& direction, const KeptColumns& kept);
 
 // Derivative in a direction; `simulate(edits)` gives a prediction, `centre` is the one without the change.
 template <class Simulate>

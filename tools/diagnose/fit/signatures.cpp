@@ -34,8 +34,13 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
         alternative.amplitudes.push_back(i);
         alternative.steps.push_back(step);
         moved.push_back({moved_by(step), step});
-        if (!secant && choice[i] == 0.0 && candidate.parameters[i].central_step > 0.0)
+        if (secant) continue;
+        if (choice[i] == 0.0 && candidate.parameters[i].central_step > 0.0)
           moved.back().opposite = moved_by(-step);
+        if (i == 0) {
+          moved.back().like = candidate.label();
+          moved.back().like_step = candidate.parameters[i].typical;
+        }
       }
       out.alternatives.push_back(std::move(alternative));
     }
@@ -46,6 +51,7 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
       for (const auto& term : family.terms) moved.push_back({with_term(base, term, kTermStep), kTermStep});
       out.laws.push_back({std::move(family), first});
     }
+  const auto& known = options.columns != nullptr ? *options.columns : problem.kept_columns;
   out.columns.resize(problem.trials.size());
   parallel_for(problem.trials.size(), [&](std::size_t t) {
     const TrialModel& trial = *problem.trials[t];
@@ -55,8 +61,10 @@ Signatures signatures_at(const Problem& problem, const Point& point, const Signa
     const auto simulate = [&](const Edits& edits) {
       return predicted(problem, trial, edits, point.nuisances[t]);
     };
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      columns.col(static_cast<Index>(i)) = derivative(moved[i], centre, simulate);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const auto alike = known.empty() ? std::nullopt : derivative_of_alike(problem, t, moved[i], known[t]);
+      columns.col(static_cast<Index>(i)) = alike ? *alike : derivative(moved[i], centre, simulate);
+    }
   });
   return out;
 }

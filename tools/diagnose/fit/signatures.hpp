@@ -35,6 +35,7 @@ struct SignatureOptions {
   // Only these candidates, by index, with secants in place of derivatives: the size of the first amplitude,
   // in typical sizes, to which its column refers.
   const std::map<std::size_t, double>* sizes = nullptr;
+  const std::vector<KeptColumns>* columns = nullptr;  // as in LineariseOptions
 };
 Signatures signatures_at(const Problem& problem, const Point& point, const SignatureOptions& options = {});
 

@@ -11,6 +11,9 @@ namespace sandhopper::diagnose {
 
 // Step of derivatives by the height of a bed's surface: of the nuisance, and of effects that act as it does.
 inline constexpr double kSurfaceStep_m = 1e-4;
+// The same for a bed's stiffness, as a share of it. Wide: the jumps at a hopper's events are small against
+// the change over such a step; against a quarter of it they are not.
+inline constexpr double kStiffnessStep = 4e-3;
 
 enum class PlantKind : std::uint8_t { falling_body, rotary_axis, intruder, hopper };
 

@@ -24,6 +24,13 @@ void TrialModel::add_key_spreads(const Belief& belief) {
   }
 }
 
+std::optional<TrialModel::Alike> TrialModel::like(const std::string& label) const {
+  for (std::size_t i = 0; i < trial_nuisances.size(); ++i)
+    if (const auto found = trial_nuisances[i].like.find(label); found != trial_nuisances[i].like.end())
+      return Alike{i, found->second};
+  return std::nullopt;
+}
+
 Edits TrialModel::with_key_spreads(Edits edits, std::span<const double> nuisances) const {
   for (std::size_t i = 0; i < key_spreads_.size(); ++i) {
     const double moved = nuisances[first_key_spread_ + i];

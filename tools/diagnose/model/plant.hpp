@@ -40,6 +40,9 @@ struct Nuisance {
   // Label of the effect that is the same quantity, if the trials may also share one value of it
   // (fit/spread_seen.hpp). Empty: none.
   std::string shared_as{};
+  // Effects that act in this trial exactly as the nuisance does: label, and change of the nuisance per unit
+  // of the effect's first parameter. Both then have one derivative (`TrialModel::like`).
+  std::map<std::string, double> like{};
 };
 
 // A quantity that is known for every row, e.g. depth or speed. The answer shows the mismatch over it.
@@ -96,6 +99,14 @@ class TrialModel {
     return nuisance < q ? trial_nuisances[nuisance].sd
                         : block_nuisances[(nuisance - q) % block_nuisances.size()].sd;
   }
+
+  // The nuisance that acts as an effect with this label does in this trial, and its change per unit of the
+  // effect's first parameter. None: no nuisance acts alike.
+  struct Alike {
+    std::size_t nuisance = 0;
+    double per_unit = 0.0;
+  };
+  std::optional<Alike> like(const std::string& label) const;
 
   std::string name;
   std::vector<Row> rows;  // sorted by channel, then by time

@@ -19,7 +19,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
            .high = 30.0,
            .either_sign = true,
            .base = believed,
-           .scale = believed}};
+           .scale = believed,
+           .central_step = kStiffnessStep}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

@@ -50,7 +50,7 @@ class Actuator {
       if (edit.channel != "actuator") continue;
       switch (edit.kind) {
         case SensorEdit::Kind::gain:
-          factor_ *= edit.value;
+          factor_ += edit.value - 1.0;  // adds up with the trial's own share, as the laws below do
           break;
         case SensorEdit::Kind::offset:
           offset_Nm_ += edit.value;

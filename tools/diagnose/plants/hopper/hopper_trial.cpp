@@ -104,6 +104,8 @@ void HopperTrial::add_nuisances() {
   add("current_offset_A", s.current_offset_A, 1e-3, 1e-2);
   add("load_cell_offset_N", s.load_cell_offset_N, 0.02, 0.05);
   trial_nuisances[kTorqueConstant].shared_as = "actuator.torque_constant";
+  trial_nuisances[kTorqueConstant].like = {{"actuator.torque_constant", 1.0},
+                                           {"actuator.temperature", kRoom_C - motor_temperature_C_}};
   for (const auto c : {kImuBody, kImuFoot})
     trial_nuisances[*kSources[c].scale].shared_as = std::string("imu.scale[") + kSources[c].channel + "]";
   for (const char* sensor : {"tof", "load_cell", "mocap"})
