@@ -70,15 +70,36 @@ struct Seen {
   double score = 0.0;
 };
 
-// True if each of the next lines with cells, up to three, holds numbers.
-bool numbers_follow(const std::vector<LineShape>& shapes, std::size_t row) {
+// True if each of the next lines with cells, up to three, holds numbers in as many cells.
+bool rows_follow(const std::vector<LineShape>& shapes, std::size_t row) {
   std::size_t seen = 0;
   for (std::size_t i = row + 1; i < shapes.size() && seen < 3; ++i) {
     if (shapes[i].cells == 0) continue;
-    if (shapes[i].numbers == 0) return false;
+    if (shapes[i].numbers == 0 || shapes[i].cells != shapes[row].cells) return false;
     ++seen;
   }
   return seen > 0;
+}
+
+// True if `row` is a fact above the names ("Gain;2") and no row of the table: a line of as many words
+// follows, with more rows below it than above it. A line of names that is repeated within a table does not
+// count.
+bool is_above_names(const Lines& lines, const std::vector<LineShape>& shapes, std::size_t row) {
+  const auto is_names = [&](std::size_t i) {
+    return shapes[i].cells == shapes[row].cells && shapes[i].numbers == 0 && shapes[i].silent == 0;
+  };
+  const auto rows_between = [&](std::size_t from, std::size_t to) {
+    return std::count_if(
+        shapes.begin() + static_cast<std::ptrdiff_t>(from), shapes.begin() + static_cast<std::ptrdiff_t>(to),
+        [&](const LineShape& shape) { return shape.is_row() && shape.cells == shapes[row].cells; });
+  };
+  for (std::size_t i = row + 1; i < shapes.size(); ++i)
+    if (is_names(i)) {
+      const bool is_repeated = std::find(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(row),
+                                         lines[i]) != lines.begin() + static_cast<std::ptrdiff_t>(row);
+      return !is_repeated && rows_between(i, shapes.size()) > rows_between(row, i);
+    }
+  return false;
 }
 
 // Scores the lines that hold numbers, grouped by their number of cells. The group with the highest score is
@@ -107,7 +128,7 @@ Seen look(const Lines& lines, const Division& division) {
     // A line of numbers among the names ("ID",1,1,2) is not followed by further rows of numbers: go on
     // searching.
     if (seen.first_row == lines.size()) seen.first_row = i;
-    if (!shapes[i].has_words() || numbers_follow(shapes, i)) {
+    if (!shapes[i].has_words() || (rows_follow(shapes, i) && !is_above_names(lines, shapes, i))) {
       seen.first_row = i;
       break;
     }
@@ -338,27 +359,30 @@ class Finder {
     out_.first_row_line = std::max(out_.first_row_line, out_.units_line + 1);
   }
 
+  // A property that the owner states is nothing unusual any more.
   void describe(bool declared) {
-    const auto say = [&](std::string text) { out_.said.push_back(std::move(text)); };
+    const auto say = [&](std::string text, bool is_stated = false) {
+      if (!is_stated) out_.said.push_back(std::move(text));
+    };
     if (out_.encoding == TextEncoding::utf16_le || out_.encoding == TextEncoding::utf16_be)
-      say("the file is UTF-16 and is read as such");
+      say("the file is UTF-16 and is read as such", stated_.encoding.has_value());
     if (out_.encoding == TextEncoding::windows_1252)
-      say("the file is Windows-1252, not UTF-8, and is read as such");
-    const std::uint64_t plain = declared ? 2 : 1;
-    if (out_.header_line > plain) {
-      std::string text = "the names of the columns stand in line " + std::to_string(out_.header_line);
-      text += out_.header_line == plain + 1 ? ", the line above is passed over"
-                                            : ", the lines above are passed over";
-      say(text);
-    }
-    if (out_.units_line > 0) say("line " + std::to_string(out_.units_line) + " holds units");
-    if (out_.separator == ' ') say("the columns are divided by blanks");
+      say("the file is Windows-1252, not UTF-8, and is read as such", stated_.encoding.has_value());
+    const std::uint64_t plain = declared ? 2 : 1, at = out_.header_line;
+    const std::string above = at == plain + 1 ? "the line above is" : "the lines above are";
+    if (at > plain)
+      say("the names of the columns stand in line " + std::to_string(at) + ", " + above + " passed over",
+          stated_.header_line.has_value());
+    if (out_.units_line > 0)
+      say("line " + std::to_string(out_.units_line) + " holds units", stated_.units_line.has_value());
+    if (out_.separator == ' ') say("the columns are divided by blanks", stated_.separator.has_value());
     if (out_.header_separator != out_.separator) say("the names are divided in another way than the rows");
     if (out_.rows_are_counted) say("each row begins with its number, which has no name and is passed over");
     if (out_.has_unused_names) say("rows end before the last name, which is that of remarks");
-    if (out_.numbers.decimal == ',') say("numbers have a decimal comma");
+    if (out_.numbers.decimal == ',') say("numbers have a decimal comma", stated_.decimal.has_value());
     if (out_.numbers.thousands != '\0')
-      say(std::string("thousands are divided by \"") + out_.numbers.thousands + "\"");
+      say(std::string("thousands are divided by \"") + out_.numbers.thousands + "\"",
+          stated_.thousands.has_value());
   }
 
   const Lines& lines_;

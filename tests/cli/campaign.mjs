@@ -87,6 +87,18 @@ const imported = run('campaign', 'import', join(sound, 'trials/0001.csv'), '--ou
 expect(imported.status === 2 && imported.stderr.includes('nominal.toml exists already'), 'a model that is there is not overwritten');
 expect(!existsSync(join(half, 'campaign.toml')), 'and no campaign.toml is left beside it');
 
+// An import that cannot be right does not end as if it were.
+const table = (name, header) => {
+  const file = join(scratch, name);
+  writeFileSync(file, `${header}\n${Array.from({ length: 20 }, (_, i) => `${i},${2 * i},${3 * i}`).join('\n')}\n`);
+  return file;
+};
+const unclear = run('campaign', 'import', table('unclear.csv', 't,x,y'), '--output', join(scratch, 'unclear'));
+expect(unclear.status === 2 && unclear.stdout.includes('"x": no unit, first value 0'), 'the columns of an unclear table are shown');
+expect(/go on with 'hop campaign import \S+unclear.csv --plant PLANT'/.test(unclear.stderr), 'the command to go on is given');
+const timeless = run('campaign', 'import', table('timeless.csv', 'a,b,angle'), '--output', join(scratch, 'timeless'));
+expect(timeless.status === 1 && timeless.stdout.includes('wrong: no column is a time'), 'a table without a time ends with status 1');
+
 // Limits of time, and wrong arguments.
 const limited = run('diagnose', sound, '--limit-s', '0', '--no-report', '--json', '--output', join(scratch, 'limited'));
 expect(limited.status === 1 && JSON.parse(limited.stdout).verdict === 'insufficient_time', 'a limit of no time at all is said');

@@ -86,6 +86,33 @@ TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
   expect_swing(read("9/13/2023  20:41:18\nAltitude : 21.0\nPlate Diameter: 4.00cm\n" + swinging()));
 }
 
+// Facts above the names may have as many cells as a row, and numbers in them.
+TEST(ForeignTable, TheNamesStandAboveTheRowsAndNotAboveTheFacts) {
+  const auto swing =
+      swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','});
+  expect_swing(
+      read("Drive;Firmware 3.12;Trace\nDate;14.03.2023;Time;10:50\nTrial;1;Sine 0,5 Hz\nRate;500;Hz\n"
+           "Encoder;16384;counts\n\n" +
+           swing));
+  expect_swing(read("Rate;500;Gain;2\nRange;3;Offset;0\nMass;1,5;Zero;0\nTrial;7;Day;2\n" + swing));
+  std::string press = "Operator;Ann\nRate;500\nGain;2\nRange;1000\nOffset;0\nt_s;force_N\n";
+  for (int i = 0; i < 20; ++i) press += fmt::format("{};{}\n", i, 2 * i + 1);
+  const auto two = read(press, {.plant = "intruder"});
+  ASSERT_TRUE(two.has("force_N")) << told(two);
+  EXPECT_EQ(two.rows(), 20U);
+}
+
+// Names that are repeated within a table do not make its first part facts.
+TEST(ForeignTable, AWordInEveryRowIsNoFactAboveTheNames) {
+  std::string text;
+  for (const int rows : {5, 20}) {
+    text += "trial;t_s;force_N\n";
+    for (int i = 0; i < rows; ++i) text += fmt::format("run{};{};{}\n", rows, i + rows, 2 * i + 1);
+  }
+  const auto both = read(text, {.plant = "intruder"});
+  EXPECT_THAT(told(both), testing::Not(HasSubstr("stand in line")));
+}
+
 TEST(ForeignTable, TheMarkOfARemarkBeforeTheNamesIsNoPartOfThem) {
   expect_swing(read(swinging({.header = "# t_s,position_rad,velocity_radps,torque_Nm"})));
   expect_swing(read(swinging({.header = "#t_s,position_rad,velocity_radps,torque_Nm"})));

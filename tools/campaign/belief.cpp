@@ -9,6 +9,7 @@
 
 #include "config/load.hpp"
 #include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/key_reference.hpp"
 
 namespace sandhopper {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> keys_of(const Table& table) {
 
 // Removes from `table` the keys that are not in `known`, with a note for each.
 void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known, const std::string& file,
-                       std::vector<Finding>& notes) {
+                       CampaignPlant plant, std::vector<Finding>& notes) {
   std::erase_if(table.children, [&](const ConfigNode& child) {
     if (std::find(known.begin(), known.end(), child.key) != known.end()) return false;
     notes.push_back(
@@ -33,7 +34,7 @@ void leave_out_unknown(ConfigNode& table, const std::vector<std::string>& known,
          .column = child.key_position.column,
          .channel = table.key + "." + child.key,
          .what = fmt::format("key '{}' is not known in [{}] and is not used", child.key, table.key),
-         .cure = "'hop campaign keys PLANT' lists the keys; or leave it as it is"});
+         .cure = key_in_its_place(plant, table.key, child.key)});
     return true;
   });
 }
@@ -56,13 +57,14 @@ Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Fi
   auto document = parse_config_file(file.string());
   leave_out_unstated(document.root, "", file.string(), unstated);
   std::vector<ConfigProblem> problems;
+  const auto plant = static_cast<CampaignPlant>(Belief(base).index());
   for (auto& table : document.root.children) {
     if (table.kind != ConfigNode::Kind::table) continue;
-    if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), notes);
+    if (table.key == "sensors") leave_out_unknown(table, keys_of(base.sensors), file.string(), plant, notes);
     if (table.key != "spread") continue;
     const auto known = keys_of(base.spread);
     base.key_spreads = take_key_spreads(table, known, numbers_of(Belief(base)), file.string(), problems);
-    leave_out_unknown(table, known, file.string(), notes);
+    leave_out_unknown(table, known, file.string(), plant, notes);
   }
   auto effects = take_effects(document, problems);
   if (!problems.empty()) throw ConfigError(problems);

@@ -202,6 +202,23 @@ std::vector<Finding> placeholder_notes(const Campaign& campaign,
   return notes;
 }
 
+std::vector<Finding> unused_key_notes(const Campaign& campaign) {
+  const auto lines = lines_of(campaign.model);
+  std::vector<Finding> notes;
+  for (const auto& key : belief_keys(campaign.plant)) {
+    const auto line = lines.find(key.path());
+    if (key.used || line == lines.end()) continue;
+    const auto alike = keys_alike(campaign.plant, key.table, key.key);
+    const bool has_other = std::ranges::any_of(
+        alike, [&](const std::string& other) { return lines.contains(key.table + "." + other); });
+    if (alike.empty() || has_other) continue;
+    notes.push_back({FindingKind::set_up, FindingSeverity::note, campaign.model.string(), line->second, 1,
+                     key.path(), "is read, but nothing is computed with it",
+                     key_in_its_place(campaign.plant, key.table, key.key)});
+  }
+  return notes;
+}
+
 double usual_error(const UsedNumber& n) {
   constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
   const double size = std::max(std::abs(n.low), std::abs(n.high));

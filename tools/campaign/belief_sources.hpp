@@ -50,4 +50,8 @@ std::vector<Finding> missing_numbers(const Campaign& campaign);
 std::vector<Finding> placeholder_notes(const Campaign& campaign,
                                        const std::function<bool(std::string_view key)>& is_used);
 
+// A note for each key that the model states, that no tool uses on this plant, and that stands in the place of
+// a key that is used and not stated: sensors.position_noise_m where mocap_noise_m counts.
+std::vector<Finding> unused_key_notes(const Campaign& campaign);
+
 }  // namespace sandhopper

@@ -180,9 +180,20 @@ class Loader {
       refuse(campaign_.file, {1, 1}, "trial",
              "there is no trial: add one [[trial]] with file = \"…\" and kind = \"…\" for each recording");
     const auto* every = root.find("every_trial");
+    if (every != nullptr) refuse_shared_file(*every, *trials);
     std::size_t entry = 0;
     for (const auto& node : trials->children)
       read_trial(every == nullptr ? node : completed(node, *every), ++entry);
+  }
+
+  // A file of [every_trial] beside files of the trials would be used by none of them.
+  void refuse_shared_file(const ConfigNode& every, const ConfigNode& trials) {
+    const auto* file = every.find("file");
+    const auto names_file = [](const ConfigNode& trial) { return trial.find("file") != nullptr; };
+    if (file == nullptr || std::ranges::none_of(trials.children, names_file)) return;
+    refuse(campaign_.file, file->key_position, "every_trial.file",
+           "key 'file' of [every_trial] is a recording that no trial would use: write [[trial]] above it, or "
+           "take the files of all trials away");
   }
 
   // The trial with the keys of [every_trial] that it does not have itself.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -13,6 +12,7 @@
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/column_rivals.hpp"
+#include "tools/campaign/plant_guess.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/unit_check.hpp"
 #include "tools/campaign/vector_axes.hpp"
@@ -35,6 +35,7 @@ class Drafter {
     out_.plant = plant_ ? *plant_ : guessed_plant();
     guess_columns();
     describe();
+    find_faults();
     out_.campaign_toml = campaign();
     out_.nominal_toml = draft_nominal(out_.plant, is_taken("command_left_torque_Nm"));
     return std::move(out_);
@@ -63,30 +64,10 @@ class Drafter {
   std::optional<WrittenUnit> unit_of(std::size_t i) const { return unit_of_column(table_, i); }
 
   CampaignPlant guessed_plant() const {
-    for (const auto& name : table_.names)
-      if (const auto plant = plant_with_channel(name)) return *plant;
-    if (has_two_motors(table_)) return hopper;
-    std::array<int, 4> votes{};
-    for (std::size_t i = 0; i < table_.names.size(); ++i) {
-      const auto unit = unit_of(i);
-      const auto lower = in_lower_case(table_.names[i]);
-      const auto is = [&](std::string_view dimension) { return unit && unit->dimension == dimension; };
-      votes[static_cast<std::size_t>(rotary_axis)] +=
-          3 * (is("angle") || is("angular rate") || is("torque")) + has_word(lower, "torque") +
-          has_word(lower, "angle");
-      votes[static_cast<std::size_t>(intruder)] +=
-          3 * is("force") + has_word(lower, "force") + has_word(lower, "sinkage") + has_word(lower, "depth");
-      votes[static_cast<std::size_t>(falling_body)] += 2 * (is("acceleration") || is("pressure")) +
-                                                       has_word(lower, "height") +
-                                                       has_word(lower, "altitude");
-    }
-    const auto most = std::max_element(votes.begin(), votes.end());
-    if (*most == 0)
-      throw PlantNotTold(
-          fmt::format("{}: could not tell the plant from these columns: import again with --plant "
-                      "rotary_axis|intruder|falling_body|hopper",
-                      files_.front().string()));
-    return static_cast<CampaignPlant>(most - votes.begin());
+    if (const auto plant = guess_plant(table_)) return *plant;
+    throw PlantNotTold(
+        fmt::format("{}: could not tell the plant from these columns", files_.front().string()),
+        describe_columns(table_));
   }
 
   void guess_columns() {
@@ -174,6 +155,28 @@ class Drafter {
           fmt::format("{} columns are called a time: recordings side by side need a [[trial]] each with "
                       "`columns` of its own",
                       times));
+  }
+
+  // A force against a depth needs no time.
+  void find_faults() {
+    const bool is_press = is_taken("foot_z_m") && is_taken("force_N");
+    const std::string header =
+        fmt::format("; line {} is taken for the names: if that is wrong, state header_line in [format]",
+                    table_.layout.header_line);
+    if (!time_ && table_.find("t_s") == nullptr && !is_press)
+      out_.wrong.push_back(
+          "no column is a time: write t_s = { column = \"NAME\", unit = \"s\" } into [columns], or "
+          "row_every_s into [format]" +
+          header);
+    if (2 * cells_without_number() > table_.rows() * table_.names.size())
+      out_.wrong.push_back("most cells are not numbers" + header);
+  }
+
+  std::uint64_t cells_without_number() const {
+    std::uint64_t cells = 0;
+    for (const auto& issue : table_.issues)
+      if (issue.fault == CsvFault::not_a_number) cells += issue.repeats + 1;
+    return cells;
   }
 
   std::string time_words() const {

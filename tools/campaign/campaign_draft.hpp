@@ -11,13 +11,16 @@ namespace sandhopper {
 
 // The plant cannot be guessed from the names and units of the columns.
 struct PlantNotTold : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  PlantNotTold(const std::string& what, std::vector<std::string> columns)
+      : std::runtime_error(what), seen(std::move(columns)) {}
+  std::vector<std::string> seen;  // the columns as they were read, and the needs of each plant
 };
 
 // Draft of a campaign for files of another program, to be corrected by the user.
 struct CampaignDraft {
   CampaignPlant plant{};
-  std::vector<std::string> said{};  // interpretation of the files, as sentences
+  std::vector<std::string> said{};   // interpretation of the files, as sentences
+  std::vector<std::string> wrong{};  // reasons why the interpretation cannot be right, as sentences
   std::string campaign_toml{};
   std::string nominal_toml{};
 };

@@ -21,7 +21,7 @@ constexpr std::array kNamings{
     Naming{"foot_z_m",
            intruder,
            "length",
-           {"sinkage", "depth", "penetration", "einsink", "tiefe", "indent", "enfonc", "profond"},
+           {"sinkage", "depth", "penetration", "einsink", "eindring", "tiefe", "indent", "enfonc", "profond"},
            true},
     Naming{"foot_z_m",
            intruder,
@@ -46,7 +46,7 @@ constexpr std::array kNamings{
     Naming{"velocity_radps",
            rotary_axis,
            "angular rate",
-           {"speed", "velocity", "omega", "drehzahl", "rpm", "vel"},
+           {"speed", "velocity", "omega", "drehzahl", "geschwindigkeit", "rpm", "vel"},
            false},
     Naming{"torque_Nm", rotary_axis, "torque", {"torque", "moment", "tau", "drehmoment"}, false}};
 

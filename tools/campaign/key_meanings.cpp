@@ -97,8 +97,11 @@ constexpr std::array kModel{
     KeyMeaning{"bed.surface_height_m", "height of the bed's surface in the units of height_m"},
     KeyMeaning{"bed.stiffness_N_per_m", "stiffness of the bed while the body sinks in; 0: there is no bed"},
     KeyMeaning{"body.mass_kg", "mass of the body"},
-    KeyMeaning{"body.frontal_area_m2", "area that the medium pushes against; used in the quadratic drag"},
-    KeyMeaning{"body.volume_m3", "volume of the body; used in buoyancy and added mass"},
+    KeyMeaning{"body.frontal_area_m2",
+               "area that the medium pushes against, for the quadratic drag; diameter_m of a trial gives it"},
+    KeyMeaning{"body.volume_m3",
+               "volume of the body, for buoyancy and added mass; diameter_m does not give it: a ball has pi "
+               "D^3 / 6"},
     KeyMeaning{"medium.density_kg_per_m3",
                "density of the air or liquid; 0: no quadratic drag, buoyancy or added mass"},
     KeyMeaning{"medium.drag_coefficient", "C_d of F = 1/2 rho A C_d v^2; 0: none"},

@@ -35,7 +35,7 @@ constexpr std::array kSensors{
     KeyMeaning{"sensors.load_cell_range_N", "force at which it stops (clips)", "hi"},
     KeyMeaning{"sensors.load_cell_latency_s", "delay of the force", "hi"},
     KeyMeaning{"sensors.mocap_rate_Hz", "frames a second of the motion capture", "h"},
-    KeyMeaning{"sensors.mocap_noise_m", "noise of one of its positions", "hi"},
+    KeyMeaning{"sensors.mocap_noise_m", "noise of one recorded position; on an intruder: of its depth", "hi"},
     KeyMeaning{"sensors.mocap_latency_s", "delay of its positions", "h"},
     KeyMeaning{"sensors.height_noise_m",
                "noise of one height; 0: not known, then the scale of the heights is in doubt by 4 %", "f"},

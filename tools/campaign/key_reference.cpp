@@ -141,6 +141,26 @@ std::vector<BeliefKey> belief_keys(CampaignPlant plant) {
   return collector.keys;
 }
 
+std::vector<std::string> keys_alike(CampaignPlant plant, std::string_view table, std::string_view key) {
+  const auto first = key.find('_');
+  std::vector<std::string> alike;
+  if (first == std::string_view::npos) return alike;
+  for (const auto& known : belief_keys(plant))
+    if (known.table == table && known.used && known.key != key && known.key.ends_with(key.substr(first)))
+      alike.push_back(known.key);
+  return alike;
+}
+
+std::string key_in_its_place(CampaignPlant plant, std::string_view table, const std::string& key) {
+  if (const auto alike = keys_alike(plant, table, key); !alike.empty())
+    return fmt::format("plant \"{}\" has {} for it", name_of(plant), either(alike));
+  std::vector<std::string> used;
+  for (const auto& known : belief_keys(plant))
+    if (known.table == table && known.used) used.push_back(known.key);
+  return cure_for_unknown_key(key, std::nullopt, used) +
+         fmt::format(" Or leave it as it is ('hop campaign keys {}' lists the keys)", name_of(plant));
+}
+
 std::string_view meaning_of_key(std::string_view path) {
   const auto* found = find_meaning(path);
   return found == nullptr ? std::string_view{} : found->meaning;

@@ -30,6 +30,13 @@ struct BeliefKey {
 // in the order of the file
 std::vector<BeliefKey> belief_keys(CampaignPlant plant);
 
+// Advice for a key of [sensors] or [spread] that the plant does not use: the plant's key for the same thing,
+// if there is one (same words at the end, "noise_m"), or the keys that are used.
+std::string key_in_its_place(CampaignPlant plant, std::string_view table, const std::string& key);
+
+// Keys of the plant that end as `key` does from its second word on. Empty if there is none.
+std::vector<std::string> keys_alike(CampaignPlant plant, std::string_view table, std::string_view key);
+
 // Meaning of a key of nominal.toml; empty if there is no such key. `path`: "table.key", or "key" at the top
 // of the file.
 std::string_view meaning_of_key(std::string_view path);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/campaign/implausible.hpp"
 
@@ -18,10 +20,26 @@ constexpr double kShareOfPeak = 0.01;  // A smaller force at no contact changes 
 constexpr double kLeastTravel_m = 1e-4;
 constexpr double kLeastHole_m = 5e-3;
 
+// Mass of the effect load_cell.inertia; 0: none is stated.
+double mass_below_cell_kg(const Belief& belief) {
+  const auto& effects =
+      std::visit([](const auto& plant) -> const BeliefEffects& { return plant.effects; }, belief);
+  const auto effect = effects.find("load_cell.inertia[force_N]");
+  if (effect == effects.end()) return 0.0;
+  const auto mass = effect->second.find("mass_kg");
+  return mass == effect->second.end() ? 0.0 : mass->second;
+}
+
 // Force before the first row below the surface.
 struct Idle {
   double mean_N = 0.0, sd_N = 0.0;
   std::size_t rows = 0;
+};
+
+// Downward acceleration of the foot above the surface.
+struct Fall {
+  double accel_mps2 = 0.0, sd_mps2 = 0.0;
+  bool is_clear() const { return accel_mps2 > kClear * sd_mps2; }
 };
 
 // Depth and force in the rows that have both.
@@ -32,7 +50,22 @@ struct Push {
       if (std::isnan(z[i]) || std::isnan(force[i])) continue;
       depth_m.push_back(-z[i]);
       force_N.push_back(force[i]);
+      if (recording.has_time) t_s.push_back(recording.t_s[i]);
     }
+  }
+
+  // Least squares of depth = a + b t + 1/2 g t^2 over the rows above the surface.
+  std::optional<Fall> fall() const {
+    const auto n = static_cast<Eigen::Index>(idle(0.0).rows);
+    if (n < static_cast<Eigen::Index>(kFewestAbove) || t_s.empty()) return std::nullopt;
+    const Eigen::ArrayXd t = Eigen::Map<const Eigen::ArrayXd>(t_s.data(), n) - t_s.front();
+    const Eigen::VectorXd depth = Eigen::Map<const Eigen::VectorXd>(depth_m.data(), n);
+    Eigen::MatrixXd by(n, 3);
+    by << Eigen::VectorXd::Ones(n), t.matrix(), (0.5 * t.square()).matrix();
+    const Eigen::MatrixXd inverse = (by.transpose() * by).inverse();
+    const Eigen::VectorXd fitted = inverse * by.transpose() * depth;
+    const double variance = (depth - by * fitted).squaredNorm() / static_cast<double>(n - 3);
+    return Fall{fitted[2], std::sqrt(variance * inverse(2, 2))};
   }
 
   Idle idle(double above_m) const {
@@ -53,17 +86,20 @@ struct Push {
     return peak;
   }
 
-  // Mean force above the surface if it is clearly not zero.
-  double untared_N() const {
+  // Mean force above the surface, without that of a mass below the cell, if it is clearly not zero.
+  double untared_N(double mass_below_kg = 0.0) const {
     const Idle air = idle(0.0);
     if (air.rows < kFewestAbove) return 0.0;
-    const double error_N = air.sd_N / std::sqrt(static_cast<double>(air.rows));
-    const bool is_clear =
-        std::abs(air.mean_N) >= std::max(kClear * error_N, kShareOfPeak * peak_N(air.mean_N));
-    return is_clear ? air.mean_N : 0.0;
+    const auto falls = mass_below_kg == 0.0 ? std::nullopt : fall();
+    const Fall moves = falls.value_or(Fall{});
+    const double rest_N = air.mean_N - mass_below_kg * moves.accel_mps2;
+    const double error_N =
+        std::hypot(air.sd_N / std::sqrt(static_cast<double>(air.rows)), mass_below_kg * moves.sd_mps2);
+    const bool is_clear = std::abs(rest_N) >= std::max(kClear * error_N, kShareOfPeak * peak_N(air.mean_N));
+    return is_clear ? rest_N : 0.0;
   }
 
-  std::vector<double> depth_m, force_N;
+  std::vector<double> depth_m, force_N, t_s;  // t_s: empty for a recording without times
 };
 
 class SurfaceChecker {
@@ -91,7 +127,8 @@ class SurfaceChecker {
   }
 
   void check_zero_of_force() {
-    const double untared_N = push_.untared_N();
+    const double mass_kg = mass_below_cell_kg(trial_.belief);
+    const double untared_N = push_.untared_N(mass_kg);
     if (untared_N == 0.0) return;
     std::string cure = "tare it";
     if (const auto* column = places_.column_of("force_N")) {
@@ -99,12 +136,26 @@ class SurfaceChecker {
       tared.offset -= untared_N;
       cure = fmt::format("write {} into [columns] if it was not tared", mapping_line(tared));
     }
+    const std::string beyond =
+        mass_kg == 0.0 ? "" : fmt::format(" beyond the {:.3g} kg below the cell", mass_kg);
     add_implausible(
         recording_, places_, note, "force_N",
-        fmt::format("reads {:.3g} N on average above the surface, where nothing touches the foot: "
+        fmt::format("reads {:.3g} N on average above the surface{}, where nothing touches the foot: "
                     "that is in every force at depth, too",
-                    untared_N),
-        std::move(cure));
+                    untared_N, beyond),
+        cure + (mass_kg == 0.0 ? mass_cure(untared_N) : ""));
+  }
+
+  // A cell that was tared at rest reads m a while a mass m below it falls with a.
+  std::string mass_cure(double force_N) const {
+    const auto fall = push_.fall();
+    if (!fall || !fall->is_clear() || force_N <= 0.0) return "";
+    return fmt::format(
+        ". But the foot falls there, with {:.3g} m/s2: a cell that was tared at rest reads as much if {:.2g} "
+        "kg "
+        "hang below it. In that case write \"load_cell.inertia[force_N]\" = {{ mass_kg = {:.2g} }} into "
+        "[effects] of nominal.toml, and no offset",
+        fall->accel_mps2, force_N / fall->accel_mps2, force_N / fall->accel_mps2);
   }
 
   // Half of the depth: even a cone, whose force grows with the cube of its depth, bears more than the noise

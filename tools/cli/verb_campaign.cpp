@@ -10,9 +10,12 @@
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign_draft.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/campaign/unlisted_recordings.hpp"
+#include "tools/campaign/unstated_unloading.hpp"
 #include "tools/cli/campaign_keys.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
+#include "tools/diagnose/recordings/given_effects.hpp"
 #include "tools/plant/load_world.hpp"
 #include "tools/trial/campaign_maker.hpp"
 
@@ -45,6 +48,7 @@ nlohmann::ordered_json to_json(const UsedNumber& n) {
 
 ExitCode check(Session& session, const Options& options) {
   const auto campaign = load_campaign(options.folder);
+  sandhopper::diagnose::refuse_unknown_effects(campaign);
   std::size_t usable = 0;
   std::vector<Finding> found;
   std::set<std::string> told;  // Trials may share a finding.
@@ -55,15 +59,20 @@ ExitCode check(Session& session, const Options& options) {
   add(campaign.findings);
   const auto missing = missing_numbers(campaign);
   add(missing);
+  UnstatedUnloading unloading(campaign);
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
     const auto recording = read_trial(campaign, trial);
     add(recording.findings);
+    unloading.add(trial, recording);
     usable += recording.usable() && std::ranges::all_of(missing, [&](const Finding& number) {
                 return number.severity == FindingSeverity::note || trial.states(number.channel);
               });
     progress.at(static_cast<double>(trial.index));
   }
+  if (const auto note = unloading.finding()) add({*note});
+  add(unused_key_notes(campaign));
+  add(unlisted_recordings(campaign));
   auto findings = nlohmann::ordered_json::array();
   for (const auto& finding : found) findings.push_back(as_json(finding));
   for (const auto& line : in_lines(found, true)) session.say_line(line);
@@ -144,7 +153,11 @@ ExitCode import_files(Session& session, const Options& options) {
   try {
     draft = draft_campaign(files, plant_named(options.import_plant), folder, parts_of(options.import_names));
   } catch (const PlantNotTold& error) {
-    throw Failure(ExitCode::usage, error.what(), "'hop campaign keys PLANT' lists the channels of a plant");
+    for (const auto& line : error.seen) session.say_line(line);
+    throw Failure(ExitCode::usage, error.what(),
+                  fmt::format("nothing was written; go on with 'hop campaign import {} --plant PLANT', PLANT "
+                              "as above; 'hop campaign keys PLANT' lists its channels",
+                              fmt::join(options.files, " ")));
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::no, error.what(),
                   "name a table: rows of numbers under the names of their columns");
@@ -166,8 +179,12 @@ ExitCode import_files(Session& session, const Options& options) {
   for (const auto& line : in_lines(found, true)) session.say_line(line);
   session.say("wrote {} and nominal.toml: correct what is wrong there, then 'hop campaign check {}'",
               (folder / "campaign.toml").string(), folder.string());
-  session.result = {{"folder", folder.string()}, {"plant", name_of(draft.plant)}, {"taken_for", draft.said}};
-  return ExitCode::ok;
+  for (const auto& line : draft.wrong) session.say("wrong: {}", line);
+  session.result = {{"folder", folder.string()},
+                    {"plant", name_of(draft.plant)},
+                    {"taken_for", draft.said},
+                    {"wrong", draft.wrong}};
+  return draft.wrong.empty() ? ExitCode::ok : ExitCode::no;
 }
 
 Run set_up(Arguments& arguments) {

@@ -28,7 +28,7 @@ sandhopper_verb(calibrate "find zeros, gains and delays of the sensors, and writ
           calibrate_torque_constant.cpp
   LIBRARIES sandhopper_calibrate)
 sandhopper_verb(campaign "check or import recordings, or make a simulated campaign"
-  SOURCES campaign_keys.cpp LIBRARIES sandhopper_campaign sandhopper_trial)
+  SOURCES campaign_keys.cpp LIBRARIES sandhopper_campaign sandhopper_diagnose sandhopper_trial)
 sandhopper_verb(conceal "make campaigns in which physics is hidden, to test 'hop diagnose'"
   LIBRARIES sandhopper_benchmark)
 sandhopper_verb(config "check or show the configuration files"

@@ -27,7 +27,8 @@ const BenchTest* bench_test_of(const Effect& effect, PlantKind plant) {
 }
 
 Port port_on(PlantKind plant, Port port) {
-  return port == Port::joint && plant == PlantKind::rotary_axis ? Port::axis : port;
+  const bool is_axis = port == Port::joint || port == Port::body;
+  return is_axis && plant == PlantKind::rotary_axis ? Port::axis : port;
 }
 
 std::string port_of(const Candidate& candidate) {

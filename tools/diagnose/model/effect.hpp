@@ -57,7 +57,7 @@ struct EffectParameter {
   }
 };
 
-// Port at which an effect acts on this plant. On a rotary axis the joint is the axis itself.
+// Port at which an effect acts on this plant. On a rotary axis joint and body are the axis itself.
 Port port_on(PlantKind plant, Port port);
 
 // True if the value 0 switches off the effect or a part of it. The other parameters are shapes.

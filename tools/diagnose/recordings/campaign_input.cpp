@@ -11,11 +11,12 @@
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/setup_keys.hpp"
+#include "tools/campaign/unstated_unloading.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 #include "tools/diagnose/plants/rotary_axis/free_axis.hpp"
+#include "tools/diagnose/recordings/given_effects.hpp"
 
 namespace sandhopper::diagnose {
-namespace {
 
 PlantKind kind_of(CampaignPlant plant) {
   switch (plant) {
@@ -30,6 +31,8 @@ PlantKind kind_of(CampaignPlant plant) {
   }
   return PlantKind::hopper;
 }
+
+namespace {
 
 // Takes back channels that read_trial() left out because they stay at one value or at the end of their range,
 // if they do so in all trials. The diagnosis then finds and reports the fault.
@@ -139,6 +142,7 @@ Belief flattened(const sandhopper::Belief& belief) {
 }
 
 CampaignInput read_campaign(const Campaign& campaign) {
+  refuse_unknown_effects(campaign);
   CampaignInput input;
   input.recordings.plant = kind_of(campaign.plant);
   input.recordings.belief = flattened(campaign.belief);
@@ -146,10 +150,12 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.findings = campaign.findings;
   for (auto& note : placeholder_notes(campaign, [](std::string_view) { return true; }))
     input.findings.push_back(std::move(note));
+  UnstatedUnloading unloading(campaign);
   std::vector<std::vector<TrialRecording::Channel>> at_one_value;
   std::vector<std::optional<bool>> motor_on;
   for (const auto& described : campaign.trials) {
     const TrialRecording recording = read_trial(campaign, described);
+    unloading.add(described, recording);
     for (const auto& finding : recording.findings)  // trials that share a file repeat its findings
       if (std::ranges::find(input.findings, finding) == input.findings.end())
         input.findings.push_back(finding);
@@ -189,6 +195,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
     motor_on.push_back(described.flag("motor_enabled"));
     input.recordings.beliefs.push_back(flattened(described.belief));
   }
+  if (auto note = unloading.finding()) input.findings.push_back(std::move(*note));
   take_what_is_at_one_value(at_one_value, input.recordings.trials);
   if (input.recordings.plant == PlantKind::rotary_axis) {
     const FreeAxes free = take_free_axes(input.recordings.trials, motor_on);

@@ -1,0 +1,92 @@
+#include "tools/campaign/plant_guess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/campaign/column_guess.hpp"
+#include "tools/campaign/column_rivals.hpp"
+#include "tools/campaign/key_reference.hpp"
+
+namespace sandhopper {
+namespace {
+
+using enum CampaignPlant;
+
+struct Sign {
+  std::string_view text;
+  CampaignPlant plant;
+};
+
+// Parts of a column's name in lower case that only one plant has.
+constexpr std::array kWords{
+    Sign{"torque", rotary_axis},      Sign{"angle", rotary_axis},     Sign{"drehmoment", rotary_axis},
+    Sign{"winkel", rotary_axis},      Sign{"drehzahl", rotary_axis},  Sign{"moment", rotary_axis},
+    Sign{"force", intruder},          Sign{"sinkage", intruder},      Sign{"depth", intruder},
+    Sign{"kraft", intruder},          Sign{"tiefe", intruder},        Sign{"einsink", intruder},
+    Sign{"height", falling_body},     Sign{"altitude", falling_body}, Sign{"hoehe", falling_body},
+    Sign{"h\xC3\xB6he", falling_body}};
+
+// A unit tells more than a name. Accelerations and pressures are recorded on other plants, too.
+struct UnitSign {
+  std::string_view dimension;
+  CampaignPlant plant;
+  int votes;
+};
+constexpr std::array kUnits{
+    UnitSign{"angle", rotary_axis, 3},         UnitSign{"angular rate", rotary_axis, 3},
+    UnitSign{"torque", rotary_axis, 3},        UnitSign{"force", intruder, 3},
+    UnitSign{"acceleration", falling_body, 2}, UnitSign{"pressure", falling_body, 2}};
+
+// In the order of CampaignPlant.
+constexpr std::array<std::string_view, EnumNames<CampaignPlant>::value.size()> kNeeds{
+    "angle and current of each motor of the leg", "the depth of the plate and the force on it",
+    "a height or an acceleration", "an angle, and the torque of the drive if there is one"};
+
+std::string first_value(const std::vector<double>& values) {
+  const auto first = std::ranges::find_if(values, [](double value) { return !std::isnan(value); });
+  return first == values.end() ? "no number" : fmt::format("first value {:.9g}", *first);
+}
+
+}  // namespace
+
+std::optional<CampaignPlant> guess_plant(const CsvTable& table) {
+  for (const auto& name : table.names)
+    if (const auto plant = plant_with_channel(name)) return plant;
+  if (has_two_motors(table)) return hopper;
+  std::array<int, EnumNames<CampaignPlant>::value.size()> votes{};
+  const auto add = [&](CampaignPlant plant, int count) { votes[static_cast<std::size_t>(plant)] += count; };
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const auto unit = unit_of_column(table, i);
+    const auto lower = in_lower_case(table.names[i]);
+    for (const auto& word : kWords)
+      if (has_word(lower, word.text)) add(word.plant, 1);
+    for (const auto& sign : kUnits)
+      if (unit && unit->dimension == sign.dimension) add(sign.plant, sign.votes);
+  }
+  const auto most = std::ranges::max_element(votes);
+  if (*most == 0) return std::nullopt;
+  return static_cast<CampaignPlant>(most - votes.begin());
+}
+
+std::vector<std::string> describe_columns(const CsvTable& table) {
+  std::vector<std::string> lines{table.layout.header_line == 0
+                                     ? fmt::format("{} columns with the given names:", table.names.size())
+                                     : fmt::format("{} columns, with the names in line {}:",
+                                                   table.names.size(), table.layout.header_line)};
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const auto unit = unit_of_column(table, i);
+    lines.push_back(fmt::format("  \"{}\": {}, {}", table.names[i],
+                                unit ? "unit " + unit->text : std::string("no unit"),
+                                first_value(table.columns[i])));
+  }
+  lines.emplace_back("a plant needs these columns:");
+  for (std::size_t i = 0; i < kNeeds.size(); ++i)
+    lines.push_back(fmt::format("  --plant {:12} {}: {}", EnumNames<CampaignPlant>::value[i],
+                                meaning_of(static_cast<CampaignPlant>(i)), kNeeds[i]));
+  return lines;
+}
+
+}  // namespace sandhopper
