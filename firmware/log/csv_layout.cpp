@@ -95,8 +95,8 @@ bool is_above_names(const Lines& lines, const std::vector<LineShape>& shapes, st
   };
   for (std::size_t i = row + 1; i < shapes.size(); ++i)
     if (is_names(i)) {
-      const bool is_repeated = std::find(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(row),
-                                         lines[i]) != lines.begin() + static_cast<std::ptrdiff_t>(row);
+      const auto end = lines.begin() + static_cast<std::ptrdiff_t>(row);
+      const bool is_repeated = std::find(lines.begin(), end, lines[i]) != end;
       return !is_repeated && rows_between(i, shapes.size()) > rows_between(row, i);
     }
   return false;
@@ -369,10 +369,9 @@ class Finder {
     if (out_.encoding == TextEncoding::windows_1252)
       say("the file is Windows-1252, not UTF-8, and is read as such", stated_.encoding.has_value());
     const std::uint64_t plain = declared ? 2 : 1, at = out_.header_line;
-    const std::string above = at == plain + 1 ? "the line above is" : "the lines above are";
-    if (at > plain)
-      say("the names of the columns stand in line " + std::to_string(at) + ", " + above + " passed over",
-          stated_.header_line.has_value());
+    const std::string above = at == plain + 1 ? ", the line above is" : ", the lines above are";
+    if (at > plain && !stated_.header_line)
+      say("the names of the columns stand in line " + std::to_string(at) + above + " passed over");
     if (out_.units_line > 0)
       say("line " + std::to_string(out_.units_line) + " holds units", stated_.units_line.has_value());
     if (out_.separator == ' ') say("the columns are divided by blanks", stated_.separator.has_value());

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"
 
 namespace sandhopper {
@@ -106,6 +107,23 @@ TEST(Belief, AnUnknownSensorOrSpreadKeyIsNotedAndLeftOut) {
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_THAT(to_string(notes[0]), HasSubstr("nominal.toml:2:1: sensors.lidar_noise_m"));
   EXPECT_EQ(notes[1].severity, FindingSeverity::note);
+}
+
+TEST(Belief, ASensorKeyOfAnotherPlantIsAnsweredWithThatOfThisPlant) {
+  CampaignFolder folder;
+  folder.write("nominal.toml", "[sensors]\nlaser_noise_m = 0.01\nposition_noise_m = 0.001\n")
+      .write("campaign.toml",
+             "plant = \"intruder\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
+  const auto campaign = load_campaign(folder.path());
+  ASSERT_EQ(campaign.findings.size(), 1U);
+  EXPECT_THAT(campaign.findings[0].cure, HasSubstr("plant \"intruder\" has 'mocap_noise_m' for it"));
+  const auto unused = unused_key_notes(campaign);
+  ASSERT_EQ(unused.size(), 1U);
+  EXPECT_THAT(to_string(unused[0]),
+              HasSubstr("nominal.toml:3:1: sensors.position_noise_m: is read, but nothing "
+                        "is computed with it; plant \"intruder\" has 'mocap_noise_m'"));
+  folder.write("nominal.toml", "[sensors]\nmocap_noise_m = 0.01\nposition_noise_m = 0.001\n");
+  EXPECT_TRUE(unused_key_notes(load_campaign(folder.path())).empty());
 }
 
 TEST(Belief, ASetUpKeyOfTheSameNameTakesItsPlaceInThatTrial) {

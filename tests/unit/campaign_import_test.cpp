@@ -69,6 +69,32 @@ TEST(CampaignImport, ATableWithoutATimeIsWrongUnlessItIsAPress) {
   EXPECT_THAT(drafted(rows("depth (mm);force (N)", 2)).wrong, IsEmpty());
 }
 
+// The remarks of a draft are understood as soon as their # is taken away.
+TEST(CampaignImport, TheDraftListsWhatMayBeAvailableAndHowToStateAShare) {
+  for (const auto plant : {CampaignPlant::hopper, CampaignPlant::intruder, CampaignPlant::falling_body,
+                           CampaignPlant::rotary_axis}) {
+    CampaignFolder folder;
+    folder.write("rec.csv", rows("t_s;a", 2));
+    const auto draft = draft_campaign({folder.path() / "rec.csv"}, plant, folder.path());
+    auto campaign = draft.campaign_toml, nominal = draft.nominal_toml;
+    const auto available = campaign.find("[available]");
+    ASSERT_NE(available, std::string::npos);
+    for (auto at = campaign.find("\n# ", available); at != std::string::npos; at = campaign.find("\n# ", at))
+      campaign.erase(at + 1, 2);
+    const auto share = nominal.find("_relative = 0.02   # known to 2 %");
+    ASSERT_NE(share, std::string::npos);
+    nominal.erase(nominal.rfind("# ", share), 2);
+    folder.write("campaign.toml", campaign).write("nominal.toml", nominal);
+    const auto read = load_campaign(folder.path());
+    EXPECT_THAT(read.findings, IsEmpty()) << to_string(read.findings.front());
+    EXPECT_GE(read.available.size(), 2U);
+    const auto& spreads = std::visit(
+        [](const auto& belief) -> const auto& { return belief.key_spreads; }, read.belief);
+    ASSERT_EQ(spreads.size(), 1U) << nominal;
+    EXPECT_EQ(spreads.front().sd, 0.02);
+  }
+}
+
 TEST(CampaignImport, ATableOfWordsIsWrong) {
   std::string text = "t_s,force_N,who,rig,day\n";
   for (int i = 0; i < 20; ++i) text += fmt::format("{},{},ann,left,monday\n", i, 2 * i);

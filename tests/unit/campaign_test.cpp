@@ -7,6 +7,7 @@
 
 #include "campaign_folder.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/campaign/unlisted_recordings.hpp"
 
 namespace sandhopper {
 namespace {
@@ -50,6 +51,26 @@ TEST(Campaign, WhatCannotBeReadAtAllIsRefused) {
   EXPECT_THAT(refusal("plant = \"hopper\"\n"), HasSubstr("there is no trial"));
   EXPECT_THAT(refusal("plant = \"hopper\"\nmodel = \"gone.toml\"\n[[trial]]\nfile = \"a\"\n"),
               HasSubstr("campaign.toml:2:9: the model"));
+}
+
+TEST(Campaign, AFileOfEveryTrialBesideFilesOfTheTrialsIsRefused) {
+  const std::string every = "plant = \"intruder\"\n[every_trial]\nfile = \"a.csv\"\n";
+  EXPECT_THAT(
+      refusal(every + "[[trial]]\nfile = \"b.csv\"\n"),
+      HasSubstr("campaign.toml:3:1: key 'file' of [every_trial] is a recording that no trial would use"));
+  EXPECT_EQ(refusal(every + "[[trial]]\nselect = { from_s = 1.0 }\n"), "") << "one file for all trials";
+}
+
+TEST(Campaign, ARecordingThatNoTrialListsIsNoted) {
+  CampaignFolder folder;
+  folder.write("campaign.toml",
+               std::string(kIntrusion) + "[columns]\nforce_N = { column = \"F\", unit = \"N\" }\n");
+  for (const auto* name : {"a.csv", "b.csv"}) folder.write(name, "t_s,F\n0.0,1.0\n0.1,2.0\n0.2,3.0\n");
+  folder.write("notes.txt", "Rig of Monday\n1 a plate of 60 mm\n2 dry sand\n")
+      .write("residuals.csv", "trial,channel,t_s\na,force_N,0.1\n");
+  const auto notes = unlisted_recordings(load_campaign(folder.path()));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(to_string(notes[0]), HasSubstr("no trial lists b.csv, which lies beside the recordings"));
 }
 
 TEST(Campaign, ATrialThatCannotBeUnderstoodIsLeftOutWithItsLine) {

@@ -102,6 +102,17 @@ TEST(ForeignTable, TheNamesStandAboveTheRowsAndNotAboveTheFacts) {
   EXPECT_EQ(two.rows(), 20U);
 }
 
+TEST(ForeignTable, WhatTheOwnerStatesIsNotSaidAgain) {
+  const auto text =
+      "Rig;7\n" +
+      swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','});
+  EXPECT_THAT(told(read(text)), HasSubstr("stand in line 2, the line above is passed over; numbers have"));
+  const auto partly = told(read(text, {.campaign = "[format]\nheader_line = 2\n"}));
+  EXPECT_THAT(partly, HasSubstr("numbers have a decimal comma"));
+  EXPECT_THAT(partly, testing::Not(HasSubstr("stand in line")));
+  EXPECT_EQ(told(read(text, {.campaign = "[format]\nheader_line = 2\ndecimal = \",\"\n"})), "");
+}
+
 // Names that are repeated within a table do not make its first part facts.
 TEST(ForeignTable, AWordInEveryRowIsNoFactAboveTheNames) {
   std::string text;

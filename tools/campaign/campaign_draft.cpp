@@ -12,6 +12,7 @@
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/column_rivals.hpp"
+#include "tools/campaign/draft_setups.hpp"
 #include "tools/campaign/plant_guess.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/unit_check.hpp"
@@ -216,7 +217,7 @@ class Drafter {
         "name  = \"{}\"\nplant = \"{}\"   # hopper, intruder, falling_body or rotary_axis\nmodel = "
         "\"nominal.toml\"\n",
         files_.front().filename().string(), files_.front().stem().string(), name_of(out_.plant));
-    return text + format() + columns() + trials();
+    return text + format() + columns() + trials() + draft_available(out_.plant);
   }
 
   std::string format() const {
@@ -350,17 +351,7 @@ class Drafter {
     std::string text = "\n[every_trial]   # what holds for every trial; a [[trial]] may say otherwise\n";
     text += fmt::format("kind = \"{}\"   # {}\n", name_of(usual_kind(out_.plant)),
                         fmt::join(EnumNames<TrialKind>::value, ", "));
-    if (out_.plant == intruder)
-      text +=
-          "# plate_diameter_m = 0.05   # m\n# bed_depth_m = 0.30   # m\n# pushes_since_preparation = 0\n# "
-          "loading_from_s = 0.0   # s\n# loading_to_s = 1.0   # s\n";
-    if (out_.plant == falling_body)
-      text += "# diameter_m = 0.05   # m\n# mass_kg = 1.0   # kg\n# impact_speed_mps = 1.0   # m/s\n";
-    if (out_.plant == hopper)
-      text +=
-          "# release_height_m = 0.05   # m; the sole above the bed at the release\n"
-          "# compression_stiffness_N_per_m = 500.0   # N/m; of the virtual spring in compression\n";
-    if (out_.plant == rotary_axis) text += "# motor_enabled = false   # the axis runs free\n";
+    text += draft_setups(out_.plant);
     text +=
         "# select  = { column = \"NAME\", value = 1, from_s = 0.0, to_s = 1.0 }   # some rows of the file\n";
     text +=

@@ -35,12 +35,22 @@ class NominalWriter {
       if constexpr (HasFields<const Member>) {
         text_ += fmt::format("\n[{}]\n", key);
         write(member, std::string(key));
+        if (key == "spread") text_ += example_of_spread();
       }
     });
   }
   std::string take() { return std::move(text_); }
 
  private:
+  // A number of the plant that is known to some per cent only.
+  std::string example_of_spread() const {
+    constexpr std::array<std::string_view, EnumNames<CampaignPlant>::value.size()> kNumbers{
+        "body_mass", "added_mass_factor", "mass", "inertia"};
+    return fmt::format(
+        "# {}_relative = 0.02   # known to 2 %; any other number above likewise: its name without the unit\n",
+        kNumbers[static_cast<std::size_t>(plant_)]);
+  }
+
   template <class Member>
   void line(const std::string& table, std::string_view key, const Member& member, Range range) {
     if (key.ends_with("_name")) return;
