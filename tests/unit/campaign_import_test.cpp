@@ -5,7 +5,7 @@
 #include "campaign_folder.hpp"
 #include "tools/campaign/campaign_draft.hpp"
 
-// What `hop campaign import` prints of a file that it cannot read by itself.
+// Drafts of `hop campaign import`, and its words for a file that it cannot read by itself.
 namespace sandhopper {
 namespace {
 

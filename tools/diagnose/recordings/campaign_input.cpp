@@ -105,6 +105,20 @@ bool is_locked_only(const CampaignTrial& trial) {
   return axis != nullptr && axis->axis.inertia_kg_m2 == 0.0 && trial.kind != TrialKind::clamped;
 }
 
+void take_trial(const CampaignTrial& described, const TrialRecording& recording, Recordings& recordings) {
+  Trial trial;
+  trial.name = std::filesystem::path(described.name).stem().string();
+  trial.kind = name_of(described.kind);
+  for (const auto& entry : described.setup)
+    if (const auto* number = std::get_if<double>(&entry.value))
+      trial.setup[entry.key] = *number;
+    else if (const auto* word = std::get_if<std::string>(&entry.value))
+      recordings.words[entry.key].insert(*word);
+  trial.time_s = recording.t_s;
+  for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
+  recordings.trials.push_back(std::move(trial));
+}
+
 void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInput& input) {
   const auto tell = [&](std::string what, std::string cure) {
     input.findings.push_back({.kind = FindingKind::set_up,
@@ -180,17 +194,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
       ++input.unusable;
       continue;
     }
-    Trial trial;
-    trial.name = std::filesystem::path(described.name).stem().string();
-    trial.kind = name_of(described.kind);
-    for (const auto& entry : described.setup)
-      if (const auto* number = std::get_if<double>(&entry.value))
-        trial.setup[entry.key] = *number;
-      else if (const auto* word = std::get_if<std::string>(&entry.value))
-        input.recordings.words[entry.key].insert(*word);
-    trial.time_s = recording.t_s;
-    for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
-    input.recordings.trials.push_back(std::move(trial));
+    take_trial(described, recording, input.recordings);
     at_one_value.push_back(recording.at_one_value);
     motor_on.push_back(described.flag("motor_enabled"));
     input.recordings.beliefs.push_back(flattened(described.belief));
