@@ -45,7 +45,7 @@ class NominalWriter {
   // A number of the plant that is known to some per cent only.
   std::string example_of_spread() const {
     constexpr std::array<std::string_view, EnumNames<CampaignPlant>::value.size()> kNumbers{
-        "body_mass", "added_mass_factor", "mass", "inertia"};
+        "body_mass", "bulk_density", "mass", "inertia"};
     return fmt::format(
         "# {}_relative = 0.02   # known to 2 %; any other number above likewise: its name without the unit\n",
         kNumbers[static_cast<std::size_t>(plant_)]);
