@@ -37,9 +37,11 @@ void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   const double sd_m = in_crater ? prior_.landing_depth_sd_m : prior_.surface_sd_m;
   if (!in_crater) {
     kept_errors_.with_depth = {};
+    kept_errors_.of_earlier_surface = kept_errors_.of_surface;
     kept_errors_.variance_m2 = 0.0;
   }
   kept_errors_.variance_m2 += sd_m * sd_m;
+  if (!in_crater) kept_errors_.variance_m2 += prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
 }
 
 // Covariance of D at two times, each with the change of speed since contact.
@@ -77,12 +79,16 @@ double ProfileSolver::wander_m2(const ProfileCell& cell) const noexcept {
 }
 
 // Adds the covariance of this stride's part of the moments. Its d has a covariance with those of the strides
-// before; x and l are independent of everything.
+// before, and shares a part with those of other places; l is the same in all; x is independent of everything.
 void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   errors_ = kept_errors_;
   const auto& with = kept_errors_.with_depth;
   const auto covariance = depth_covariance(info);
-  Vector<kTerms> all{};  // change of the moment for a unit of d
+  const double surface_m2 = prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
+  const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
+  const auto& surface_before = kept_errors_.of_earlier_surface;
+  const auto& lag_before = kept_errors_.of_lag;
+  Vector<kTerms> all{}, lag{};  // change of the moment for a unit of d, and of l
   for (std::size_t s = 0; s < kProfileCells; ++s) {
     if (info.depth_normal[s] == 0.0) continue;
     Vector<kTerms> row{};  // covariance of the moment's change and D of this cell
@@ -91,12 +97,20 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
         row[i] += covariance[s * kProfileCells + t] * info.of_depth[t][i];
     for (std::size_t i = 0; i < kTerms; ++i) {
       all[i] += info.of_depth[s][i];
+      lag[i] += info.change_mps[s] * info.of_depth[s][i];
       for (std::size_t j = 0; j < kTerms; ++j) errors_.moment[i * kTerms + j] += info.of_depth[s][i] * row[j];
     }
   }
   for (std::size_t i = 0; i < kTerms; ++i)
     for (std::size_t j = 0; j < kTerms; ++j)
-      errors_.moment[i * kTerms + j] += with[i] * all[j] + all[i] * with[j];
+      errors_.moment[i * kTerms + j] +=
+          with[i] * all[j] + all[i] * with[j] +
+          surface_m2 * (surface_before[i] * all[j] + all[i] * surface_before[j]) +
+          lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]);
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    errors_.of_surface[i] += all[i];
+    errors_.of_lag[i] += lag[i];
+  }
 }
 
 // Covariance with D at the deepest point, where the next stride begins.
@@ -129,7 +143,7 @@ void ProfileSolver::keep(const Information& info) noexcept {
               ? 0.0
               : info.normal[i * kTerms + j] - gain[i] * info.normal[kFriction * kTerms + j];
   for (Vector<kTerms>& response : response_) reduce(response);
-  reduce(errors_.with_depth);
+  for (auto* change : {&errors_.with_depth, &errors_.of_surface, &errors_.of_lag}) reduce(*change);
   for (int side = 0; side < 2; ++side)  // rows, then, after the transposition, columns
     for (std::size_t i = 0; i < kTerms; ++i) {
       Vector<kTerms> row;

@@ -33,6 +33,8 @@
 // F' in B is taken from the previous posterior, in three passes.
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
+// The lag, and a part of d, are the same on all places: contact is detected later on soft ground and at low
+// speed. No number of strides averages them out, so S holds their products between strides.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
 // distribution (variances by expectation maximisation), and a cell that the curve does not fit at a level of
 // 1 % over all strides gets less weight and a wider band. The band of one place includes the bed's own
@@ -142,7 +144,8 @@ class ProfileSolver {
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
   // Force at a depth; NaN beyond the last cell. `narrowable` leaves out of the band the curve's variation
-  // within a cell, such as that of a crust or a sharp boundary: no stride narrows it.
+  // within a cell, such as that of a crust or a sharp boundary, and the errors that all strides share: no
+  // stride narrows them.
   enum class Band { whole, narrowable };
   ProfilePoint force_N(double depth_m, Band band = Band::whole) const noexcept;
 
@@ -165,7 +168,11 @@ class ProfileSolver {
   struct DepthErrors {
     Matrix<kTerms> moment{};      // S
     Vector<kTerms> with_depth{};  // covariance of the moment's change and D
-    double variance_m2 = 0.0;     // of D
+    // Change of the moment, over all strides, for a unit of the surface's error that all places share, and of
+    // l.
+    Vector<kTerms> of_surface{}, of_lag{};
+    Vector<kTerms> of_earlier_surface{};  // the same of the places before this one
+    double variance_m2 = 0.0;             // of D
   };
   Information information_of(const ProfileSums& sums) const noexcept;
   void add_stride_prior(Information& information) const noexcept;
@@ -198,6 +205,7 @@ class ProfileSolver {
   double scatter_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
   ProfilePoint tangent_N_per_m(std::size_t cell) const noexcept;
   double slope_change_squared(std::size_t cell) const noexcept;
+  double shared_variance_N2(const Vector<kTerms>& of_force) const noexcept;
   double residual_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
 
   // Sums over the strides in a cell [observations, N^2]: squared residuals, and their expectation.

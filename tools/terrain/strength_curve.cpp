@@ -20,7 +20,8 @@ constexpr std::size_t kFewestLoadingSamples = 10;
 StiffnessConfig in_units(StiffnessConfig config, double unit) {
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
-  for (double* length : {&profile.depth_noise_m, &profile.surface_sd_m, &profile.filter_sd_m})
+  for (double* length :
+       {&profile.depth_noise_m, &profile.surface_sd_m, &profile.shared_surface_sd_m, &profile.filter_sd_m})
     *length /= unit;
   config.profile = profile;
   auto& joint = config.joint;
@@ -43,9 +44,13 @@ double unit_for(double deepest_m) {
 
 StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFacts& facts) {
   StiffnessConfig config;
-  // Errors of a press's depth. It is measured, so it has no error of a filter that integrates accelerations.
-  ProfileConfig profile{
-      .surface_sd_m = 0.0007, .filter_sd_m = 1e-9, .depth_lag_sd_s = 0.0005, .depth_noise_m = 0.0003};
+  // Errors of a press's depth. It is measured, so it has no error of a filter that integrates accelerations,
+  // and none of a contact that is detected late.
+  ProfileConfig profile{.surface_sd_m = 0.0007,
+                        .shared_surface_sd_m = 0.0,
+                        .filter_sd_m = 1e-9,
+                        .depth_lag_sd_s = 0.0005,
+                        .depth_noise_m = 0.0003};
   const auto& last = loading.back();
   const double mean_slope = last.force_N / last.depth_m;
   profile.believed_stiffness_N_per_m =
