@@ -39,6 +39,18 @@ function firstScreen(browser) {
   }));
 }
 
+// Largest number of lines of a sentence in the table of what was found.
+function linesOfSentences(browser) {
+  return browser.run(() => {
+    const title = [...document.querySelectorAll('section h2')].find(heading => heading.textContent === 'What was found');
+    return Math.max(...[...title.parentElement.querySelectorAll('td[data-name="what it says"]')].map(cell => {
+      const words = document.createRange();
+      words.selectNodeContents(cell);
+      return new Set([...words.getClientRects()].map(line => Math.round(line.top))).size;
+    }));
+  });
+}
+
 async function check(browser, layout, campaign, i) {
   const said = JSON.parse(execFileSync(hop, ['diagnose', campaign, '--output', join(scratch, `answer${i}`), '--json'], { stdio: ['ignore', 'pipe', 'ignore'] }));
   const page = join(scratch, `answer${i}`, 'diagnosis.html');
@@ -55,6 +67,7 @@ async function check(browser, layout, campaign, i) {
     assert.doesNotMatch(box.text, /NaN|undefined|null|inf\b/);
   }
   for (const effect of said.effects.slice(0, 2)) assert.ok(boxes[1].text.includes(effect.statement), effect.id);
+  if (said.effects.length) assert.ok(await linesOfSentences(browser) <= 4, 'a sentence of "What was found" is squeezed into a narrow column');
   if (said.effects.length === 1) assert.ok(italics > 0, 'the equation is not set');
   if (said.verdict === 'consistent') assert.match(boxes[0].lead, /Nowhere/);
   assert.ok(boxes[4].text.length > 20, 'nothing is said of the next trial');

@@ -289,6 +289,43 @@ TEST(Diagnose, ItsResidualsAreTheErrorsItReports) {
   }
 }
 
+// True noise: 5e-4 rad.
+TEST(DiagnoseNoise, ASensorThatIsWorseThanStatedIsReportedAndAStatedOneIsNot) {
+  const auto none = [](double, double, double) { return 0.0; };
+  auto recordings = swings(none);
+  const auto of_position = [](const Diagnosis& d) {
+    return *std::ranges::find(d.noise, "position_rad", &SensorNoise::channel);
+  };
+  const auto stated = of_position(diagnose(recordings));
+  EXPECT_FALSE(stated.is_raised);
+  EXPECT_NEAR(stated.times(), 1.0, 0.15);
+  for (auto& belief : recordings.beliefs) belief.numbers["sensors.position_noise_rad"] = 2.5e-4;
+  const auto d = diagnose(recordings);
+  const auto noise = of_position(d);
+  EXPECT_TRUE(noise.is_raised && noise.is_sensor_worse);
+  EXPECT_NEAR(noise.times(), 2.0, 0.3);
+  const auto json = to_json(d)["sensor_noise"][0];
+  EXPECT_EQ(json["stated"], 2.5e-4);
+  EXPECT_TRUE(json["raised"]);
+}
+
+// Friction that changes its sign at once, where the narrowest change that is looked for takes 0.008 rad/s.
+TEST(DiagnoseLimits, AnEstimateAtTheEndOfItsRangeIsMarkedOnlyIfMoreMayLieBeyond) {
+  const auto d = diagnose(swings([](double, double v, double) {
+    return v > 0.0 ? -0.3 : v < 0.0 ? 0.3 : 0.0;
+  }));
+  ASSERT_FALSE(d.effects.empty());
+  std::size_t marked = 0;
+  for (const auto& p : d.effects.front().parameters) {
+    EXPECT_NEAR(p.value, p.limit.value_or(p.value), 1e-6) << p.name;
+    marked += p.limit.has_value();
+  }
+  EXPECT_EQ(d.effects.front().id, "axis.coulomb");
+  EXPECT_EQ(marked, 1u);
+  const EffectParameter share{.is_whole_range = true};
+  EXPECT_TRUE(share.at_high(1.0) && share.at_low(0.0) && !share.at_low(0.5));
+}
+
 TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
   const auto json =
       to_json(diagnose(drops([](double, double, double v) { return -0.003 * std::abs(v) * v; }, 1, 6)));

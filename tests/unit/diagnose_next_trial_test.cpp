@@ -48,7 +48,7 @@ TEST(DiagnoseNextTrial, TellsAnErrorOfTheMassFromDragByAPayload) {
   for (std::size_t i = 0; i < d.next.time_s.size(); ++i)
     apart = std::max(apart, std::abs(d.next.by_first[i] - d.next.by_second[i]));
   // Hundreds of samples decide together; a single sample need not.
-  EXPECT_GT(apart, 0.3 * d.next.floor);
+  EXPECT_GT(apart, 0.3 * d.next.noise);
 }
 
 // A lab without weights gets the set-up that would help as information, not as a proposal to buy one.

@@ -46,5 +46,54 @@ TEST(DiagnosisText, AnEffectThatIsMoreLikelyNotThereIsAGuessInTheHeadline) {
   EXPECT_EQ(headline(d), "Something is missing: perhaps axis.viscous.");
 }
 
+Diagnosis with_noise(double stated, double measured, double used) {
+  Diagnosis d;
+  d.noise = {{.channel = "position_rad",
+              .stated = stated,
+              .said_by = stated > 0.0 ? "nominal.toml, line 5" : "",
+              .measured = measured,
+              .used = used,
+              .is_raised = true,
+              .is_sensor_worse = stated > 0.0 && measured > stated}};
+  return d;
+}
+
+// A stranger found only in the log of the search that the noise had been raised.
+TEST(DiagnosisText, ARaisedNoiseStandsWithItsSizesAndWhatItMeans) {
+  const auto remainder = to_text(with_noise(0.1, 0.1, 0.21));
+  EXPECT_THAT(
+      remainder,
+      HasSubstr("noise  position_rad: 0.21 rad, 2.1 times the 0.1 rad stated (nominal.toml, line 5)"));
+  EXPECT_THAT(remainder, HasSubstr("the model leaves a remainder"));
+  const auto worse = to_text(with_noise(0.1, 0.2, 0.21));
+  EXPECT_THAT(worse, HasSubstr("the sensor is worse than stated"));
+  EXPECT_THAT(to_text(with_noise(0.0, 0.1, 0.21)), HasSubstr("2.1 times the 0.1 rad by which it scatters"));
+  auto usual = with_noise(0.1, 0.1, 0.11);
+  usual.noise.front().is_raised = false;
+  EXPECT_THAT(to_text(usual), Not(HasSubstr("noise  position_rad")));
+}
+
+// "1.0 times the noise floor" beside "missing_physics" looks like a contradiction.
+TEST(DiagnosisText, AFindingBelowTheNoiseFloorIsExplained) {
+  auto d = unknown(1.0, 0.4);
+  d.verdict = Verdict::missing_physics;
+  d.fits.front().noise = 0.5;
+  d.effects = {found("terrain.depth_power_law", 0.98)};
+  EXPECT_THAT(to_text(d), HasSubstr("noise floor 1, noise of a sample 0.5"));
+  EXPECT_THAT(to_text(d), HasSubstr("No channel's error is clearly above its noise floor"));
+  d.fits.front().heldout.before = 1.4;
+  EXPECT_THAT(to_text(d), Not(HasSubstr("No channel's error")));
+}
+
+TEST(DiagnosisText, AParameterAtItsLimitIsMarked) {
+  Diagnosis d;
+  d.verdict = Verdict::missing_physics;
+  d.effects = {found("sensor.lag", 0.9)};
+  EXPECT_THAT(to_text(d), Not(HasSubstr("at its limit")));
+  d.effects.front().parameters = {
+      {.name = "bandwidth_Hz", .value = 60.0, .low = 40.0, .high = 60.0, .limit = 60.0}};
+  EXPECT_THAT(to_text(d), HasSubstr("at its limit of 60 Hz: the true value may lie beyond"));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct FoundParameter {
   double low = 0.0, high = 0.0;  // 95 % interval
   bool derived = false;          // Says the same as another parameter in another way, or as a change.
   bool is_change = false;        // Change of the parameter before it against the belief.
+  // Limit of its range at which the estimate lies. Empty: it lies within, or nothing lies beyond the limit.
+  std::optional<double> limit{};
+
+  std::string limit_in_words() const;  // "at its limit of 60 Hz: the true value may lie beyond"; or empty
 };
 
 // One effect of the answer: listed, unknown ("unknown@PORT"), or a fault of the data.
@@ -65,6 +70,21 @@ struct ErrorBeforeAfter {
   double before = 0.0, after = 0.0;
 };
 
+// Standard deviation of one sample of a channel, in the channel's unit.
+struct SensorNoise {
+  std::string channel;
+  double stated = 0.0;     // by the belief; 0: not stated
+  std::string said_by{};   // source of the stated value: a file and line, or a default
+  double measured = 0.0;   // from the fast fluctuation, from sample to sample
+  double used = 0.0;       // by the fit: what the residuals show beside what was found, without model error
+  bool is_raised = false;  // `used` is more than the sensor's own noise
+  bool is_sensor_worse = false;  // raised, and `measured` alone exceeds `stated`
+
+  double own() const { return stated > 0.0 ? stated : measured; }
+  double times() const { return used / own(); }
+  std::string in_words() const;  // the sizes, the factor, and what it means for the answer
+};
+
 // "5.3 times the noise floor before, 0.7 after"
 std::string times_the_floor(const ErrorBeforeAfter& error, double floor);
 // "0.97 times the noise floor".
@@ -74,7 +94,8 @@ std::string times_the_floor(double error, double floor);
 struct ChannelFit {
   std::string channel;
   ErrorBeforeAfter train, heldout;
-  double floor = 0.0;
+  double floor = 0.0;  // Noise, model error and the uncertainty of recorded inputs, over the rows.
+  double noise = 0.0;  // Noise alone: standard deviation of one sample.
 };
 
 // RMS errors on held-out trials in one phase, and the noise floor of that phase, in the channel's unit.
@@ -162,7 +183,7 @@ struct NextTrial {
   // Predictions by two explanations; empty if there is only one.
   std::string channel;
   std::string first, second;
-  double floor = 0.0;
+  double noise = 0.0;  // standard deviation of one sample
   std::vector<double> time_s, by_first, by_second;
 
   bool is_recommended() const { return !purpose.empty(); }
@@ -187,6 +208,7 @@ struct Diagnosis {
   std::vector<FoundEffect> effects;
   double gap_closed = 1.0;       // By listed effects: fraction of the explainable deviance.
   std::vector<ChannelFit> fits;  // largest error over noise floor first
+  std::vector<SensorNoise> noise;
   std::vector<Bound> absent;
   std::vector<BelievedNumber> belief;
   std::vector<UnknownForce> unknown;

@@ -39,6 +39,7 @@ Json effect_json(const FoundEffect& e) {
   Json parameters = Json::object();
   const auto put = [&](const FoundParameter& p) {
     parameters[p.name] = {{"value", p.value}, {"ci95", {p.low, p.high}}};
+    if (p.limit) parameters[p.name]["at_limit"] = *p.limit;
   };
   for (std::size_t i = 0; i < e.parameters.size(); ++i) {
     if (i + 1 < e.parameters.size() && e.parameters[i + 1].is_change) put(e.parameters[i + 1]);
@@ -59,7 +60,15 @@ Json effect_json(const FoundEffect& e) {
 Json fit_json(const ChannelFit& f) {
   Json held_out = before_after(f.heldout);
   held_out["floor"] = f.floor;
+  held_out["noise"] = f.noise;
   return {{"channel", f.channel}, {"train", before_after(f.train)}, {"heldout", held_out}};
+}
+
+Json noise_json(const SensorNoise& n) {
+  return {{"channel", n.channel},  {"stated", n.stated > 0.0 ? Json(n.stated) : Json(nullptr)},
+          {"said_by", n.said_by},  {"from_sample_to_sample", n.measured},
+          {"used", n.used},        {"times", n.times()},
+          {"raised", n.is_raised}, {"meaning", n.is_raised ? Json(n.in_words()) : Json(nullptr)}};
 }
 
 Json next_json(const NextTrial& next) {
@@ -121,6 +130,7 @@ Json to_json(const Diagnosis& d) {
   json["detail"] = d.detail == Detail::none ? Json(nullptr) : Json(name_of(d.detail));
   json["noise_floor"] = Json::object();
   for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
+  json["sensor_noise"] = list_of(d.noise, noise_json);
   json["where"] = list_of(d.where, where_json);
   json["effects"] = list_of(d.effects, effect_json);
   if (!d.stopped_in.empty()) json["stopped_by_limit_in"] = d.stopped_in;

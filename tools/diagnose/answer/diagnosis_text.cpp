@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "tools/diagnose/discrepancy/left_over.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
@@ -28,8 +29,8 @@ std::string effect_text(const FoundEffect& e) {
       fmt::format("{} {} (probability {:.2f}): {}\n       {}\n", e.may_be_zero() ? "maybe " : "what  ", e.id,
                   e.probability, e.statement, e.equation);
   for (const auto& p : e.parameters)
-    text +=
-        fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}\n", p.name, p.value, p.low, p.high);
+    text += fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}{}{}\n", p.name, p.value, p.low,
+                        p.high, p.limit ? "; " : "", p.limit_in_words());
   if (e.may_be_zero()) text += "       suspected, not found: its 95 % interval holds zero\n";
   if (!e.indistinguishable_from.empty())
     text += fmt::format("       cannot be told apart on these recordings from {}\n",
@@ -48,9 +49,11 @@ std::string where_text(const Where& w) {
 
 std::string error_text(const ChannelFit& f) {
   const auto unit = quantity_of(f.channel).unit;
-  return fmt::format("error  {}: {} on held-out trials (rms {:.4g} and {:.4g}, floor {:.4g}{}{})\n",
-                     f.channel, times_the_floor(f.heldout, f.floor), f.heldout.before, f.heldout.after,
-                     f.floor, unit.empty() ? "" : " ", unit);
+  return fmt::format(
+      "error  {}: {} on held-out trials (rms {:.4g} and {:.4g}; noise floor {:.4g}, noise of a sample "
+      "{:.4g}{}{})\n",
+      f.channel, times_the_floor(f.heldout, f.floor), f.heldout.before, f.heldout.after, f.floor, f.noise,
+      unit.empty() ? "" : ", all in ", unit);
 }
 
 std::string next_text(const NextTrial& next) {
@@ -99,9 +102,8 @@ std::string NextTrial::reason() const {
 }
 
 std::string Where::share_in_words() const {
-  return fmt::format(
-      "{:.0f} % of {}", 100.0 * share_of_excess,
-      unexplained ? "the squared error above the noise floor" : "the change by what was found");
+  return fmt::format("{:.0f} % of {}", 100.0 * share_of_excess,
+                     unexplained ? "the squared error above the noise" : "the change by what was found");
 }
 
 std::string Where::phase_in_words() const {
@@ -110,7 +112,6 @@ std::string Where::phase_in_words() const {
   return phase == "late" ? "the last third" : in_words(phase);
 }
 
-// Two digits: "1.0", "12", "0.74".
 std::string two_digits(double value) {
   auto text = fmt::format("{:.2g}", value);
   return text.size() == 1 && text != "0" ? text + ".0" : text;
@@ -123,6 +124,34 @@ std::string times_the_floor(const ErrorBeforeAfter& error, double floor) {
 
 std::string times_the_floor(double error, double floor) {
   return fmt::format("{} times the noise floor", two_digits(error / floor));
+}
+
+std::string FoundParameter::limit_in_words() const {
+  if (!limit) return "";
+  return fmt::format("at its limit of {}: the true value may lie beyond",
+                     measured(*limit, quantity_of(name).unit));
+}
+
+std::string SensorNoise::in_words() const {
+  const auto unit = quantity_of(channel).unit;
+  std::string text = diagnose::measured(used, unit);
+  if (stated > 0.0)
+    text += fmt::format(", {} times the {} stated{}. From sample to sample it scatters by {}: ",
+                        two_digits(times()), diagnose::measured(stated, unit),
+                        said_by.empty() ? "" : " (" + said_by + ")", diagnose::measured(measured, unit));
+  else
+    text += fmt::format(", {} times the {} by which it scatters from sample to sample: ", two_digits(times()),
+                        diagnose::measured(measured, unit));
+  text += is_sensor_worse ? "the sensor is worse than stated."
+                          : "the rest is slow, so the model leaves a remainder, or the sensor drifts.";
+  return text + " Errors, intervals and bounds rest on the larger noise.";
+}
+
+std::string below_the_floor(const Diagnosis& d) {
+  const auto is_low = [](const ChannelFit& f) { return f.heldout.before < kMoreThanNoise * f.floor; };
+  if (d.effects.empty() || d.detail == Detail::data_fault || !std::ranges::all_of(d.fits, is_low)) return "";
+  return "No channel's error is clearly above its noise floor before: what was found shows in the course of "
+         "the errors, which is alike in all trials, and not in their size.";
 }
 
 std::string headline(const Diagnosis& d) {
@@ -174,6 +203,9 @@ std::string to_text(const Diagnosis& d) {
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
   for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);
+  if (const auto below = below_the_floor(d); !below.empty()) text += "       " + below + "\n";
+  for (const auto& noise : d.noise)
+    if (noise.is_raised) text += fmt::format("noise  {}: {}\n", noise.channel, noise.in_words());
   text += next_text(d.next) + absent_text(d.absent);
   for (const auto& note : d.notes) text += "note   " + note + "\n";
   text += fmt::format("{} simulations in {:.1f} s ({:.0f} a second)", d.simulations, d.seconds,

@@ -12,6 +12,11 @@ std::string headline(const Diagnosis& diagnosis);
 // empty if the search was complete.
 std::string limit_text(const Diagnosis& diagnosis);
 
+// Says why something is found although no channel's error is clearly above its noise floor; empty otherwise.
+std::string below_the_floor(const Diagnosis& diagnosis);
+
+std::string two_digits(double value);  // "1.0", "12", "0.74"
+
 double simulations_per_second(const Diagnosis& diagnosis);
 
 // The answer as text: verdict, effects, places, errors before and after, next trial, the widest bounds,

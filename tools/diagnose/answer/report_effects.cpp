@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
@@ -77,6 +78,14 @@ FoundParameter amplitude_of(const Candidate& candidate, const std::vector<double
   return {sine.amplitude_name, amplitude, std::max(0.0, amplitude - half), amplitude + half, true};
 }
 
+// Limit of a parameter's range at which its value lies, as reported, if more could lie beyond it. A size that
+// cannot be negative has no value beyond 0.
+std::optional<double> limit_of(const EffectParameter& p, double value) {
+  if (p.is_whole_range || p.scale == 0.0 || (!p.at_low(value) && !p.at_high(value))) return {};
+  const double limit = p.reported(p.at_high(value) ? p.high : p.low);
+  return limit == 0.0 || !std::isfinite(limit) ? std::nullopt : std::optional(limit);
+}
+
 // Fitted parameters of one effect with their 95 % intervals. `at`: row of its first parameter in the
 // covariance.
 std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std::vector<double>& values,
@@ -88,6 +97,7 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
     const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
     FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
                        p.reported(std::min(p.high, value + half)), false};
+    out.limit = limit_of(p, value);
     if (p.scale == 0.0) {  // A limit is read from the data; assume an error of 1/1000.
       const double within = p.resolution + 1e-3 * std::abs(out.value);
       out.low = out.value - within;

@@ -56,6 +56,7 @@ void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis
     fit.train = {before.by_channel.rms(c), after.by_channel.rms(c)};
     fit.heldout = {before.by_channel.rms(c), held_out.by_channel.rms(c)};
     fit.floor = floor.by_channel.rms(c);
+    fit.noise = problem.noise.channel(c).sd();
     diagnosis.noise_floor[fit.channel] = fit.floor;
     diagnosis.fits.push_back(fit);
     for (std::size_t p = 0; p < problem.phases.size(); ++p) {
@@ -69,6 +70,23 @@ void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis
   std::sort(diagnosis.fits.begin(), diagnosis.fits.end(), [](const ChannelFit& a, const ChannelFit& b) {
     return a.heldout.before / std::max(a.floor, 1e-300) > b.heldout.before / std::max(b.floor, 1e-300);
   });
+}
+
+void report_noise(const Problem& problem, Diagnosis& diagnosis) {
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const auto& channel = problem.channels[c];
+    if (!problem.context.has(channel)) continue;
+    SensorNoise noise{.channel = channel,
+                      .stated = believed_noise(problem.context.belief, channel),
+                      .measured = problem.floor_sd[c],
+                      .used = problem.noise.channel(c).sd()};
+    for (const auto& number : diagnosis.belief)
+      if (noise.stated > 0.0 && number.key == noise_key(channel)) noise.said_by = number.said_by;
+    noise.is_raised = noise.used > kQuietChannel * std::max(noise.stated, noise.measured) ||
+                      (noise.stated > 0.0 && noise.times() > kQuietChannel);
+    noise.is_sensor_worse = noise.stated > 0.0 && noise.measured > kQuietChannel * noise.stated;
+    diagnosis.noise.push_back(std::move(noise));
+  }
 }
 
 }  // namespace sandhopper::diagnose

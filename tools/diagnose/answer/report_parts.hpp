@@ -39,6 +39,8 @@ void report_broken_rules(const std::vector<BrokenRule>& rules, Diagnosis& diagno
 // Faults of the data (stuck, lost, clipped samples). They also change the verdict if nothing else was found.
 void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnosis);
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
+// Noise of each sensor: stated, measured, and as the fit uses it.
+void report_noise(const Problem& problem, Diagnosis& diagnosis);
 // Nuisance parameters before and after, over the trials.
 void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis);
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);

@@ -146,14 +146,13 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
 }
 
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
-  constexpr double kQuiet = 1.3;  // ratio to the sensor's own noise
   const auto ports = problem.plant->free_ports(problem.context);
   if (ports.size() != 1) return;
   if (const auto quiet = problem.plant->quiet_phase())
     for (std::size_t c = 0; c < problem.channels.size(); ++c)
       if (problem.context.has(problem.channels[c]) &&
           problem.noise.channel(c).sd_of_phase[*quiet] >
-              kQuiet *
+              kQuietChannel *
                   std::max(believed_noise(problem.context.belief, problem.channels[c]), problem.floor_sd[c]))
         return;
   const auto port = ports.front().port.substr(0, ports.front().port.find('.'));

@@ -17,7 +17,7 @@ constexpr double kTrialsThatLean = 12.0;
 
 }  // namespace
 
-double believed_noise(const Belief& belief, const std::string& channel) {
+std::string noise_key(const std::string& channel) {
   static const std::map<std::string, std::string> kKeys{{"height_m", "height_noise_m"},
                                                         {"accel_mps2", "accel_noise_mps2"},
                                                         {"position_rad", "position_noise_rad"},
@@ -29,7 +29,12 @@ double believed_noise(const Belief& belief, const std::string& channel) {
                                                         {"imu_foot_accel_z_mps2", "imu_noise_mps2"},
                                                         {"load_cell_force_N", "load_cell_noise_N"}};
   const auto it = kKeys.find(channel);
-  return it == kKeys.end() ? 0.0 : belief.value("sensors." + it->second);
+  return it == kKeys.end() ? "" : "sensors." + it->second;
+}
+
+double believed_noise(const Belief& belief, const std::string& channel) {
+  const auto key = noise_key(channel);
+  return key.empty() ? 0.0 : belief.value(key);
 }
 
 double noise_over_sensors(const Problem& problem) {
@@ -82,9 +87,9 @@ LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& 
 }
 
 std::optional<LoudChannel> loudest_channel(const Problem& problem) {
-  // `kLoud`: ratio above which a channel is reported. `kQuiet`: ratio below which a channel shows nothing.
+  // `kLoud`: ratio above which a channel is reported.
   // `kSmooth`: innovation / total standard deviation of an acceleration that changes slowly.
-  constexpr double kLoud = 4.5, kQuiet = 1.3, kSmooth = 0.6;
+  constexpr double kLoud = 4.5, kSmooth = 0.6;
   std::optional<LoudChannel> loudest;
   std::size_t loud_index = 0;
   std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
@@ -115,7 +120,7 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
   if (!quiet_phase && !accelerates) {
     times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
     std::erase(times, 0.0);  // Drop channels without a stated noise.
-    sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuiet; });
+    sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuietChannel; });
   }
   const auto ports = problem.plant->free_ports(problem.context);
   if (!sensor_alone && !ports.empty())

@@ -10,6 +10,11 @@
 // estimated from residuals, so it may have absorbed a missing effect; the deviance cannot show that.
 namespace sandhopper::diagnose {
 
+// Ratio of a channel's fitted noise to the sensor's own below which the channel shows nothing.
+inline constexpr double kQuietChannel = 1.3;
+
+// Key of nominal.toml that states the channel's noise; empty if there is none.
+std::string noise_key(const std::string& channel);
 // Standard deviation of the channel's noise as stated in the belief, in the channel's unit; 0 if not stated.
 double believed_noise(const Belief& belief, const std::string& channel);
 

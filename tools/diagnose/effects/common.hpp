@@ -60,7 +60,12 @@ inline double onset_of(std::span<const double> values) { return values.size() > 
 // `part_of_unloading`: a stiffer bed has a larger loading force. This fraction of the increase also applies
 // to the unloading line.
 inline EffectParameter part_of_unloading() {
-  return {.name = "part_of_unloading", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}};
+  return {.name = "part_of_unloading",
+          .typical = 1.0,
+          .low = 0.0,
+          .high = 1.0,
+          .shapes = {0.0},
+          .is_whole_range = true};
 }
 // Multiplies the quasi-static force by 1 + share(state), and the unloading line by 1 + part * share(state).
 // `share`: a function of GroundState.
@@ -84,7 +89,7 @@ inline EffectParameter bias_parameter(const std::string& unit, double range) {
 // delay of a slow signal; `second_lag_part` of it is the second's. 0: first order; 1/2: two equal lags.
 inline std::vector<EffectParameter> lag_parameters() {
   return {{.name = "lag_s", .typical = 3e-3, .low = 0.0, .high = 0.1},
-          {.name = "second_lag_part", .typical = 0.25, .low = 0.0, .high = 0.5}};
+          {.name = "second_lag_part", .typical = 0.25, .low = 0.0, .high = 0.5, .is_whole_range = true}};
 }
 inline void add_lag(Edits& edits, const std::string& channel, std::span<const double> values) {
   const double second_s = values.size() > 1 ? values[1] * values[0] : 0.0;

@@ -257,10 +257,9 @@ void Search::judge(SetFit& result) {
     for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
       const auto& p = candidate.parameters[i];
       const double value = point.hypothesis.values[e][i];
-      evidence.at_bound = evidence.at_bound || (p.other_law_above && value >= 0.99 * p.high) ||
-                          (is_amplitude(candidate.parameters, i) &&
-                           (value >= p.high - 1e-9 * std::abs(p.high) ||
-                            (value <= p.low + 1e-9 * std::abs(p.low) && p.low != 0.0)));
+      evidence.at_bound =
+          evidence.at_bound || (p.other_law_above && value >= 0.99 * p.high) ||
+          (is_amplitude(candidate.parameters, i) && (p.at_high(value) || (p.at_low(value) && p.low != 0.0)));
     }
     if (within_tolerance(*problem_, delays) || within_conversion(*problem_, point.hypothesis, e))
       result.sound = false;

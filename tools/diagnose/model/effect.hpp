@@ -40,7 +40,12 @@ struct EffectParameter {
   // More values to screen. Shape: each is a separate start. Amplitude: sizes at which the derivative is taken
   // as well, because another size acts on other rows.
   std::vector<double> shapes{};
+  // True: nothing lies beyond `low` and `high`, as with a share from 0 to 1. Otherwise a value at a limit is
+  // reported as such, because the true one may lie beyond.
+  bool is_whole_range = false;
 
+  bool at_low(double value) const { return value <= low + 1e-9 * std::abs(low); }
+  bool at_high(double value) const { return value >= high - 1e-9 * std::abs(high); }
   double reported(double value) const {
     const double plain = base + scale * value;
     return power == 1.0 ? plain : std::pow(plain, power);

@@ -51,7 +51,7 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
   }
   if (rows.empty()) return;
   next.channel = problem.channels[channel];
-  next.floor = problem.noise.channel(channel).sd();
+  next.noise = problem.noise.channel(channel).sd();
   const std::size_t step = (rows.size() + kMostPoints - 1) / kMostPoints;
   for (std::size_t i = 0; i < rows.size(); i += step) {
     next.time_s.push_back(model.rows[rows[i]].time_s);
@@ -60,11 +60,10 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
   }
   const Row& row = model.rows[where];
   next.why = fmt::format(
-      "{} at {:.3g} s ({}): {} predicts {:.4g}, {} predicts {:.4g}; that is {:.2g} apart, with a noise floor "
-      "of {:.2g} "
-      "{}.",
+      "{} at {:.3g} s ({}): {} predicts {:.4g}, {} predicts {:.4g}; that is {:.2g} apart, with a noise of "
+      "{:.2g} {}.",
       next.channel, row.time_s, problem.phases[row.phase], next.first, at.first[where], next.second,
-      at.second[where], std::abs(at.second[where] - at.first[where]), next.floor,
+      at.second[where], std::abs(at.second[where] - at.first[where]), next.noise,
       quantity_of(next.channel).unit);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
@@ -80,7 +81,8 @@ std::string parameters_of(const FoundEffect& e) {
   std::string text;
   for (const auto& p : e.parameters) {
     const auto q = quantity_of(p.name);
-    text += (text.empty() ? "" : ";  ") + q.words + " " + with_interval(p.value, p.low, p.high, q.unit);
+    text += (text.empty() ? "" : ";  ") + q.words + " " + with_interval(p.value, p.low, p.high, q.unit) +
+            (p.limit ? ", " + p.limit_in_words() : "");
   }
   return text;
 }
@@ -174,10 +176,16 @@ StudyAnswer how_much_better(const Diagnosis& d) {
   if (changed) bar("after", f.heldout.after, "blue");
   bar("noise floor", f.floor, "grey");
   box.lines.emplace_back(
-      Style::quiet, changed ? "Root mean square on trials held out of the fit; the noise floor is what "
-                              "trials differ by when nothing is missing."
-                            : "Root mean square; the noise floor is what trials differ by when nothing is "
-                              "missing.");
+      Style::quiet,
+      fmt::format(
+          "Root mean square{}. Noise floor: noise ({} a sample), uncertain inputs and model error together.",
+          changed ? " on trials held out of the fit" : "", number(f.noise) + " " + q.unit));
+  for (const auto& noise : d.noise)
+    if (noise.is_raised)
+      box.lines.emplace_back(Style::text, fmt::format("The noise of {} is raised to {} times what {}; see "
+                                                      "Noise of the sensors.",
+                                                      noise.channel, two_digits(noise.times()),
+                                                      noise.stated > 0.0 ? "is stated" : "its samples show"));
   return box;
 }
 

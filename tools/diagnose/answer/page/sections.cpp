@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
@@ -60,14 +61,67 @@ StudySection errors_section(const Diagnosis& d) {
     table.shades.push_back(std::move(shades));
   }
   table.note =
-      found
-          ? "Held-out error as a multiple of the noise floor of its channel and phase, before → after what "
-            "was "
-            "found is added. 1.00 is as good as trials repeat; the stronger the colour, the more is missing."
-          : "Held-out error as a multiple of the noise floor of its channel and phase. 1.00 is as good as "
-            "trials "
-            "repeat; the stronger the colour, the more is missing.";
+      found ? "Held-out error as a multiple of the noise floor of its channel and phase, before → after what "
+              "was "
+              "found is added. 1.00: as large as the noise floor; the stronger the colour, the "
+              "more is missing."
+            : "Held-out error as a multiple of the noise floor of its channel and phase. 1.00: as large as "
+              "the noise floor; the stronger the colour, the more is missing.";
+  if (const auto below = below_the_floor(d); !below.empty()) table.note += " " + below;
   return {found ? "Before and after, by channel and phase" : "Error by channel and phase", {table}};
+}
+
+StudySection noise_section(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"channel",         "who stated the noise",  "what it means",
+                   "stated",          "from sample to sample", "used by the fit",
+                   "used over stated"};
+  table.text_columns = 3;
+  table.whole = true;
+  const auto size = [](const SensorNoise& n, double sd) {
+    return sd > 0.0 ? number(sd) + " " + quantity_of(n.channel).unit : "";
+  };
+  for (const auto& n : d.noise) {
+    table.rows.push_back({n.channel, n.said_by, n.is_raised ? n.in_words() : "as the sensor's own",
+                          size(n, n.stated), size(n, n.measured), size(n, n.used),
+                          n.stated > 0.0 ? fmt::format("{:.2f}", n.times()) : ""});
+    table.row_marks.emplace_back(n.is_raised ? "partly" : "");
+  }
+  table.note =
+      "Noise: standard deviation of one sample. From sample to sample: what changes at once, which only a "
+      "sensor does. Used by the fit: what the recordings differ by from the best simulation, without model "
+      "error. The noise floor that errors are compared with holds this noise, the uncertainty of recorded "
+      "inputs (a depth, a time) and the model error.";
+  return {"Noise of the sensors", {table}};
+}
+
+std::string name_of(const FoundEffect& e) { return e.id + (e.channel.empty() ? "" : "\n" + e.channel); }
+
+std::string mark_of(const FoundEffect& e) {
+  return e.probability >= 0.8 && !e.may_be_zero() ? "good" : "partly";
+}
+
+// The parameters of all effects; they stand apart, so that the sentences of the effects have room.
+StudyTable sizes_table(const Diagnosis& d) {
+  StudyTable table;
+  table.title = "Their sizes";
+  table.columns = {"effect", "parameter", "value", "95 % interval", "remark"};
+  table.text_columns = 2;
+  table.whole = true;
+  bool remarks = false;
+  for (const auto& e : d.effects)
+    for (const auto& p : e.parameters) {
+      table.rows.push_back({&p == &e.parameters.front() ? name_of(e) : "", quantity_of(p.name).label(),
+                            number(p.value), fmt::format("{} to {}", number(p.low), number(p.high)),
+                            p.limit_in_words()});
+      table.row_marks.push_back(mark_of(e));
+      remarks = remarks || p.limit;
+    }
+  if (!remarks) {
+    table.columns.pop_back();
+    for (auto& row : table.rows) row.pop_back();
+  }
+  return table;
 }
 
 StudySection effects_section(const Diagnosis& d) {
@@ -75,39 +129,21 @@ StudySection effects_section(const Diagnosis& d) {
   table.columns = {"effect",
                    "what it says",
                    "equation",
-                   "parameter",
-                   "value",
-                   "95 % interval",
                    "probability",
                    "share of the fall of the held-out error",
                    "times the typical size",
                    "p"};
-  table.text_columns = 4;
+  table.text_columns = 3;
   table.whole = true;
   for (const auto& e : d.effects) {
-    const std::size_t rows = std::max<std::size_t>(1, e.parameters.size());
-    for (std::size_t i = 0; i < rows; ++i) {
-      const bool first = i == 0;
-      std::vector<std::string> row{first ? e.id + (e.channel.empty() ? "" : "\n" + e.channel) : "",
-                                   first ? e.statement : "", first ? e.equation : ""};
-      if (i < e.parameters.size()) {
-        const auto& p = e.parameters[i];
-        row.insert(row.end(), {quantity_of(p.name).label(), number(p.value),
-                               fmt::format("{} to {}", number(p.low), number(p.high))});
-      } else {
-        row.insert(row.end(), {"", "", ""});
-      }
-      if (first)
-        row.insert(row.end(), {fmt::format("{:.2f}", e.probability), fmt::format("{:.2f}", e.heldout_gain),
-                               e.typicals > 0.0 ? number(e.typicals) : "",
-                               e.p_value < 1.0 ? fmt::format("{:.1e}", e.p_value) : ""});
-      else
-        row.insert(row.end(), 4, "");
-      table.rows.push_back(std::move(row));
-      table.row_marks.emplace_back(e.probability >= 0.8 && !e.may_be_zero() ? "good" : "partly");
-    }
+    table.rows.push_back({name_of(e), e.statement, e.equation, fmt::format("{:.2f}", e.probability),
+                          fmt::format("{:.2f}", e.heldout_gain), e.typicals > 0.0 ? number(e.typicals) : "",
+                          e.p_value < 1.0 ? fmt::format("{:.1e}", e.p_value) : ""});
+    table.row_marks.push_back(mark_of(e));
   }
+  StudyTable sizes = sizes_table(d);
   StudySection section{"What was found", {table}};
+  if (!sizes.rows.empty()) section.items.emplace_back(std::move(sizes));
   for (const auto& e : d.effects)
     if (e.may_be_zero())
       section.items.emplace_back(
@@ -252,6 +288,7 @@ std::vector<StudySection> page_sections(const Diagnosis& d, const PageFacts& fac
   if (!trials.empty()) sections.push_back(trial_section(d, trials.front()));
   if (!d.phase_errors.empty()) sections.push_back(errors_section(d));
   if (!d.effects.empty()) sections.push_back(effects_section(d));
+  if (!d.noise.empty()) sections.push_back(noise_section(d));
   if (!d.unknown.empty()) sections.push_back(unknown_section(d));
   if (!d.where.empty()) sections.push_back(where_section(d));
   if (!d.trial_to_trial.empty()) sections.push_back(trial_to_trial_section(d));

@@ -29,9 +29,11 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
   return out;
 }
 
-StudySeries floor_band(const std::vector<double>& time_s, const std::vector<double>& floor) {
-  StudySeries band{"noise floor, ± 2 sd", time_s, {}, {}, {}, Mark::band, "grey"};
-  for (const double sd : floor) {
+// Band of two standard deviations around 0.
+StudySeries noise_band(const std::string& label, const std::vector<double>& time_s,
+                       const std::vector<double>& sds) {
+  StudySeries band{label + ", ± 2 sd", time_s, {}, {}, {}, Mark::band, "grey"};
+  for (const double sd : sds) {
     band.y.push_back(0.0);
     band.low.push_back(-2.0 * sd);
     band.high.push_back(2.0 * sd);
@@ -42,7 +44,7 @@ StudySeries floor_band(const std::vector<double>& time_s, const std::vector<doub
 StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
   const auto q = quantity_of(trace.channel);
   StudyFigure figure{q.words + ", recorded less simulated", "time, s", q.label(), {}};
-  figure.series.push_back(floor_band(trace.time_s, trace.floor));
+  figure.series.push_back(noise_band("noise floor", trace.time_s, trace.floor));
   figure.series.push_back({found ? "before" : "recorded less simulated",
                            trace.time_s,
                            difference(trace.measured, trace.before),
@@ -88,7 +90,8 @@ StudySection next_trial_section(const Diagnosis& d) {
                          .color = "orange",
                          .dashed = true});
   StudyFigure apart{"Difference of the two: " + q.words, "time, s", q.label(), {}};
-  apart.series.push_back(floor_band(next.time_s, std::vector<double>(next.time_s.size(), next.floor)));
+  apart.series.push_back(
+      noise_band("noise", next.time_s, std::vector<double>(next.time_s.size(), next.noise)));
   apart.series.push_back({next.second + " less " + next.first,
                           next.time_s,
                           difference(next.by_second, next.by_first),

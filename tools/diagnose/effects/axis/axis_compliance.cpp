@@ -11,7 +11,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .typical = kVisibleTwist_rad / c.facts.torque_Nm,
                                     .low = 0.0,
                                     .high = c.facts.angle_rad / c.facts.torque_Nm}};
-  if (c.has("velocity_radps")) all.push_back({.name = "velocity_on_motor_side", .shapes = {0.0}});
+  if (c.has("velocity_radps"))
+    all.push_back({.name = "velocity_on_motor_side", .shapes = {0.0}, .is_whole_range = true});
   return all;
 }
 

@@ -20,7 +20,7 @@ const EffectRegistration kEffect(
                {.name = "load_friction_coefficient", .typical = 0.05, .low = 0.0, .high = 0.9}};
            all.push_back(own_switch_speed(c));
            if (c.belief.value("axis.gravity_torque_Nm") > 0.0)
-             all.push_back({.name = "gravity_part", .shapes = {0.0}});
+             all.push_back({.name = "gravity_part", .shapes = {0.0}, .is_whole_range = true});
            return all;
          },
      .apply =

@@ -20,7 +20,8 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .base = believed_kg(c),
                                     .scale = believed_kg(c)}};
   // The error is proportional to each mass (scale of the balance) or the same for all (an unweighed part).
-  if (c.facts.masses_differ) all.push_back({.name = "part_in_proportion", .shapes = {0.0}});
+  if (c.facts.masses_differ)
+    all.push_back({.name = "part_in_proportion", .shapes = {0.0}, .is_whole_range = true});
   return all;
 }
 

@@ -7,7 +7,12 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 2.0 * std::pow(c.facts.foot_radius_m / 0.04, 2);
   return {{.name = "crust_force_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "crust_depth_m", .typical = 0.002, .low = 0.0002, .high = 0.02, .shapes = {0.005}},
-          {.name = "left_after_a_push", .typical = 0.5, .low = 0.0, .high = 1.0, .shapes = {0.0, 1.0}},
+          {.name = "left_after_a_push",
+           .typical = 0.5,
+           .low = 0.0,
+           .high = 1.0,
+           .shapes = {0.0, 1.0},
+           .is_whole_range = true},
           part_of_unloading()};
 }
 

@@ -9,7 +9,12 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   return {{.name = "suction_N", .typical = typical, .low = 0.0, .high = 50.0 * typical},
           {.name = "suction_depth_m", .typical = 0.005, .low = 0.0005, .high = 0.05, .shapes = {0.02}},
           {.name = "onset_power", .typical = 1.5, .low = 0.7, .high = 4.0},
-          {.name = "while_it_bears", .typical = 1.0, .low = 0.0, .high = 1.0, .shapes = {0.0}}};
+          {.name = "while_it_bears",
+           .typical = 1.0,
+           .low = 0.0,
+           .high = 1.0,
+           .shapes = {0.0},
+           .is_whole_range = true}};
 }
 
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

@@ -21,7 +21,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
                                     .amplitude = true}};
   // The velocity channel is the derivative of this encoder (1) or comes from another sensor (0).
   if (c.plant == PlantKind::rotary_axis && c.has("velocity_radps"))
-    all.push_back({.name = "part_of_velocity", .shapes = {0.0}});
+    all.push_back({.name = "part_of_velocity", .shapes = {0.0}, .is_whole_range = true});
   return all;
 }
 
