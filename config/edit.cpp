@@ -123,6 +123,45 @@ void ConfigEditor::set(std::string_view key, std::string_view value) {
   reparse();
 }
 
+void ConfigEditor::remark(std::string_view key, std::string_view text) {
+  const auto* node = find(key);
+  if (node == nullptr) throw std::invalid_argument(fmt::format("{}: there is no key '{}'", name_, key));
+  auto at = end_of_value(offset_of(node->position));
+  const auto end = std::min(text_.find('\n', at), text_.size());
+  const auto old = text_.find('#', at);
+  std::string more;
+  if (old < end) {
+    const auto words = text_.find_first_not_of("# \t", old);
+    if (words < end) more = "; " + text_.substr(words, end - words);
+  }
+  text_.replace(at, end - at, fmt::format("   # {}{}", text, more));
+  reparse();
+}
+
+void ConfigEditor::add(std::string_view table, std::string_view line) {
+  std::size_t at = 0;
+  if (!table.empty()) {
+    const auto title = fmt::format("[{}]", table);
+    while (at < text_.size() && !std::string_view(text_).substr(at).starts_with(title))
+      at = line_end(text_, at);
+    if (at >= text_.size()) {
+      if (!text_.empty() && text_.back() != '\n') text_ += '\n';
+      text_ += fmt::format("{}{}\n{}\n", text_.empty() ? "" : "\n", title, line);
+      return reparse();
+    }
+    at = line_end(text_, at);
+    for (auto next = at; next < text_.size() && text_[next] != '[';) {  // behind the table's last value
+      const auto end = line_end(text_, next);
+      const auto one = std::string_view(text_).substr(next, end - next);
+      if (!is_comment(one) && one.find_first_not_of(" \t\r\n") != std::string_view::npos) at = end;
+      next = end;
+    }
+    if (text_[at - 1] != '\n') text_.insert(at++, 1, '\n');
+  }
+  text_.insert(at, fmt::format("{}\n", line));
+  reparse();
+}
+
 void ConfigEditor::set_table(std::string_view header, std::string_view comment, std::string_view lines) {
   const auto block = fmt::format("# {}\n[{}]\n{}", comment, header, lines);
   const auto title = fmt::format("[{}]", header);

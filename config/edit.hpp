@@ -19,6 +19,16 @@ class ConfigEditor {
   // "imu_body.accel_scale[2]". `value` is TOML. Throws std::invalid_argument if there is no such key.
   void set(std::string_view key, std::string_view value);
 
+  // Adds `key = value` as the last line of a table, or a new table with it at the end. Empty `table`: the top
+  // of the file. Throws ConfigError if the text then is no TOML.
+  void add(std::string_view table, std::string_view line);
+
+  // Writes a remark behind the value of a key, before a remark that stands there already. Throws
+  // std::invalid_argument if there is no such key.
+  void remark(std::string_view key, std::string_view text);
+
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+
   // Replaces the table [header] by these lines, or appends it. A comment directly above the old header is
   // also replaced.
   void set_table(std::string_view header, std::string_view comment, std::string_view lines);

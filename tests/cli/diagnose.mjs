@@ -63,6 +63,9 @@ function second_run({ plant, folder }) {
   cpSync(folder, target, { recursive: true });
   const corrected = readFileSync(join(scratch, `answer-${plant}`, 'corrected.toml'), 'utf8');
   writeFileSync(join(target, 'corrected.toml'), corrected);
+  const own = new Set(readFileSync(join(target, 'nominal.toml'), 'utf8').split('\n'));
+  const others = corrected.split('\n').filter(line => !own.has(line) && !/found by hop diagnose|^#|^\[/.test(line));
+  expect(!others.length, `${plant}: corrected.toml states what nobody stated: ${others.slice(0, 3).join('; ')}`);
   const toml = readFileSync(join(target, 'campaign.toml'), 'utf8').replace(/^model *= *".*"$/m, 'model = "corrected.toml"');
   expect(toml.includes('model = "corrected.toml"'), `${plant}: campaign.toml names no model`);
   writeFileSync(join(target, 'campaign.toml'), toml);
@@ -73,11 +76,23 @@ function second_run({ plant, folder }) {
   expect(readFileSync(join(target, 'corrected.toml'), 'utf8') === corrected, `${plant}: the model in use was overwritten`);
 }
 
+// What a run on the corrected model reads of the first answer; and the list of effects holds those that were found.
+function first_answer({ plant, folder }) {
+  const first = join(scratch, `answer-${plant}`);
+  const said = JSON.parse(readFileSync(join(first, 'diagnosis.json'), 'utf8'));
+  expect(said.corrected_model === 'corrected.toml', `${plant}: diagnosis.json names no corrected model`);
+  expect(said.fit.heldout.beyond_floor.before > 0, `${plant}: no error beyond the noise floor`);
+  const listed = JSON.parse(run('diagnose', folder, '--effects', '--json').stdout || '{}').effects ?? [];
+  for (const effect of said.effects)
+    expect(listed.some(one => one.id === effect.id && one.parameters.length), `${plant}: --effects does not list ${effect.id}`);
+}
+
 for (const campaign of made) {
   const plain = answer(campaign.folder, campaign.plant);
   console.log(`${campaign.plant}: ${plain.verdict}, ${named(plain)}`);
   expect(plain.verdict === 'missing_physics', `${campaign.plant}: ${plain.verdict}`);
   second_run(campaign);
+  first_answer(campaign);
   for (const one of rewritings) {
     const target = join(scratch, `${campaign.plant}-${one.name.replace(/\W+/g, '_')}`);
     rewritten(campaign.folder, one, target);

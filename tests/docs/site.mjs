@@ -18,7 +18,17 @@ const pages = readdirSync(site, { recursive: true }).filter((file) => file.endsW
 const named = process.argv.slice(3);
 const kSizes = [1366, 800, 400];
 const kLookedAt = ['index.html', 'guide/index.html', 'guide/glossary.html', 'guide/tutorial_terrain.html', 'guide/safety.html',
-  'guide/benchmark.html', 'reference/keys.html'];
+  'guide/benchmark.html', 'reference/keys.html', 'reference/effects.html'];
+
+// The page of effects names each effect of the source, and no other.
+{
+  const effects = new URL('../../tools/diagnose/effects/', import.meta.url).pathname;
+  const sources = readdirSync(effects, { recursive: true }).filter((file) => file.endsWith('.cpp')).map((file) => readFileSync(join(effects, file), 'utf8'));
+  const known = sources.flatMap((text) => [...text.matchAll(/(?:\.id = |scale_effect\(\s*)"([a-z_]+\.[a-z_]+)"/g)].map((match) => match[1]));
+  const shown = [...readFileSync(join(site, 'reference/effects.html'), 'utf8').matchAll(/<td><code>([a-z_]+\.[a-z_]+)<\/code><\/td>/g)].map((match) => match[1]);
+  assert.ok(known.length > 60, `${known.length} effects in the source`);
+  assert.deepEqual([...new Set(shown)].sort(), [...new Set(known)].sort());
+}
 
 // No page loads a file from a network. Links for readers are no requests.
 for (const page of pages)

@@ -74,6 +74,26 @@ TEST(ConfigEdit, ATableIsPutAtTheEndAndReplacedTheNextTime) {
                                "\n# second\n[calibration.other]\ndate = \"b\"\n");
 }
 
+TEST(ConfigEdit, AKeyIsAddedAtTheEndOfItsTableOrInANewOne) {
+  ConfigEditor editor("test", "a = 1\n\n[cell]\nb = 2   # two\n# remark\n\n[other]\nc = 3");
+  editor.add("cell", "d = 4");
+  editor.add("new", "e = 5");
+  editor.add("other", "f = 6");
+  editor.add("", "g = 7");
+  EXPECT_EQ(
+      editor.text(),
+      "g = 7\na = 1\n\n[cell]\nb = 2   # two\nd = 4\n# remark\n\n[other]\nc = 3\nf = 6\n\n[new]\ne = 5\n");
+  EXPECT_TRUE(editor.has("new.e") && !editor.has("cell.e"));
+  EXPECT_THROW(editor.add("cell", "d = 8"), ConfigError);
+}
+
+TEST(ConfigEdit, ARemarkStandsBeforeTheOneThatIsThere) {
+  ConfigEditor editor("test", "b = 2   # two\nc = 3");
+  editor.remark("b", "found");
+  editor.remark("c", "new");
+  EXPECT_EQ(editor.text(), "b = 2   # found; two\nc = 3   # new");
+}
+
 TEST(ConfigEdit, AFileIsReplacedThroughItsLinkAndKeepsItsMode) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / "config_edit";
   std::filesystem::create_directories(folder);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,6 +58,26 @@ TEST(DiagnoseCorrectedModel, HoldsAHeavierBody) {
       EXPECT_TRUE(first.corrected_model_toml.find(p.name + " = ") != std::string::npos) << p.name;
     }
   EXPECT_TRUE(first.corrected_model_toml.find('#') == std::string::npos) << first.corrected_model_toml;
+}
+
+// A stranger got some sixty numbers of sensors that he does not have.
+TEST(DiagnoseCorrectedModel, IsTheAuthorsTextWithTheChangedLine) {
+  auto recordings = swings([](double angle, double v, double torque) {
+    return (torque - 2.0 * std::sin(angle)) * (0.1 / 0.12 - 1.0) - 0.05 * v;
+  });
+  const std::string own =
+      "# my arm\n[axis]\ninertia_kg_m2 = 0.1   # kg m^2; from CAD\ngravity_torque_Nm = 2.0\n"
+      "[sensors]\nposition_noise_rad = 0.0005\n";
+  recordings.model_text = own;
+  const auto text = diagnose(recordings).corrected_model_toml;
+  EXPECT_THAT(text, ::testing::StartsWith("# my arm\n[axis]\ninertia_kg_m2 = 0.1"));
+  EXPECT_THAT(text,
+              ::testing::ContainsRegex("found by hop diagnose, axis.inertia: 0.1 before; kg m.2; from CAD"));
+  EXPECT_THAT(text, ::testing::ContainsRegex(
+                        "viscous_friction_Nm_s = [0-9.]+ +# found by hop diagnose, axis.viscous: "
+                        ".*before, by default"));
+  EXPECT_THAT(text, ::testing::HasSubstr("gravity_torque_Nm = 2.0\n"));
+  EXPECT_THAT(text, ::testing::EndsWith("[sensors]\nposition_noise_rad = 0.0005\n"));
 }
 
 }  // namespace

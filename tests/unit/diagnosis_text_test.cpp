@@ -95,5 +95,22 @@ TEST(DiagnosisText, AParameterAtItsLimitIsMarked) {
   EXPECT_THAT(to_text(d), HasSubstr("at its limit of 60 Hz: the true value may lie beyond"));
 }
 
+// "1.4 -> 1.6 times the noise floor" does not tell how much of the first gap is left.
+TEST(DiagnosisText, WhatRemainsStandsInTheChannelsUnitAndAgainstTheFirstModel) {
+  auto d = unknown(1.25, 1.25);
+  d.effects = {found("unknown@axis", 0.5)};
+  d.fits.front().range = 75.0;
+  EXPECT_THAT(to_text(d),
+              HasSubstr("left   position_rad: what remains is 0.75 rad rms beyond the noise floor, 1.0 % "
+                        "of the range of 75 rad.\n"));
+  d.first = FirstAnswer{"answer/diagnosis.json", {{"position_rad", 25.0}}};
+  EXPECT_THAT(headline(d), HasSubstr("beside what the corrected model holds"));
+  EXPECT_THAT(headline(d),
+              HasSubstr("and 3.0 % of the 25 rad that the first model left (answer/diagnosis.json)"));
+  EXPECT_THAT(headline(d), Not(HasSubstr("units")));
+  d.fits.front().heldout.after = 0.9;
+  EXPECT_THAT(headline(d), HasSubstr("not larger than the noise floor"));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

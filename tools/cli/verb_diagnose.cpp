@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/cli/diagnose_effects.hpp"
 #include "tools/cli/output_folder.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/verb.hpp"
@@ -26,6 +28,7 @@ namespace {
 struct Options {
   std::string campaign;
   std::string output;
+  bool effects = false;
   bool search = false;
   bool residuals = false;
   bool report = true;
@@ -48,6 +51,19 @@ std::filesystem::path corrected_file(const std::filesystem::path& folder,
   for (int i = 2; std::filesystem::equivalent(file, believed, missing); ++i)
     file = folder / fmt::format("corrected_{}.toml", i);
   return file;
+}
+
+// The answer that wrote the model in use: diagnosis.json beside it, if that names this model as its own.
+// Empty if there is none.
+std::optional<sandhopper::diagnose::FirstAnswer> first_answer(const std::filesystem::path& model) {
+  const auto file = model.parent_path() / "diagnosis.json";
+  const auto json = nlohmann::json::parse(std::ifstream(file), nullptr, false);
+  if (!json.is_object() || json.value("corrected_model", nlohmann::json()) != model.filename().string())
+    return {};
+  sandhopper::diagnose::FirstAnswer first{file.string(), {}};
+  for (const auto& fit : json.value("fit_by_channel", nlohmann::json::array()))
+    first.error[fit.at("channel")] = fit.at("heldout").at("beyond_floor").at("before");
+  return first;
 }
 
 std::vector<sandhopper::diagnose::BelievedNumber> believed(const UsedNumbers& used) {
@@ -108,6 +124,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   progress.at(0.0, "reading the recordings");
   const auto input = sandhopper::diagnose::read_campaign(campaign);
   for (const auto& line : in_lines(input.findings, false)) session.say_line(line);
+  if (options.effects && !input.recordings.trials.empty()) return list_effects(session, input.recordings);
   const std::filesystem::path folder =
       options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
   made(folder);  // before the work: a folder that cannot be made is said at once
@@ -123,7 +140,11 @@ ExitCode diagnose(Session& session, const Options& options) {
     session.say("first verdict: {} (being weighed)", verdict);
   };
   engine.stop = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > options.limit_s; };
-  const auto diagnosis = sandhopper::diagnose::diagnose(input.recordings, engine);
+  const auto first = first_answer(campaign.model);  // before this answer may overwrite it
+  auto diagnosis = sandhopper::diagnose::diagnose(input.recordings, engine);
+  diagnosis.first = first;
+  const auto corrected = corrected_file(folder, campaign.model);
+  if (!diagnosis.corrected_model_toml.empty()) diagnosis.corrected_model_file = corrected.filename().string();
   if (options.search)
     for (const auto& line : diagnosis.log) session.say_line(line);
   session.result = sandhopper::diagnose::to_json(diagnosis);
@@ -131,9 +152,8 @@ ExitCode diagnose(Session& session, const Options& options) {
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
   tell_belief(session, used, diagnosis.belief);
   if (!diagnosis.corrected_model_toml.empty()) {
-    const auto file = corrected_file(folder, campaign.model);
-    write(file, diagnosis.corrected_model_toml);
-    session.say("corrected model: {}", file.string());
+    write(corrected, diagnosis.corrected_model_toml);
+    session.say("corrected model: {}", corrected.string());
   }
   if (options.residuals) {
     write(folder / "residuals.csv", sandhopper::diagnose::residuals_csv(diagnosis));
@@ -160,6 +180,9 @@ Run set_up(Arguments& arguments) {
           "--limit-s", options->limit_s,
           "end the search at the first whole step after this many seconds and answer with what is known")
       .in_range(0.0, 1e9);
+  arguments.add_flag("--effects", options->effects,
+                     "no diagnosis: list the effects that would be looked for, with equation, parameters, "
+                     "units and their typical sizes in this campaign");
   arguments.add_flag("--search", options->search, "also print what was tried");
   arguments.add_flag("--residuals", options->residuals,
                      "also write residuals.csv: recorded minus simulated, before and after, of every row");

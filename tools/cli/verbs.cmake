@@ -34,7 +34,7 @@ sandhopper_verb(conceal "make campaigns in which physics is hidden, to test 'hop
 sandhopper_verb(config "check or show the configuration files"
   SOURCES config_kinds.cpp LIBRARIES sandhopper_firmware sandhopper_plant)
 sandhopper_verb(diagnose "find the physics that a simulation lacks against recordings"
-  LIBRARIES sandhopper_diagnose)
+  SOURCES diagnose_effects.cpp LIBRARIES sandhopper_diagnose)
 sandhopper_verb(doctor "say whether this machine can run the robot, and what to do if not"
   SOURCES doctor_bus.cpp doctor_config.cpp doctor_devices.cpp doctor_identity.cpp doctor_interrupts.cpp
           doctor_machine.cpp doctor_state.cpp

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "config/edit.hpp"
 #include "config/hint.hpp"
+#include "config/problem.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -55,7 +57,11 @@ class Corrected {
                  c.parameters.size() == found.parameters.size();
         });
     if (candidate == problem_.candidates.end()) return comment(found);
+    const Numbers before = numbers_;
     if (!as_keys(*candidate, found)) as_effect(*candidate, found);
+    for (const auto& [key, value] : numbers_)
+      if (const auto it = before.find(key); it == before.end() || it->second != value)
+        changed_by_[key] = candidate->label();
   }
 
   bool differs() const {
@@ -63,6 +69,36 @@ class Corrected {
   }
 
   std::string text() const {
+    if (recordings_.model_text) try {
+        return on_top_of(*recordings_.model_text);
+      } catch (const ConfigError&) {  // A table that is written in an unusual way cannot be added to.
+      }
+    return every_number();
+  }
+
+ private:
+  // The author's own text with the changed and added keys, each with a remark.
+  std::string on_top_of(const std::string& own) const {
+    ConfigEditor editor("nominal.toml", own);
+    for (const auto& [key, id] : changed_by_) {
+      const double value = numbers_.at(key);
+      const auto usual = recordings_.belief.numbers.find(key);
+      const auto before = usual == recordings_.belief.numbers.end() ? "not stated" : real_text(usual->second);
+      const bool stated = editor.has(key);
+      if (stated)
+        editor.set(key, value_text(key, value));
+      else
+        editor.add(table_of(key), fmt::format("{} = {}", last_key(key), value_text(key, value)));
+      editor.remark(key, fmt::format("found by hop diagnose, {}: {} before{}", id, before,
+                                     stated ? "" : ", by default"));
+    }
+    for (const auto& [label, parameters] : effects_)
+      if (!recordings_.belief.effects.contains(label))
+        editor.add("effects", effect_line(label, parameters) + "   # found by hop diagnose");
+    return comments_ + editor.text();
+  }
+
+  std::string every_number() const {
     std::map<std::string, std::string> tables;
     for (const auto& [key, value] : numbers_) tables[table_of(key)] += line(key, value);
     std::string text = comments_;
@@ -71,16 +107,10 @@ class Corrected {
       text += lines;
     }
     if (!effects_.empty()) text += "\n[effects]\n";
-    for (const auto& [label, parameters] : effects_) {
-      std::string inside;
-      for (const auto& [name, value] : parameters)
-        inside += (inside.empty() ? " " : ", ") + name + " = " + real_text(value);
-      text += fmt::format("\"{}\" = {{{} }}\n", label, inside);
-    }
+    for (const auto& [label, parameters] : effects_) text += effect_line(label, parameters) + "\n";
     return text;
   }
 
- private:
   bool as_keys(const Candidate& candidate, const FoundEffect& found) {
     if (candidate.effect->as_keys) {
       std::vector<double> values;
@@ -116,17 +146,26 @@ class Corrected {
     const auto dot = key.find('.');
     return dot == std::string::npos ? "" : key.substr(0, dot);
   }
-  static std::string line(const std::string& key, double value) {
+  static std::string value_text(const std::string& key, double value) {
     const auto name = last_key(key);
-    if (name == "rigid") return fmt::format("rigid = {}\n", value != 0.0);
-    if (name == "motor_count") return fmt::format("motor_count = {}\n", static_cast<int>(value));
-    return fmt::format("{} = {}\n", name, real_text(value));
+    if (name == "rigid") return value != 0.0 ? "true" : "false";
+    return name == "motor_count" ? std::to_string(static_cast<int>(value)) : real_text(value);
+  }
+  static std::string line(const std::string& key, double value) {
+    return fmt::format("{} = {}\n", last_key(key), value_text(key, value));
+  }
+  static std::string effect_line(const std::string& label, const Numbers& parameters) {
+    std::string inside;
+    for (const auto& [name, value] : parameters)
+      inside += (inside.empty() ? " " : ", ") + name + " = " + real_text(value);
+    return fmt::format("\"{}\" = {{{} }}", label, inside);
   }
 
   const Recordings& recordings_;
   const Problem& problem_;
   Numbers numbers_;
   std::map<std::string, Numbers> effects_;
+  std::map<std::string, std::string> changed_by_;  // key: effect
   std::string comments_;
 };
 

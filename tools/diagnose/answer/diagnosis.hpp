@@ -90,12 +90,22 @@ std::string times_the_floor(const ErrorBeforeAfter& error, double floor);
 // "0.97 times the noise floor".
 std::string times_the_floor(double error, double floor);
 
+// Answer of the run that wrote the model in use.
+struct FirstAnswer {
+  std::string file;                     // "answer/diagnosis.json"
+  std::map<std::string, double> error;  // per channel: held-out error before, beyond the noise floor
+};
+
+// What a channel's error leaves above its noise floor, RMS: sqrt(error^2 - floor^2), or 0.
+double beyond_floor(double error, double floor);
+
 // Errors of one channel on all trials, fitted (train) and held out.
 struct ChannelFit {
   std::string channel;
   ErrorBeforeAfter train, heldout;
   double floor = 0.0;  // Noise, model error and the uncertainty of recorded inputs, over the rows.
   double noise = 0.0;  // Noise alone: standard deviation of one sample.
+  double range = 0.0;  // of the recorded values, over all trials
 };
 
 // RMS errors on held-out trials in one phase, and the noise floor of that phase, in the channel's unit.
@@ -209,6 +219,7 @@ struct Diagnosis {
   double gap_closed = 1.0;       // By listed effects: fraction of the explainable deviance.
   std::vector<ChannelFit> fits;  // largest error over noise floor first
   std::vector<SensorNoise> noise;
+  std::optional<FirstAnswer> first;  // if the model in use is a corrected one
   std::vector<Bound> absent;
   std::vector<BelievedNumber> belief;
   std::vector<UnknownForce> unknown;
@@ -220,6 +231,7 @@ struct Diagnosis {
   NextTrial next;
   SimpleAnswers simple;
   std::string corrected_model_toml;
+  std::string corrected_model_file{};  // name of the file that it was written to
   std::size_t trials = 0;
   std::uint64_t simulations = 0;
   double seconds = 0.0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+
 namespace sandhopper::diagnose {
 
 using Json = nlohmann::ordered_json;
@@ -61,6 +63,8 @@ Json fit_json(const ChannelFit& f) {
   Json held_out = before_after(f.heldout);
   held_out["floor"] = f.floor;
   held_out["noise"] = f.noise;
+  held_out["beyond_floor"] = {{"before", beyond_floor(f.heldout.before, f.floor)},
+                              {"after", beyond_floor(f.heldout.after, f.floor)}};
   return {{"channel", f.channel}, {"train", before_after(f.train)}, {"heldout", held_out}};
 }
 
@@ -136,6 +140,8 @@ Json to_json(const Diagnosis& d) {
   if (!d.stopped_in.empty()) json["stopped_by_limit_in"] = d.stopped_in;
   json["gap_closed"] = d.effects.empty() || !d.stopped_in.empty() ? Json(nullptr) : Json(d.gap_closed);
   json["fit"] = d.fits.empty() ? Json(nullptr) : fit_json(d.fits.front());
+  json["remainder"] = remainder_text(d).empty() ? Json(nullptr) : Json(remainder_text(d));
+  json["corrected_model"] = d.corrected_model_file.empty() ? Json(nullptr) : Json(d.corrected_model_file);
   if (!d.fits.empty()) json["fit_by_channel"] = list_of(d.fits, fit_json);
   json["next_trial"] = next_json(d.next);
   json["fit_by_phase"] = list_of(d.phase_errors, phase_json);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 
 #include "tools/diagnose/discrepancy/left_over.hpp"
@@ -87,6 +88,9 @@ bool explains_little(const Diagnosis& d) {
   return !d.fits.empty() && d.fits.front().heldout.after >= 0.5 * d.fits.front().heldout.before;
 }
 
+// True if the headline holds remainder_text().
+bool told_in_headline(const Diagnosis& d) { return d.first && d.verdict == Verdict::unknown_physics; }
+
 }  // namespace
 
 bool FoundEffect::may_be_zero() const {
@@ -147,6 +151,33 @@ std::string SensorNoise::in_words() const {
   return text + " Errors, intervals and bounds rest on the larger noise.";
 }
 
+double beyond_floor(double error, double floor) {
+  return std::sqrt(std::max(0.0, error * error - floor * floor));
+}
+
+std::string remainder_text(const Diagnosis& d) {
+  if (d.fits.empty() || std::ranges::none_of(d.effects, &FoundEffect::is_unknown)) return "";
+  const auto& f = *std::ranges::max_element(
+      d.fits, {}, [](const ChannelFit& fit) { return fit.heldout.after / std::max(fit.floor, 1e-300); });
+  const auto unit = quantity_of(f.channel).unit;
+  const double left = beyond_floor(f.heldout.after, f.floor),
+               before = beyond_floor(f.heldout.before, f.floor);
+  const auto share = [&](double of) { return fmt::format("{} %", two_digits(100.0 * left / of)); };
+  if (left == 0.0) return fmt::format("{}: what remains is not larger than the noise floor.", f.channel);
+  std::string text =
+      fmt::format("{}: what remains is {} rms beyond the noise floor", f.channel, measured(left, unit));
+  if (f.range > 0.0) text += fmt::format(", {} of the range of {}", share(f.range), measured(f.range, unit));
+  if (d.first && d.first->error.contains(f.channel) && d.first->error.at(f.channel) > 0.0) {
+    const double of_first = d.first->error.at(f.channel);
+    return text + fmt::format(", and {} of the {} that the first model left ({}).", share(of_first),
+                              measured(of_first, unit), d.first->file);
+  }
+  const bool improved = std::ranges::any_of(d.effects, [](const auto& e) { return !e.is_unknown(); });
+  if (improved && before > 0.0)
+    text += fmt::format(", and {} of the {} before", share(before), measured(before, unit));
+  return text + ".";
+}
+
 std::string below_the_floor(const Diagnosis& d) {
   const auto is_low = [](const ChannelFit& f) { return f.heldout.before < kMoreThanNoise * f.floor; };
   if (d.effects.empty() || d.detail == Detail::data_fault || !std::ranges::all_of(d.fits, is_low)) return "";
@@ -163,7 +194,9 @@ std::string headline(const Diagnosis& d) {
   if (d.verdict == Verdict::insufficient_time)
     return "The limit of time ended the search before anything was known: give it more (--limit-s).";
   if (d.verdict == Verdict::unknown_physics)
-    return explains_little(d)
+    return d.first ? "Something is left that is on no list, beside what the corrected model holds. " +
+                         remainder_text(d)
+           : explains_little(d)
                ? "Something is missing that is on no list, and nothing that was tried explains half of it: "
                  "look at units, signs, columns, the part that is cut out and the belief's numbers first "
                  "(hop campaign check)."
@@ -203,6 +236,8 @@ std::string to_text(const Diagnosis& d) {
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
   for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);
+  if (const auto left = remainder_text(d); !left.empty() && !told_in_headline(d))
+    text += "left   " + left + "\n";
   if (const auto below = below_the_floor(d); !below.empty()) text += "       " + below + "\n";
   for (const auto& noise : d.noise)
     if (noise.is_raised) text += fmt::format("noise  {}: {}\n", noise.channel, noise.in_words());

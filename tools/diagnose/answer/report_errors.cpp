@@ -16,6 +16,11 @@ struct Squares {
   double rms(std::size_t c) const { return count[c] > 0.0 ? std::sqrt(sum[c] / count[c]) : 0.0; }
 };
 
+double range_of(const Problem& problem, const std::string& channel) {
+  const auto& scale = problem.context.channels.at(channel);
+  return scale.high - scale.low;
+}
+
 // Sums per channel, and per channel and phase.
 struct Sums {
   Squares by_channel, by_cell;
@@ -56,6 +61,7 @@ void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis
     fit.train = {before.by_channel.rms(c), after.by_channel.rms(c)};
     fit.heldout = {before.by_channel.rms(c), held_out.by_channel.rms(c)};
     fit.floor = floor.by_channel.rms(c);
+    fit.range = range_of(problem, fit.channel);
     fit.noise = problem.noise.channel(c).sd();
     diagnosis.noise_floor[fit.channel] = fit.floor;
     diagnosis.fits.push_back(fit);

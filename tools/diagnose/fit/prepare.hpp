@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct Recordings {
   std::vector<Trial> trials;
   std::vector<Belief> beliefs;  // per trial: the campaign's belief with the values of the trial's set-up
   Available available{};        // set-ups of the next trial, as the campaign states them
+  // Text of nominal.toml as the campaign's author wrote it; "" if there is none. Empty for recordings that do
+  // not come from a folder: the corrected model then states every number of `belief`.
+  std::optional<std::string> model_text{};
   std::map<std::string, std::set<std::string>> words{};  // recorded set-up values that are words, by key
 };
 

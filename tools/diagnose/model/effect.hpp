@@ -3,6 +3,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,12 @@ struct EffectParameter {
   double reported(double value) const {
     const double plain = base + scale * value;
     return power == 1.0 ? plain : std::pow(plain, power);
+  }
+  // The typical size as reported; for a number that the belief holds already, its typical change. Empty for a
+  // limit that is read off the data.
+  std::optional<double> typical_size() const {
+    if (scale == 0.0) return {};
+    return power == 1.0 ? std::abs(scale) * typical : reported(typical);
   }
   // Inverse of reported(). A limit that is read off the data (scale 0) becomes fully active.
   double value_of(double reported) const {

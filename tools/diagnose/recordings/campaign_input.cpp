@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "tools/campaign/belief_sources.hpp"
@@ -158,6 +160,9 @@ Belief flattened(const sandhopper::Belief& belief) {
 CampaignInput read_campaign(const Campaign& campaign) {
   refuse_unknown_effects(campaign);
   CampaignInput input;
+  std::stringstream model;
+  if (!campaign.model.empty()) model << std::ifstream(campaign.model).rdbuf();
+  input.recordings.model_text = model.str();
   input.recordings.plant = kind_of(campaign.plant);
   input.recordings.belief = flattened(campaign.belief);
   input.recordings.available = campaign.available;

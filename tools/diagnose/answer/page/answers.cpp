@@ -180,6 +180,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
       fmt::format(
           "Root mean square{}. Noise floor: noise ({} a sample), uncertain inputs and model error together.",
           changed ? " on trials held out of the fit" : "", number(f.noise) + " " + q.unit));
+  if (const auto left = remainder_text(d); !left.empty()) box.lines.emplace_back(Style::text, left);
   for (const auto& noise : d.noise)
     if (noise.is_raised)
       box.lines.emplace_back(Style::text, fmt::format("The noise of {} is raised to {} times what {}; see "
