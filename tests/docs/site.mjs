@@ -26,6 +26,7 @@ const kLookedAt = ['index.html', 'guide/index.html', 'guide/glossary.html', 'gui
   const sources = readdirSync(effects, { recursive: true }).filter((file) => file.endsWith('.cpp')).map((file) => readFileSync(join(effects, file), 'utf8'));
   const known = sources.flatMap((text) => [...text.matchAll(/(?:\.id = |scale_effect\(\s*)"([a-z_]+\.[a-z_]+)"/g)].map((match) => match[1]));
   const shown = [...readFileSync(join(site, 'reference/effects.html'), 'utf8').matchAll(/<td><code>([a-z_]+\.[a-z_]+)<\/code><\/td>/g)].map((match) => match[1]);
+  assert.doesNotMatch(readFileSync(join(site, 'reference/effects.html'), 'utf8'), /\\\|/, 'an equation shows a backslash');
   assert.ok(known.length > 60, `${known.length} effects in the source`);
   assert.deepEqual([...new Set(shown)].sort(), [...new Set(known)].sort());
 }
