@@ -76,7 +76,7 @@ function second_run({ plant, folder }) {
   expect(readFileSync(join(target, 'corrected.toml'), 'utf8') === corrected, `${plant}: the model in use was overwritten`);
 }
 
-// What a run on the corrected model reads of the first answer; and the list of effects holds those that were found.
+// A run on the corrected model reads these entries of the first answer; and the list of effects holds those that were found.
 function first_answer({ plant, folder }) {
   const first = join(scratch, `answer-${plant}`);
   const said = JSON.parse(readFileSync(join(first, 'diagnosis.json'), 'utf8'));

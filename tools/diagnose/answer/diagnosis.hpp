@@ -96,7 +96,7 @@ struct FirstAnswer {
   std::map<std::string, double> error;  // per channel: held-out error before, beyond the noise floor
 };
 
-// What a channel's error leaves above its noise floor, RMS: sqrt(error^2 - floor^2), or 0.
+// Rest of a channel's error above its noise floor, RMS: sqrt(error^2 - floor^2), or 0.
 double beyond_floor(double error, double floor);
 
 // Errors of one channel on all trials, fitted (train) and held out.

@@ -12,7 +12,7 @@ std::string headline(const Diagnosis& diagnosis);
 // empty if the search was complete.
 std::string limit_text(const Diagnosis& diagnosis);
 
-// How large the rest is beyond the noise floor, in the channel's unit, as a share of what was recorded, and
+// Size of the rest beyond the noise floor, in the channel's unit, as a share of what was recorded, and
 // of what the first model left if the model in use is a corrected one. Empty if nothing unknown is left.
 std::string remainder_text(const Diagnosis& diagnosis);
 
