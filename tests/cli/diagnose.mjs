@@ -82,6 +82,12 @@ function first_answer({ plant, folder }) {
   const said = JSON.parse(readFileSync(join(first, 'diagnosis.json'), 'utf8'));
   expect(said.corrected_model === 'corrected.toml', `${plant}: diagnosis.json names no corrected model`);
   expect(said.fit.heldout.beyond_floor.before > 0, `${plant}: no error beyond the noise floor`);
+  const toml = readFileSync(join(folder, 'campaign.toml'), 'utf8').replace(/^model *= *".*"$/m, `model = "${join(first, 'corrected.toml')}"`);
+  writeFileSync(join(folder, 'again.toml'), toml);
+  const again = JSON.parse(run('diagnose', join(folder, 'again.toml'), '--output', join(scratch, `again-${plant}`), '--json', '--no-report').stdout || '{}');
+  rmSync(join(folder, 'again.toml'));
+  expect(again.first_answer === join(first, 'diagnosis.json'), `${plant}: the run on the corrected model read ${again.first_answer}`);
+  expect(said.first_answer === null, `${plant}: a first run names a run before it`);
   const listed = JSON.parse(run('diagnose', folder, '--effects', '--json').stdout || '{}').effects ?? [];
   for (const effect of said.effects)
     expect(listed.some(one => one.id === effect.id && one.parameters.length), `${plant}: --effects does not list ${effect.id}`);

@@ -141,6 +141,7 @@ Json to_json(const Diagnosis& d) {
   json["gap_closed"] = d.effects.empty() || !d.stopped_in.empty() ? Json(nullptr) : Json(d.gap_closed);
   json["fit"] = d.fits.empty() ? Json(nullptr) : fit_json(d.fits.front());
   json["remainder"] = remainder_text(d).empty() ? Json(nullptr) : Json(remainder_text(d));
+  json["first_answer"] = d.first ? Json(d.first->file) : Json(nullptr);
   json["corrected_model"] = d.corrected_model_file.empty() ? Json(nullptr) : Json(d.corrected_model_file);
   if (!d.fits.empty()) json["fit_by_channel"] = list_of(d.fits, fit_json);
   json["next_trial"] = next_json(d.next);
