@@ -61,6 +61,17 @@ TEST(KeySpread, ANegativeStandardDeviationIsRefused) {
   EXPECT_THROW(read("coulomb_friction_relative = \"a lot\"\n"), ConfigError);
 }
 
+// [known_to] names numbers in the same way. A name that means none is an error: nobody else's tool writes it.
+TEST(KnownTo, NamesANumberOfTheBelief) {
+  const auto [belief, notes, unstated] = read("[known_to]\ninertia_relative = 0.015\n");
+  ASSERT_EQ(belief.known_to.size(), 1u);
+  EXPECT_EQ(belief.known_to.front().key, "axis.inertia_kg_m2");
+  EXPECT_TRUE(belief.known_to.front().is_relative);
+  EXPECT_EQ(numbers_of(Belief(belief)).at("known_to.inertia_relative"), 0.015);
+  EXPECT_THROW(read("[known_to]\ninertia_relativ = 0.015\n"), ConfigError);
+  EXPECT_THROW(read("[known_to]\ninertia_relative = -1\n"), ConfigError);
+}
+
 }  // namespace
 
 namespace diagnose {
@@ -103,6 +114,28 @@ TEST(DiagnoseKeySpread, WhatIsMissingBesideItIsStillFound) {
   const auto d = diagnose(recordings);
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front().id, "axis.coulomb");
+}
+
+// An axis whose friction is 0.09 N m in all trials, believed to be 0.06 N m.
+Diagnosis of_rough_swings(double known_to) {
+  auto recordings = swings([](double, double w, double) { return -0.09 * std::tanh(w / 0.02); }, 44, 8);
+  recordings.belief.numbers["axis.coulomb_friction_Nm"] = 0.06;
+  recordings.belief.known_to = {{"coulomb_friction_relative", "axis.coulomb_friction_Nm", known_to, true}};
+  for (auto& belief : recordings.beliefs) belief = recordings.belief;
+  return diagnose(recordings, {.belief = {{.key = "axis.coulomb_friction_Nm", .low = 0.06, .high = 0.06}}});
+}
+
+// A number that is the same in all trials and known to 30 % only may be off by 50 %: nothing is missing, and
+// the answer says what the recordings ask for. Known to 5 %, it may not.
+TEST(DiagnoseKnownTo, ANumberThatMayBeOffIsFittedForAllTrialsTogether) {
+  const auto open = of_rough_swings(0.3);
+  EXPECT_EQ(open.verdict, Verdict::consistent);
+  ASSERT_FALSE(open.belief.empty());
+  EXPECT_NEAR(open.belief.front().known_sd, 0.3 * 0.06, 1e-12);
+  EXPECT_NEAR(open.belief.front().asked_for, 0.03, 0.004);
+  const auto held = of_rough_swings(0.05);
+  ASSERT_FALSE(held.effects.empty());
+  EXPECT_EQ(held.effects.front().id, "axis.coulomb");
 }
 
 }  // namespace

@@ -51,6 +51,25 @@ void leave_out_unstated(ConfigNode& table, const std::string& path, const std::s
   });
 }
 
+// Takes the table [known_to] out of the document. A name that means no number of the plant, or several, is a
+// problem.
+std::vector<KeySpread> take_known_to(ConfigNode& root, const std::map<std::string, double>& numbers,
+                                     const std::string& file, std::vector<ConfigProblem>& problems) {
+  std::vector<KeySpread> known;
+  std::erase_if(root.children, [&](ConfigNode& table) {
+    if (table.kind != ConfigNode::Kind::table || table.key != "known_to") return false;
+    known = take_key_spreads(table, {}, numbers, file, problems);
+    for (const auto& left : table.children)
+      problems.push_back(
+          {file, left.key_position, "known_to." + left.key,
+           fmt::format("known_to.{}: names no number of this belief; write the number's name, or its "
+                       "name without the unit and '_relative' for a share of it",
+                       left.key)});
+    return true;
+  });
+  return known;
+}
+
 template <class Plant>
 Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Finding>& notes,
                    std::vector<UnstatedNumber>& unstated) {
@@ -66,6 +85,7 @@ Belief read_belief(const std::filesystem::path& file, Plant base, std::vector<Fi
     base.key_spreads = take_key_spreads(table, known, numbers_of(Belief(base)), file.string(), problems);
     leave_out_unknown(table, known, file.string(), plant, notes);
   }
+  base.known_to = take_known_to(document.root, numbers_of(Belief(base)), file.string(), problems);
   auto effects = take_effects(document, problems);
   if (!problems.empty()) throw ConfigError(problems);
   auto belief = load_document<Plant>(document, MissingKeys::use_default, std::move(base));

@@ -29,7 +29,7 @@ struct HopperBelief {
   BeliefSensors sensors{};
   BeliefSpread spread{};
   BeliefEffects effects{};
-  std::vector<KeySpread> key_spreads{};
+  std::vector<KeySpread> key_spreads{}, known_to{};
 
   // The configuration for the simulation in tools/plant.
   WorldConfig world() const;
@@ -71,7 +71,7 @@ struct IntruderBelief {
   BeliefSensors sensors{};
   BeliefSpread spread{};
   BeliefEffects effects{};
-  std::vector<KeySpread> key_spreads{};
+  std::vector<KeySpread> key_spreads{}, known_to{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -135,7 +135,7 @@ struct FallingBodyBelief {
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
   BeliefEffects effects{};
-  std::vector<KeySpread> key_spreads{};
+  std::vector<KeySpread> key_spreads{}, known_to{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -174,7 +174,7 @@ struct RotaryAxisBelief {
   BeliefSensors sensors = BeliefSensors::without_effect();
   BeliefSpread spread = BeliefSpread::without_effect();
   BeliefEffects effects{};
-  std::vector<KeySpread> key_spreads{};
+  std::vector<KeySpread> key_spreads{}, known_to{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -208,9 +208,9 @@ inline constexpr std::array<std::string_view, 3> kDiameterKeys{"diameter_m", "fo
 // The finding of such a key. It makes a trial unusable that needs the number; otherwise it is a note.
 Finding finding_of(const UnstatedNumber& number, bool is_needed);
 // Reads nominal.toml. Throws ConfigError with place and cure of every key that is unknown, of the wrong type
-// or out of range. [spread] also takes the name of any number of the plant (key_spread.hpp). An unknown key
-// in [sensors] or [spread] is only left out with a note, because recordings from elsewhere name what their
-// own simulator has. A `key = "?"` is left out and listed in `unstated`.
+// or out of range. [spread] and [known_to] also take the name of any number of the plant (key_spread.hpp). An
+// unknown key in [sensors] or [spread] is only left out with a note, because recordings from elsewhere name
+// what their own simulator has. A `key = "?"` is left out and listed in `unstated`.
 Belief load_belief(const std::filesystem::path& file, CampaignPlant plant, std::vector<Finding>& notes,
                    std::vector<UnstatedNumber>& unstated);
 

@@ -39,6 +39,7 @@ Numbers numbers_in_order(const Belief& belief) {
       [&](const auto& plant) {
         flatten(plant, "", numbers);
         for (const auto& spread : plant.key_spreads) numbers.emplace_back("spread." + spread.name, spread.sd);
+        for (const auto& known : plant.known_to) numbers.emplace_back("known_to." + known.name, known.sd);
       },
       belief);
   return numbers;
@@ -46,7 +47,7 @@ Numbers numbers_in_order(const Belief& belief) {
 
 // A set-up names no table. It states the first number of its name outside [spread] (override_belief).
 bool is_first_of_its_name(const Numbers& numbers, const std::string& path) {
-  if (path.starts_with("spread.")) return false;
+  if (path.starts_with("spread.") || path.starts_with("known_to.")) return false;
   const auto name = "." + path.substr(path.rfind('.') + 1);
   const auto first =
       std::ranges::find_if(numbers, [&](const auto& n) { return ("." + n.first).ends_with(name); });

@@ -35,19 +35,23 @@ class NominalWriter {
       if constexpr (HasFields<const Member>) {
         text_ += fmt::format("\n[{}]\n", key);
         write(member, std::string(key));
-        if (key == "spread") text_ += example_of_spread();
+        if (key == "spread") text_ += example_of_uncertainty();
       }
     });
   }
   std::string take() { return std::move(text_); }
 
  private:
-  // A number of the plant that is known to some per cent only.
-  std::string example_of_spread() const {
+  // A number of the plant that differs from trial to trial, or that is known to some per cent only.
+  std::string example_of_uncertainty() const {
     constexpr std::array<std::string_view, EnumNames<CampaignPlant>::value.size()> kNumbers{
         "body_mass", "bulk_density", "mass", "inertia"};
     return fmt::format(
-        "# {}_relative = 0.02   # known to 2 %; any other number above likewise: its name without the unit\n",
+        "# {0}_relative = 0.02   # differs by 2 % from trial to trial; any other number above likewise: its "
+        "name "
+        "without the unit\n"
+        "\n# How well a number is known that is the same in all trials\n# [known_to]\n"
+        "# {0}_relative = 0.02   # known to 2 %\n",
         kNumbers[static_cast<std::size_t>(plant_)]);
   }
 

@@ -21,7 +21,7 @@ std::string_view quantity_of(std::string_view key) {
 }
 
 bool can_differ(std::string_view path) {
-  return !path.starts_with("sensors.") && !path.starts_with("spread.");
+  return !path.starts_with("sensors.") && !path.starts_with("spread.") && !path.starts_with("known_to.");
 }
 
 // Numbers that `name` may mean.
@@ -38,20 +38,20 @@ std::vector<std::string> named(std::string_view name, const std::map<std::string
 
 }  // namespace
 
-std::vector<KeySpread> take_key_spreads(ConfigNode& spread, const std::vector<std::string>& known,
+std::vector<KeySpread> take_key_spreads(ConfigNode& table, const std::vector<std::string>& known,
                                         const std::map<std::string, double>& numbers, const std::string& file,
                                         std::vector<ConfigProblem>& problems) {
   std::vector<KeySpread> taken;
-  std::erase_if(spread.children, [&](const ConfigNode& node) {
+  std::erase_if(table.children, [&](const ConfigNode& node) {
     if (std::ranges::find(known, node.key) != known.end()) return false;
     const auto keys = named(node.key, numbers);
     if (keys.size() != 1) return false;
     const bool is_number = node.kind == Kind::real || node.kind == Kind::integer;
     const double sd = node.kind == Kind::integer ? static_cast<double>(node.integer) : node.real;
     if (!is_number || !(sd >= 0.0)) {
-      problems.push_back(
-          {file, node.position, "spread." + node.key,
-           fmt::format("spread.{}: expected a standard deviation of {}, 0 or more", node.key, keys.front())});
+      problems.push_back({file, node.position, table.key + "." + node.key,
+                          fmt::format("{}.{}: expected a standard deviation of {}, 0 or more", table.key,
+                                      node.key, keys.front())});
       return true;
     }
     taken.push_back({node.key, keys.front(), sd, node.key.ends_with(kRelative)});

@@ -13,6 +13,10 @@ namespace sandhopper {
 //   [spread]
 //   coulomb_friction_relative = 0.05    # of axis.coulomb_friction_Nm, as a share of it
 //   mass_kg                   = 0.002   # of body.mass_kg, in its own unit
+// or how well it is known, where it is one and the same in all trials:
+//
+//   [known_to]
+//   inertia_relative = 0.015            # of axis.inertia_kg_m2
 struct KeySpread {
   std::string name;  // as [spread] writes it
   std::string key;   // of the number, "axis.coulomb_friction_Nm"
@@ -20,9 +24,9 @@ struct KeySpread {
   bool is_relative = false;
 };
 
-// Takes out of `spread`, the table [spread], every key that is not among `known` and names exactly one of
+// Takes out of `table`, [spread] or [known_to], every key that is not among `known` and names exactly one of
 // `numbers` ("table.key" and value). A value that is negative or no number is a problem with its place.
-std::vector<KeySpread> take_key_spreads(ConfigNode& spread, const std::vector<std::string>& known,
+std::vector<KeySpread> take_key_spreads(ConfigNode& table, const std::vector<std::string>& known,
                                         const std::map<std::string, double>& numbers, const std::string& file,
                                         std::vector<ConfigProblem>& problems);
 

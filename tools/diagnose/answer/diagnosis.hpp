@@ -155,6 +155,9 @@ struct BelievedNumber {
   // Error beyond which the recordings contradict the number (95 %), with the nuisances refitted. Infinite:
   // the recordings do not depend on it.
   double error_that_shows = 0.0;
+  // If [known_to] states how well the number is known: its standard deviation, and the change that these
+  // recordings ask for, the same in all trials.
+  double known_sd = 0.0, asked_for = 0.0;
 
   double size() const { return low < 0.0 && -low > high ? -low : high; }
   bool matters() const { return usual_error >= error_that_shows; }

@@ -123,7 +123,8 @@ Json belief_json(const BelievedNumber& n) {
           {"said_by", n.said_by},
           {"usual_error", n.usual_error},
           {"error_that_shows", std::isfinite(n.error_that_shows) ? Json(n.error_that_shows) : Json(nullptr)},
-          {"matters", n.matters()}};
+          {"matters", n.matters()},
+          {"known_to", n.known_sd > 0.0 ? Json{{"sd", n.known_sd}, {"change", n.asked_for}} : Json(nullptr)}};
 }
 
 }  // namespace

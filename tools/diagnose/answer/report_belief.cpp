@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,19 @@ Edits with_number(Edits edits, const std::string& key) {
   return edits;
 }
 
+// A tolerance on a number, by its key, in the number's unit.
+void take_known_to(const Problem& problem, const Point& answer, BelievedNumber& number) {
+  for (std::size_t i = 0; i < problem.tolerances.size(); ++i) {
+    const Tolerance& tolerance = problem.tolerances[i];
+    const bool is_of_it = std::ranges::any_of(problem.context.belief.known_to, [&](const KeySpread& known) {
+      return known.key == number.key && known.name == tolerance.name;
+    });
+    if (!tolerance.is_stated || !is_of_it) continue;
+    number.known_sd = tolerance.scale * (tolerance.is_relative ? number.size() : 1.0);
+    number.asked_for = answer.tolerances[i] * number.known_sd;
+  }
+}
+
 }  // namespace
 
 // g_i(r): whitened derivative of trial i by the relative change of a number, with the nuisances integrated
@@ -31,7 +45,9 @@ void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagn
   const Edits edits = edits_for(problem, answer.hypothesis, answer.tolerances);
   for (auto& number : diagnosis.belief) {
     number.error_that_shows = std::numeric_limits<double>::infinity();
-    const bool simulated = !number.key.starts_with("sensors.") && !number.key.starts_with("spread.");
+    take_known_to(problem, answer, number);
+    const bool simulated = !number.key.starts_with("sensors.") && !number.key.starts_with("spread.") &&
+                           !number.key.starts_with("known_to.");
     if (!simulated || number.size() == 0.0) continue;
     directions.push_back({with_number(edits, number.key), kShareMoved});
     numbers.push_back(&number);

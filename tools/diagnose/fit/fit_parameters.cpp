@@ -95,7 +95,13 @@ std::vector<Direction> parameter_directions(const Problem& problem, const Point&
     directions.push_back({edits_for(problem, moved, point.tolerances), kLawStep});
   }
   for (std::size_t i = 0; i < point.tolerances.size(); ++i) {
-    directions.push_back({{}, 1.0, static_cast<int>(i)});
+    if (!problem.tolerances[i].is_stated) {
+      directions.push_back({{}, 1.0, static_cast<int>(i)});
+      continue;
+    }
+    std::vector<double> moved(point.tolerances.begin(), point.tolerances.end());
+    moved[i] += kDerivativeStep;
+    directions.push_back({edits_for(problem, point.hypothesis, moved), kDerivativeStep});
   }
   return directions;
 }

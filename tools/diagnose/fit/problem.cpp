@@ -49,6 +49,8 @@ void Tolerance::put(Edits& edits, double in_scales) const {
     edits.sensor(channel, SensorEdit::Kind::mean_share, in_scales * scale, window_s);
   else if (belief_key.empty())
     edits.sensor(channel, SensorEdit::Kind::delay_s, in_scales * scale);
+  else if (is_relative)
+    edits.scale(belief_key, 1.0 + in_scales * scale);
   else
     edits.add(belief_key, in_scales * scale);
 }

@@ -24,6 +24,9 @@ struct Tolerance {
   std::string belief_key{};
   // > 0: the channel may record the mean over this window; the tolerance is that share
   double window_s = 0.0;
+  bool is_relative = false;  // the tolerance is a share of the number under `belief_key`
+  // Stated by [known_to]. It may be large, so its derivative is taken anew at each point.
+  bool is_stated = false;
 
   // Adds the tolerance to `edits`; `in_scales` is value / scale.
   void put(Edits& edits, double in_scales) const;

@@ -32,6 +32,8 @@ class Belief {
   std::map<std::string, std::map<std::string, double>> effects{};
   // Numbers that differ from trial to trial by more than a plant knows by itself.
   std::vector<KeySpread> key_spreads{};
+  // Numbers that are known to within a standard deviation only, and the same in all trials.
+  std::vector<KeySpread> known_to{};
 };
 
 // Samples at a limit that lies before the noise are spread over this many standard deviations.

@@ -152,6 +152,7 @@ Belief flattened(const sandhopper::Belief& belief) {
       [&](const auto& plant) {
         flat.effects = plant.effects;
         flat.key_spreads = plant.key_spreads;
+        flat.known_to = plant.known_to;
       },
       belief);
   return flat;
