@@ -134,7 +134,7 @@ void report_around(Problem& problem, const Recordings& recordings, const Recordi
   const Residuals residuals = residuals_of(problem, search.null().fit.point, answer);
   report_errors(problem, residuals, diagnosis);
   report_noise(problem, diagnosis);
-  report_trial_to_trial(problem, search, diagnosis);
+  report_trial_to_trial(problem, search, clean.trials, diagnosis);
   report_residuals(problem, residuals, diagnosis);
   options.progress(kOfBounds, "bounding absent effects");
   if (!stopped) report_absent(problem, search, diagnosis);

@@ -203,13 +203,28 @@ struct NextTrial {
   std::string reason() const;  // `why` without the order
 };
 
+// A nuisance parameter in one trial.
+struct SpreadValue {
+  std::string trial;
+  double before = 0.0, after = 0.0;
+  // The value is further from zero than the believed spread allows: 1 % two-sided, Bonferroni over the trials
+  // and all nuisances with a believed spread.
+  bool exceeds_before = false, exceeds_after = false;
+};
+
 // A nuisance parameter: mean and standard deviation over the trials, fitted without any effect and with the
 // found ones, and the believed standard deviation.
 struct TrialToTrial {
-  std::string name;  // ends with its unit
+  std::string name;  // ends with its unit, or with _relative
   double believed_sd = 0.0;
   double mean_before = 0.0, sd_before = 0.0;
   double mean_after = 0.0, sd_after = 0.0;
+  std::vector<SpreadValue> values{};  // of the trials that have it
+  bool is_default = false;            // nobody stated the spread
+  std::string goes_with{};            // "falls with plate_diameter_m"; empty: the values are in no such order
+
+  bool exceeds_before() const;  // in any trial
+  bool exceeds_after() const;
 };
 
 // The whole answer, as written to diagnosis.json, text and page.

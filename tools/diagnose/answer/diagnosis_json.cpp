@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/answer/spread_text.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -100,7 +101,16 @@ Json spread_json(const TrialToTrial& n) {
   return {{"name", n.name},
           {"believed_sd", n.believed_sd},
           {"before", {{"mean", n.mean_before}, {"sd", n.sd_before}}},
-          {"after", {{"mean", n.mean_after}, {"sd", n.sd_after}}}};
+          {"after", {{"mean", n.mean_after}, {"sd", n.sd_after}}},
+          {"exceeds_spread", n.exceeds_after()},
+          {"goes_with", n.goes_with.empty() ? Json(nullptr) : Json(n.goes_with)},
+          {"by_trial", list_of(n.values, [](const SpreadValue& value) {
+             return Json{{"trial", value.trial},
+                         {"before", value.before},
+                         {"after", value.after},
+                         {"exceeds_spread_before", value.exceeds_before},
+                         {"exceeds_spread_after", value.exceeds_after}};
+           })}};
 }
 
 Json unknown_json(const UnknownForce& u) {
@@ -133,6 +143,9 @@ Json to_json(const Diagnosis& d) {
   Json json;
   json["verdict"] = name_of(d.verdict);
   json["detail"] = d.detail == Detail::none ? Json(nullptr) : Json(name_of(d.detail));
+  const auto beyond = beyond_spread(d), before = taken_up_before(d);
+  json["only_if"] = beyond.empty() ? Json(nullptr) : Json(beyond);
+  json["taken_up_before"] = before.empty() ? Json(nullptr) : Json(before);
   json["noise_floor"] = Json::object();
   for (const auto& [channel, floor] : d.noise_floor) json["noise_floor"][channel] = floor;
   json["sensor_noise"] = list_of(d.noise, noise_json);

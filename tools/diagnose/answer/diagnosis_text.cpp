@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "tools/diagnose/answer/spread_text.hpp"
 #include "tools/diagnose/discrepancy/left_over.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
@@ -180,12 +181,17 @@ std::string remainder_text(const Diagnosis& d) {
 
 std::string below_the_floor(const Diagnosis& d) {
   const auto is_low = [](const ChannelFit& f) { return f.heldout.before < kMoreThanNoise * f.floor; };
-  if (d.effects.empty() || d.detail == Detail::data_fault || !std::ranges::all_of(d.fits, is_low)) return "";
+  if (d.effects.empty() || d.detail == Detail::data_fault || !std::ranges::all_of(d.fits, is_low) ||
+      !taken_up_before(d).empty())
+    return "";
   return "No channel's error is clearly above its noise floor before: what was found shows in the course of "
          "the errors, which is alike in all trials, and not in their size.";
 }
 
 std::string headline(const Diagnosis& d) {
+  const auto beyond = beyond_spread(d);
+  if (d.verdict == Verdict::consistent && !beyond.empty())
+    return fmt::format("{} trials agree with the simulation: consistent only if {}.", d.trials, beyond);
   if (d.verdict == Verdict::consistent)
     return fmt::format(
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
@@ -239,6 +245,9 @@ std::string to_text(const Diagnosis& d) {
   if (const auto left = remainder_text(d); !left.empty() && !told_in_headline(d))
     text += "left   " + left + "\n";
   if (const auto below = below_the_floor(d); !below.empty()) text += "       " + below + "\n";
+  if (const auto before = taken_up_before(d); !before.empty()) text += "       " + before + "\n";
+  if (const auto beyond = beyond_spread(d); !beyond.empty() && d.verdict != Verdict::consistent)
+    text += "spread even with this answer, " + beyond + "\n";
   for (const auto& noise : d.noise)
     if (noise.is_raised) text += fmt::format("noise  {}: {}\n", noise.channel, noise.in_words());
   text += next_text(d.next) + absent_text(d.absent);

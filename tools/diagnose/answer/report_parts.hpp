@@ -41,8 +41,10 @@ void report_data_faults(const std::vector<DataFault>& faults, Diagnosis& diagnos
 void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 // Noise of each sensor: stated, measured, and as the fit uses it.
 void report_noise(const Problem& problem, Diagnosis& diagnosis);
-// Nuisance parameters before and after, over the trials.
-void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis);
+// Nuisance parameters before and after, over the trials and in each. `recorded`: the trials with their
+// set-ups.
+void report_trial_to_trial(const Problem& problem, const Search& search, const std::vector<Trial>& recorded,
+                           Diagnosis& diagnosis);
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);

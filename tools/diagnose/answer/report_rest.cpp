@@ -45,32 +45,6 @@ void report_events(const Problem& problem, const std::vector<Event>& events, Dia
                     event.furthest, event.times_others));
 }
 
-// Reports only nuisances with a unique name; the knots along depth share one name.
-void report_trial_to_trial(const Problem& problem, const Search& search, Diagnosis& diagnosis) {
-  const auto trials = problem.trials.size();
-  if (trials < 2) return;
-  const auto& first = problem.trials.front()->trial_nuisances;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const auto same = [&](const Nuisance& other) { return other.name == first[i].name; };
-    if (std::ranges::count_if(first, same) > 1) continue;
-    const auto moments = [&](const Point& point) {
-      double sum = 0.0, squares = 0.0;
-      for (const auto& own : point.nuisances) sum += own[i];
-      const double mean = sum / static_cast<double>(trials);
-      for (const auto& own : point.nuisances) squares += (own[i] - mean) * (own[i] - mean);
-      return std::pair{mean, std::sqrt(squares / static_cast<double>(trials - 1))};
-    };
-    const bool everywhere = std::ranges::all_of(problem.trials, [&](const auto& trial) {
-      return trial->trial_nuisances.size() > i && trial->trial_nuisances[i].name == first[i].name;
-    });
-    if (!everywhere) continue;
-    const auto [mean_before, sd_before] = moments(search.null().fit.point);
-    const auto [mean_after, sd_after] = moments(search.best().fit.point);
-    diagnosis.trial_to_trial.push_back(
-        {first[i].name, first[i].sd, mean_before, sd_before, mean_after, sd_after});
-  }
-}
-
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   std::string port = gain.family.port;
   if (const auto dot = port.find('.'); dot != std::string::npos && !gain.family.sensor) port.resize(dot);

@@ -1,6 +1,7 @@
 #include "tools/diagnose/fit/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +27,10 @@ double student_t_two_sided(double t, double nu) {
 
 double student_t_quantile(double two_sided, double nu) {
   return quantile(complement(StudentT(nu), 0.5 * two_sided));
+}
+
+double normal_quantile(double two_sided) {
+  return quantile(complement(boost::math::normal(), 0.5 * two_sided));
 }
 
 double TrialEvidence::total_information() const { return sum(information); }

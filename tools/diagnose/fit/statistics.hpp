@@ -10,6 +10,9 @@ double student_t_two_sided(double t, double degrees_of_freedom);
 // The value of t with this two-sided tail probability.
 double student_t_quantile(double two_sided, double degrees_of_freedom);
 
+// The value of a standard normal variable whose magnitude is exceeded with this probability.
+double normal_quantile(double two_sided);
+
 // A variance between trials is regularised as if this many more trials had shown the noise's own variance.
 inline constexpr double kModelTrials = 4.0;
 // Its degrees of freedom.

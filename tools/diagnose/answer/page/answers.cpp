@@ -5,6 +5,7 @@
 
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/answer/spread_text.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
@@ -90,9 +91,14 @@ std::string parameters_of(const FoundEffect& e) {
 StudyAnswer what(const Diagnosis& d) {
   StudyAnswer box{"What", {}, {}, 3};
   if (nothing_found(d)) {
-    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent          ? "Nothing is missing"
+    const auto beyond = beyond_spread(d);
+    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent && !beyond.empty()
+                                            ? "Nothing, if trials differ by more than stated"
+                                        : d.verdict == Verdict::consistent        ? "Nothing is missing"
                                         : d.verdict == Verdict::insufficient_time ? "Too little time"
                                                                                   : "Too few trials");
+    if (d.verdict == Verdict::consistent && !beyond.empty())
+      box.lines.emplace_back(Style::text, "Consistent only if " + beyond + ".");
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
@@ -181,6 +187,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
           "Root mean square{}. Noise floor: noise ({} a sample), uncertain inputs and model error together.",
           changed ? " on trials held out of the fit" : "", number(f.noise) + " " + q.unit));
   if (const auto left = remainder_text(d); !left.empty()) box.lines.emplace_back(Style::text, left);
+  if (const auto before = taken_up_before(d); !before.empty()) box.lines.emplace_back(Style::text, before);
   for (const auto& noise : d.noise)
     if (noise.is_raised)
       box.lines.emplace_back(Style::text, fmt::format("The noise of {} is raised to {} times what {}; see "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/answer/spread_text.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -19,7 +20,7 @@ Study diagnosis_study(const Diagnosis& d, const PageFacts& facts) {
                              fmt::format("{} {}, see below", remarks, remarks == 1 ? "remark" : "remarks"));
   const auto limit = limit_text(d);
   study.verdict = headline(d) + (limit.empty() ? "" : " " + limit);
-  study.verdict_mark = d.verdict == Verdict::consistent ? "good"
+  study.verdict_mark = d.verdict == Verdict::consistent ? (beyond_spread(d).empty() ? "good" : "partly")
                        : is_open(d.verdict)             ? "partly"
                        : d.detail == Detail::known      ? "bad"
                                                         : "partly";

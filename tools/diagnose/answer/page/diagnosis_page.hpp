@@ -30,6 +30,8 @@ std::vector<StudyAnswer> page_answers(const Diagnosis& diagnosis);
 std::vector<StudySection> page_sections(const Diagnosis& diagnosis, const PageFacts& facts);
 // Recorded and simulated traces of one trial.
 StudySection trial_section(const Diagnosis& diagnosis, const std::string& trial);
+// Numbers that are fitted in each trial; those beyond their believed spread are marked.
+StudySection trial_to_trial_section(const Diagnosis& diagnosis);
 // Predictions of the recommended trial by two explanations.
 StudySection next_trial_section(const Diagnosis& diagnosis);
 

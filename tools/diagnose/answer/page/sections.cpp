@@ -196,22 +196,6 @@ StudySection where_section(const Diagnosis& d) {
   return {"Where it shows", {table}};
 }
 
-StudySection trial_to_trial_section(const Diagnosis& d) {
-  StudyTable table;
-  table.columns = {"fitted in each trial",     "believed sd",           "mean as believed", "sd as believed",
-                   "mean with what was found", "sd with what was found"};
-  for (const auto& n : d.trial_to_trial)
-    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
-                          number(n.sd_before), number(n.mean_after), number(n.sd_after)});
-  table.note =
-      "Parameters that are fitted in each trial beside the model. Where their mean lies many believed "
-      "standard "
-      "deviations (sd) from zero, or their sd is much larger than believed, they have absorbed something "
-      "that "
-      "the model lacks.";
-  return {"What differs from trial to trial", {table}};
-}
-
 StudySection absent_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"effect", "parameter", "magnitude", "largest size, times the typical one"};

@@ -1,0 +1,96 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/answer/diagnosis_json.hpp"
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TrialToTrial area_stiffness(double before, double after, bool exceeds_after) {
+  return {.name = "stiffness_per_area_relative",
+          .believed_sd = 0.038,
+          .mean_before = -0.09,
+          .sd_before = 0.08,
+          .mean_after = after,
+          .sd_after = 0.01,
+          .values = {{"Versuch_01", 0.0, 0.0}, {"Versuch_05", before, after, true, exceeds_after}},
+          .goes_with = exceeds_after ? "falls with plate_diameter_m" : ""};
+}
+
+// A stranger read "Nothing is missing" while one number had to differ by five times its stated spread.
+TEST(DiagnoseSpread, AConsistentAnswerThatStretchesASpreadSaysSoInItsHeadline) {
+  Diagnosis d;
+  d.verdict = Verdict::consistent;
+  d.trials = 9;
+  d.trial_to_trial = {area_stiffness(-0.2, -0.2, true)};
+  const auto sentence =
+      HasSubstr("onsistent only if stiffness_per_area differs by -20 % in Versuch_05, 5.3 times the stated "
+                "3.8 %; it falls with plate_diameter_m");
+  EXPECT_THAT(headline(d), sentence);
+  EXPECT_THAT(to_text(d), sentence);
+  const auto json = to_json(d);
+  EXPECT_EQ(json.at("verdict"), "consistent");
+  EXPECT_THAT(json.at("only_if").get<std::string>(), HasSubstr("differs by -20 % in Versuch_05"));
+  EXPECT_TRUE(json.at("trial_to_trial").at(0).at("by_trial").at(1).at("exceeds_spread_after"));
+  const auto page = diagnosis_study(d, {});
+  EXPECT_EQ(page.verdict_mark, "partly");
+  EXPECT_THAT(page.answers.at(1).lines.at(1).second, sentence);
+  d.trial_to_trial = {area_stiffness(-0.05, -0.05, false)};
+  EXPECT_THAT(headline(d), HasSubstr("Nothing is missing"));
+  EXPECT_TRUE(to_json(d).at("only_if").is_null());
+}
+
+// "0.71 times the noise floor before, 0.72 after" beside a certain effect.
+TEST(DiagnoseSpread, TheNumberThatTookTheMismatchUpBeforeIsNamedBesideTheErrors) {
+  Diagnosis d;
+  d.verdict = Verdict::missing_physics;
+  d.effects = {{.id = "rig.compliance", .port = "rig", .statement = "", .equation = "", .parameters = {}}};
+  d.fits = {{.channel = "force_N", .train = {}, .heldout = {0.71, 0.72}, .floor = 1.0}};
+  d.trial_to_trial = {area_stiffness(-0.2, 0.01, false)};
+  EXPECT_THAT(to_text(d), HasSubstr("before, stiffness_per_area had to differ by -9.0 +- 8.0 % between trials "
+                                    "(stated 3.8 %); after by 1.0 +- 1.0 %"));
+  EXPECT_THAT(to_text(d), Not(HasSubstr("No channel's error")));
+  d.trial_to_trial.front().values.back().exceeds_before = false;
+  EXPECT_THAT(to_text(d), Not(HasSubstr("had to differ")));
+  EXPECT_THAT(to_text(d), HasSubstr("No channel's error"));
+}
+
+// Linear drag that is up to 40 % smaller from trial to trial, in order of the release height.
+Recordings drops_with_unequal_drag() {
+  constexpr double kDrag_N_s_per_m = 0.06;
+  Recordings all;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double share = 1.0 - 0.4 * static_cast<double>(i % 4) / 3.0;
+    auto one = drops([=](double, double, double v) { return -share * kDrag_N_s_per_m * v; });
+    if (i == 0) all = one;
+    all.trials[i] = one.trials[i];
+  }
+  all.belief.numbers["medium.linear_drag_N_s_per_m"] = kDrag_N_s_per_m;
+  all.belief.key_spreads = {{"linear_drag_relative", "medium.linear_drag_N_s_per_m", 0.03, true}};
+  // Without its accelerometer a trial has fewer nuisances before this one.
+  all.trials[1].channels.erase("accel_mps2");
+  for (auto& belief : all.beliefs) belief = all.belief;
+  return all;
+}
+
+TEST(DiagnoseSpread, EveryNumberOfSpreadIsListedWithItsValuesAndWhatExceeds) {
+  const auto d = diagnose(drops_with_unequal_drag());
+  const auto drag = std::ranges::find(d.trial_to_trial, "linear_drag_relative", &TrialToTrial::name);
+  ASSERT_NE(drag, d.trial_to_trial.end());
+  ASSERT_EQ(drag->values.size(), 8u);
+  EXPECT_NEAR(drag->values[3].before, -0.4, 0.1);
+  EXPECT_TRUE(drag->values[3].exceeds_before);
+  EXPECT_FALSE(drag->values[4].exceeds_before);
+  if (d.effects.empty()) EXPECT_EQ(drag->goes_with, "falls with release_height_m");
+}
+
+}  // namespace
+}  // namespace sandhopper::diagnose

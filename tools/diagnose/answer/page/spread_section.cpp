@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/answer/spread_text.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+// Trials of any fitted number, in their order.
+std::vector<std::string> trials_of(const Diagnosis& d) {
+  std::vector<std::string> trials;
+  for (const auto& n : d.trial_to_trial)
+    for (const auto& value : n.values)
+      if (std::ranges::find(trials, value.trial) == trials.end()) trials.push_back(value.trial);
+  return trials;
+}
+
+StudyTable numbers_table(const Diagnosis& d) {
+  StudyTable table;
+  table.columns = {"fitted in each trial",   "believed sd",
+                   "mean as believed",       "sd as believed",
+                   "mean with what was found", "sd with what was found",
+                   "furthest, in believed sd"};
+  for (const auto& n : d.trial_to_trial) {
+    double furthest = 0.0;
+    for (const auto& value : n.values) furthest = std::max(furthest, std::abs(value.after));
+    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
+                          number(n.sd_before), number(n.mean_after), number(n.sd_after),
+                          n.believed_sd > 0.0 ? number(furthest / n.believed_sd) : ""});
+    table.row_marks.emplace_back(n.exceeds_after() ? "bad" : "");
+  }
+  table.note =
+      "Parameters that are fitted in each trial beside the model. A marked one differs by more than its "
+      "believed spread allows (1 % by chance, over all trials and numbers): it may have absorbed something "
+      "that the model lacks. So may one whose mean lies many believed standard deviations (sd) from zero.";
+  return table;
+}
+
+StudyTable values_table(const Diagnosis& d) {
+  StudyTable table;
+  table.title = "Their values, with what was found";
+  table.columns = {"trial"};
+  for (const auto& n : d.trial_to_trial) table.columns.push_back(quantity_of(n.name).label());
+  bool exceeded = false;
+  for (const auto& trial : trials_of(d)) {
+    std::vector<std::string> row{trial};
+    bool exceeds = false;
+    for (const auto& n : d.trial_to_trial) {
+      const auto value = std::ranges::find(n.values, trial, &SpreadValue::trial);
+      const bool is_there = value != n.values.end();
+      const bool is_marked = is_there && value->exceeds_after;
+      row.push_back(is_there ? number(value->after) + (is_marked ? " !" : "") : "");
+      exceeds = exceeds || is_marked;
+    }
+    table.rows.push_back(std::move(row));
+    table.row_marks.emplace_back(exceeds ? "bad" : "");
+    exceeded = exceeded || exceeds;
+  }
+  if (exceeded) table.note = "!: further from zero than the believed spread allows.";
+  return table;
+}
+
+}  // namespace
+
+StudySection trial_to_trial_section(const Diagnosis& d) {
+  StudySection section{"What differs from trial to trial", {}};
+  if (const auto beyond = beyond_spread(d); !beyond.empty())
+    section.items.emplace_back("The answer holds only if " + beyond + ".");
+  section.items.emplace_back(numbers_table(d));
+  section.items.emplace_back(values_table(d));
+  return section;
+}
+
+}  // namespace sandhopper::diagnose

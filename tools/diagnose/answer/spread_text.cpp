@@ -1,0 +1,83 @@
+#include "tools/diagnose/answer/spread_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/model/quantity.hpp"
+
+namespace sandhopper::diagnose {
+namespace {
+
+constexpr std::string_view kRelative = "_relative";
+
+double mean_square(double mean, double sd) { return mean * mean + sd * sd; }
+
+// "-9 +- 8 %"
+std::string mean_and_sd(const TrialToTrial& n, double mean, double sd) {
+  const bool relative = n.name.ends_with(kRelative);
+  const auto unit = relative ? std::string("%") : quantity_of(n.name).unit;
+  const double scale = relative ? 100.0 : 1.0;
+  return fmt::format("{} +- {}{}{}", two_digits(scale * mean), two_digits(scale * sd), unit.empty() ? "" : " ",
+                     unit);
+}
+
+std::string beyond(const TrialToTrial& n) {
+  const auto most =
+      std::ranges::max_element(n.values, {}, [](const auto& value) { return std::abs(value.after); });
+  const auto exceed = std::ranges::count_if(n.values, &SpreadValue::exceeds_after);
+  std::string text = fmt::format(
+      "{} differs by {} in {}, {} times the {} {}", subject_of(n), amount_in_words(n, most->after), most->trial,
+      two_digits(std::abs(most->after) / n.believed_sd), n.is_default ? "assumed" : "stated",
+      amount_in_words(n, n.believed_sd));
+  if (exceed > 1)
+    text += fmt::format(", and too far in {} other trial{}", exceed - 1, exceed > 2 ? "s" : "");
+  if (!n.goes_with.empty()) text += "; it " + n.goes_with;
+  return text;
+}
+
+}  // namespace
+
+bool TrialToTrial::exceeds_before() const {
+  return std::ranges::any_of(values, &SpreadValue::exceeds_before);
+}
+bool TrialToTrial::exceeds_after() const {
+  return std::ranges::any_of(values, &SpreadValue::exceeds_after);
+}
+
+std::string amount_in_words(const TrialToTrial& n, double value) {
+  return n.name.ends_with(kRelative) ? fmt::format("{} %", two_digits(100.0 * value))
+                                     : measured(value, quantity_of(n.name).unit);
+}
+
+std::string subject_of(const TrialToTrial& n) {
+  return n.name.ends_with(kRelative) ? n.name.substr(0, n.name.size() - kRelative.size()) : n.name;
+}
+
+std::string beyond_spread(const Diagnosis& d) {
+  std::string text;
+  for (const auto& n : d.trial_to_trial)
+    if (n.exceeds_after()) text += (text.empty() ? "" : "; and if ") + beyond(n);
+  return text;
+}
+
+std::string taken_up_before(const Diagnosis& d) {
+  if (d.effects.empty()) return "";
+  std::string text;
+  for (const auto& n : d.trial_to_trial) {
+    if (!n.exceeds_before() ||
+        mean_square(n.mean_before, n.sd_before) <= mean_square(n.mean_after, n.sd_after))
+      continue;
+    text += fmt::format("{}{} had to differ by {} between trials ({} {}); after by {}",
+                        text.empty() ? "" : "; ", subject_of(n),
+                        mean_and_sd(n, n.mean_before, n.sd_before), n.is_default ? "assumed" : "stated",
+                        amount_in_words(n, n.believed_sd), mean_and_sd(n, n.mean_after, n.sd_after));
+  }
+  return text.empty() ? "" : "The error before is small only because the fit moved other numbers: before, " +
+                                 text + ".";
+}
+
+}  // namespace sandhopper::diagnose
