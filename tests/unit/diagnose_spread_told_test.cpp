@@ -31,9 +31,9 @@ TEST(DiagnoseSpread, AConsistentAnswerThatStretchesASpreadSaysSoInItsHeadline) {
   d.verdict = Verdict::consistent;
   d.trials = 9;
   d.trial_to_trial = {area_stiffness(-0.2, -0.2, true)};
-  const auto sentence =
-      HasSubstr("onsistent only if stiffness_per_area differs by -20 % in Versuch_05, 5.3 times the stated "
-                "3.8 %; it falls with plate_diameter_m");
+  const auto sentence = HasSubstr(
+      "onsistent only if stiffness_per_area differs by -20 % in Versuch_05, 5.3 times the stated "
+      "3.8 %; it falls with plate_diameter_m");
   EXPECT_THAT(headline(d), sentence);
   EXPECT_THAT(to_text(d), sentence);
   const auto json = to_json(d);
@@ -55,8 +55,9 @@ TEST(DiagnoseSpread, TheNumberThatTookTheMismatchUpBeforeIsNamedBesideTheErrors)
   d.effects = {{.id = "rig.compliance", .port = "rig", .statement = "", .equation = "", .parameters = {}}};
   d.fits = {{.channel = "force_N", .train = {}, .heldout = {0.71, 0.72}, .floor = 1.0}};
   d.trial_to_trial = {area_stiffness(-0.2, 0.01, false)};
-  EXPECT_THAT(to_text(d), HasSubstr("before, stiffness_per_area had to differ by -9.0 +- 8.0 % between trials "
-                                    "(stated 3.8 %); after by 1.0 +- 1.0 %"));
+  EXPECT_THAT(to_text(d),
+              HasSubstr("before, stiffness_per_area had to differ by -9.0 +- 8.0 % between trials "
+                        "(stated 3.8 %); after by 1.0 +- 1.0 %"));
   EXPECT_THAT(to_text(d), Not(HasSubstr("No channel's error")));
   d.trial_to_trial.front().values.back().exceeds_before = false;
   EXPECT_THAT(to_text(d), Not(HasSubstr("had to differ")));

@@ -111,7 +111,8 @@ void mark_what_exceeds(const Belief& belief, std::vector<TrialToTrial>& told) {
   }
 }
 
-// Standard deviation that the belief gives the nuisance. A fit may have narrowed it to the spread that it saw.
+// Standard deviation that the belief gives the nuisance. A fit may have narrowed it to the spread that it
+// saw.
 double believed_sd(const Problem& problem, const Nuisance& nuisance) {
   return std::max(nuisance.sd, stated_spread(problem.context.belief, nuisance.name));
 }

@@ -21,20 +21,19 @@ std::string mean_and_sd(const TrialToTrial& n, double mean, double sd) {
   const bool relative = n.name.ends_with(kRelative);
   const auto unit = relative ? std::string("%") : quantity_of(n.name).unit;
   const double scale = relative ? 100.0 : 1.0;
-  return fmt::format("{} +- {}{}{}", two_digits(scale * mean), two_digits(scale * sd), unit.empty() ? "" : " ",
-                     unit);
+  return fmt::format("{} +- {}{}{}", two_digits(scale * mean), two_digits(scale * sd),
+                     unit.empty() ? "" : " ", unit);
 }
 
 std::string beyond(const TrialToTrial& n) {
   const auto most =
       std::ranges::max_element(n.values, {}, [](const auto& value) { return std::abs(value.after); });
   const auto exceed = std::ranges::count_if(n.values, &SpreadValue::exceeds_after);
-  std::string text = fmt::format(
-      "{} differs by {} in {}, {} times the {} {}", subject_of(n), amount_in_words(n, most->after), most->trial,
-      two_digits(std::abs(most->after) / n.believed_sd), n.is_default ? "assumed" : "stated",
-      amount_in_words(n, n.believed_sd));
-  if (exceed > 1)
-    text += fmt::format(", and too far in {} other trial{}", exceed - 1, exceed > 2 ? "s" : "");
+  std::string text = fmt::format("{} differs by {} in {}, {} times the {} {}", subject_of(n),
+                                 amount_in_words(n, most->after), most->trial,
+                                 two_digits(std::abs(most->after) / n.believed_sd),
+                                 n.is_default ? "assumed" : "stated", amount_in_words(n, n.believed_sd));
+  if (exceed > 1) text += fmt::format(", and too far in {} other trial{}", exceed - 1, exceed > 2 ? "s" : "");
   if (!n.goes_with.empty()) text += "; it " + n.goes_with;
   return text;
 }
@@ -44,9 +43,7 @@ std::string beyond(const TrialToTrial& n) {
 bool TrialToTrial::exceeds_before() const {
   return std::ranges::any_of(values, &SpreadValue::exceeds_before);
 }
-bool TrialToTrial::exceeds_after() const {
-  return std::ranges::any_of(values, &SpreadValue::exceeds_after);
-}
+bool TrialToTrial::exceeds_after() const { return std::ranges::any_of(values, &SpreadValue::exceeds_after); }
 
 std::string amount_in_words(const TrialToTrial& n, double value) {
   return n.name.ends_with(kRelative) ? fmt::format("{} %", two_digits(100.0 * value))
@@ -72,12 +69,13 @@ std::string taken_up_before(const Diagnosis& d) {
         mean_square(n.mean_before, n.sd_before) <= mean_square(n.mean_after, n.sd_after))
       continue;
     text += fmt::format("{}{} had to differ by {} between trials ({} {}); after by {}",
-                        text.empty() ? "" : "; ", subject_of(n),
-                        mean_and_sd(n, n.mean_before, n.sd_before), n.is_default ? "assumed" : "stated",
-                        amount_in_words(n, n.believed_sd), mean_and_sd(n, n.mean_after, n.sd_after));
+                        text.empty() ? "" : "; ", subject_of(n), mean_and_sd(n, n.mean_before, n.sd_before),
+                        n.is_default ? "assumed" : "stated", amount_in_words(n, n.believed_sd),
+                        mean_and_sd(n, n.mean_after, n.sd_after));
   }
-  return text.empty() ? "" : "The error before is small only because the fit moved other numbers: before, " +
-                                 text + ".";
+  return text.empty()
+             ? ""
+             : "The error before is small only because the fit moved other numbers: before, " + text + ".";
 }
 
 }  // namespace sandhopper::diagnose

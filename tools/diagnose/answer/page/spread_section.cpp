@@ -19,8 +19,8 @@ std::vector<std::string> trials_of(const Diagnosis& d) {
 
 StudyTable numbers_table(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"fitted in each trial",   "believed sd",
-                   "mean as believed",       "sd as believed",
+  table.columns = {"fitted in each trial",     "believed sd",
+                   "mean as believed",         "sd as believed",
                    "mean with what was found", "sd with what was found",
                    "furthest, in believed sd"};
   for (const auto& n : d.trial_to_trial) {
