@@ -71,6 +71,19 @@ Json as_json(const Effect& effect, const std::vector<const Candidate*>& candidat
           {"parameters", parameters}};
 }
 
+// Reason why a sensor's fault is not looked for in the drive's torque; empty: it is, or no torque drives.
+std::string not_looked_for(const Effect& effect, const std::vector<const Candidate*>& candidates,
+                           const diagnose::Context& context) {
+  const bool is_input = context.plant == diagnose::PlantKind::rotary_axis && context.facts.is_driven;
+  if (!is_input || !effect.channels || effect.port != diagnose::Port::sensor ||
+      std::ranges::any_of(candidates, [](const auto* one) { return one->channel == "torque_Nm"; }))
+    return "";
+  return candidates.empty()
+             ? "not looked for: torque_Nm drives the simulation, and no other channel that can "
+               "have this fault is recorded"
+             : "not looked for in torque_Nm: it drives the simulation";
+}
+
 }  // namespace
 
 ExitCode list_effects(Session& session, const diagnose::Recordings& recordings) {
@@ -81,12 +94,17 @@ ExitCode list_effects(Session& session, const diagnose::Recordings& recordings) 
     std::vector<const Candidate*> candidates;
     for (const auto& candidate : prepared.problem.candidates)
       if (candidate.effect == &effect) candidates.push_back(&candidate);
-    const auto json = as_json(effect, candidates, recordings.plant);
+    auto json = as_json(effect, candidates, recordings.plant);
+    const auto reason = not_looked_for(effect, candidates, prepared.problem.context);
+    if (!reason.empty()) json["not_looked_for"] = reason;
     session.result["effects"].push_back(json);
     session.say("{} (port {}): {}", effect.id, json["port"].get<std::string>(),
                 json["statement"].get<std::string>());
     session.say("    {}", effect.equation);
-    if (candidates.empty()) session.say("    cannot be seen in these recordings");
+    if (!reason.empty())
+      session.say("    {}", reason);
+    else if (candidates.empty())
+      session.say("    cannot be seen in these recordings");
     for (const auto& parameter : json["parameters"]) session.say("    {}", in_words(parameter));
   }
   return ExitCode::ok;

@@ -123,22 +123,36 @@ double delay_of_tolerances_s(const Problem& problem, const Point& point, const s
   return std::abs(delay_s);
 }
 
+// Delays and lags, s, that the candidate with its typical size adds to each channel.
+std::map<std::string, double> delays_of(const Problem& problem, const Candidate& candidate) {
+  auto values = shape_choices(candidate).front();
+  values[0] = candidate.parameters[0].typical;
+  Edits edits;
+  candidate.effect->apply(problem.context, candidate.channel, values, edits);
+  std::map<std::string, double> delays_s;
+  for (const SensorEdit& edit : edits.sensors)
+    if (edit.kind == SensorEdit::Kind::delay_s || edit.kind == SensorEdit::Kind::lag_s)
+      delays_s[edit.channel] += edit.value;
+  return delays_s;
+}
+
 // A delay or a lag of a channel may be there in place of the channel's tolerances, which then fit as well.
 // Adds their delay to the bounds of such effects.
 void add_tolerances(const Problem& problem, const Point& point, std::map<std::size_t, double>& bounds) {
   for (auto& [index, typicals] : bounds) {
-    const Candidate& candidate = problem.candidates[index];
-    auto values = shape_choices(candidate).front();
-    values[0] = candidate.parameters[0].typical;
-    Edits edits;
-    candidate.effect->apply(problem.context, candidate.channel, values, edits);
-    std::map<std::string, double> delays_s;
-    for (const SensorEdit& edit : edits.sensors)
-      if (edit.kind == SensorEdit::Kind::delay_s || edit.kind == SensorEdit::Kind::lag_s)
-        delays_s[edit.channel] += edit.value;
-    for (const auto& [channel, delay_s] : delays_s)
+    for (const auto& [channel, delay_s] : delays_of(problem, problem.candidates[index]))
       if (delay_s != 0.0) typicals += delay_of_tolerances_s(problem, point, channel) / std::abs(delay_s);
   }
+}
+
+// True if both delay the same channel. A bound of one then contradicts the size found for the other.
+bool delay_alike(const Problem& problem, const Candidate& candidate, const FoundEffect& found) {
+  const auto delays = delays_of(problem, candidate);
+  return !delays.empty() && std::ranges::any_of(problem.candidates, [&](const Candidate& other) {
+    return other.effect->id == found.id && other.channel == found.channel &&
+           std::ranges::any_of(delays_of(problem, other),
+                               [&](const auto& delay) { return delays.contains(delay.first); });
+  });
 }
 
 // True if the candidate may be present: it may replace a found effect, or an unknown effect may hide it (in
@@ -147,7 +161,8 @@ bool may_be_there(const Problem& problem, const Diagnosis& diagnosis, const Cand
   return std::ranges::any_of(diagnosis.effects, [&](const FoundEffect& found) {
     if (found.is_unknown())
       return problem.context.has(found.port) ? candidate.channel == found.port : candidate.channel.empty();
-    return std::ranges::any_of(found.indistinguishable_from,
+    return delay_alike(problem, candidate, found) ||
+           std::ranges::any_of(found.indistinguishable_from,
                                [&](const auto& id) { return id == candidate.effect->id; });
   });
 }

@@ -11,6 +11,7 @@
 #include "tools/diagnose/model/quantity.hpp"
 #include "tools/diagnose/next/bench_test.hpp"
 #include "tools/diagnose/next/choice.hpp"
+#include "tools/diagnose/next/none_planned.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -306,9 +307,7 @@ void propose_within(const Reach& reach, const Question& q, Setups& compared, Nex
   if (planned.size() > 0 && setups == compared) return;
   compared = std::move(setups);
   if (planned.size() == 0) {
-    next.why =
-        "No trial can be planned from the set-ups of this campaign. List what can be set for the next one "
-        "under [available] in campaign.toml (guide: The recording contract).";
+    next.why = why_none_is_planned(q.problem.context.plant, reach);
     return;
   }
   if (!q.diagnosis.unknown.empty() && q.rest != nullptr)

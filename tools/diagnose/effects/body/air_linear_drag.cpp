@@ -24,7 +24,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "air.linear_drag",
      .port = Port::body,
-     .statement = "The medium resists with a force proportional to speed.",
+     .statement = "A force proportional to speed opposes the fall: the medium, a guide, or eddy currents.",
      .equation = "F += -b v",
      .bench_tests =
          {{.sentence =
