@@ -56,7 +56,7 @@ TEST(DiagnoseSpread, TheNumberThatTookTheMismatchUpBeforeIsNamedBesideTheErrors)
   d.fits = {{.channel = "force_N", .train = {}, .heldout = {0.71, 0.72}, .floor = 1.0}};
   d.trial_to_trial = {area_stiffness(-0.2, 0.01, false)};
   EXPECT_THAT(to_text(d),
-              HasSubstr("before, stiffness_per_area had to differ by -9.0 +- 8.0 % between trials "
+              HasSubstr("before, stiffness_per_area had to differ by -9 +- 8.0 % between trials "
                         "(stated 3.8 %); after by 1.0 +- 1.0 %"));
   EXPECT_THAT(to_text(d), Not(HasSubstr("No channel's error")));
   d.trial_to_trial.front().values.back().exceeds_before = false;
@@ -90,7 +90,9 @@ TEST(DiagnoseSpread, EveryNumberOfSpreadIsListedWithItsValuesAndWhatExceeds) {
   EXPECT_NEAR(drag->values[3].before, -0.4, 0.1);
   EXPECT_TRUE(drag->values[3].exceeds_before);
   EXPECT_FALSE(drag->values[4].exceeds_before);
-  if (d.effects.empty()) EXPECT_EQ(drag->goes_with, "falls with release_height_m");
+  if (d.effects.empty()) {
+    EXPECT_EQ(drag->goes_with, "falls with release_height_m");
+  }
 }
 
 }  // namespace
