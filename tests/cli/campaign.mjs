@@ -25,6 +25,7 @@ function expect(right, text) {
 const sound = join(scratch, 'sound');
 expect(run('campaign', 'make', '--output', sound, '--trials', '6').status === 0, 'hop campaign make');
 expect(run('campaign', 'check', sound).status === 0, 'a sound campaign has nothing to complain about');
+expect(!run('campaign', 'check', sound).stdout.includes('usable, without'), 'and no channel is missing');
 const whole = JSON.parse(run('terrain', sound, '--json', '--no-report').stdout);
 expect(whole.usable_trials === 6, 'all six sound trials can be used');
 
@@ -60,6 +61,10 @@ for (const [index, one] of breakages.entries()) {
     expect(one.keeps(broken), `of the broken trial less is left than should be: ${broken.ruled_out}`);
   }
   const findings = JSON.parse(run('campaign', 'check', folder, '--json').stdout).findings;
+  if (one.without) {
+    const last = run('campaign', 'check', folder).stdout.trimEnd().split('\n').at(-1);
+    expect(last.endsWith(`6 usable, without ${one.without} in 1 trial`), `the last line is "${last}"`);
+  }
   expect(findings.some(f => one.kinds.includes(f.kind) && f.cure), `hop campaign check finds ${findings.map(f => f.kind)}`);
 }
 

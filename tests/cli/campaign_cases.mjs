@@ -1,6 +1,7 @@
 // Defects of a campaign, the place where each must be reported (line:character), and the text of the message.
 // `recording` changes the lines of trials/0003.csv (null: removed), `campaign` the text of campaign.toml.
-// `usable`: the trial is still analysed; `keeps`: the part of it that must remain.
+// `usable`: the trial is still analysed; `keeps`: the part of it that must remain; `without`: the channel that the last line of
+// `hop campaign check` names.
 
 const kForce = 'load_cell_force_N';
 const columns = rows => rows[0].split(',');
@@ -50,7 +51,7 @@ export const breakages = [
   { name: 'saturated channel', kinds: ['saturated'], usable: true, keeps: with_observer,
     recording: rows => change(rows, kForce, 2, cell => (cell !== '' && Number(cell) > 25 ? '25.0' : cell)),
     place: '', says: [`${kForce}: is saturated`, '25', 'larger range'] },
-  { name: 'stuck channel', kinds: ['stuck'], usable: true, keeps: without_cell,
+  { name: 'stuck channel', kinds: ['stuck'], usable: true, without: kForce, keeps: without_cell,
     recording: rows => change(rows, kForce, 2, cell => (cell === '' ? '' : '3.25')),
     place: '11', says: [`${kForce}: is stuck`, 'check the sensor and its cable'] },
   { name: 'stuck from some line on', kinds: ['stuck'], usable: true,

@@ -1,18 +1,24 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign_draft.hpp"
+#include "tools/campaign/trial_recording.hpp"
+#include "tools/terrain/strength_curve.hpp"
 
 // Drafts of `hop campaign import`, and its words for a file that it cannot read by itself.
 namespace sandhopper {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 CampaignDraft drafted(const std::string& text, std::optional<CampaignPlant> plant = std::nullopt) {
   CampaignFolder folder;
@@ -62,6 +68,95 @@ TEST(CampaignImport, ATableWhosePlantIsNotClearIsDescribed) {
     EXPECT_THAT(error.seen, Contains(HasSubstr("--plant falling_body a body that falls")));
     EXPECT_THAT(error.seen, Contains(HasSubstr("a height or an acceleration")));
   }
+}
+
+std::string said(const CampaignDraft& draft) { return fmt::format("{}", fmt::join(draft.said, "\n")); }
+
+TEST(CampaignImport, ATimeAndAHeightAloneAreAFallingBody) {
+  for (const std::string header : {"t_s;y_cm", "t_us;az_g", "image;temps (ms);position y (mm)"}) {
+    const auto draft = drafted(rows(header, header.front() == 'i' ? 3 : 2));
+    EXPECT_EQ(draft.plant, CampaignPlant::falling_body) << header;
+    EXPECT_THAT(said(draft), HasSubstr("alone fit no other plant; --plant says another")) << header;
+  }
+  for (const std::string header : {"t_s;x_cm", "t_s;mass_g", "t_s;y_cm;z_cm"})
+    EXPECT_THROW(drafted(rows(header, header.size() > 10 ? 3 : 2)), PlantNotTold) << header;
+  try {
+    drafted(rows("t_s;y", 2));
+    FAIL() << "a plant was taken";
+  } catch (const PlantNotTold& error) {
+    EXPECT_THAT(error.seen,
+                Contains("falling_body fits if \"y\" is its height_m: then give --plant falling_body"));
+  }
+}
+
+TEST(CampaignImport, ASetPointIsNoMeasurement) {
+  for (const std::string name : {"consigne_deg", "Sollwinkel [deg]", "angle_ref_deg", "posGoal (deg)",
+                                 "angle_target_deg", "demand (deg)"}) {
+    const auto draft = drafted(rows("t_ms;" + name + ";angle_deg", 3));
+    EXPECT_THAT(draft.campaign_toml,
+                HasSubstr("\nposition_rad = { column = \"angle_deg\", unit = \"deg\" }"));
+    EXPECT_THAT(said(draft), Not(HasSubstr("fits as well"))) << name;
+    const auto alone = drafted(rows("t_ms;" + name, 2), CampaignPlant::rotary_axis);
+    EXPECT_THAT(alone.campaign_toml, HasSubstr("# position_rad = { column = \"NAME\"")) << name;
+  }
+  const auto measured = drafted(rows("t_ms;reflected angle_deg", 2));
+  EXPECT_THAT(measured.campaign_toml, HasSubstr("\nposition_rad = { column = \"reflected"));
+}
+
+TEST(CampaignImport, ACurrentOfAnAxisIsOfferedForTheTorqueAndAsksItsConstant) {
+  const std::string wanted = "\ntorque_Nm = { column = \"Iq_A\", unit = \"A\", scale = \"?\" }";
+  CampaignFolder folder;
+  folder.write("rec.csv", rows("t_ms;angle_deg;Iq_ref_A;Id_A;Iq_A", 5));
+  const auto draft = draft_campaign({folder.path() / "rec.csv"}, std::nullopt, folder.path());
+  ASSERT_THAT(draft.campaign_toml, HasSubstr(wanted));
+  EXPECT_THAT(said(draft), HasSubstr("a current: state its torque constant as scale"));
+  const auto read = [&](const std::string& toml) {
+    folder.write("campaign.toml", toml).write("nominal.toml", "[axis]\ninertia_kg_m2 = 0.1\n");
+    const auto campaign = load_campaign(folder.path());
+    EXPECT_THAT(campaign.findings, IsEmpty());
+    return read_trial(campaign, campaign.trials.at(0));
+  };
+  const auto asked = read(draft.campaign_toml);
+  EXPECT_FALSE(asked.usable());
+  EXPECT_THAT(find(asked, FindingKind::unit_disagrees)->cure, HasSubstr("say how many N m one A is"));
+  auto answered = draft.campaign_toml;
+  answered.replace(answered.find("scale = \"?\""), 11, "scale = 0.5");
+  EXPECT_DOUBLE_EQ(read(answered).channel("torque_Nm")[2], 1.5);
+  auto without_unit = draft.campaign_toml;
+  without_unit.replace(without_unit.find("unit = \"A\", scale = \"?\""), 23, "scale = \"?\"");
+  EXPECT_FALSE(read(without_unit).usable());
+  EXPECT_THAT(drafted(rows("t_ms;angle_deg;Iq_A;torque_Nm", 4)).campaign_toml,
+              HasSubstr("# not used: column \"Iq_A\""));
+}
+
+// A stiffness per area or the trials' plates make the two numbers of an intruder unnecessary.
+TEST(CampaignImport, AnIntruderIsNotAskedForWhatIsStatedOtherwise) {
+  CampaignFolder folder;
+  folder.write("rec.csv", rows("t_s;foot_z_m;force_N", 3));
+  const auto draft = draft_campaign({folder.path() / "rec.csv"}, std::nullopt, folder.path());
+  EXPECT_THAT(draft.nominal_toml, HasSubstr("not needed if each trial states plate_diameter_m"));
+  EXPECT_THAT(draft.nominal_toml, HasSubstr("not needed if stiffness_per_area_N_per_m3 is stated"));
+  auto nominal = draft.nominal_toml, trials = draft.campaign_toml;
+  nominal.erase(nominal.find("# stiffness_per_area"), 2);
+  trials.insert(trials.find("file = "), "plate_diameter_m = 0.05\n");
+  double believed_N_per_m = 0.0;
+  const auto told = [&] {
+    folder.write("campaign.toml", trials).write("nominal.toml", nominal);
+    const auto campaign = load_campaign(folder.path());
+    believed_N_per_m = believed_stiffness_N_per_m(campaign.trials.at(0));
+    std::string all;
+    for (const auto& finding : read_trial(campaign, campaign.trials.at(0)).findings)
+      all += to_string(finding) + "\n";
+    for (const auto& number : used_numbers(campaign).numbers) all += to_string(number) + "\n";
+    return all;
+  };
+  const std::string asked = "terrain.stiffness_N_per_m = \"?\" in line 9: write your own number";
+  EXPECT_THAT(told(), AllOf(HasSubstr(asked), Not(HasSubstr("foot.radius_m = \"?\""))));
+  const auto value = nominal.find("= ", nominal.find("\nstiffness_per_area")) + 2;
+  nominal.replace(value, 3, "1e6");
+  EXPECT_THAT(told(), AllOf(HasSubstr("in line 9: is not needed here"), Not(HasSubstr(asked)),
+                            Not(HasSubstr("terrain.stiffness_N_per_m = 1"))));
+  EXPECT_NEAR(believed_N_per_m, 1e6 * 3.14159265 * 0.025 * 0.025, 1e-3);
 }
 
 TEST(CampaignImport, ATableWithoutATimeIsWrongUnlessItIsAPress) {

@@ -1,12 +1,16 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/lost_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 namespace sandhopper {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr auto kHop =
     "plant = \"hopper\"\n[every_trial]\nstance_position_gain_Nm_per_rad = 1.5\nstance_target_rad = 0.9\n"
@@ -54,6 +58,31 @@ TEST(Campaign, MissingSecondFileCostsItsChannelsOnly) {
   EXPECT_FALSE(recording.has("load_cell_force_N"));
   ASSERT_FALSE(recording.findings.empty());
   EXPECT_EQ(recording.findings.back().kind, FindingKind::missing_file);
+}
+
+// The plate's times begin at 100 s, those of the trial at 1 s.
+TEST(Campaign, SecondFileOnAnotherClockIsSaid) {
+  CampaignFolder folder;
+  fill(folder).write("plate.csv", "t,Fz\n100.9,-9\n101.05,-1\n101.1,-2\n");
+  const auto campaign = load_campaign(folder.path());
+  const auto recording = read_trial(campaign, campaign.trials.at(0));
+  EXPECT_TRUE(recording.usable());
+  const auto& finding = recording.findings.back();
+  EXPECT_EQ(finding.severity, FindingSeverity::channel_unusable);
+  EXPECT_THAT(to_string(finding), HasSubstr("plate.csv"));
+  EXPECT_THAT(finding.what, HasSubstr("100.9 to 101.1 s, are outside those of the trial, 1 to 1.2 s"));
+  EXPECT_THAT(finding.cure, HasSubstr("offset = SECONDS"));
+  LostChannels lost(campaign.plant);
+  lost.add(campaign.trials.at(0), recording);
+  EXPECT_EQ(lost.words(), ", without load_cell_force_N in 1 trial");
+}
+
+TEST(Campaign, ChannelsOfASoundTrialAreNotLost) {
+  CampaignFolder folder;
+  const auto campaign = load_campaign(fill(folder).path());
+  LostChannels lost(campaign.plant);
+  lost.add(campaign.trials.at(0), read_trial(campaign, campaign.trials.at(0)));
+  EXPECT_EQ(lost.words(), "");
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/trial_recording.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
 // Plates dropped into a bed: rows after the deepest point, and a mass below the load cell.
@@ -62,6 +64,41 @@ TEST(UnstatedUnloading, IsSilentIfTheRatioIsStatedOrThePlateStays) {
   stated.nominal += "unloading_stiffness_ratio = 30.0\n";
   EXPECT_THAT(told(stated), Not(HasSubstr("unloading_stiffness_ratio")));
   EXPECT_THAT(told({.rises_m = 0.0}), Not(HasSubstr("unloading_stiffness_ratio")));
+}
+
+// A press of 45 mm at 1 mm/s that stops at 48 s, is held for 2 s and withdrawn. `depth_at`: the reading.
+double told_end_s(const std::function<double(double depth_m, int row)>& depth_at) {
+  std::string text = "t_s,foot_z_m,force_N\n";
+  for (int i = 0; i < 2600; ++i) {
+    const double t = 0.02 * i, way_m = 1e-3 * std::min(t, 48.0) - 1e-3 * std::max(t - 50.0, 0.0) - 3e-3;
+    text += fmt::format("{:.2f},{:.5f},{:.2f}\n", t, -depth_at(way_m, i), 1.2e4 * std::max(way_m, 0.0));
+  }
+  CampaignFolder folder;
+  folder.write("a.csv", text)
+      .write("nominal.toml", Drop{}.nominal)
+      .write("campaign.toml",
+             "plant = \"intruder\"\nmodel = \"nominal.toml\"\n[[trial]]\nfile = \"a.csv\"\n");
+  const auto campaign = load_campaign(folder.path());
+  UnstatedUnloading unloading(campaign);
+  unloading.add(campaign.trials.at(0), read_trial(campaign, campaign.trials.at(0)));
+  const auto note = unloading.finding();
+  if (!note) return 0.0;
+  return std::stod(note->cure.substr(note->cure.rfind("}: ") + 3));
+}
+
+// The deepest reading lies somewhere in the hold, and so do readings below it by more than its noise.
+TEST(UnstatedUnloading, GivesATimeBeforeTheHold) {
+  const auto noisy = told_end_s([](double depth_m, int row) {
+    return depth_m + 4e-6 * (std::sin(7.0 * row * row) + std::sin(3.1 * row * row));
+  });
+  EXPECT_LE(noisy, 48.0);
+  EXPECT_GT(noisy, 47.8);
+  // Digits of 0.05 mm, of which a few readings in the hold are the next higher one.
+  const auto coarse = told_end_s([](double depth_m, int row) {
+    return 5e-5 * std::floor(depth_m / 5e-5 + 0.3 + (row % 61 == 0 ? 0.9 : 0.0));
+  });
+  EXPECT_LE(coarse, 48.0);
+  EXPECT_GT(coarse, 47.8);
 }
 
 // 0.3 kg below the cell read 2.94 N in free fall, 2.89 N with the noise.

@@ -10,6 +10,7 @@
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/recordings_folder.hpp"
 #include "tools/campaign/table_format.hpp"
+#include "tools/campaign/unit_check.hpp"
 
 namespace sandhopper {
 namespace {
@@ -110,7 +111,7 @@ class Loader {
     std::vector<ColumnMapping> columns;
     for (const auto& child : table.children) {
       ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false, {}};
-      bool right = true;
+      bool right = true, is_asked = false;  // is_asked: scale = "?"
       if (child.kind == Kind::text) {
         mapping.column = child.text;
       } else if (child.kind == Kind::table) {
@@ -120,6 +121,8 @@ class Loader {
             mapping.column = part.text;
           else if (part.key == "scale" && number)
             mapping.scale = *number, mapping.has_scale = true;
+          else if (part.key == "scale" && part.kind == Kind::text && part.text == kUnknownNumber)
+            is_asked = true;
           else if (part.key == "unit" && part.kind == Kind::text)
             mapping.unit = part.text;
           else if (part.key == "offset" && number)
@@ -137,6 +140,7 @@ class Loader {
                         child.key));
         continue;
       }
+      if (is_asked && mapping.unit.empty()) mapping.unit = kUnknownUnit;
       check_mapped(mapping);
       columns.push_back(std::move(mapping));
     }

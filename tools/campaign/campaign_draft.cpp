@@ -12,10 +12,12 @@
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/column_rivals.hpp"
+#include "tools/campaign/draft_format.hpp"
 #include "tools/campaign/draft_setups.hpp"
 #include "tools/campaign/plant_guess.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/unit_check.hpp"
+#include "tools/campaign/used_column.hpp"
 #include "tools/campaign/vector_axes.hpp"
 #include "tools/campaign/written_unit.hpp"
 
@@ -81,6 +83,10 @@ class Drafter {
         guesses_.push_back(*guess);
       }
     }
+    if (out_.plant != rotary_axis) return;
+    std::vector<std::optional<WrittenUnit>> units;
+    for (std::size_t i = 0; i < table_.names.size(); ++i) units.push_back(unit_of(i));
+    if (auto guess = guess_torque_by_current(table_.names, units, guesses_)) guesses_.push_back(*guess);
   }
 
   // Of three axes the one that reads most: gravity, a drop and a push show along one of them. A length has no
@@ -129,14 +135,14 @@ class Drafter {
     const auto& layout = table_.layout;
     said.push_back(fmt::format("a table of {} rows and {} columns, {} text, cells divided by {}",
                                table_.rows(), table_.names.size(), name_of(layout.encoding),
-                               separator_word()));
+                               separator_word(layout)));
     for (const auto& text : layout.said) said.push_back(text);
-    said.push_back(fmt::format("plant \"{}\"{}", name_of(out_.plant),
-                               plant_ ? "" : ", guessed from its columns; --plant says another"));
+    said.push_back(fmt::format("plant \"{}\"{}", name_of(out_.plant), plant_ ? "" : plant_words()));
     for (const auto& guess : guesses_)
       said.push_back(fmt::format("{} is column \"{}\" in {}{}", guess.channel, table_.names[guess.column],
                                  guess.unit ? guess.unit->text : "an unknown unit: state it",
-                                 guess.is_downward      ? ", counted downward"
+                                 guess.asks_scale       ? ", a current: state its torque constant as scale"
+                                 : guess.is_downward    ? ", counted downward"
                                  : offset_of(guess) > 0 ? ", without gravity: 9.81 m/s2 are added"
                                  : is_setpoint_by_name(table_.names[guess.column])
                                      ? ", a set-point by its name and no measurement"
@@ -156,6 +162,11 @@ class Drafter {
           fmt::format("{} columns are called a time: recordings side by side need a [[trial]] each with "
                       "`columns` of its own",
                       times));
+  }
+
+  std::string plant_words() const {
+    const auto reason = out_.plant == falling_body ? why_falling_body(table_) : std::string();
+    return fmt::format(", {}; --plant says another", reason.empty() ? "guessed from its columns" : reason);
   }
 
   // A force against a depth needs no time.
@@ -195,21 +206,6 @@ class Drafter {
                         [&](const ColumnGuess& g) { return g.column == i; });
   }
 
-  std::string separator_word() const {
-    switch (table_.layout.separator) {
-      case '\t':
-        return "tabs";
-      case ' ':
-        return "blanks";
-      case ';':
-        return "semicolons";
-      case '|':
-        return "bars";
-      default:
-        return "commas";
-    }
-  }
-
   std::string campaign() const {
     std::string text = fmt::format(
         "# Written by `hop campaign import` from {}. Correct what is wrong, then run `hop campaign check` on "
@@ -217,34 +213,7 @@ class Drafter {
         "name  = \"{}\"\nplant = \"{}\"   # hopper, intruder, falling_body or rotary_axis\nmodel = "
         "\"nominal.toml\"\n",
         files_.front().filename().string(), files_.front().stem().string(), name_of(out_.plant));
-    return text + format() + columns() + trials() + draft_available(out_.plant);
-  }
-
-  std::string format() const {
-    const auto& l = table_.layout;
-    const std::string separator = l.separator == '\t'  ? "tab"
-                                  : l.separator == ' ' ? "blank"
-                                                       : std::string(1, l.separator);
-    std::string text = "\n[format]   # how the files are written; found by looking\n";
-    text += fmt::format("separator   = \"{}\"   # \",\", \";\", \"|\", \"tab\" or \"blank\"\n", separator);
-    const std::string mark = l.is_ambiguous ? "# " : "";  // If it is ambiguous, the user must state it.
-    text += fmt::format("{}decimal     = \"{}\"\n", mark, l.numbers.decimal);
-    text += fmt::format("{}thousands   = \"{}\"   # \"\": none\n", mark,
-                        l.numbers.thousands == '\0' ? std::string() : std::string(1, l.numbers.thousands));
-    text += fmt::format("encoding    = \"{}\"   # utf-8, utf-16, utf-16-be or windows-1252\n",
-                        name_of(l.encoding));
-    text += fmt::format("header_line = {}   # of the columns' names; 0: none, and `names` gives them\n",
-                        l.header_line);
-    text += fmt::format("units_line  = {}   # 0: none\n", l.units_line);
-    text += names_.empty() ? "# names        = [\"t_s\", \"force_N\"]\n"
-                           : fmt::format("names       = [\"{}\"]\n", fmt::join(names_, "\", \""));
-    text +=
-        "# no_sample    = [\"OVER\", \"-999\"]   # further cells without a sample; NaN, -, #N/A are known\n";
-    text += "# clock        = \"mm:ss\"   # 12:30 is 12 min 30 s; \"hh:mm\": half past twelve\n";
-    text += "# day_first    = true   # 03/04/2023 is 3 April\n";
-    text += "# row_every_s  = 0.001   # for a file without times: from row to row\n";
-    text += "# spread_times = true   # rows that share a time came evenly\n";
-    return text;
+    return text + draft_format(table_.layout, names_) + columns() + trials() + draft_available(out_.plant);
   }
 
   // Phones record the acceleration without gravity. A specific force includes it, so add g.
@@ -284,6 +253,10 @@ class Drafter {
       const bool unknown = !g.unit && wanted && g.channel != table_.names[g.column];
       if (const auto words = choice_words(g.channel); !words.empty())
         text += fmt::format("# {}: {}\n", g.channel, words);
+      if (g.asks_scale) {
+        text += torque_question(g);
+        continue;
+      }
       text += mapping(g.channel, table_.names[g.column],
                       g.unit    ? g.unit->text
                       : unknown ? kUnknownUnit
@@ -303,6 +276,13 @@ class Drafter {
     for (std::size_t i = 0; i < table_.names.size(); ++i)
       if (is_unused(i)) text += fmt::format("# not used: column \"{}\"\n", table_.names[i]);
     return text;
+  }
+
+  std::string torque_question(const ColumnGuess& g) const {
+    return fmt::format(
+        "torque_Nm = {{ column = {}, unit = {}, scale = \"?\" }}   # a current: write the torque constant at "
+        "the axis, in N m per {}; if this is not the motor's current, remove the line\n",
+        toml_text(table_.names[g.column]), toml_text(g.unit->text), g.unit->text);
   }
 
   std::string time_line() const {

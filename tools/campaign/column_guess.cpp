@@ -66,10 +66,13 @@ bool has_any(std::string_view name, std::span<const std::string_view> words) {
 }  // namespace
 
 bool is_setpoint_by_name(std::string_view name) {
-  constexpr std::array<std::string_view, 11> kWords{"setpoint", "set_point", "set point", "cmd",
-                                                    "command",  "target",    "desired",   "demand",
-                                                    "sollwert", "_soll",     "reference"};
-  return has_any(name, kWords);
+  constexpr std::array<std::string_view, 15> kParts{
+      "setpoint", "set_point", "set point", "cmd",     "command", "target",   "desired", "demand",
+      "soll",     "reference", "consign",   "vorgabe", "comando", "kommando", "referenc"};
+  constexpr std::array<std::string_view, 4> kWords{"ref", "sp", "goal", "des"};
+  return has_any(name, kParts) || std::ranges::any_of(words_of_name(name), [&](const std::string& word) {
+           return std::ranges::find(kWords, word) != kWords.end();
+         });
 }
 
 bool is_filtered_by_name(std::string_view name) {
@@ -84,6 +87,21 @@ std::vector<std::size_t> in_order_of_choice(const std::vector<std::string>& name
     return is_setpoint_by_name(names[i]) ? 2 : is_filtered_by_name(names[i]) ? 1 : 0;
   });
   return columns;
+}
+
+std::vector<std::string> words_of_name(std::string_view name) {
+  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
+  std::vector<std::string> words;
+  char before = ' ';
+  for (const char c : name) {
+    const bool is_letter = is_upper(c) || is_lower(c) || static_cast<unsigned char>(c) > 127;
+    const bool begins = before == ' ' || (is_lower(before) && is_upper(c));
+    if (is_letter && begins) words.emplace_back();
+    if (is_letter) words.back() += in_lower_case({&c, 1});
+    before = is_letter ? c : ' ';
+  }
+  return words;
 }
 
 std::string in_lower_case(std::string_view text) {
@@ -106,10 +124,13 @@ std::optional<ColumnGuess> guess_column(const std::string& name, const std::opti
   const auto is_taken = [&](std::string_view channel) {
     return std::ranges::find(taken, channel, &ColumnGuess::channel) != taken.end();
   };
+  const bool is_setpoint = is_setpoint_by_name(name);
   const auto lower = in_lower_case(name);
   for (const bool by_word : {true, false})
     for (const auto& naming : kNamings) {
       if (naming.plant != plant || is_taken(naming.channel)) continue;
+      // Many drives log no torque but the commanded one. A set-point of a motion is no measurement.
+      if (is_setpoint && naming.dimension != "torque") continue;
       const bool word =
           std::ranges::any_of(naming.words, [&](std::string_view w) { return has_word(lower, w); });
       const auto wanted = unit_of_channel(naming.channel);
@@ -118,6 +139,24 @@ std::optional<ColumnGuess> guess_column(const std::string& name, const std::opti
         return made(naming.channel, unit, word && naming.is_downward);
     }
   return std::nullopt;
+}
+
+std::optional<ColumnGuess> guess_torque_by_current(const std::vector<std::string>& names,
+                                                   const std::vector<std::optional<WrittenUnit>>& units,
+                                                   const std::vector<ColumnGuess>& taken) {
+  if (std::ranges::find(taken, "torque_Nm", &ColumnGuess::channel) != taken.end()) return std::nullopt;
+  std::optional<std::size_t> found;
+  const auto is_of_torque = [&](std::size_t i) {
+    const auto words = words_of_name(names[i]);
+    return std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("iq"); });
+  };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!units[i] || units[i]->dimension != "current" || is_setpoint_by_name(names[i])) continue;
+    if (!found || (is_of_torque(i) && !is_of_torque(*found))) found = i;
+  }
+  if (!found) return std::nullopt;
+  return ColumnGuess{
+      .column = *found, .channel = "torque_Nm", .unit = units[*found], .scale = 1.0, .asks_scale = true};
 }
 
 }  // namespace sandhopper

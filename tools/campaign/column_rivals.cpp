@@ -16,7 +16,7 @@ std::vector<std::size_t> rivals_of_column(const CsvTable& table, CampaignPlant p
                                           const std::string& channel, std::size_t taken) {
   std::vector<std::size_t> rivals;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
-    if (i == taken) continue;
+    if (i == taken || is_setpoint_by_name(table.names[i])) continue;
     const auto guess = guess_column(table.names[i], unit_of_column(table, i), plant, {});
     if (guess && guess->channel == channel) rivals.push_back(i);
   }
@@ -36,6 +36,7 @@ std::vector<std::size_t> rivals_of_time(const CsvTable& table, std::size_t taken
 bool has_two_motors(const CsvTable& table) {
   std::size_t angles = 0, currents = 0;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
+    if (is_setpoint_by_name(table.names[i])) continue;
     const auto unit = unit_of_column(table, i);
     angles += unit && unit->dimension == "angle";
     currents += unit && unit->dimension == "current";

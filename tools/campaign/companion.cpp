@@ -1,5 +1,7 @@
 #include "tools/campaign/companion.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace sandhopper {
@@ -36,7 +38,7 @@ std::vector<double> gathered(const std::vector<double>& values, const std::vecto
 
 }  // namespace
 
-void join_companion(TrialRecording& recording, TrialRecording other) {
+void join_companion(TrialRecording& recording, TrialRecording other, const std::string& file) {
   const bool joins = recording.usable() && other.usable();
   for (auto& finding : other.findings) {
     // A companion that cannot be used loses only its channels; the trial stays usable.
@@ -45,6 +47,14 @@ void join_companion(TrialRecording& recording, TrialRecording other) {
     recording.findings.push_back(std::move(finding));
   }
   if (!joins) return;
+  const bool has_times = recording.has_time && other.has_time;
+  if (has_times && (other.t_s.back() < recording.t_s.front() || recording.t_s.back() < other.t_s.front()))
+    recording.findings.push_back(
+        {FindingKind::set_up, FindingSeverity::channel_unusable, file, 0, 0, "t_s",
+         fmt::format("its times, {:.6g} to {:.6g} s, are outside those of the trial, {:.6g} to {:.6g} s",
+                     other.t_s.front(), other.t_s.back(), recording.t_s.front(), recording.t_s.back()),
+         "state the offset between the clocks: also = { …, columns = { t_s = { column = \"NAME\", unit = "
+         "\"UNIT\", offset = SECONDS } } }"});
   const auto rows = joint_rows(recording.t_s, other.t_s);
   for (auto& channel : recording.channels) channel.values = gathered(channel.values, rows, &RowPair::first);
   for (auto& channel : other.channels)

@@ -21,6 +21,14 @@ std::string toml_real(double value) {
   return text;
 }
 
+// Another statement that makes a key of an intruder unnecessary.
+std::string_view replacement_of(CampaignPlant plant, std::string_view path) {
+  if (plant != CampaignPlant::intruder) return "";
+  if (path == "foot.radius_m") return "not needed if each trial states plate_diameter_m";
+  if (path == "terrain.stiffness_N_per_m") return "not needed if stiffness_per_area_N_per_m3 is stated";
+  return "";
+}
+
 class NominalWriter {
  public:
   NominalWriter(CampaignPlant plant, bool commands_recorded)
@@ -78,6 +86,8 @@ class NominalWriter {
     const auto meaning = meaning_of_key(path);
     std::string comment = unit_of_key(key);
     if (!meaning.empty()) comment += (comment.empty() ? "" : "; ") + std::string(meaning);
+    if (const auto other = replacement_of(plant_, path); !other.empty())
+      comment += fmt::format("; {}", other);
     text_ += fmt::format("{}{} = {}{}\n", needed ? "" : "# ", key, value,
                          comment.empty() ? "" : "   # " + comment);
   }

@@ -9,6 +9,7 @@
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/key_reference.hpp"
+#include "tools/campaign/read_table.hpp"
 
 namespace sandhopper {
 namespace {
@@ -50,7 +51,50 @@ std::string first_value(const std::vector<double>& values) {
   return first == values.end() ? "no number" : fmt::format("first value {:.9g}", *first);
 }
 
+// True for the number of a row, a frame or a sample: whole numbers that grow evenly.
+bool is_counter(const std::vector<double>& values) {
+  if (values.size() < 3) return false;
+  const double step = values[1] - values[0];
+  for (std::size_t row = 1; row < values.size(); ++row)
+    if (values[row] - values[row - 1] != step || std::floor(values[row]) != values[row]) return false;
+  return step > 0.0;
+}
+
+// The only column besides times and counters, as a channel of a falling body.
+std::optional<ColumnGuess> lone_motion(const CsvTable& table) {
+  const auto time = time_like_column(table, falling_body);
+  std::optional<std::size_t> lone;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    if (time == i || is_called_time(table.names[i]) || is_counter(table.columns[i])) continue;
+    if (lone) return std::nullopt;
+    lone = i;
+  }
+  if (!time || !lone || is_setpoint_by_name(table.names[*lone])) return std::nullopt;
+  auto guess = guess_column(table.names[*lone], unit_of_column(table, *lone), falling_body, {});
+  if (guess) guess->column = *lone;
+  return guess;
+}
+
+// True for a vertical axis: a length or an acceleration along x may be that of a linear stage, and a column
+// in g may be a mass.
+bool is_vertical_by_name(std::string_view name) {
+  constexpr std::array<std::string_view, 14> kVertical{
+      "y",       "z",      "h", "height", "altitude", "hoehe", "h\xC3\xB6he",
+      "hauteur", "altura", "a", "ay",     "az",       "acc",   "accel"};
+  return std::ranges::any_of(words_of_name(name), [&](const std::string& word) {
+    return std::ranges::find(kVertical, word) != kVertical.end();
+  });
+}
+
 }  // namespace
+
+std::string why_falling_body(const CsvTable& table) {
+  const auto guess = lone_motion(table);
+  if (!guess || !guess->unit || !is_vertical_by_name(table.names[guess->column])) return "";
+  return fmt::format("because a time and {} (\"{}\") alone fit no other plant",
+                     guess->channel == "height_m" ? "a height" : "an acceleration",
+                     table.names[guess->column]);
+}
 
 std::optional<CampaignPlant> guess_plant(const CsvTable& table) {
   for (const auto& name : table.names)
@@ -67,6 +111,7 @@ std::optional<CampaignPlant> guess_plant(const CsvTable& table) {
       if (unit && unit->dimension == sign.dimension) add(sign.plant, sign.votes);
   }
   const auto most = std::ranges::max_element(votes);
+  if (*most == 0 && !why_falling_body(table).empty()) return falling_body;
   if (*most == 0) return std::nullopt;
   return static_cast<CampaignPlant>(most - votes.begin());
 }
@@ -86,6 +131,9 @@ std::vector<std::string> describe_columns(const CsvTable& table) {
   for (std::size_t i = 0; i < kNeeds.size(); ++i)
     lines.push_back(fmt::format("  --plant {:12} {}: {}", EnumNames<CampaignPlant>::value[i],
                                 meaning_of(static_cast<CampaignPlant>(i)), kNeeds[i]));
+  if (const auto guess = lone_motion(table))
+    lines.push_back(fmt::format("falling_body fits if \"{}\" is its {}: then give --plant falling_body",
+                                table.names[guess->column], guess->channel));
   return lines;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "config/hint.hpp"
+#include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/clock_checks.hpp"
 #include "tools/campaign/column_checks.hpp"
@@ -25,6 +26,14 @@ namespace sandhopper {
 namespace {
 
 using enum FindingSeverity;
+
+// True for the stiffness of a bed whose law is that with a stiffness per area.
+bool is_replaced(std::string_view path, const Belief& belief) {
+  if (path != "terrain.stiffness_N_per_m") return false;
+  const auto numbers = numbers_of(belief);
+  const auto per_area = numbers.find("terrain.stiffness_per_area_N_per_m3");
+  return per_area != numbers.end() && per_area->second > 0.0;
+}
 
 class Reader {
  public:
@@ -364,7 +373,8 @@ TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial,
                           const std::function<bool(std::string_view key)>& can_do_without) {
   auto recording = Reader(campaign, trial).run();
   for (const auto& number : trial.unstated)
-    recording.findings.push_back(finding_of(number, !can_do_without(number.key)));
+    recording.findings.push_back(
+        finding_of(number, !can_do_without(number.key) && !is_replaced(number.key, trial.belief)));
   for (const auto& companion : trial.companions) {
     CampaignTrial other;
     other.name = companion.file.string();
@@ -374,7 +384,7 @@ TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial,
     other.format = companion.format;
     other.position = trial.position;
     other.belief = trial.belief;
-    join_companion(recording, Reader(campaign, other).run());
+    join_companion(recording, Reader(campaign, other).run(), other.file.string());
   }
   if (recording.usable()) add_position_loop(recording, trial);
   return recording;

@@ -11,7 +11,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::string_view kKey = "terrain.unloading_stiffness_ratio";
-// In standard deviations of one depth. A plate within it of the deepest point may stand or move either way.
+// A reading differs from the depth by at most this many standard deviations.
 constexpr double kNoiseBand = 4.0;
 
 // Depths with their rows.
@@ -32,6 +32,22 @@ struct Depths {
     std::ranges::nth_element(bends, middle);
     return *middle / (0.6745 * std::sqrt(6.0));
   }
+
+  // Smallest difference of two depths that follow each other: the step of the digits, or less. 0: none
+  // differ.
+  double step_m() const {
+    double step_m = 0.0;
+    for (std::size_t i = 1; i < depth_m.size(); ++i) {
+      const double change_m = std::abs(depth_m[i] - depth_m[i - 1]);
+      if (change_m > 0.0 && (step_m == 0.0 || change_m < step_m)) step_m = change_m;
+    }
+    return step_m;
+  }
+
+  // Largest difference of two readings of a plate that stands still. In a hold, the deepest reading is too
+  // deep by its noise and another one is too shallow: twice the band. Coarse digits hide the noise from
+  // noise_m(), but still toggle by one step; 1.5 lies between one step and two, so rounding decides nothing.
+  double at_rest_m() const { return std::max(2.0 * kNoiseBand * noise_m(), 1.5 * step_m()); }
 
   std::vector<std::size_t> rows;
   std::vector<double> depth_m;
@@ -57,7 +73,7 @@ void UnstatedUnloading::add(const CampaignTrial& trial, const TrialRecording& re
   const Depths depths(recording);
   if (depths.rows.empty()) return;
   const auto deepest = std::ranges::max_element(depths.depth_m);
-  const double moving_m = *deepest - kNoiseBand * depths.noise_m();
+  const double moving_m = *deepest - depths.at_rest_m();
   const bool rises = std::any_of(deepest, depths.depth_m.end(), [&](double d) { return d < moving_m; });
   if (!(*deepest > 0.0) || !rises) return;
   auto last = deepest;

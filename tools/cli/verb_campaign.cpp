@@ -9,6 +9,7 @@
 #include "config/load.hpp"
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign_draft.hpp"
+#include "tools/campaign/lost_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/unlisted_recordings.hpp"
 #include "tools/campaign/unstated_unloading.hpp"
@@ -60,11 +61,13 @@ ExitCode check(Session& session, const Options& options) {
   const auto missing = missing_numbers(campaign);
   add(missing);
   UnstatedUnloading unloading(campaign);
+  LostChannels lost(campaign.plant);
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
     const auto recording = read_trial(campaign, trial);
     add(recording.findings);
     unloading.add(trial, recording);
+    lost.add(trial, recording);
     usable += recording.usable() && std::ranges::all_of(missing, [&](const Finding& number) {
                 return number.severity == FindingSeverity::note || trial.states(number.channel);
               });
@@ -84,14 +87,12 @@ ExitCode check(Session& session, const Options& options) {
   }
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("  {}", defaults);
   session.say("  {} more numbers are 0 by default: what they stand for is not assumed", used.off);
-  session.say("{}: plant {}, {} trials, {} usable", campaign.name, name_of(campaign.plant),
-              campaign.trials.size(), usable);
-  session.result = {{"campaign", campaign.name},
-                    {"plant", name_of(campaign.plant)},
-                    {"trials", campaign.trials.size()},
-                    {"usable", usable},
-                    {"findings", findings},
-                    {"belief", numbers}};
+  session.say("{}: plant {}, {} trials, {} usable{}", campaign.name, name_of(campaign.plant),
+              campaign.trials.size(), usable, lost.words());
+  session.result = {
+      {"campaign", campaign.name}, {"plant", name_of(campaign.plant)}, {"trials", campaign.trials.size()},
+      {"usable", usable},          {"without", lost.trials()},         {"findings", findings},
+      {"belief", numbers}};
   return usable == campaign.trials.size() && campaign.findings.empty() && !any_unusable(missing)
              ? ExitCode::ok
              : ExitCode::no;

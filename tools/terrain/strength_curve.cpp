@@ -181,12 +181,11 @@ StrengthCurve curve_of(const ProfileSolver& solver, double greatest_N, const Cur
 }
 
 double believed_stiffness_N_per_m(const CampaignTrial& trial) {
-  if (trial.is_unstated("terrain.stiffness_N_per_m")) return 0.0;
   const auto& belief = std::get<IntruderBelief>(trial.belief);
   const double radius_m = belief.foot.radius_m;
   const double per_area = belief.terrain.stiffness_per_area_N_per_m3;
-  return per_area > 0.0 ? per_area * std::numbers::pi * radius_m * radius_m
-                        : belief.terrain.stiffness_N_per_m;
+  if (per_area > 0.0) return per_area * std::numbers::pi * radius_m * radius_m;
+  return trial.is_unstated("terrain.stiffness_N_per_m") ? 0.0 : belief.terrain.stiffness_N_per_m;
 }
 
 void keep_curve(const StrengthCurve& curve, TrialResult& result) {
