@@ -138,7 +138,7 @@ TEST(CampaignImport, AnIntruderIsNotAskedForWhatIsStatedOtherwise) {
   EXPECT_THAT(draft.nominal_toml, HasSubstr("not needed if stiffness_per_area_N_per_m3 is stated"));
   auto nominal = draft.nominal_toml, trials = draft.campaign_toml;
   nominal.erase(nominal.find("# stiffness_per_area"), 2);
-  trials.insert(trials.find("file = "), "plate_diameter_m = 0.05\n");
+  trials.insert(trials.find("\nfile = ") + 1, "plate_diameter_m = 0.05\n");
   double believed_N_per_m = 0.0;
   const auto told = [&] {
     folder.write("campaign.toml", trials).write("nominal.toml", nominal);
