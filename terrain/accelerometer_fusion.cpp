@@ -10,17 +10,6 @@ namespace {
 
 using Believed = std::vector<bool>;
 
-// Standard deviation of the sample-to-sample noise. Second differences remove the signal's level and slope.
-double noise_of(std::span<const double> values, const Believed& believed) {
-  std::vector<double> differences;
-  for (std::size_t i = 1; i + 1 < values.size(); ++i)
-    if (believed[i]) differences.push_back(std::abs(values[i + 1] - 2.0 * values[i] + values[i - 1]));
-  if (differences.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle / (0.6745 * std::sqrt(6.0));
-}
-
 // False for saturated samples: runs near an extreme of the whole record with far less noise than elsewhere,
 // and the guard samples around them.
 Believed away_from_saturation(std::span<const double> values, const FusionOptions& options,
@@ -28,7 +17,7 @@ Believed away_from_saturation(std::span<const double> values, const FusionOption
   Believed believed(values.size(), true);
   const double low = *std::min_element(values.begin(), values.end());
   const double high = *std::max_element(values.begin(), values.end());
-  const double noise = noise_of(values, believed);
+  const double noise = sample_noise(values, believed);
   const auto at_end = [&](std::size_t i) {
     return values[i] >= high - 2.0 * noise || values[i] <= low + 2.0 * noise;
   };
@@ -78,6 +67,17 @@ void regress(std::span<const double> channel, std::span<const double> reference,
 
 }  // namespace
 
+double sample_noise(std::span<const double> values, const std::vector<bool>& used) {
+  std::vector<double> differences;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    if (used.empty() || used[i])
+      differences.push_back(std::abs(values[i + 1] - 2.0 * values[i] + values[i - 1]));
+  if (differences.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / (0.6745 * std::sqrt(6.0));
+}
+
 std::vector<double> moving_average(std::span<const double> values, std::size_t samples) {
   std::vector<double> sums(values.size() + 1, 0.0), out(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i];
@@ -101,7 +101,7 @@ FusedAcceleration fuse_accelerometers(std::span<const std::span<const double>> c
   for (std::size_t c = 0; c < count; ++c) {
     auto& calibration = out.calibration[c];
     believed[c] = away_from_saturation(channels_mps2[c], options, calibration);
-    calibration.noise_mps2 = noise_of(channels_mps2[c], believed[c]);
+    calibration.noise_mps2 = sample_noise(channels_mps2[c], believed[c]);
     averaged[c] = moving_average(channels_mps2[c], options.average_samples);
     if (calibration.saturated_samples > 0) continue;
     if (out.reference == count || calibration.noise_mps2 < out.calibration[out.reference].noise_mps2)

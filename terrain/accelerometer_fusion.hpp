@@ -40,6 +40,11 @@ struct FusionOptions {
 FusedAcceleration fuse_accelerometers(std::span<const std::span<const double>> channels_mps2,
                                       const FusionOptions& options);
 
+// Standard deviation of the noise from sample to sample, from the median of the second differences, which
+// hold neither the signal's level nor its slope (normal noise: root 6 sigma). `used`: samples in whose place
+// one is taken; empty: all. Infinite without any.
+double sample_noise(std::span<const double> values, const std::vector<bool>& used = {});
+
 // Centred moving average over an odd number of samples; the window is shorter at the ends.
 std::vector<double> moving_average(std::span<const double> values, std::size_t samples);
 

@@ -34,14 +34,14 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
 // Variance of d before the samples of a stride: on new ground that of a surface, in a crater that of the
 // crater's depth plus that of the landing.
 void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
-  const double sd_m = in_crater ? prior_.landing_depth_sd_m : prior_.surface_sd_m;
-  if (!in_crater) {
-    kept_errors_.with_depth = {};
-    kept_errors_.of_earlier_surface = kept_errors_.of_surface;
-    kept_errors_.variance_m2 = 0.0;
+  if (in_crater) {
+    kept_errors_.variance_m2 += prior_.landing_depth_sd_m * prior_.landing_depth_sd_m;
+    return;
   }
-  kept_errors_.variance_m2 += sd_m * sd_m;
-  if (!in_crater) kept_errors_.variance_m2 += prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
+  kept_errors_.with_depth = {};
+  kept_errors_.of_earlier_surface = kept_errors_.of_surface;
+  kept_errors_.variance_m2 =
+      prior_.surface_sd_m * prior_.surface_sd_m + prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
 }
 
 // Covariance of D at two times, each with the change of speed since contact.

@@ -256,11 +256,7 @@ TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
   const auto found = [](const Recordings& recordings) {
     Prepared prepared = prepare(recordings);
     Problem& problem = prepared.problem;
-    Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
-    update_noise(problem, point);
-    keep_columns(problem, point);
-    point = fit_from(problem, point).point;
-    keep_columns(problem, point);
+    const Point point = settled_null(problem);
     SearchOptions options;
     options.straight = true;
     options.most_effects = 1;

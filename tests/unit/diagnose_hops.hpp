@@ -4,6 +4,9 @@
 #include <string>
 
 #include "estimation/leg.hpp"
+#include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
 #include "tools/diagnose/model/trial.hpp"
 #include "tools/diagnose/plants/hopper/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper/hopper_simulation.hpp"
@@ -60,6 +63,16 @@ inline Trial recorded(const HopperRun& run, const Edits& edits = {}, std::uint64
     put("tof_height_m", traces.body_z_m.at(t), 2e-3);
   }
   return trial;
+}
+
+// The fit with nothing missing, its noise estimated and its derivatives kept.
+inline Point settled_null(Problem& problem) {
+  Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
+  update_noise(problem, point);
+  keep_columns(problem, point);
+  point = fit_from(problem, point).point;
+  keep_columns(problem, point);
+  return point;
 }
 
 }  // namespace sandhopper::diagnose

@@ -71,11 +71,7 @@ TEST(DiagnoseLikeNuisance, PredictsTheSameRowsAsTheEffect) {
 TEST(DiagnoseLikeNuisance, AnEffectThatASpreadTakesUpIsScreenedAtItsSize) {
   Prepared prepared = prepare(warm_hops(kDerating_per_K));
   Problem& problem = prepared.problem;
-  Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
-  update_noise(problem, point);
-  keep_columns(problem, point);
-  point = fit_from(problem, point).point;
-  keep_columns(problem, point);
+  const Point point = settled_null(problem);
   const auto screened = screen(problem, point, nullptr, signatures_at(problem, point, {.laws = false}));
   const auto found = std::ranges::find_if(screened, [&](const Screened& s) {
     return problem.candidates[s.candidate].label() == "actuator.temperature";

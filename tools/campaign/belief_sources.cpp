@@ -47,7 +47,7 @@ Numbers numbers_in_order(const Belief& belief) {
 
 // A set-up names no table. It states the first number of its name outside [spread] (override_belief).
 bool is_first_of_its_name(const Numbers& numbers, const std::string& path) {
-  if (path.starts_with("spread.") || path.starts_with("known_to.")) return false;
+  if (states_uncertainty(path)) return false;
   const auto name = "." + path.substr(path.rfind('.') + 1);
   const auto first =
       std::ranges::find_if(numbers, [&](const auto& n) { return ("." + n.first).ends_with(name); });

@@ -57,8 +57,9 @@ class NominalWriter {
     return fmt::format(
         "# {0}_relative = 0.02   # differs by 2 % from trial to trial; any other number above likewise: its "
         "name "
-        "without the unit\n"
-        "\n# How well a number is known that is the same in all trials\n# [known_to]\n"
+        "without the unit\n\n"
+        "# How well a number is known that is the same in all trials\n"
+        "# [known_to]\n"
         "# {0}_relative = 0.02   # known to 2 %\n",
         kNumbers[static_cast<std::size_t>(plant_)]);
   }

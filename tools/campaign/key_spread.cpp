@@ -20,9 +20,7 @@ std::string_view quantity_of(std::string_view key) {
   return parts ? parts->quantity : key;
 }
 
-bool can_differ(std::string_view path) {
-  return !path.starts_with("sensors.") && !path.starts_with("spread.") && !path.starts_with("known_to.");
-}
+bool can_differ(std::string_view path) { return !path.starts_with("sensors.") && !states_uncertainty(path); }
 
 // Numbers that `name` may mean.
 std::vector<std::string> named(std::string_view name, const std::map<std::string, double>& numbers) {
@@ -37,6 +35,10 @@ std::vector<std::string> named(std::string_view name, const std::map<std::string
 }
 
 }  // namespace
+
+bool states_uncertainty(std::string_view path) {
+  return path.starts_with("spread.") || path.starts_with("known_to.");
+}
 
 std::vector<KeySpread> take_key_spreads(ConfigNode& table, const std::vector<std::string>& known,
                                         const std::map<std::string, double>& numbers, const std::string& file,

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/node.hpp"
@@ -23,6 +24,9 @@ struct KeySpread {
   double sd = 0.0;   // one standard deviation
   bool is_relative = false;
 };
+
+// True for "spread.…" and "known_to.…": numbers that say how well others are known.
+bool states_uncertainty(std::string_view path);
 
 // Takes out of `table`, [spread] or [known_to], every key that is not among `known` and names exactly one of
 // `numbers` ("table.key" and value). A value that is negative or no number is a problem with its place.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/accelerometer_fusion.hpp"
 #include "tools/campaign/belief_sources.hpp"
 
 namespace sandhopper {
@@ -22,16 +23,8 @@ struct Depths {
       if (!std::isnan(z[row])) rows.push_back(row), depth_m.push_back(-z[row]);
   }
 
-  // Standard deviation of one depth, from the median of the second differences (normal noise: sd sqrt(6)).
-  double noise_m() const {
-    std::vector<double> bends;
-    for (std::size_t i = 1; i + 1 < depth_m.size(); ++i)
-      bends.push_back(std::abs(depth_m[i - 1] - 2.0 * depth_m[i] + depth_m[i + 1]));
-    if (bends.empty()) return 0.0;
-    const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-    std::ranges::nth_element(bends, middle);
-    return *middle / (0.6745 * std::sqrt(6.0));
-  }
+  // Standard deviation of one depth; 0 for fewer than three.
+  double noise_m() const { return depth_m.size() < 3 ? 0.0 : sample_noise(depth_m); }
 
   // Smallest difference of two depths that follow each other: the step of the digits, or less. 0: none
   // differ.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "tools/diagnose/model/quantity.hpp"
+#include "tools/report/html.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -44,11 +46,11 @@ std::string in_words(const Json& p) {
 
 // The sentence of a sensor's fault, which holds for each of its channels.
 std::string sentence_of(const Effect& effect) {
-  const std::string place = "{channel}", words = "The channel";
-  std::string text = effect.statement;
-  for (auto at = text.find(place); at != std::string::npos; at = text.find(place))
-    text.replace(at, place.size(), at == 0 ? words : "the channel");
-  return text;
+  constexpr std::string_view kPlace = "{channel}";
+  const std::string_view text = effect.statement;
+  const bool begins = text.starts_with(kPlace);
+  return (begins ? "The channel" : "") +
+         html::replaced(text.substr(begins ? kPlace.size() : 0), kPlace, "the channel");
 }
 
 // `candidates`: those of this effect, one per channel of a sensor's fault.

@@ -28,7 +28,7 @@ std::string key_of(const Candidate& candidate, const Numbers& numbers) {
   if (last_key(usual) == name) return usual;
   std::string found;
   for (const auto& [key, value] : numbers) {
-    if (last_key(key) != name || key.starts_with("sensors.") || key.starts_with("spread.")) continue;
+    if (last_key(key) != name || key.starts_with("sensors.") || states_uncertainty(key)) continue;
     if (!found.empty()) return {};
     found = key;
   }

@@ -46,8 +46,7 @@ void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagn
   for (auto& number : diagnosis.belief) {
     number.error_that_shows = std::numeric_limits<double>::infinity();
     take_known_to(problem, answer, number);
-    const bool simulated = !number.key.starts_with("sensors.") && !number.key.starts_with("spread.") &&
-                           !number.key.starts_with("known_to.");
+    const bool simulated = !number.key.starts_with("sensors.") && !states_uncertainty(number.key);
     if (!simulated || number.size() == 0.0) continue;
     directions.push_back({with_number(edits, number.key), kShareMoved});
     numbers.push_back(&number);

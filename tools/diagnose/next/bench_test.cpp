@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/report/html.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -26,11 +28,6 @@ const char* foot_of(PlantKind plant) {
   return plant == PlantKind::intruder ? "plate" : "body";
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
 std::string listed(const std::vector<std::string>& names, const char* last) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -43,11 +40,8 @@ std::string id_of(const std::string& label) { return label.substr(0, label.find(
 }  // namespace
 
 std::string sentence_of(const BenchTest& test, PlantKind plant, const std::string& channel) {
-  std::string text = test.sentence;
-  replace_all(text, "{robot}", robot_of(plant));
-  replace_all(text, "{foot}", foot_of(plant));
-  replace_all(text, "{channel}", channel);
-  return text;
+  const auto text = html::replaced(test.sentence, "{robot}", robot_of(plant));
+  return html::replaced(html::replaced(text, "{foot}", foot_of(plant)), "{channel}", channel);
 }
 
 std::optional<RecommendedBenchTest> bench_test_for(const std::vector<std::string>& names,

@@ -88,7 +88,7 @@ void HopperTrial::add_nuisances() {
     trial_nuisances.push_back(
         {what, std::max(believed_sd, least), kWideStep * step, port, believed_sd > least});
   };
-  add("bed_stiffness_relative", s.bed_stiffness_relative, 1e-3, 1e-3, "ground");
+  add("bed_stiffness_relative", s.bed_stiffness_relative, 1e-3, kStiffnessStep / kWideStep, "ground");
   add("release_height_m", s.release_height_m, kReleaseUnknown_m, 1e-5);
   add("release_speed_mps", s.release_speed_mps, kReleaseSpeedUnknown_mps, 1e-4);
   add("release_angle_rad", 0.0, kReleaseAngleUnknown_rad, 1e-5);
