@@ -47,6 +47,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   const double fall_mps2 = robot.gravity_mps2 - robot.rail_friction_N / falling_kg;
   const double speed = std::sqrt(2.0 * fall_mps2 * std::max(setup.drop_height_m, 0.0));
   regression.on_contact(speed);
+  const double contact_m = solver.contact_depth(speed, cone.added_mass_gradient_kg_per_m(0.0)).mean_m;
   Hop hop{.foot_mps = speed, .body_mps = speed};
   double deepest_m = 0.0;
   for (int i = 1; i < kLongest_steps; ++i) {
@@ -67,8 +68,8 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
       // A sample has the mean's values, so that the predicted narrowing of the band does not depend on the
       // deviation.
       regression.add(
-          {hop.depth_m, hop.foot_mps, accel, std::max(curve.value, 0.0) + drag_N + added_kg * accel,
-           hop.leg_mps(), i * kStep_s, kStep_s},
+          {hop.depth_m - contact_m, hop.foot_mps, accel,
+           std::max(curve.value, 0.0) + drag_N + added_kg * accel, hop.leg_mps(), i * kStep_s, kStep_s},
           leg_N);
     deepest_m = std::max(deepest_m, hop.depth_m);
     hop.foot_mps = std::max(0.0, hop.foot_mps + accel * kStep_s);

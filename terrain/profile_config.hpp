@@ -9,19 +9,24 @@ struct ProfileConfig {
   // credible range of loose to compacted glass beads is 1000 to 3600 N/m.
   double believed_stiffness_N_per_m = 1500.0;
   double stiffness_spread_relative = 0.7;
-  // Errors of the estimated depth in a first stride (strength_profile.hpp): the depth at contact, the Kalman
-  // filter's error s_x and its decay a, the lag, and the rest. a is that of the filter with the noise of
-  // config/robot.toml. The others are the maximum likelihood in simulated strides on nine families of beds
-  // with a lag of nonzero mean: 0.33 mm, 0.80 mm (the filter states 0.86 mm), a mean of 0.25 ms, 0.02 mm.
-  // With mean zero (`hop experiment beds`, errors of the depth) they are 0.38 mm, 0.79 mm, 0.17 ms and 0.02
-  // mm.
-  double surface_sd_m = 0.00033;
-  // The part of the depth at contact that all places share: root mean square of its mean error in simulated
-  // first strides, over nine families of beds and five classes of speed.
-  double shared_surface_sd_m = 0.00023;
+  // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
+  // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. Means and standard
+  // deviations in simulated strides.
+  double contact_early_N = 0.3;
+  double contact_force_sd_N = 0.25;
+  double contact_time_sd_s = 0.00034;
+  // Other errors of the estimated depth in a first stride: of the surface, the Kalman filter's error s_x and
+  // its decay a, the lag, and the rest. a is that of the filter with the noise of config/robot.toml. The
+  // others are the maximum likelihood in simulated strides on nine families of beds.
+  double surface_sd_m = 0.0001;
+  // The part of the depth at contact that all places share: root mean square of its mean difference from the
+  // expected one in simulated first strides, over nine families of beds and five classes of speed.
+  double shared_surface_sd_m = 0.00012;
   double filter_sd_m = 0.0008;
   double filter_decay_per_s = 5.1;
-  double depth_lag_sd_s = 0.00025;
+  // Mean: the accelerometer's sample is newer than the motors' reply, to which the depth belongs.
+  double depth_lag_s = 0.0003;
+  double depth_lag_sd_s = 0.0002;
   double depth_noise_m = 0.00002;
   // Error of the depth when a foot lands in its crater, in addition to the error of the crater's depth. It is
   // the root mean square of simulated landings on nine families of beds, 0.8 to 1.0 mm (`hop experiment
@@ -37,10 +42,14 @@ struct ProfileConfig {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
+    visit("contact_early_N", self.contact_early_N, Range{0.0, 100.0});
+    visit("contact_force_sd_N", self.contact_force_sd_N, Range{0.0, 100.0});
+    visit("contact_time_sd_s", self.contact_time_sd_s, Range{0.0, 0.01});
     visit("surface_sd_m", self.surface_sd_m, Range{1e-6, 0.1});
     visit("shared_surface_sd_m", self.shared_surface_sd_m, Range{0.0, 0.1});
     visit("filter_sd_m", self.filter_sd_m, Range{1e-9, 0.1});
     visit("filter_decay_per_s", self.filter_decay_per_s, Range{0.01, 1000.0});
+    visit("depth_lag_s", self.depth_lag_s, Range{-0.01, 0.01});
     visit("depth_lag_sd_s", self.depth_lag_sd_s, Range{1e-6, 0.01});
     visit("depth_noise_m", self.depth_noise_m, Range{0.0, 0.01});
     visit("landing_depth_sd_m", self.landing_depth_sd_m, Range{0.0, 0.1});

@@ -40,8 +40,48 @@ void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   }
   kept_errors_.with_depth = {};
   kept_errors_.of_earlier_surface = kept_errors_.of_surface;
-  kept_errors_.variance_m2 =
+}
+
+// The curve near the surface is taken as a line in each cell.
+ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
+                                                         double added_mass_kg_per_m) const noexcept {
+  constexpr std::size_t kDeepest = 2;  // cells
+  const double surface_m2 =
       prior_.surface_sd_m * prior_.surface_sd_m + prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
+  if (!(speed_mps > 0.0)) return {0.0, surface_m2};
+  const double c = std::max(posterior_.mean[kAddedMass], 0.0);
+  double missing_N =
+      config_.contact_force_N - prior_.contact_early_N - c * added_mass_kg_per_m * speed_mps * speed_mps;
+  ContactDepth depth{0.0, surface_m2};
+  double force_sd_m = 0.0;
+  for (std::size_t j = 0; j < kDeepest && missing_N > 0.0; ++j) {
+    const double cell_N = kProfileCell_m * slope_N_per_m_[j];
+    const double share = cell_N > missing_N ? missing_N / cell_N : 1.0;
+    depth.mean_m += share * kProfileCell_m;
+    force_sd_m = std::min(prior_.contact_force_sd_N * kProfileCell_m / std::max(cell_N, 1e-9), depth.mean_m);
+    missing_N -= cell_N;
+  }
+  const double time_sd_m = prior_.contact_time_sd_s * speed_mps;
+  depth.variance_m2 += force_sd_m * force_sd_m + time_sd_m * time_sd_m;
+  return depth;
+}
+
+void ProfileSolver::expect_contact(const ProfileSums& sums) noexcept {
+  const auto depth = contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
+  kept_errors_.mean_m = depth.mean_m;
+  kept_errors_.variance_m2 = depth.variance_m2;
+}
+
+double ProfileSolver::mean_depth_error_m(double change_mps) const noexcept {
+  return kept_errors_.mean_m + prior_.depth_lag_s * change_mps;
+}
+
+void ProfileSolver::subtract_mean_depth_error(Information& info) const noexcept {
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    const double mean_m = mean_depth_error_m(info.change_mps[s]);
+    for (std::size_t i = 0; i < kTerms; ++i) info.moment[i] -= mean_m * info.of_depth[s][i];
+    info.depth_moment[s] -= mean_m * info.depth_normal[s];
+  }
 }
 
 // Covariance of D at two times, each with the change of speed since contact.
@@ -121,6 +161,7 @@ void ProfileSolver::end_depth_errors(const Information& info, const ProfileSums&
     const double covariance_m2 = depth_covariance_m2(info.time_s[s], info.change_mps[s], t, v);
     for (std::size_t i = 0; i < kTerms; ++i) errors_.with_depth[i] += covariance_m2 * info.of_depth[s][i];
   }
+  errors_.mean_m = mean_depth_error_m(v);
   errors_.variance_m2 = depth_covariance_m2(t, v, t, v);
 }
 

@@ -6,8 +6,8 @@
 namespace sandhopper {
 namespace {
 
-// A saturated sample or a step of the torque affects the force for one cycle plus three time constants of the
-// IMU's 400 Hz low-pass.
+// A saturated sample, the blow of a fast foot on the ground and a step of the torque affect the force for one
+// cycle plus three time constants of the IMU's 400 Hz low-pass.
 constexpr double kSettling_s = 0.003;
 
 }  // namespace
@@ -95,6 +95,7 @@ double ProfileRegression::inertia_N(const JointSample& s) const noexcept {
 void ProfileRegression::reset() noexcept {
   settled_s_ = start_s_ = start_speed_mps_ = 0.0;
   starts_ = false;
+  sums_.contact_mps = 0.0;
   if (sums_.samples + sums_.saturated + sums_.too_deep > 0) sums_ = {};
 }
 
@@ -102,6 +103,9 @@ void ProfileRegression::on_contact(double speed_mps, bool in_crater) noexcept {
   start_s_ = 0.0;
   start_speed_mps_ = speed_mps;
   starts_ = in_crater;
+  if (!in_crater) settled_s_ = kSettling_s;
+  sums_.contact_mps = speed_mps;
+  sums_.contact_added_mass_kg_per_m = cone_.added_mass_gradient_kg_per_m(0.0);
 }
 
 bool ProfileRegression::watch(const JointSample& s) noexcept {

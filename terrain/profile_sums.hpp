@@ -53,6 +53,8 @@ struct ProfileSums {
   // on the force that it helps to measure. So the density of such a sample has the factor 1 + c m_a / M_f.
   double response = 0.0, response_squared = 0.0;
   double reduced_mass_kg = 0.0;                // M_f
+  double contact_mps = 0.0;                    // speed at contact; 0: contact was not found by its force
+  double contact_added_mass_kg_per_m = 0.0;    // growth of the added mass with the depth at contact
   double last_s = 0.0, last_change_mps = 0.0;  // time and speed of the last sample, relative to the contact
   std::int32_t samples = 0;
   std::int32_t saturated = 0;

@@ -58,6 +58,7 @@ void ProfileSolver::restart() noexcept {
   shared_normal_ = {};
   shared_moment_ = {};
   posterior_ = {};
+  posterior_.mean[kAddedMass] = config_.joint.added_mass_factor;
   profile_ = {};
   response_ = {};
   slope_N_per_m_ = believed_N_per_m_;
@@ -250,12 +251,12 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
   const auto& m = posterior_.mean;
   double above = 0.0;
   for (std::size_t j = 0; j < s; ++j) above += kProfileCell_m * m[j];
-  return {-above,
+  return {-above - slope_N_per_m_[s] * kept_errors_.mean_m,
           -kProfileCell_m * m[s],
           -prior_.believed_stiffness_N_per_m * m[kIntercept],
           -m[kAddedMass],
           0.0,
-          0.0,
+          -slope_N_per_m_[s] * prior_.depth_lag_s,
           -m[kFriction],
           -m[kScale],
           1.0};
@@ -350,7 +351,9 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   std::fill(jump_.begin() + static_cast<std::ptrdiff_t>(first_cell_), jump_.end(), 1.0);
   Information info;
   for (int pass = 0; pass < kPasses; ++pass) {
+    if (stride <= 1) expect_contact(sums);
     info = information_of(sums);
+    subtract_mean_depth_error(info);
     take_depth_errors(info);
     if (pass + 1 == kPasses) share(info);
     add_stride_prior(info);

@@ -15,9 +15,12 @@
 //   force = F(z + D) + c A + e Q + f tanh(Ldot / v_s) + noise,  D = d + x(t) - x(0) + l (v - v_0)
 // with A and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the torque
 // constant, d the depth at which the contact is detected, x the error of the Kalman filter's height, t the
-// time since contact, l a lag between force and depth, and v_0 the speed at contact. The filter fuses an
-// accelerometer whose noise is white with a white height, so its error is stationary, and from the filter's
-// Riccati equation follows
+// time since contact, l a lag between force and depth, and v_0 the speed at contact. Contact is detected when
+// the force exceeds a threshold T, so a slow foot on soft ground is already deep:
+//   F(E d) + c m_a' v_0^2 = T, with the posterior's F and c
+//   var(d) = (s_T / F')^2 + (s_t v_0)^2 + s_d^2, of the noise of the force, the cycle, the surface
+// The filter fuses an accelerometer whose noise is white with a white height, so its error is stationary, and
+// from the filter's Riccati equation follows
 //   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
@@ -143,6 +146,12 @@ class ProfileSolver {
   // Number of cells of the last stride that no curve fits, at a level of 1 % for all cells together.
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
+  // Depth at which a foot that lands on new ground with this speed is found in contact.
+  struct ContactDepth {
+    double mean_m = 0.0, variance_m2 = 0.0;
+  };
+  ContactDepth contact_depth(double speed_mps, double added_mass_kg_per_m) const noexcept;
+
   // Force at a depth; NaN beyond the last cell. `narrowable` leaves out of the band the curve's variation
   // within a cell, such as that of a crust or a sharp boundary, and the errors that all strides share: no
   // stride narrows them.
@@ -171,8 +180,8 @@ class ProfileSolver {
     // Change of the moment, over all strides, for a unit of the surface's error that all places share, and of
     // l.
     Vector<kTerms> of_surface{}, of_lag{};
-    Vector<kTerms> of_earlier_surface{};  // the same of the places before this one
-    double variance_m2 = 0.0;             // of D
+    Vector<kTerms> of_earlier_surface{};     // the same of the places before this one
+    double mean_m = 0.0, variance_m2 = 0.0;  // of D at the beginning of a stride
   };
   Information information_of(const ProfileSums& sums) const noexcept;
   void add_stride_prior(Information& information) const noexcept;
@@ -189,6 +198,9 @@ class ProfileSolver {
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
   void begin_depth_errors(bool in_crater) noexcept;
+  void expect_contact(const ProfileSums& sums) noexcept;
+  double mean_depth_error_m(double change_mps) const noexcept;
+  void subtract_mean_depth_error(Information& information) const noexcept;
   double depth_covariance_m2(double time_s, double change_mps, double other_s,
                              double other_mps) const noexcept;
   Matrix<kProfileCells> depth_covariance(const Information& information) const noexcept;

@@ -126,9 +126,48 @@ TEST(ProfileMemory, DriftAndLagInACraterCountFromTheFirstSampleOnNewGround) {
   EXPECT_NEAR(regression.sums().last_change_mps, -0.2, 1e-12);
   regression.reset();
   regression.on_contact(0.8);
-  regression.add({0.0010, 0.7, 0.0, 6.0, 0.0, 0.001, 1e-3}, 20.0);
-  EXPECT_NEAR(regression.sums().last_s, 0.001, 1e-12);
+  regression.add({0.0010, 0.75, 0.0, 6.0, 0.0, 0.001, 1e-3}, 20.0);  // still disturbed by the blow
+  EXPECT_EQ(regression.sums().samples, 0);
+  regression.add({0.0032, 0.7, 0.0, 6.0, 0.0, 0.004, 1e-3}, 20.0);
+  EXPECT_NEAR(regression.sums().last_s, 0.004, 1e-12);
   EXPECT_NEAR(regression.sums().last_change_mps, -0.1, 1e-12);
+}
+
+// Contact is found at a force. A slow foot is then deeper on softer ground. A fast one is not, because the
+// added mass alone gives that force.
+TEST(ProfileMemory, ASlowFootOnSoftGroundIsDeepWhenItIsFound) {
+  constexpr double kAddedMass_kg_per_m = 14.0, kSlow_mps = 0.1;
+  const auto contact = [&](double stiffness_N_per_m, double speed_mps) {
+    StiffnessConfig config;
+    config.profile = ProfileConfig{.believed_stiffness_N_per_m = stiffness_N_per_m};
+    config.joint.intercept_depth_m = 0.0;
+    return ProfileSolver(config).contact_depth(speed_mps, kAddedMass_kg_per_m);
+  };
+  const ProfileConfig prior;
+  const double needed_N =
+      StiffnessConfig{}.contact_force_N - prior.contact_early_N - kAddedMass_kg_per_m * kSlow_mps * kSlow_mps;
+  for (const double stiffness : {1000.0, 3000.0}) {
+    const auto depth = contact(stiffness, kSlow_mps);
+    EXPECT_NEAR(depth.mean_m, needed_N / stiffness, 1e-9);
+    EXPECT_GT(depth.variance_m2, std::pow(prior.contact_force_sd_N / stiffness, 2));
+  }
+  EXPECT_EQ(contact(1000.0, 0.6).mean_m, 0.0);
+  EXPECT_EQ(contact(1000.0, 0.0).mean_m, 0.0);  // contact was not found by its force
+}
+
+// All depths of a stride are too small by the depth at contact, and its curve is corrected for that.
+TEST(ProfileMemory, TheExpectedDepthAtContactShiftsTheCurve) {
+  ProfileSums sums = slow_push(1e-4, 0.030);
+  ProfileSolver surface{StiffnessConfig{}}, late{StiffnessConfig{}};
+  surface.add(sums, 1);
+  sums.contact_mps = 0.1;
+  late.add(sums, 1);
+  const double depth_m = late.contact_depth(0.1, 0.0).mean_m;
+  EXPECT_GT(depth_m, 2e-4);
+  for (double z = 0.010; z < 0.028; z += 0.0025) {
+    const double change_N = tangent_at(surface.profile(), z).value * depth_m;
+    EXPECT_NEAR(surface.force_N(z).value - late.force_N(z).value, change_N, 0.2 * change_N) << z;
+  }
 }
 
 TEST(ProfileMemory, BlowBeforeNewGroundSettlesToo) {

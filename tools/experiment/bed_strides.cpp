@@ -87,6 +87,12 @@ std::vector<BedCase> named_bed_cases(const std::vector<std::string>& names) {
   return cases;
 }
 
+WorldConfig with_drop_scatter(WorldConfig world) {
+  constexpr double kDropHeight_sd_m = 0.0005;
+  world.spread.release_height_m = kDropHeight_sd_m;
+  return world;
+}
+
 BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config, const BedCase& bed,
                        std::uint64_t seed, int strides) {
   const auto& cells = hop_cells();
@@ -94,7 +100,7 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
   CycleConfig cycle = base;
   cycle.controller.compression_stiffness_N_per_m = cell.compression_stiffness_N_per_m;
   cycle.limits.strides = strides;
-  WorldConfig world = world_config;
+  WorldConfig world = with_drop_scatter(world_config);
   world.bed_family = bed.family;
   BedTrial trial;
   trial.truth = bed_truth_of(TrialDraw(world, {.seed = seed, .noise = true, .start_ns = 0}).bed());

@@ -46,6 +46,10 @@ struct BedTrial {
   StrideDepthErrors depth_errors{};  // of the first stride's samples on new ground, 2 mm apart
 };
 
+// The drop height has a standard deviation of 0.5 mm, as one that is set by hand. With exact heights, all
+// trials of a set-up would touch the ground at the same time within a cycle.
+WorldConfig with_drop_scatter(WorldConfig world);
+
 // Runs trial number `seed` - 1 of a case. Its set-up cycles through hop_cells(). Ends after `strides`
 // strides, or when the robot does not lift off again.
 BedTrial run_bed_trial(const CycleConfig& cycle, const WorldConfig& world, const BedCase& bed,

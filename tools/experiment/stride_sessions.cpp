@@ -26,7 +26,7 @@ class Session {
  public:
   Session(const SessionSetup& setup, const BedCase& bed, std::uint64_t seed)
       : setup_(setup),
-        world_(setup.world),
+        world_(with_drop_scatter(setup.world)),
         seed_(seed),
         setups_(stride_setups()),
         robot_(hop_model_of(setup.cycle)) {

@@ -49,6 +49,7 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
   ProfileConfig profile{.surface_sd_m = 0.0007,
                         .shared_surface_sd_m = 0.0,
                         .filter_sd_m = 1e-9,
+                        .depth_lag_s = 0.0,
                         .depth_lag_sd_s = 0.0005,
                         .depth_noise_m = 0.0003};
   const auto& last = loading.back();
