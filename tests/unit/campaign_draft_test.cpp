@@ -80,6 +80,16 @@ TEST(CampaignDraft, APlateOfATestingMachine) {
   EXPECT_NEAR(recording.channel("foot_z_m")[2], -0.8e-3, 1e-12);
 }
 
+TEST(CampaignDraft, AWayThatGrowsDownwardAndBeginsAboveTheSurface) {
+  CampaignFolder folder;
+  std::string text = "Zeit [s];Weg [mm];Kraft [N]\n";
+  for (int i = 0; i <= 72; ++i) text += fmt::format("{};{};{}\n", 0.1 * i, i - 12, std::max(0, i - 12));
+  const auto got = drafted(folder, text);
+  ASSERT_FALSE(got.recording.usable());
+  EXPECT_THAT(find(got.recording, FindingKind::implausible)->what,
+              HasSubstr("is highest where the force is largest"));
+}
+
 TEST(CampaignDraft, AnAxisInDegreesAndTurns) {
   CampaignFolder folder;
   const auto got = drafted(folder, rows("Time (ms),Angle [deg],Speed [rpm],Torque [N·m],Temp (C)\n", ',', 5));

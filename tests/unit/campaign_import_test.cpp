@@ -57,6 +57,25 @@ TEST(CampaignImport, GermanNamesWithoutUnitsTellThePlant) {
   EXPECT_THAT(spoken.campaign_toml, HasSubstr("velocity_radps = { column = \"n (Umdr./min)\""));
 }
 
+TEST(CampaignImport, DutchFrenchSpanishAndItalianNamesTellThePlant) {
+  const auto drop = drafted(rows("proef;beeld;tijd;hoogte", 4));
+  EXPECT_EQ(drop.plant, CampaignPlant::falling_body);
+  EXPECT_THAT(drop.campaign_toml,
+              AllOf(HasSubstr("t_s = { column = \"tijd\""), HasSubstr("height_m = { column = \"hoogte\"")));
+  EXPECT_EQ(drafted(rows("temps;hauteur;vitesse", 3)).plant, CampaignPlant::falling_body);
+  EXPECT_EQ(drafted(rows("tijd;kracht;diepte", 3)).plant, CampaignPlant::intruder);
+  EXPECT_EQ(drafted(rows("tiempo;fuerza;profundidad", 3)).plant, CampaignPlant::intruder);
+  EXPECT_EQ(drafted(rows("tempo;angolo;coppia", 3)).plant, CampaignPlant::rotary_axis);
+  EXPECT_EQ(drafted(rows("tijd;hoek;koppel", 3)).plant, CampaignPlant::rotary_axis);
+}
+
+TEST(CampaignImport, TheFolderGivesTheCampaignItsName) {
+  CampaignFolder folder;
+  folder.write("Versuch_01.csv", rows("Zeit;Kraft;Tiefe", 3));
+  const auto draft = draft_campaign({folder.path() / "Versuch_01.csv"}, std::nullopt, folder.path());
+  EXPECT_THAT(draft.campaign_toml, HasSubstr("name  = \"" + folder.path().filename().string() + "\""));
+}
+
 TEST(CampaignImport, ATableWhosePlantIsNotClearIsDescribed) {
   try {
     drafted("mass_A;;\n" + rows("t;x (cm);y", 3));

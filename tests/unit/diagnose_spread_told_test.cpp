@@ -92,6 +92,7 @@ TEST(DiagnoseSpread, EveryNumberOfSpreadIsListedWithItsValuesAndWhatExceeds) {
   if (d.effects.empty()) {
     EXPECT_EQ(drag->goes_with, "falls with release_height_m");
   }
+  EXPECT_EQ(d.detail == Detail::only_beyond_spread, d.verdict == Verdict::consistent);
 }
 
 }  // namespace

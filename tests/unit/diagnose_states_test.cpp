@@ -36,6 +36,7 @@ TEST(DiagnoseStates, AVerdictIsWrittenWithItsKind) {
   EXPECT_EQ(name_of(Verdict::unknown_physics, Detail::unknown_not_localised),
             "unknown_physics, unknown_not_localised");
   EXPECT_EQ(name_of(Verdict::consistent, Detail::none), "consistent");
+  EXPECT_EQ(name_of(Verdict::consistent, Detail::only_beyond_spread), "consistent, only_beyond_spread");
   EXPECT_EQ(name_of(Detail::none), "null");
 }
 

@@ -206,13 +206,20 @@ class Drafter {
                         [&](const ColumnGuess& g) { return g.column == i; });
   }
 
+  std::string folder_name() const {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(files_.front()))
+        .parent_path()
+        .filename()
+        .string();
+  }
+
   std::string campaign() const {
     std::string text = fmt::format(
         "# Written by `hop campaign import` from {}. Correct what is wrong, then run `hop campaign check` on "
         "this folder.\n"
         "name  = \"{}\"\nplant = \"{}\"   # hopper, intruder, falling_body or rotary_axis\nmodel = "
         "\"nominal.toml\"\n",
-        files_.front().filename().string(), files_.front().stem().string(), name_of(out_.plant));
+        files_.front().filename().string(), folder_name(), name_of(out_.plant));
     return text + draft_format(table_.layout, names_) + columns() + trials() + draft_available(out_.plant);
   }
 

@@ -14,41 +14,55 @@ struct Naming {
   std::string_view channel;
   CampaignPlant plant;
   std::string_view dimension;
-  std::array<std::string_view, 12> words;  // In lower case; one of them must be in the column's name.
+  std::array<std::string_view, 16> words;  // In lower case; one of them must be in the column's name.
   bool is_downward = false;                // The words mean a depth, but the channel counts upward.
 };
 constexpr std::array kNamings{
     Naming{"foot_z_m",
            intruder,
            "length",
-           {"sinkage", "depth", "penetration", "einsink", "eindring", "tiefe", "indent", "enfonc", "profond"},
+           {"sinkage", "depth", "penetration", "einsink", "eindring", "tiefe", "indent", "enfonc", "profond",
+            "diepte", "profund"},
            true},
     Naming{"foot_z_m",
            intruder,
            "length",
            {"foot_z", "position", "displacement", "extension", "crosshead", "travel", "height", "weg", "z"},
            false},
-    Naming{"force_N", intruder, "force", {"force", "load", "kraft", "fz", "last"}, false},
-    Naming{"foot_velocity_mps", intruder, "speed", {"velocity", "speed", "geschwindigkeit"}, false},
+    Naming{"force_N",
+           intruder,
+           "force",
+           {"force", "load", "kraft", "fz", "last", "kracht", "fuerza", "forza"},
+           false},
+    Naming{"foot_velocity_mps",
+           intruder,
+           "speed",
+           {"velocity", "speed", "geschw", "snelheid", "vitesse", "velocidad"},
+           false},
     Naming{"foot_accel_mps2", intruder, "acceleration", {"accel", "acc", "beschl"}, false},
     Naming{"height_m",
            falling_body,
            "length",
-           {"height", "altitude", "hoehe", "höhe", "position", "y", "z", "h"},
+           {"height", "altitude", "hoehe", "höhe", "hoogte", "hauteur", "altura", "altezza", "position", "y",
+            "z", "h"},
            false},
     Naming{"accel_mps2", falling_body, "acceleration", {"accel", "acc", "beschl"}, false},
     Naming{"pressure_Pa", falling_body, "pressure", {"pressure", "druck", "pore"}, false},
     Naming{"position_rad",
            rotary_axis,
            "angle",
-           {"angle", "position", "theta", "phi", "winkel", "encoder", "pos"},
+           {"angle", "position", "theta", "phi", "winkel", "hoek", "angulo", "angolo", "encoder", "pos"},
            false},
     Naming{"velocity_radps",
            rotary_axis,
            "angular rate",
-           {"speed", "velocity", "omega", "drehzahl", "geschwindigkeit", "rpm", "vel"},
+           {"speed", "velocity", "omega", "drehzahl", "geschw", "snelheid", "vitesse", "rpm", "vel"},
            false},
-    Naming{"torque_Nm", rotary_axis, "torque", {"torque", "moment", "tau", "drehmoment"}, false}};
+    Naming{"torque_Nm",
+           rotary_axis,
+           "torque",
+           {"torque", "moment", "tau", "koppel", "couple", "coppia"},
+           false}};
 
 ColumnGuess made(std::string_view channel, const std::optional<WrittenUnit>& unit, bool downward) {
   const auto wanted = unit_of_channel(channel);

@@ -197,8 +197,8 @@ bool is_called_time(std::string_view name) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (lower == "t" || lower.starts_with("t ") || lower.starts_with("t(") || lower.starts_with("t["))
     return true;
-  constexpr std::array<std::string_view, 9> kBegin{"time",      "zeit",  "temps",   "tiempo", "tempo",
-                                                   "timestamp", "stamp", "elapsed", "uhrzeit"};
+  constexpr std::array<std::string_view, 10> kBegin{"time", "zeit",      "temps", "tiempo",  "tempo",
+                                                    "tijd", "timestamp", "stamp", "elapsed", "uhrzeit"};
   return std::any_of(kBegin.begin(), kBegin.end(), [&](auto word) { return lower.starts_with(word); }) ||
          lower.ends_with("timestamp") || lower.ends_with("_time") || lower.ends_with(": time (s)") ||
          lower.ends_with("stamp.secs") || lower.ends_with("stamp.sec") || lower == "sec" || lower == "secs" ||

@@ -172,7 +172,8 @@ class SignChecker {
     for (std::size_t i = 0; i < pairs_z.size(); ++i)
       if (pairs_force[i] > forces.low + 0.8 * forces.width()) sum += pairs_z[i], count += 1.0;
     const double place = (sum / count - heights.low) / heights.width();  // 0: lowest, 1: highest
-    if (place > 0.8 && heights.low > -0.1 * heights.width())
+    // A depth that counts downward is mostly positive: the part above the surface is short.
+    if (place > 0.8 && heights.low > -0.5 * heights.width())
       add("foot_z_m",
           "is highest where the force is largest: it counts the depth downward, and the channel counts "
           "upward",

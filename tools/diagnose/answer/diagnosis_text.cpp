@@ -191,7 +191,11 @@ std::string below_the_floor(const Diagnosis& d) {
 std::string headline(const Diagnosis& d) {
   const auto beyond = beyond_spread(d);
   if (d.verdict == Verdict::consistent && !beyond.empty())
-    return fmt::format("{} trials agree with the simulation: consistent only if {}.", d.trials, beyond);
+    return fmt::format(
+        "{} trials agree with the simulation: consistent only if {}. Either this spread is believed too "
+        "small, or "
+        "something that is on no list acts there.",
+        d.trials, beyond);
   if (d.verdict == Verdict::consistent)
     return fmt::format(
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
@@ -14,6 +15,9 @@ using Set = std::vector<std::size_t>;
 
 // Standard error in typical sizes above which the recordings do not bound the effect.
 constexpr double kUnbounded = 1e6;
+// Size in typical sizes below which an effect lies by its prior alone, with 97.5 %. A larger bound says
+// nothing about the recordings.
+const double kByPriorAlone = std::exp(1.959964 * kLimits.size_spread);
 constexpr int kPasses = 6;  // of doubling a bound: sizes up to 32 times it are tried
 
 // All fitted subsets of the set, including itself and the empty set.
@@ -189,7 +193,7 @@ void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis)
   add_tolerances(problem, search.best().fit.point, bounds);
   for (const auto& [index, typicals] : bounds) {
     const auto& candidate = problem.candidates[index];
-    if (search.best().fit.point.hypothesis.contains(index) || !(typicals < kUnbounded) ||
+    if (search.best().fit.point.hypothesis.contains(index) || !(typicals < kByPriorAlone) ||
         may_be_there(problem, diagnosis, candidate))
       continue;
     if (const auto bound = bound_of(candidate, typicals)) diagnosis.absent.push_back(*bound);

@@ -142,8 +142,11 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
     diagnosis.trial_to_trial.push_back(std::move(told));
   }
   mark_what_exceeds(problem.context.belief, diagnosis.trial_to_trial);
-  for (auto& told : diagnosis.trial_to_trial)
-    if (told.exceeds_after()) told.goes_with = order_in_words(told.values, recorded);
+  for (auto& told : diagnosis.trial_to_trial) {
+    if (!told.exceeds_after()) continue;
+    told.goes_with = order_in_words(told.values, recorded);
+    if (diagnosis.verdict == Verdict::consistent) diagnosis.detail = Detail::only_beyond_spread;
+  }
 }
 
 }  // namespace sandhopper::diagnose

@@ -27,7 +27,7 @@ constexpr bool is_open(Verdict verdict) {
 // Kind of a verdict. known: listed effects only. one_of_class: listed effects of which some cannot be
 // distinguished from others. known_and_rest: listed effects, and something unlisted. data_fault: only the
 // recording is faulty. unknown_at_port: a law of free form was found at a port. unknown_not_localised: no
-// such law was found.
+// such law was found. only_beyond_spread: consistent only if numbers vary more between trials than believed.
 enum class Detail : std::uint8_t {
   none,
   too_little_data,
@@ -36,15 +36,17 @@ enum class Detail : std::uint8_t {
   known_and_rest,
   data_fault,
   unknown_at_port,
-  unknown_not_localised
+  unknown_not_localised,
+  only_beyond_spread
 };
 
 // Their names in diagnosis.json, text and page, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 5> kVerdictNames{
     "insufficient_data", "consistent", "missing_physics", "unknown_physics", "insufficient_time"};
-inline constexpr std::array<std::string_view, 8> kDetailNames{
+inline constexpr std::array<std::string_view, 9> kDetailNames{
     "null",           "too_little_data", "known",           "one_of_class",
-    "known_and_rest", "data_fault",      "unknown_at_port", "unknown_not_localised"};
+    "known_and_rest", "data_fault",      "unknown_at_port", "unknown_not_localised",
+    "only_beyond_spread"};
 
 constexpr std::string_view name_of(Verdict verdict) {
   return kVerdictNames[static_cast<std::size_t>(verdict)];

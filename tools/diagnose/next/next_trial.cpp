@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tools/diagnose/evidence/rivals.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
@@ -133,8 +134,10 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
     return;
   }
   std::string others;
+  std::set<std::string> named;
   for (const auto& p : pairs)
-    if (p.i == 0) others += (others.empty() ? "" : ", ") + groups[p.group].names[p.j];
+    if (const auto& name = groups[p.group].names[p.j]; p.i == 0 && named.insert(name).second)
+      others += (others.empty() ? "" : ", ") + name;
   next = {};
   next.why = fmt::format(
       "None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "

@@ -93,12 +93,13 @@ StudyAnswer what(const Diagnosis& d) {
   if (nothing_found(d)) {
     const auto beyond = beyond_spread(d);
     box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent && !beyond.empty()
-                                            ? "Nothing, if trials differ by more than stated"
+                                            ? "Nothing, if trials differ by more than believed"
                                         : d.verdict == Verdict::consistent        ? "Nothing is missing"
                                         : d.verdict == Verdict::insufficient_time ? "Too little time"
                                                                                   : "Too few trials");
     if (d.verdict == Verdict::consistent && !beyond.empty())
-      box.lines.emplace_back(Style::text, "Consistent only if " + beyond + ".");
+      box.lines.emplace_back(Style::text, "Consistent only if " + beyond +
+                                              ". Otherwise something that is on no list acts there.");
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
