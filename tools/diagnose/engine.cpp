@@ -113,7 +113,7 @@ void drop_names_in_vain(const Problem& problem, Search& search, Diagnosis& diagn
   search.name_nothing();
 }
 
-Unexplained what_is_left(const Problem& problem, Search& search, const Belief& belief, bool faults,
+Unexplained what_is_left(Problem& problem, Search& search, const Belief& belief, bool faults,
                          BalanceLaw& balance, Diagnosis& diagnosis) {
   auto rest = unexplained_by(problem, search, belief, faults, balance, diagnosis.log);
   // If a listed effect explains the rest as well as the free law, name it, however small it is.

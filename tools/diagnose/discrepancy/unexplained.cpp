@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/diagnose/discrepancy/balance.hpp"
+#include "tools/diagnose/evidence/beside.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
 
 namespace sandhopper::diagnose {
@@ -104,7 +105,7 @@ Misfit misfit_of(const Problem& problem, const Search& search) {
   return m;
 }
 
-Unexplained unexplained_by(const Problem& problem, const Search& search, const Belief& belief, bool faults,
+Unexplained unexplained_by(Problem& problem, const Search& search, const Belief& belief, bool faults,
                            BalanceLaw& balance, std::vector<std::string>& log) {
   const SetFit& best = search.best();
   Unexplained out;
@@ -140,14 +141,25 @@ Unexplained unexplained_by(const Problem& problem, const Search& search, const B
                               out.law->p_value));
     out.law->held_out = std::max(0.0, out.misfit.unexplained);
   }
-  // If the best set leaves far more than the noise, it is no explanation and it distorts the free laws. Fit
-  // them again without it.
+  // If the best set leaves far more than the noise, it is no explanation and it may distort the free laws.
+  // The evidence says which law acts, beside the set or in its place.
   std::vector<FreeGain> alone;
   if (out.misfit.large && !out.law) {
     alone = free_gains(problem, search.null().fit.point);
-    out.law = first_of(alone, [&](const FreeGain& gain) {
-      return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
-    });
+    const auto likely = likeliest_law(problem, search);
+    if (likely) {
+      log.push_back(fmt::format("most probable law: at {} of {}, beside {}", likely->family.port,
+                                likely->family.variable,
+                                likely->beside_nothing ? "nothing" : "the best set"));
+      out.law = first_of(likely->beside_nothing ? alone : beside, [&](const FreeGain& gain) {
+        return gain.family.port == likely->family.port && gain.family.variable == likely->family.variable &&
+               gain.held_out > kUnknownGain;
+      });
+    }
+    if (!out.law)
+      out.law = first_of(alone, [&](const FreeGain& gain) {
+        return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
+      });
     // Without the names the law explains what they explain, too. Only what they leave counts as left.
     if (out.law && explained > 0.0)
       out.law->held_out = std::min(out.law->held_out, std::max(0.0, out.misfit.unexplained));

@@ -47,7 +47,7 @@ Misfit misfit_of(const Problem& problem, const Search& search);
 
 // `faults`: the recordings hold faulty samples. Then a residual above the noise is not taken as unknown
 // physics.
-Unexplained unexplained_by(const Problem& problem, const Search& search, const Belief& belief, bool faults,
+Unexplained unexplained_by(Problem& problem, const Search& search, const Belief& belief, bool faults,
                            BalanceLaw& balance, std::vector<std::string>& log);
 
 }  // namespace sandhopper::diagnose

@@ -18,6 +18,7 @@ namespace {
 
 // Number of sets whose evidence is computed: those with the smallest criterion.
 constexpr std::size_t kWeighed = 8;
+constexpr double kNoEvidence = -1e300;
 constexpr std::size_t kLawsWeighed = 3;  // Number of unknown laws listed with one set.
 
 struct WeighedAnswer {
@@ -38,10 +39,10 @@ std::vector<const SetFit*> nearest(const Search& search, std::size_t most_effect
   return order;
 }
 
-// -1e300 if the evidence cannot be computed, e.g. because a derivative is not finite.
+// kNoEvidence if it cannot be computed, e.g. because a derivative is not finite.
 double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence& evidence) {
   const double log_mass = evidence.value + log_prior(problem, fit.set.size());
-  return std::isfinite(log_mass) ? log_mass : -1e300;
+  return std::isfinite(log_mass) ? log_mass : kNoEvidence;
 }
 
 }  // namespace
@@ -69,6 +70,23 @@ void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& 
                               log_mass - of_best));
     return;
   }
+}
+
+std::optional<LikelyLaw> likeliest_law(Problem& problem, const Search& search) {
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
+  std::optional<LikelyLaw> likeliest;
+  double most = kNoEvidence;
+  for (const SetFit* fit : {&search.best(), &search.null()}) {
+    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
+    const auto laws = unknown_laws(problem, fit->fit.point, evidence.times);
+    if (laws.empty()) continue;
+    const double log_mass = log_mass_of(problem, *fit, evidence) + laws.front().log_factor;
+    if (!(log_mass > most)) continue;
+    most = log_mass;
+    likeliest = {laws.front().family, fit == &search.null()};
+  }
+  problem.repeatable_error = {};
+  return likeliest;
 }
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {

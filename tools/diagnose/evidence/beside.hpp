@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/discrepancy/free_laws.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 
 namespace sandhopper::diagnose {
@@ -13,6 +15,14 @@ namespace sandhopper::diagnose {
 // form error of an effect on readings is 0. Not for sets of several effects: there the form error of one law
 // can stand for another effect. Repeatable model errors are left out for the same reason.
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log);
+
+// The law of free form with the largest posterior mass, beside the best set or beside nothing. None if no
+// evidence can be computed.
+struct LikelyLaw {
+  FreeFamily family;
+  bool beside_nothing = false;
+};
+std::optional<LikelyLaw> likeliest_law(Problem& problem, const Search& search);
 
 // Appends to `log` the posterior mass of the sets with the smallest criterion, and of unknown laws added to
 // the best set and to the null (one line each, most probable first).
