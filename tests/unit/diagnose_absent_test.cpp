@@ -44,6 +44,17 @@ TEST(DiagnoseAbsent, ALagInPlaceOfATolerancesDelayIsWithinItsBound) {
   EXPECT_GT(lag->value, kDelay_s + kLeastNoise_s);
 }
 
+// Nothing tells a late clock of heights from another release height and speed, but for the curvature. A bound
+// that the size's own prior gives as well (97.5 %: e^1.96 typical sizes) is not printed.
+TEST(DiagnoseAbsent, ABoundThatTheRecordingsDoNotGiveIsNotPrinted) {
+  const auto d = diagnose(drops([](double, double, double) { return 0.0; }));
+  ASSERT_EQ(d.verdict, Verdict::consistent);
+  ASSERT_FALSE(d.absent.empty());
+  EXPECT_LT(d.absent.front().typicals, std::exp(1.96));
+  EXPECT_TRUE(
+      std::ranges::none_of(d.absent, [](const Bound& bound) { return bound.id == "clock.skew[height_m]"; }));
+}
+
 // The column of a candidate with a given size is the secant up to that size.
 TEST(DiagnoseAbsent, ASignatureOfAGivenSizeIsTheSecant) {
   constexpr double kSize = 3.0;
