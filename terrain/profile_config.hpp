@@ -11,7 +11,7 @@ struct ProfileConfig {
   double stiffness_spread_relative = 0.7;
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. Means and standard
-  // deviations in simulated strides.
+  // deviations in 1200 simulated first strides on each of six families of beds.
   double contact_early_N = 0.3;
   double contact_force_sd_N = 0.25;
   double contact_time_sd_s = 0.00034;

@@ -35,6 +35,7 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
 // crater's depth plus that of the landing.
 void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   if (in_crater) {
+    begins_m_ = kept_errors_.mean_m;
     kept_errors_.variance_m2 += prior_.landing_depth_sd_m * prior_.landing_depth_sd_m;
     return;
   }
@@ -68,12 +69,12 @@ ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
 
 void ProfileSolver::expect_contact(const ProfileSums& sums) noexcept {
   const auto depth = contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
-  kept_errors_.mean_m = depth.mean_m;
+  begins_m_ = depth.mean_m;
   kept_errors_.variance_m2 = depth.variance_m2;
 }
 
 double ProfileSolver::mean_depth_error_m(double change_mps) const noexcept {
-  return kept_errors_.mean_m + prior_.depth_lag_s * change_mps;
+  return begins_m_ + prior_.depth_lag_s * change_mps;
 }
 
 void ProfileSolver::subtract_mean_depth_error(Information& info) const noexcept {

@@ -55,6 +55,7 @@ void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
   kept_errors_ = errors_ = {};
+  begins_m_ = 0.0;
   shared_normal_ = {};
   shared_moment_ = {};
   posterior_ = {};
@@ -251,7 +252,7 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
   const auto& m = posterior_.mean;
   double above = 0.0;
   for (std::size_t j = 0; j < s; ++j) above += kProfileCell_m * m[j];
-  return {-above - slope_N_per_m_[s] * kept_errors_.mean_m,
+  return {-above - slope_N_per_m_[s] * begins_m_,
           -kProfileCell_m * m[s],
           -prior_.believed_stiffness_N_per_m * m[kIntercept],
           -m[kAddedMass],

@@ -181,7 +181,7 @@ class ProfileSolver {
     // l.
     Vector<kTerms> of_surface{}, of_lag{};
     Vector<kTerms> of_earlier_surface{};     // the same of the places before this one
-    double mean_m = 0.0, variance_m2 = 0.0;  // of D at the beginning of a stride
+    double mean_m = 0.0, variance_m2 = 0.0;  // of D
   };
   Information information_of(const ProfileSums& sums) const noexcept;
   void add_stride_prior(Information& information) const noexcept;
@@ -236,6 +236,7 @@ class ProfileSolver {
   std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
                                                        // cell
   std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one
+  double begins_m_ = 0.0;                                         // mean of D at the beginning of this stride
   int places_ = 0;                                                // number of places on ground prepared alike
   std::array<double, kProfileCells> jump_{};  // variance of each innovation relative to its prior
   std::array<Vector<kTerms>, kProfileCells> response_{};

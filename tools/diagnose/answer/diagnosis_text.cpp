@@ -193,8 +193,8 @@ std::string headline(const Diagnosis& d) {
   if (d.verdict == Verdict::consistent && !beyond.empty())
     return fmt::format(
         "{} trials agree with the simulation: consistent only if {}. Either this spread is believed too "
-        "small, or "
-        "something that is on no list acts there.",
+        "small, "
+        "or something that is on no list acts there.",
         d.trials, beyond);
   if (d.verdict == Verdict::consistent)
     return fmt::format(
