@@ -43,10 +43,15 @@ enum class Detail : std::uint8_t {
 // Their names in diagnosis.json, text and page, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 5> kVerdictNames{
     "insufficient_data", "consistent", "missing_physics", "unknown_physics", "insufficient_time"};
-inline constexpr std::array<std::string_view, 9> kDetailNames{
-    "null",           "too_little_data", "known",           "one_of_class",
-    "known_and_rest", "data_fault",      "unknown_at_port", "unknown_not_localised",
-    "only_beyond_spread"};
+inline constexpr std::array<std::string_view, 9> kDetailNames{"null",
+                                                              "too_little_data",
+                                                              "known",
+                                                              "one_of_class",
+                                                              "known_and_rest",
+                                                              "data_fault",
+                                                              "unknown_at_port",
+                                                              "unknown_not_localised",
+                                                              "only_beyond_spread"};
 
 constexpr std::string_view name_of(Verdict verdict) {
   return kVerdictNames[static_cast<std::size_t>(verdict)];
