@@ -1,6 +1,7 @@
 #include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -141,24 +142,28 @@ class Falling {
   }
 
   // Number of parts of a step in each of which a drag decays by less than 1/e. The method is unstable
-  // from 2.8 times that.
-  int parts_of(double dt) const {
-    constexpr int kMost = 1000;
+  // from 2.8 times that. A part may be divided once more, because the speed changes along a step; a motion
+  // that runs away would otherwise never end.
+  int parts_of(double dt, int level) const {
+    constexpr std::array kMost{1000, 4};  // at each level
+    if (level >= static_cast<int>(kMost.size())) return 1;
     const auto [t, h, v] = s_;
     const double apart_mps = 1e-3 * std::abs(v) + 1e-6;
     const double rate = (accel(t, h, v - apart_mps) - accel(t, h, v + apart_mps)) / (2.0 * apart_mps);
-    return rate * dt > 1.0 ? static_cast<int>(std::min(std::ceil(rate * dt), 1.0 * kMost)) : 1;
+    return rate * dt > 1.0 ? static_cast<int>(std::min(std::ceil(rate * dt),
+                                                       1.0 * kMost.at(static_cast<std::size_t>(level))))
+                           : 1;
   }
 
   // A Runge-Kutta step of fourth order.
-  void advance(double dt) {
+  void advance(double dt, int level = 0) {
     const auto [t, h, v] = s_;
     const double a1 = accel(t, h, v);
     const double a2 = accel(t + 0.5 * dt, h + 0.5 * dt * v, v + 0.5 * dt * a1);
     const double a3 = accel(t + 0.5 * dt, h + 0.5 * dt * (v + 0.5 * dt * a1), v + 0.5 * dt * a2);
     // With a drag of rate l (1/s), (a3 - a2) / (a2 - a1) is -l dt / 2.
     if (2.0 * std::abs(a3 - a2) > std::abs(a2 - a1))
-      if (const int parts = parts_of(dt); parts > 1) return advance_to(t + dt, parts);
+      if (const int parts = parts_of(dt, level); parts > 1) return advance_to(t + dt, parts, level + 1);
     const double a4 = accel(t + dt, h + dt * (v + 0.5 * dt * a2), v + dt * a3);
     const double before_m = h - f_.surface_height_m, before_mps = v;
     s_.h += dt * (v + dt * (a1 + a2 + a3) / 6.0);
@@ -176,9 +181,9 @@ class Falling {
     resting_ = fall_.bed && (on_bed_ || !told_) && s_.v >= 0.0 && s_.h < f_.surface_height_m;
   }
 
-  void advance_to(double t, int parts) {
+  void advance_to(double t, int parts, int level = 0) {
     const double dt = (t - s_.t) / parts;
-    for (int part = 0; part < parts && !resting_; ++part) advance(dt);
+    for (int part = 0; part < parts && !resting_; ++part) advance(dt, level);
   }
 
   void advance_to_row(double grid_s) {
