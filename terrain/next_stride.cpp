@@ -47,7 +47,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   const double fall_mps2 = robot.gravity_mps2 - robot.rail_friction_N / falling_kg;
   const double speed = std::sqrt(2.0 * fall_mps2 * std::max(setup.drop_height_m, 0.0));
   regression.on_contact(speed);
-  const double contact_m = solver.contact_depth(speed, cone.added_mass_gradient_kg_per_m(0.0)).mean_m;
+  const double contact_m = solver.contact_depth(speed, regression.sums().contact_added_mass_kg_per_m).mean_m;
   Hop hop{.foot_mps = speed, .body_mps = speed};
   double deepest_m = 0.0;
   for (int i = 1; i < kLongest_steps; ++i) {

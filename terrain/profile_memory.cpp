@@ -31,8 +31,8 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
   }
 }
 
-// Variance of d before the samples of a stride: on new ground that of a surface, in a crater that of the
-// crater's depth plus that of the landing.
+// Mean and variance of D before the samples of a stride in a crater: those of the crater's depth, and the
+// landing's own variance. On new ground they follow from the curve (`expect_contact`).
 void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   if (in_crater) {
     begins_m_ = kept_errors_.mean_m;

@@ -67,6 +67,8 @@ TEST(CampaignImport, DutchFrenchSpanishAndItalianNamesTellThePlant) {
   EXPECT_EQ(drafted(rows("tiempo;fuerza;profundidad", 3)).plant, CampaignPlant::intruder);
   EXPECT_EQ(drafted(rows("tempo;angolo;coppia", 3)).plant, CampaignPlant::rotary_axis);
   EXPECT_EQ(drafted(rows("tijd;hoek;koppel", 3)).plant, CampaignPlant::rotary_axis);
+  // A French torque, "couple", is told by its unit alone: a thermocouple is none.
+  EXPECT_EQ(drafted(rows("time;force;thermocouple 1;thermocouple 2", 4)).plant, CampaignPlant::intruder);
 }
 
 TEST(CampaignImport, TheFolderGivesTheCampaignItsName) {

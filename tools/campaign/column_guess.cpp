@@ -58,11 +58,7 @@ constexpr std::array kNamings{
            "angular rate",
            {"speed", "velocity", "omega", "drehzahl", "geschw", "snelheid", "vitesse", "rpm", "vel"},
            false},
-    Naming{"torque_Nm",
-           rotary_axis,
-           "torque",
-           {"torque", "moment", "tau", "koppel", "couple", "coppia"},
-           false}};
+    Naming{"torque_Nm", rotary_axis, "torque", {"torque", "moment", "tau", "koppel", "coppia"}, false}};
 
 ColumnGuess made(std::string_view channel, const std::optional<WrittenUnit>& unit, bool downward) {
   const auto wanted = unit_of_channel(channel);

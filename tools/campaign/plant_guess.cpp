@@ -24,17 +24,17 @@ struct Sign {
 // Parts of a column's name in lower case that only one plant has: English, German, Dutch, French, Spanish and
 // Italian.
 constexpr std::array kWords{
-    Sign{"torque", rotary_axis},       Sign{"angle", rotary_axis},     Sign{"drehmoment", rotary_axis},
-    Sign{"winkel", rotary_axis},       Sign{"drehzahl", rotary_axis},  Sign{"moment", rotary_axis},
-    Sign{"hoek", rotary_axis},         Sign{"koppel", rotary_axis},    Sign{"couple", rotary_axis},
-    Sign{"angulo", rotary_axis},       Sign{"angolo", rotary_axis},    Sign{"coppia", rotary_axis},
-    Sign{"force", intruder},           Sign{"sinkage", intruder},      Sign{"depth", intruder},
-    Sign{"kraft", intruder},           Sign{"tiefe", intruder},        Sign{"einsink", intruder},
-    Sign{"kracht", intruder},          Sign{"diepte", intruder},       Sign{"profond", intruder},
-    Sign{"fuerza", intruder},          Sign{"profundidad", intruder},  Sign{"forza", intruder},
-    Sign{"height", falling_body},      Sign{"altitude", falling_body}, Sign{"hoehe", falling_body},
-    Sign{"h\xC3\xB6he", falling_body}, Sign{"hoogte", falling_body},   Sign{"hauteur", falling_body},
-    Sign{"altura", falling_body},      Sign{"altezza", falling_body}};
+    Sign{"torque", rotary_axis},    Sign{"angle", rotary_axis},    Sign{"drehmoment", rotary_axis},
+    Sign{"winkel", rotary_axis},    Sign{"drehzahl", rotary_axis}, Sign{"moment", rotary_axis},
+    Sign{"hoek", rotary_axis},      Sign{"koppel", rotary_axis},   Sign{"angulo", rotary_axis},
+    Sign{"angolo", rotary_axis},    Sign{"coppia", rotary_axis},   Sign{"force", intruder},
+    Sign{"sinkage", intruder},      Sign{"depth", intruder},       Sign{"kraft", intruder},
+    Sign{"tiefe", intruder},        Sign{"einsink", intruder},     Sign{"kracht", intruder},
+    Sign{"diepte", intruder},       Sign{"profond", intruder},     Sign{"fuerza", intruder},
+    Sign{"profundidad", intruder},  Sign{"forza", intruder},       Sign{"height", falling_body},
+    Sign{"altitude", falling_body}, Sign{"hoehe", falling_body},   Sign{"h\xC3\xB6he", falling_body},
+    Sign{"hoogte", falling_body},   Sign{"hauteur", falling_body}, Sign{"altura", falling_body},
+    Sign{"altezza", falling_body}};
 
 // A unit tells more than a name. Accelerations and pressures are recorded on other plants, too.
 struct UnitSign {

@@ -17,7 +17,7 @@ using Set = std::vector<std::size_t>;
 constexpr double kUnbounded = 1e6;
 // Size in typical sizes below which an effect lies by its prior alone, with 97.5 %. A larger bound says
 // nothing about the recordings.
-const double kByPriorAlone = std::exp(1.959964 * kLimits.size_spread);
+const double kByPriorAlone = std::exp(normal_quantile(0.05) * kLimits.size_spread);
 constexpr int kPasses = 6;  // of doubling a bound: sizes up to 32 times it are tried
 
 // All fitted subsets of the set, including itself and the empty set.
