@@ -62,6 +62,7 @@ ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
     force_sd_m = std::min(prior_.contact_force_sd_N * kProfileCell_m / std::max(cell_N, 1e-9), depth.mean_m);
     missing_N -= cell_N;
   }
+  depth.mean_m += prior_.contact_time_s * speed_mps;
   const double time_sd_m = prior_.contact_time_sd_s * speed_mps;
   depth.variance_m2 += force_sd_m * force_sd_m + time_sd_m * time_sd_m;
   return depth;

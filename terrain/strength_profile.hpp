@@ -17,10 +17,11 @@
 // constant, d the depth at which the contact is detected, x the error of the Kalman filter's height, t the
 // time since contact, l a lag between force and depth, and v_0 the speed at contact. Contact is detected when
 // the force exceeds a threshold T, so a slow foot on soft ground is already deep:
-//   F(E d) + c m_a' v_0^2 = T, with the posterior's F and c
+//   E d = d_T + t_c v_0,   F(d_T) + c m_a' v_0^2 = T, with the posterior's F and c
 //   var(d) = (s_T / F')^2 + (s_t v_0)^2 + s_d^2, of the noise of the force, the cycle, the surface
-// The filter fuses an accelerometer whose noise is white with a white height, so its error is stationary, and
-// from the filter's Riccati equation follows
+// t_c is the mean time from the surface to the motors' reply whose depth is taken, for a foot whose blow
+// alone exceeds T. The filter fuses an accelerometer whose noise is white with a white height, so its error
+// is stationary, and from the filter's Riccati equation follows
 //   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a

@@ -65,19 +65,23 @@ void say_later(Session& session, const std::vector<BedScore>& scores) {
 void say_depth_errors(Session& session, const std::vector<BedScore>& scores) {
   session.say(
       "\nerrors of the estimated depth in first strides, standard deviations: surface at contact [mm],");
-  session.say("height filter [mm], lag [ms], rest [mm]");
-  session.say("  {:<17} {:>8} {:>8} {:>8} {:>8}", "bed", "surface", "filter", "lag", "rest");
+  session.say("height filter [mm], lag [ms], rest [mm]; mean time at contact that is not expected [ms]");
+  session.say("  {:<17} {:>8} {:>8} {:>8} {:>8} {:>8}", "bed", "surface", "filter", "lag", "rest", "contact");
   std::vector<StrideDepthErrors> all;
-  const auto line = [&](const std::string& name, const std::vector<StrideDepthErrors>& errors) {
+  ContactTimeScore all_contacts;
+  const auto line = [&](const std::string& name, const std::vector<StrideDepthErrors>& errors,
+                        const ContactTimeScore& contacts) {
     const auto s = depth_error_spread(errors);
-    session.say("  {:<17} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}", name, 1e3 * s.surface_sd_m,
-                1e3 * s.filter_sd_m, 1e3 * s.lag_sd_s, 1e3 * s.rest_sd_m);
+    session.say("  {:<17} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.3f}", name, 1e3 * s.surface_sd_m,
+                1e3 * s.filter_sd_m, 1e3 * s.lag_sd_s, 1e3 * s.rest_sd_m, 1e3 * contacts.remaining_s());
   };
   for (const auto& s : scores) {
-    line(s.bed, s.depth_errors);
+    line(s.bed, s.depth_errors, s.contact_time);
     all.insert(all.end(), s.depth_errors.begin(), s.depth_errors.end());
+    all_contacts.error_speed_m2_per_s += s.contact_time.error_speed_m2_per_s;
+    all_contacts.speed_squared_m2_per_s2 += s.contact_time.speed_squared_m2_per_s2;
   }
-  line("all", all);
+  line("all", all, all_contacts);
 }
 
 std::string alarms(const EventScore& s) { return fmt::format("{:.0f}/{:.0f}", s.false_alarms, s.absent); }

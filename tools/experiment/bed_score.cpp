@@ -24,6 +24,8 @@ constexpr double kAccurate_m = 0.002;
 constexpr double kNear_m = 0.005;
 constexpr double kBeyond_m = 0.001;  // the foot must pass an event by this much for it to count as having
                                      // happened
+constexpr double kFast_mps =
+    0.3;  // from this speed on, the blow alone is the force at which contact is found
 constexpr int kStrides = 3;
 
 void score_band(const StrengthProfile& profile, const BedTruth& truth, double from_m, double to_m,
@@ -88,6 +90,7 @@ struct Answer {
   StrengthProfile profile{};
   GroundSummary ground{};
   GroundEvents events{};
+  ProfileSolver::ContactDepth contact{};  // of the first stride
   double solve_s = 0.0, search_s = 0.0;
 };
 
@@ -105,12 +108,22 @@ std::vector<Answer> answers_to(const BedTrial& trial, const StiffnessConfig& con
     solver.add(stride.sums.profile, stride.sums.summary.stride);
     answer.ground = summarise(solver);
     answer.profile = solver.profile();
+    const auto& sums = stride.sums.profile;
+    answer.contact = solver.contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
     answer.solve_s = seconds_since(start);
     const auto search = std::chrono::steady_clock::now();
     answer.events = find_ground_events(stride.events, ground_event_config(config));
     answer.search_s = seconds_since(search);
   }
   return answers;
+}
+
+void score_contact(const StrideDepthErrors& errors, double speed_mps, double expected_m, double lag_s,
+                   ContactTimeScore& score) {
+  if (errors.empty() || speed_mps < kFast_mps) return;
+  const auto& first = errors.front();
+  score.error_speed_m2_per_s += (first.error_m - expected_m - lag_s * first.change_mps) * speed_mps;
+  score.speed_squared_m2_per_s2 += speed_mps * speed_mps;
 }
 
 void score_first(const BedStride& stride, const BedTruth& truth, const Answer& answer,
@@ -168,11 +181,14 @@ void score_trial(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t s
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto& stride = trial.strides[i];
     const auto& answer = answers[i];
-    if (i == 0)
+    if (i == 0) {
       score_first(stride, trial.truth, answer, score.first);
-    else
+      score_contact(trial.depth_errors, stride.sums.profile.contact_mps, answer.contact.mean_m,
+                    config.profile_or_default().depth_lag_s, score.contact_time);
+    } else {
       score_later(stride, trial.truth, answer, kNormal975 * config.profile_or_default().landing_depth_sd_m,
                   score.crater);
+    }
     score.solve_s.push_back(answer.solve_s);
     score.search_s.push_back(answer.search_s);
     if (stride.events_complete)
@@ -257,7 +273,8 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
            {{"surface_sd_m", depth.surface_sd_m},
             {"filter_sd_m", depth.filter_sd_m},
             {"lag_sd_s", depth.lag_sd_s},
-            {"rest_sd_m", depth.rest_sd_m}}},
+            {"rest_sd_m", depth.rest_sd_m},
+            {"contact_time_remaining_s", s.contact_time.remaining_s()}}},
           {"first_strides",
            {{"strides", s.first.strides},
             {"band", json_of(s.first.band)},

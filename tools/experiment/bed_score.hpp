@@ -72,11 +72,20 @@ struct EventScores {
   EventScore rupture{}, boundary{}, floor{}, suction{};
 };
 
+// Mean time from the surface to the depth at contact, beyond the expected one (`ProfileSolver::contact_depth`
+// with the stride's own posterior): the slope of the depth error over the speed, in first strides that are
+// faster than 0.3 m/s. Zero if ProfileConfig::contact_time_s is right.
+struct ContactTimeScore {
+  double error_speed_m2_per_s = 0.0, speed_squared_m2_per_s2 = 0.0;  // sums over strides
+  double remaining_s() const { return error_speed_m2_per_s / speed_squared_m2_per_s2; }
+};
+
 struct BedScore {
   std::string bed;
   double trials = 0.0, incomplete = 0.0;
   double contact_error_m = 0.0;                   // sum over trials
   std::vector<StrideDepthErrors> depth_errors{};  // of first strides
+  ContactTimeScore contact_time{};
   FirstStrideScore first{};
   CraterScore crater{};
   EventScores first_events{}, later_events{};
