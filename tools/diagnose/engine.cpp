@@ -206,7 +206,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   Point answer = search.best().fit.point;
   if (rest.law && (rest.unknown || !search.best().set.empty()))
     answer = with_law_fitted(problem, search.best().fit, *rest.law);
-  const Posterior belief = posterior(problem, search, rest.remainder());
+  Posterior belief = posterior(problem, search, rest.remainder());
+  if (!search.stopped()) limit_by_evidence(problem, search, belief, diagnosis.log);
   if (options.tell_evidence) tell_evidence(problem, search, diagnosis.log);
   report_verdict(problem, search, belief, rest, diagnosis);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);

@@ -18,6 +18,7 @@ namespace {
 
 // Number of sets whose evidence is computed: those with the smallest criterion.
 constexpr std::size_t kWeighed = 8;
+constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
 constexpr double kNoEvidence = -1e300;
 constexpr std::size_t kLawsWeighed = 3;  // Number of unknown laws listed with one set.
 
@@ -26,14 +27,20 @@ struct WeighedAnswer {
   double log_mass = 0.0;
 };
 
-// The complete fits of at most so many effects with the smallest criterion; always the null and the best set.
-std::vector<const SetFit*> nearest(const Search& search, std::size_t most_effects) {
+// The complete fits with the smallest criterion, of at most so many effects.
+std::vector<const SetFit*> nearest_fits(const Search& search, std::size_t most_effects) {
   std::vector<const SetFit*> order;
   for (const auto& [set, fit] : search.sets())
     if (!fit.rough && fit.fit.status != FitStatus::failed && set.size() <= most_effects)
       order.push_back(&fit);
   std::ranges::sort(order, {}, [&](const SetFit* fit) { return search.criterion(*fit); });
   if (order.size() > kWeighed) order.resize(kWeighed);
+  return order;
+}
+
+// The same, and always the null and the best set.
+std::vector<const SetFit*> nearest(const Search& search, std::size_t most_effects) {
+  auto order = nearest_fits(search, most_effects);
   for (const SetFit* always : {&search.null(), &search.best()})
     if (std::ranges::find(order, always) == order.end()) order.push_back(always);
   return order;
@@ -89,10 +96,44 @@ std::optional<LikelyLaw> likeliest_law(Problem& problem, const Search& search) {
   return likeliest;
 }
 
+void limit_by_evidence(Problem& problem, const Search& search, Posterior& belief,
+                       std::vector<std::string>& log) {
+  auto close = nearest_fits(search, kAnySize);
+  const double limit = search.criterion(search.best()) + belief.apart;
+  std::erase_if(close, [&](const SetFit* fit) {
+    return fit == &search.best() || fit->refused || search.criterion(*fit) > limit;
+  });
+  if (close.empty()) return;
+  close.push_back(&search.best());
+  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
+  std::vector<double> log_mass;
+  for (const SetFit* fit : close)
+    log_mass.push_back(
+        log_mass_of(problem, *fit, log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point))));
+  problem.repeatable_error = {};
+  const double most = *std::ranges::max_element(log_mass);
+  for (auto& [candidate, probability] : belief.probability) {
+    double with = 0.0, total = 0.0;
+    for (std::size_t i = 0; i < close.size(); ++i) {
+      const auto holds = [&](std::size_t name) { return std::ranges::count(close[i]->set, name) > 0; };
+      const double mass = std::exp(log_mass[i] - most);
+      const auto alternatives = belief.alternatives.find(candidate);
+      total += mass;
+      if (holds(candidate) ||
+          (alternatives != belief.alternatives.end() && std::ranges::any_of(alternatives->second, holds)))
+        with += mass;
+    }
+    if (with / total >= probability) continue;
+    log.push_back(fmt::format("evidence limits {} from {:.3f} to {:.3f}",
+                              problem.candidates[candidate].label(), probability, with / total));
+    probability = with / total;
+  }
+}
+
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
   problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<WeighedAnswer> all;
-  for (const SetFit* fit : nearest(search, std::numeric_limits<std::size_t>::max())) {
+  for (const SetFit* fit : nearest(search, kAnySize)) {
     const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
     const double log_mass = log_mass_of(problem, *fit, evidence);
     all.push_back({set_text(problem, fit->set), log_mass});

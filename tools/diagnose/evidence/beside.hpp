@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/diagnose/discrepancy/free_laws.hpp"
+#include "tools/diagnose/evidence/posterior.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 
 namespace sandhopper::diagnose {
@@ -23,6 +24,12 @@ struct LikelyLaw {
   bool beside_nothing = false;
 };
 std::optional<LikelyLaw> likeliest_law(Problem& problem, const Search& search);
+
+// No effect is more probable than the posterior mass of the sets that hold it or one of its alternatives,
+// among the complete fits that the criterion leaves in question (`Posterior::apart`). The weights of the
+// criterion count neither the form of a law nor how finely a set must be tuned. Only lowers probabilities.
+void limit_by_evidence(Problem& problem, const Search& search, Posterior& belief,
+                       std::vector<std::string>& log);
 
 // Appends to `log` the posterior mass of the sets with the smallest criterion, and of unknown laws added to
 // the best set and to the null (one line each, most probable first).
