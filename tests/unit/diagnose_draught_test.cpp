@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/answer/diagnosis_text.hpp"
+#include "tools/diagnose/fit/prepare.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -52,10 +54,27 @@ Recordings balls_in_a_draught() {
 
 // With some bounds that are tried the speed runs away. Steps that are divided without an end make this test
 // run into its limit of time.
-TEST(DiagnoseDraught, TheAnswerComesAndSaysThatSomethingIsMissing) {
+TEST(DiagnoseDraught, TheFlowOfTheAirIsNamed) {
   const auto d = diagnose(balls_in_a_draught());
-  EXPECT_TRUE(d.verdict == Verdict::missing_physics || d.verdict == Verdict::unknown_physics) << to_text(d);
-  EXPECT_FALSE(d.effects.empty());
+  ASSERT_EQ(d.effects.size(), 1u) << to_text(d);
+  EXPECT_EQ(d.effects.front().id, "fluid.flow") << to_text(d);
+  const auto& flow = d.effects.front().parameters.front();
+  EXPECT_LT(flow.low, 0.5);
+  EXPECT_GT(flow.high, 0.5);
+}
+
+bool has_flow(const Problem& problem) {
+  return std::ranges::find(problem.candidates, "fluid.flow", &Candidate::label) != problem.candidates.end();
+}
+
+// In falls alone a flow acts like linear drag, so it is no candidate.
+TEST(DiagnoseDraught, FallsAloneHaveNoFlow) {
+  const auto throws = balls_in_a_draught();
+  EXPECT_TRUE(has_flow(prepare(throws).problem));
+  auto falls = throws;
+  std::erase_if(falls.trials, [](const Trial& trial) { return trial.setup.at("release_speed_mps") > 0.0; });
+  falls.beliefs.resize(falls.trials.size());
+  EXPECT_FALSE(has_flow(prepare(falls).problem));
 }
 
 }  // namespace

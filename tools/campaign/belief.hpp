@@ -116,6 +116,7 @@ struct FallingBodyBelief {
     double linear_drag_N_s_per_m = 0.0;
     double buoyancy_factor = 0.0;
     double added_mass_factor = 0.0;
+    double upward_mps = 0.0;                  // Speed at which the medium rises, m/s.
     double surface_height_m = kEverywhere_m;  // The medium lies below this height, m.
 
     template <class Self, class Visitor>
@@ -125,6 +126,7 @@ struct FallingBodyBelief {
       visit("linear_drag_N_s_per_m", self.linear_drag_N_s_per_m, Range{0.0, 1e6});
       visit("buoyancy_factor", self.buoyancy_factor, Range{0.0, 10.0});
       visit("added_mass_factor", self.added_mass_factor, Range{0.0, 10.0});
+      visit("upward_mps", self.upward_mps, Range{-100.0, 100.0});
       visit("surface_height_m", self.surface_height_m, Range{-1e5, 1e5});
     }
   };

@@ -37,6 +37,7 @@ constexpr std::array kReasons{
     Reason{"medium.linear_drag_N_s_per_m", kOff},
     Reason{"medium.buoyancy_factor", kOff},
     Reason{"medium.added_mass_factor", kOff},
+    Reason{"medium.upward_mps", "at rest"},
     Reason{"medium.surface_height_m", "everywhere"},
     Reason{"foot.radius_m", kNeeded},
     Reason{"rig.stiffness_N_per_m", "rigid"},

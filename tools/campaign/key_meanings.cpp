@@ -108,6 +108,9 @@ constexpr std::array kModel{
     KeyMeaning{"medium.linear_drag_N_s_per_m", "b of F = b v; 0: none"},
     KeyMeaning{"medium.buoyancy_factor", "B of the upward force B rho V g: 1 in a liquid at rest, 0: none"},
     KeyMeaning{"medium.added_mass_factor", "C_m of the added mass C_m rho V: 0.5 for a sphere, 0: none"},
+    KeyMeaning{"medium.upward_mps",
+               "steady speed at which the air or liquid rises, negative: sinks; drag acts "
+               "on the speed relative to it"},
     KeyMeaning{"medium.surface_height_m", "the medium is below this height; the default means everywhere"},
 
     KeyMeaning{"axis.inertia_kg_m2", "inertia about the axis, on the output side, rotor and gear included"},

@@ -15,7 +15,16 @@ namespace {
 
 // Standard deviation of the condition that the simulated fall ends at the fitted touchdown.
 constexpr double kTouchdownAgrees_s = 1e-4;
+constexpr double kGoesBothWays = 0.1;
 constexpr double kSinks = 0.5;  // share of the free-fall speed, below which the body sinks slowly
+
+// True if a body goes up by more than a tenth of its way before it comes down.
+bool rises_and_falls(const Samples& heights) {
+  if (heights.empty()) return false;
+  const auto [low, high] = std::ranges::minmax(heights.value);
+  return high - heights.value.front() > kGoesBothWays * (high - low) &&
+         high - heights.value.back() > kGoesBothWays * (high - low);
+}
 
 class FallingBody final : public PlantModel {
  public:
@@ -43,7 +52,9 @@ class FallingBody final : public PlantModel {
     double longest_s = 0.0, seen_mps = 0.0;
     for (const auto& trial : trials) {
       if (!trial.time_s.empty()) longest_s = std::max(longest_s, trial.time_s.back());
-      seen_mps = std::max(seen_mps, fastest_mps(samples_of(trial, "height_m")));
+      const auto heights = samples_of(trial, "height_m");
+      seen_mps = std::max(seen_mps, fastest_mps(heights));
+      context.facts.rises_and_falls = context.facts.rises_and_falls || rises_and_falls(heights);
     }
     double drop_m = 0.0;
     if (const auto it = context.channels.find("height_m"); it != context.channels.end())

@@ -39,6 +39,7 @@ FallingFigures::FallingFigures(const Belief& belief, const Edits& edits) {
   linear_drag_N_s_per_m = read("medium.linear_drag_N_s_per_m", 0.0);
   buoyancy_factor = read("medium.buoyancy_factor", 0.0);
   added_mass_factor = read("medium.added_mass_factor", 0.0);
+  medium_mps = read("medium.upward_mps", 0.0);
   surface_height_m = read("bed.surface_height_m", 0.0);
   bed_stiffness_N_per_m = read("bed.stiffness_N_per_m", 0.0);
 }
@@ -122,9 +123,10 @@ class Falling {
       return wetted_share(d, length_m) * f_.added_mass_factor * displaced_kg_ +
              sum_of(added_mass_, BodyState{.depth_m = d});
     };
-    double force_N =
-        wetted_share(depth_m, length_m) * buoyancy_N_ - weight_N_ -
-        wetted_share(depth_m, front_m(length_m)) * (quadratic_ * std::abs(v) + f_.linear_drag_N_s_per_m) * v;
+    const double through_mps = v - f_.medium_mps;
+    double force_N = wetted_share(depth_m, length_m) * buoyancy_N_ - weight_N_ -
+                     wetted_share(depth_m, front_m(length_m)) *
+                         (quadratic_ * std::abs(through_mps) + f_.linear_drag_N_s_per_m) * through_mps;
     const double inertia_kg = f_.mass_kg + carried_kg(depth_m);
     if (length_m > 0.0 && v < 0.0) {
       constexpr double kApart_m = 1e-5;

@@ -10,7 +10,7 @@ namespace sandhopper::diagnose {
 // Parameters of the body, the medium and the bed: numbers of the belief after the edits.
 struct FallingFigures {
   double gravity_mps2, mass_kg, area_m2, volume_m3, density_kg_per_m3, drag_coefficient,
-      linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, surface_height_m, bed_stiffness_N_per_m;
+      linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, medium_mps, surface_height_m, bed_stiffness_N_per_m;
 
   FallingFigures(const Belief& belief, const Edits& edits);
 };
@@ -29,7 +29,8 @@ double wetted_share(double depth_m, double length_m);
 inline double front_m(double length_m) { return 0.25 * length_m; }
 
 // Motion of a body in a medium, perhaps onto a bed or into a liquid; upward positive:
-//   (m + M_a) h'' = -m g + w B rho V g - w_f (1/2 rho A C_d |h'| + b) h' + M_a'(d) h'^2 + F_bed + laws
+//   (m + M_a) h'' = -m g + w B rho V g - w_f (1/2 rho A C_d |u| + b) u + M_a'(d) h'^2 + F_bed + laws
+//   u = h' - w_m, with the medium's own speed w_m
 //   M_a(d) = C_m rho V w(d) + law of "body.added_mass"
 // w is wetted_share of the body, w_f of its front, d the depth. The term with M_a' acts only on the way down
 // into a liquid.
